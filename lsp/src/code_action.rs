@@ -31,18 +31,42 @@ pub(crate) fn code_actions(
     }
     let start = offset(&analysed.text, &analysed.starts, params.range.start, encoding) as u32;
     let end = offset(&analysed.text, &analysed.starts, params.range.end, encoding) as u32;
-    let touched = judged
+    let touched: Vec<_> = judged
         .session
         .report
         .diagnostics
         .iter()
-        .filter(|d| d.range.start <= end && start <= d.range.end);
-    let names: BTreeSet<&'static str> = touched.flat_map(|d| d.fixes.iter().copied()).collect();
+        .filter(|d| d.range.start <= end && start <= d.range.end)
+        .collect();
+    let names: BTreeSet<&'static str> = touched.iter().flat_map(|d| d.fixes.iter().copied()).collect();
+    let likely = touched.iter().filter_map(|d| likely(analysed, d, encoding));
     let actions = names
         .into_iter()
         .filter_map(rewrite)
         .filter_map(|r| action(analysed, r, encoding));
-    Some(actions.map(CodeActionOrCommand::CodeAction).collect())
+    Some(likely.chain(actions).map(CodeActionOrCommand::CodeAction).collect())
+}
+
+/// The text that a finding takes for likely, in place of what is there.
+fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Encoding) -> Option<CodeAction> {
+    let replacement = found.replacement.as_ref()?;
+    let place = range(&analysed.text, &analysed.starts, found.range, encoding);
+    let same = |d: &Diagnostic| {
+        d.range == place && matches!(&d.code, Some(NumberOrString::String(code)) if code == found.rule)
+    };
+    let edit = TextEdit::new(place, replacement.clone());
+    Some(CodeAction {
+        title: format!("write {replacement}"),
+        kind: Some(CodeActionKind::QUICKFIX),
+        diagnostics: Some(
+            to_proto::diagnostics(analysed, encoding)
+                .into_iter()
+                .filter(same)
+                .collect(),
+        ),
+        edit: Some(WorkspaceEdit::new(HashMap::from([(analysed.uri.clone(), vec![edit])]))),
+        ..CodeAction::default()
+    })
 }
 
 fn action(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Option<CodeAction> {

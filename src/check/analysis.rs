@@ -216,8 +216,8 @@ mod tests {
             .unwrap();
         assert_eq!(found.verdict(Severity::Error), Verdict::Pass);
         assert_eq!(found.cycle_time_s, None);
-        let text = "G21\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n";
-        let cut = "G21\nM5\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n";
+        let text = "G21 M3 S100\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n";
+        let cut = "G21\nM3 S100\nM5\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n";
         let judged = |text: &str, scope, machine| {
             let settings = Settings {
                 machine,

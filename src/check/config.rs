@@ -240,14 +240,16 @@ impl<'a> Settings<'a> {
         self.machine.filter(|_| self.scope() == Scope::Machine)
     }
 
-    /// At the start of a program, as the machine declares its codes.
+    /// At the start of a program, as the machine declares its codes. Without a machine, axes that the program never names stand still.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
-        if codes == self.setup.control.clamp_codes {
+        let unnamed_stand = self.machine.is_none();
+        if codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand {
             return Interpreter::new(self.dialect, &self.setup);
         }
         let mut setup = self.setup.clone();
         setup.control.clamp_codes = codes;
+        setup.unnamed_stand = unnamed_stand;
         Interpreter::new(self.dialect, &setup)
     }
 }

@@ -54,6 +54,8 @@ pub struct Diagnostic {
     pub values: Vec<(&'static str, ValueKey)>,
     /// Rewrites that may cure it.
     pub fixes: Vec<&'static str>,
+    /// The text that the place of the finding should have instead, where one is likely: an editor offers it.
+    pub replacement: Option<String>,
     /// Other places of interest in the file.
     pub related: Vec<(TextRange, String)>,
     /// How many executed blocks share the finding (1 for one): consecutive ones, and those of later passes of a loop.

@@ -13,6 +13,8 @@ pub(crate) struct Draft<'p> {
     place: Option<TextRange>,
     diagnostic: Diagnostic,
     merge: Option<Merge>,
+    /// How many motions it holds of, and the block of the last.
+    spans: Option<(u32, BlockId)>,
 }
 
 impl<'p> Draft<'p> {
@@ -40,12 +42,14 @@ impl<'p> Draft<'p> {
                 help: None,
                 values: Vec::new(),
                 fixes: Vec::new(),
+                replacement: None,
                 related: Vec::new(),
                 count: 1,
                 last: nowhere,
                 origin,
             },
             merge: None,
+            spans: None,
         }
     }
 
@@ -56,7 +60,34 @@ impl<'p> Draft<'p> {
         let start = range.start.min(end);
         self.diagnostic.range = TextRange::new(start, range.end.clamp(start, end));
         self.diagnostic.last = self.diagnostic.range;
+        if let Some((count, last)) = self.spans {
+            self.diagnostic.count = count;
+            self.diagnostic.last = code_range(self.program, last);
+        }
         (self.diagnostic, self.merge)
+    }
+
+    /// The text that its place should have instead.
+    pub(crate) fn replace_with(&mut self, text: String) -> &mut Self {
+        self.diagnostic.replacement = Some(text);
+        self
+    }
+
+    /// As [`Self::replace_with`], where such a text is known.
+    pub(crate) fn replace_with_some(&mut self, text: Option<String>) -> &mut Self {
+        self.diagnostic.replacement = text;
+        self
+    }
+
+    /// What it says so far.
+    pub(crate) fn message(&self) -> &str {
+        &self.diagnostic.message
+    }
+
+    /// It holds of so many motions, the last of them in this block.
+    pub(crate) fn spans(&mut self, count: u32, last: BlockId) -> &mut Self {
+        self.spans = Some((count, last));
+        self
     }
 
     /// Shows it at these bytes.

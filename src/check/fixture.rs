@@ -15,7 +15,13 @@ use trunnion_machine::Machine;
 use trunnion_syntax::LineIndex;
 
 /// Rules that say what a fragment lacks; they are silent in fixtures that do not draw them.
-pub const QUIET: &[&str] = &["machine-unset", "missing-program-end", "not-run", "units-unset"];
+pub const QUIET: &[&str] = &[
+    "machine-unset",
+    "missing-program-end",
+    "not-run",
+    "spindle-unset",
+    "units-unset",
+];
 
 /// Lines end with a carriage return alone.
 const CR: &str = "line-ends=cr";

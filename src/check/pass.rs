@@ -1,6 +1,7 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
 use crate::config::Scope;
 use crate::coverage::Tally;
+use crate::cuts::Cuts;
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
@@ -13,10 +14,11 @@ use crate::visited::Visited;
 use crate::waiting::Waiting;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
+use std::collections::BTreeSet;
 use trunnion_dialect::{Dialect, Foreign};
-use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
+use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, Lacks, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
-use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
+use trunnion_syntax::{BlockId, Program, SyntaxError, SyntaxErrorKind};
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -48,6 +50,10 @@ pub(crate) struct Pass<'a> {
     last_ran: Option<BlockId>,
     executed: u64,
     tally: Tally,
+    /// Radii that are taken as zero.
+    assumed_radii: BTreeSet<String>,
+    /// `None` where motions are not judged.
+    cuts: Option<Cuts>,
 }
 
 impl<'a> Pass<'a> {
@@ -64,7 +70,8 @@ impl<'a> Pass<'a> {
             awake: (None, Vec::new()),
         };
         Self {
-            reporter: Reporter::new(program, settings.dialect, suppressions),
+            reporter: Reporter::new(program, settings.dialect, suppressions)
+                .judging_machine(settings.judged_machine().is_some()),
             dialect: settings.dialect,
             rules,
             motions: waiting(motions),
@@ -88,6 +95,8 @@ impl<'a> Pass<'a> {
             last_ran: None,
             executed: 0,
             tally: Tally::new(settings.dialect),
+            assumed_radii: BTreeSet::new(),
+            cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
 
@@ -197,6 +206,17 @@ impl<'a> Pass<'a> {
                 ..
             }
         );
+        let lacks_feed = matches!(fault.kind, FaultKind::MissingFeed { .. });
+        let bracket = |errors: &[SyntaxError]| {
+            let open = |error: &SyntaxError| error.kind == SyntaxErrorKind::UnbalancedBracket;
+            let in_block =
+                |error: &SyntaxError| self.reporter.program().block_at(error.range.start) == Some(fault.block);
+            errors.iter().any(|error| open(error) && in_block(error))
+        };
+        // what follows a bracket that is not closed is not read as it was meant
+        if (refused || lacks_feed) && bracket(self.reporter.program().errors()) {
+            return true;
+        }
         refused && {
             let program = self.reporter.program();
             let errors = program.errors();
@@ -236,8 +256,19 @@ impl<'a> Pass<'a> {
             unused: self.suppressions.unused(&looked_for),
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
-        let assumptions = assumed.map(|missing| missing.assumption(self.dialect)).collect();
+        let listed = assumed.map(|missing| missing.assumption(self.dialect));
+        let assumptions = listed.chain(self.assumed_radii).collect();
         let mut reporter = self.reporter;
+        if let Some(cuts) = &self.cuts {
+            for still in cuts.finish(reporter.part(), interpreter.state().spindle.was_started()) {
+                reporter.origin(false, still.chain);
+                ask(&self.rules, &mut reporter, (Some(still.first), 0), |wake, out| {
+                    if let Wake::Still(rule) = wake {
+                        rule(&still, out);
+                    }
+                });
+            }
+        }
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
             if let Wake::End(rule) = wake {
@@ -319,6 +350,11 @@ impl Sink for Pass<'_> {
         if self.text_has_told(&fault) {
             return;
         }
+        if let (true, Some(Lacks::Radius(number))) = (self.assume.tool_length, fault.kind.lacks()) {
+            self.assumed_radii
+                .insert(format!("the radius of {number} = 0 (not declared)"));
+            return;
+        }
         self.tally.fault(&fault);
         self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
         let at = (Some(fault.block), self.executed);
@@ -369,6 +405,10 @@ impl Pass<'_> {
             self.last_cut = motion.tool;
         }
         let (block, number) = (motion.block, self.summary.motions);
+        if let Some(cuts) = &mut self.cuts {
+            let allowed = || self.suppressions.allows("spindle-off-cut", block);
+            cuts.add(motion, in_force, allowed);
+        }
         for rule in self.motions.awake(possible_of_motion(&view)) {
             self.reporter.enter(rule, Some(block), number);
             rule.wake.read_motion(&view, &mut self.reporter);

@@ -54,6 +54,7 @@ mod program_alarm;
 mod rejected_block;
 mod repeated_word;
 mod spindle_off_cut;
+mod spindle_unset;
 mod swept_deviation;
 mod syntax_error;
 mod tcp_state;
@@ -146,6 +147,7 @@ static RULES: &[&Rule] = table![
     rejected_block,
     repeated_word,
     spindle_off_cut,
+    spindle_unset,
     swept_deviation,
     syntax_error,
     tcp_state,
@@ -237,6 +239,7 @@ mod tests {
                 end: 2.0,
                 tolerance: 0.1,
             },
+            FaultKind::ArcFitsAbsolute { start: 1.0, end: 2.0 },
             FaultKind::ArcRadiusTooSmall {
                 radius: 1.0,
                 half_chord: 2.0,
@@ -254,6 +257,7 @@ mod tests {
             FaultKind::TcpState(TcpMistake::NoLength),
             FaultKind::TcpState(TcpMistake::ToolChange),
             FaultKind::TcpState(TcpMistake::MachineCoordinates),
+            FaultKind::TcpState(TcpMistake::NoLengthNumber),
             FaultKind::EndlessLoop {
                 blocks: 3,
                 proved: false,

@@ -1,13 +1,17 @@
 //! Where rules report to: they write the messages; levels, suppression, block numbers and merging are handled here.
+use crate::caller::Part;
 use crate::diagnostic::Origin;
 use crate::finding::Draft;
 use crate::keyed::Keyed;
 use crate::runs::{Log, Merge, Repeat};
+use crate::slip::letter_o;
 use crate::suppress::Suppressions;
 use crate::view::LegView;
 use crate::wake::Wake;
 use crate::words::hash;
 use crate::{Diagnostic, RuleLevel, Severity, Status};
+use core::cell::OnceCell;
+use std::collections::BTreeSet;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{ChainId, Fault, FaultKind, Frame, Refusal};
 use trunnion_machine::Machine;
@@ -44,6 +48,10 @@ pub(crate) struct Reporter<'a> {
     wording: bool,
     /// The running rule has reported or counted something.
     spoke: bool,
+    part: OnceCell<Part>,
+    judges_machine: bool,
+    /// Where words with a letter O for a zero begin, each reported once.
+    slips: BTreeSet<u32>,
 }
 
 impl<'a> Reporter<'a> {
@@ -63,7 +71,28 @@ impl<'a> Reporter<'a> {
             told: Keyed::default(),
             wording: false,
             spoke: false,
+            part: OnceCell::new(),
+            judges_machine: false,
+            slips: BTreeSet::new(),
         }
+    }
+
+    /// The axes of a machine are judged.
+    pub(crate) fn judging_machine(mut self, judges: bool) -> Self {
+        self.judges_machine = judges;
+        self
+    }
+
+    /// Whether the axes of a machine are judged.
+    pub(crate) fn judges_machine(&self) -> bool {
+        self.judges_machine
+    }
+
+    /// Whether the file is a main program or a subprogram.
+    pub(crate) fn part(&self) -> Part {
+        *self
+            .part
+            .get_or_init(|| crate::caller::part(self.program, self.dialect))
     }
 
     /// The program that is checked.
@@ -94,6 +123,25 @@ impl<'a> Reporter<'a> {
     /// Starts a finding at a place; the message says what is wrong, in one sentence with numbers and units.
     pub(crate) fn report(&mut self, range: TextRange, message: impl Into<String>) -> &mut Draft<'a> {
         self.draft().at(range).say(message)
+    }
+
+    /// Whether a place is in a word that has the letter O for a zero; that is reported once for each such word, in place of what else
+    /// is wrong with it.
+    pub(crate) fn is_slip(&mut self, range: TextRange) -> bool {
+        let Some(slip) = letter_o(self.program, range.start) else {
+            return false;
+        };
+        if self.slips.insert(slip.range.start) {
+            let text = self.text(slip.range);
+            let meant = slip.meant;
+            self.report(
+                slip.range,
+                format!("`{text}` contains the letter O; did you mean `{meant}`?"),
+            )
+            .help(format!("write {meant}, with the digit 0"))
+            .replace_with(meant);
+        }
+        true
     }
 
     /// Starts a finding at the code of a block.

@@ -68,7 +68,11 @@ pub(crate) struct InForce {
     /// Limit of the spindle's speed, 1/min.
     pub(crate) spindle_limit_rpm: Option<f64>,
     /// Something says whether lengths are inch or mm.
-    pub(crate) units_said: bool,
+    pub(crate) unit_programmed: bool,
+    /// The program has given an S.
+    pub(crate) speed_programmed: bool,
+    /// Something that is not modelled may have switched the spindle or given S.
+    pub(crate) spindle_unread: bool,
     /// Clamps of rotary axes.
     pub(crate) clamps: Clamps,
     /// Work offset.
@@ -87,7 +91,9 @@ impl InForce {
             frame_unknown: state.zero.is_lost(),
             surface_speed: state.spindle.surface_speed(),
             spindle_limit_rpm: state.spindle.limit_rpm(),
-            units_said: state.coordinates.unit_programmed(),
+            unit_programmed: state.coordinates.unit_programmed(),
+            speed_programmed: state.spindle.speed_programmed(),
+            spindle_unread: state.spindle.is_unread(),
             clamps: state.clamps,
             offset: state.zero.offset().map(OffsetName::new).unwrap_or_default(),
             length_of: state.length.of(),
@@ -292,12 +298,12 @@ impl<'a> LegView<'a> {
             .get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
     }
 
-    /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is unknown or the block is no feed motion.
-    /// Per revolution: times the spindle speed. Inverse time: the length of the path times F (RS274/NGC, G93).
+    /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
+    /// Per revolution: times the spindle speed, the highest one of the motion. Inverse time: the length of the path times F (RS274/NGC, G93).
     pub(crate) fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {
             Feed::PerMinute(feed) => Some(feed),
-            Feed::PerRevolution(feed) => Some(feed * self.motion().spindle_rpm?),
+            Feed::PerRevolution(feed) => Some(feed * self.motion().most_rpm()?),
             Feed::InverseTime(per_minute) => Some(per_minute * self.way()),
             Feed::Unknown | Feed::Rapid => None,
         }

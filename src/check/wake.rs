@@ -1,17 +1,18 @@
 //! What wakes a rule: the type that its function reads. This list is complete.
 use crate::coverage::Coverage;
+use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleOff, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn,
-    LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, PoleCrossing, PolePass, PostureSwap,
-    StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn, LostArc, LostEnd,
+    NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, PoleCrossing, PolePass, PostureSwap, StrayingCut,
+    UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
 use crate::sink::Reporter;
 use crate::view::{LegView, MotionView, Overview};
 use trunnion_dialect::Foreign;
-use trunnion_interp::{Fault, Refusal};
+use trunnion_interp::{Fault, FaultKind, Refusal};
 use trunnion_syntax::{SyntaxError, TextRange};
 
 /// What is known when the run has come to its end.
@@ -48,6 +49,8 @@ macro_rules! wakes {
             Open(fn(&Open, &mut Reporter<'_>)),
             /// On a machine: each axis that leaves its travel wherever an undeclared zero is, at the end.
             Overrun(fn(&Overrun, &mut Reporter<'_>)),
+            /// Each stretch of feed motions in which the spindle does not turn, at the end.
+            Still(fn(&StillCuts, &mut Reporter<'_>)),
             /// What is known at the end, once.
             End(fn(&Ending<'_>, &mut Reporter<'_>)),
             /// What part of the program was checked, once, after everything else.
@@ -64,7 +67,7 @@ macro_rules! wakes {
                 match self {
                     Self::Unreadable(_) | Self::Foreign(_) | Self::Text(_) | Self::End(_) => "text",
                     Self::Program(_) | Self::Port(_) | Self::Coverage(_) => "program",
-                    Self::Fault(_) | Self::Refused(..) $(| Self::$motion(_))* => "motion",
+                    Self::Fault(_) | Self::Refused(..) | Self::Still(_) $(| Self::$motion(_))* => "motion",
                     Self::Open(_) | Self::Overrun(_) => "machine",
                     $(Self::$leg(_))|* => "machine",
                 }
@@ -94,6 +97,13 @@ macro_rules! wakes {
                 match self {
                     Self::Fault(rule) => rule(fault, out),
                     Self::Refused(sort, add) => {
+                        let misread = matches!(
+                            sort,
+                            Refusal::Syntax | Refusal::Number | Refusal::Expression | Refusal::UnknownWord
+                        );
+                        if misread && is_refusal(fault, sort) && out.is_slip(fault.range) {
+                            return;
+                        }
                         if let Some(draft) = out.refused(fault, sort) {
                             add(draft);
                         }
@@ -137,8 +147,6 @@ wakes! {
     motions {
         /// The first feed motion with a tool.
         FirstCut,
-        /// A feed motion with the spindle off.
-        CutSpindleOff,
         /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
         CutSpindleUnlimited,
         /// A length of which nothing says whether it is inch or mm.
@@ -186,4 +194,9 @@ wakes! {
         /// An arc from a start that is unknown.
         LostArc,
     }
+}
+
+/// Whether a fault is a block that the control refuses for this sort of reason.
+fn is_refusal(fault: &Fault, sort: Refusal) -> bool {
+    matches!(fault.kind, FaultKind::Rejected { refusal, .. } if refusal == sort)
 }

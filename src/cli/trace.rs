@@ -132,9 +132,8 @@ enum Rows<W: Write> {
 impl<W: Write> Rows<W> {
     fn new(format: TraceFormat, mut out: W, machine: &Machine) -> Result<Self, Failure> {
         let joints = machine
-            .axes
-            .iter()
-            .map(|axis| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
+            .own_axes()
+            .map(|(_, axis)| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
         // an undecided posture: why, and the other one that the control may take
         let others = machine
             .rotary

@@ -200,7 +200,7 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     matches!(outcome, trunnion_certify::Outcome::Proved(_))
 }
 
-/// What is in effect in motions that lead to the same place.
+/// The modal state of motions that end at the same position.
 fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], found: &mut Found) {
     let mut groups: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for stretch in stretches {

@@ -58,6 +58,7 @@ impl Iso<'_> {
         if diameter && !has(Action::Dwell) && !has(Action::DiameterSwitch) {
             words.axes.values[0] *= 0.5;
         }
+        self.core.drawing_words(codes, words);
     }
 
     /// U, V, W, H are distances of X, Y, Z, C.

@@ -72,6 +72,8 @@ fn normal(axes: [usize; 3]) -> Vec3 {
 
 fn by_centre_words(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) -> Outcome {
     let mut centre = Vec3::zeros();
+    // the point that the words give as coordinates, where they are distances
+    let mut read_as_coordinates = Some(Vec3::zeros());
     for &axis in &axes[..2] {
         let bit = 1 << axis;
         if words.centre.unread & bit != 0 {
@@ -80,6 +82,12 @@ fn by_centre_words(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) ->
         let absolute =
             words.centre.absolute & bit != 0 || (setting.centre_absolute && words.centre.incremental & bit == 0);
         let value = words.centre.get(axis).map(|value| value * setting.length_unit_mm);
+        read_as_coordinates = read_as_coordinates
+            .zip(value.filter(|_| !absolute))
+            .map(|(mut point, value)| {
+                point[axis] = value;
+                point
+            });
         centre[axis] = match (value, absolute) {
             (Some(value), true) => value,
             (None, true) => return (None, Some(FaultKind::ArcCentreMissing)),
@@ -95,13 +103,31 @@ fn by_centre_words(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) ->
     let Some(turns) = setting.turns else {
         return (None, None);
     };
-    let Some(arc) = Arc::from_centre(start, end, centre, normal(axes), setting.turning, turns) else {
-        return (None, Some(FaultKind::ArcCentreMissing));
+    let with_centre = |centre| Arc::from_centre(start, end, centre, normal(axes), setting.turning, turns);
+    let wrong = |arc: &Arc| mismatch(arc, setting.dialect, setting.length_unit_mm);
+    let fits_absolute = || {
+        let other = read_as_coordinates.and_then(with_centre);
+        other.is_some_and(|arc| arc.radius_start > 0.0 && wrong(&arc).is_none())
     };
-    (
-        whole.then_some(arc),
-        mismatch(&arc, setting.dialect, setting.length_unit_mm),
-    )
+    let Some(arc) = with_centre(centre) else {
+        let kind = if fits_absolute() {
+            let in_plane = |axis: &usize| (end[*axis] - start[*axis]).powi(2);
+            let chord = axes[..2].iter().map(in_plane).sum::<f64>().sqrt();
+            FaultKind::ArcFitsAbsolute { start: 0.0, end: chord }
+        } else {
+            FaultKind::ArcCentreMissing
+        };
+        return (None, Some(kind));
+    };
+    let fault = wrong(&arc).map(|kind| {
+        if fits_absolute() {
+            let (start, end) = (arc.radius_start, arc.radius_end);
+            FaultKind::ArcFitsAbsolute { start, end }
+        } else {
+            kind
+        }
+    });
+    (whole.then_some(arc), fault)
 }
 
 /// Whether the two radii of an arc differ by more than the dialect allows.

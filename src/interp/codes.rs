@@ -6,7 +6,7 @@ use crate::iso::Iso;
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{Said, Words};
-use crate::{FaultKind, FeedMode, LengthOf};
+use crate::{FaultKind, FeedMode, LengthOf, TcpMistake};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
 
@@ -148,8 +148,8 @@ impl<'d> Iso<'d> {
                 state.spindle.set_surface_speed(true);
             }
             Action::ConstantSpindleSpeed => state.spindle.set_surface_speed(false),
-            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.turn(Some(true)),
-            Action::SpindleStop => state.spindle.turn(Some(false)),
+            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.switch(true),
+            Action::SpindleStop => state.spindle.switch(false),
             Action::ToolChange => self.change_tool(report),
             Action::MachineCoordinates => block.machine_coordinates = true,
             Action::OrientationAxes => state.tool_axis.set_great_circle(false),
@@ -173,18 +173,7 @@ impl<'d> Iso<'d> {
                 self.end_tcp_of_group(found.code);
                 self.set_length(None, LengthOf::Nothing);
             }
-            Action::TcpOn | Action::TcpVectorOn => {
-                let unread = tcp_variant(found, words, report);
-                if words.length_offset.is_said() || found.code.words.iter().any(|word| word == "H") {
-                    self.length_on(words.length_offset, found.range, report);
-                }
-                self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
-                if let Some(what) = unread {
-                    report.fault(found.range, FaultKind::NotModelled { what });
-                    self.core.unknown.begin(found.code, true);
-                    self.core.forget_position();
-                }
-            }
+            Action::TcpOn | Action::TcpVectorOn => self.tcp_code(found, words, report),
             Action::TcpOff => {
                 self.core.unknown.end(found.code);
                 self.tcp_off();
@@ -246,6 +235,24 @@ impl<'d> Iso<'d> {
         }
     }
 
+    /// G43.4, G43.5 and their kind.
+    fn tcp_code(&mut self, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
+        let unread = tcp_variant(found, words, report);
+        let wants_number = found.code.words.iter().any(|word| word == "H");
+        if wants_number && !words.length_offset.is_said() && self.lacks_length_number() {
+            report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
+        }
+        if words.length_offset.is_said() || wants_number {
+            self.length_on(words.length_offset, found.range, report);
+        }
+        self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
+        if let Some(what) = unread {
+            report.fault(found.range, FaultKind::NotModelled { what });
+            self.core.unknown.begin(found.code, true);
+            self.core.forget_position();
+        }
+    }
+
     fn feed_mode(&mut self, mode: FeedMode) {
         if self.core.state.feed.mode() != mode {
             self.core.state.feed.switch_mode(mode);
@@ -282,10 +289,19 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.core
-                .state
-                .spindle
-                .set_rpm(words.speed.number().map(|number| number.value));
+            let value = words.speed.number().map(|number| number.value);
+            let state = &mut self.core.state;
+            if state.spindle.surface_speed() {
+                // S is in feet per minute where lengths are in inches
+                let unit = if state.coordinates.unit_mm() == 1.0 {
+                    1.0
+                } else {
+                    0.3048
+                };
+                state.spindle.set_cutting_speed(value.map(|value| value * unit));
+            } else {
+                state.spindle.set_rpm(value);
+            }
         }
     }
 }

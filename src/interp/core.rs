@@ -1,6 +1,7 @@
 //! What every engine has: the settings of the run, the modal state, tools, unknown coordinates, effects.
 use crate::effects::Effects;
 use crate::reported::Reported;
+use crate::spin::spin;
 use crate::tools::Tools;
 use crate::unknown::Unknown;
 use crate::{
@@ -47,6 +48,10 @@ pub(crate) struct Core<'d> {
     pub(crate) last_content: Option<BlockId>,
     /// A code or character that ends the program was seen.
     pub(crate) proper_end: bool,
+    /// Axes that are always at 0.
+    pub(crate) standing: crate::standing::Standing,
+    /// What A and C of a lathe mean.
+    pub(crate) drawing: crate::drawing::Drawing,
 }
 
 /// Where facts about the current block are sent.
@@ -88,6 +93,8 @@ impl<'d> Core<'d> {
             let mm = unit.mm();
             state.units(mm, mm);
         }
+        let standing = crate::standing::Standing::new(dialect, setup);
+        standing.hold(&mut state.position);
         Self {
             dialect,
             setup: Arc::new(setup.clone()),
@@ -103,6 +110,8 @@ impl<'d> Core<'d> {
             offsets_reported: Reported::default(),
             last_content: None,
             proper_end: false,
+            standing,
+            drawing: crate::drawing::Drawing::new(dialect, setup),
         }
     }
 
@@ -130,6 +139,7 @@ impl<'d> Core<'d> {
     /// The position is unknown from now on.
     pub(crate) fn forget_position(&mut self) {
         self.state.position.known = 0;
+        self.standing.hold(&mut self.state.position);
         self.state.orientation = Orientation::Words;
     }
     /// Makes coordinates unknown if they have changed their meaning.
@@ -141,13 +151,15 @@ impl<'d> Core<'d> {
     /// X Y Z U V W are unknown from now on.
     pub(crate) fn forget_linear(&mut self) {
         self.state.position.known &= !LINEAR;
+        self.standing.hold(&mut self.state.position);
     }
     /// A subprogram may have changed anything.
     pub(crate) fn forget_everything(&mut self) {
         self.losses += 1;
+        self.standing.end_unnamed();
         self.forget_position();
         self.state.clamps.lose();
-        self.state.spindle.lose();
+        self.state.spindle.forget();
         self.state.feed.set(None);
         self.feed_unread = true;
     }
@@ -164,6 +176,9 @@ impl<'d> Core<'d> {
         if self.tools.read_directives(program) {
             self.merge_tool();
         }
+        self.standing.read(program, self.dialect);
+        self.drawing.read(program);
+        self.standing.hold(&mut self.state.position);
     }
 
     /// The feed of a motion; reports at `range` when there is none.
@@ -227,13 +242,15 @@ impl<'d> Core<'d> {
     pub(crate) fn new_motion(
         &self,
         kind: MotionKind,
-        start: Position,
-        end: Position,
+        mut start: Position,
+        mut end: Position,
         orientation: Orientation,
         feed: Feed,
         report: &Report<'_>,
     ) -> Motion {
         let state = &self.state;
+        self.standing.hold(&mut start);
+        self.standing.hold(&mut end);
         Motion {
             block: self.main_block(report.block),
             chain: self.chain,
@@ -247,6 +264,7 @@ impl<'d> Core<'d> {
             feed,
             spindle_on: state.spindle.on(),
             spindle_rpm: state.spindle.rpm(),
+            spin: spin(state, self.dialect.quirks.diameter, kind, [&start, &end]),
             zero: state.zero.values(),
             tool_length_mm: state.length.mm().unwrap_or(0.0),
             undeclared: state.undeclared(),
@@ -256,6 +274,12 @@ impl<'d> Core<'d> {
             tilt: Tilt::default(),
             effects: self.effects.count(),
         }
+    }
+
+    /// Gives a motion the spindle's state in effect.
+    pub(crate) fn spindle_of(&self, motion: &mut Motion) {
+        (motion.spindle_on, motion.spindle_rpm) = (self.state.spindle.on(), self.state.spindle.rpm());
+        motion.spin = spin(&self.state, motion.radii, motion.kind, [&motion.start, &motion.end]);
     }
 
     /// The same, its coordinates unknown where a frame is not modelled.

@@ -32,6 +32,7 @@ pub(crate) fn does_more(kind: &FaultKind) -> bool {
         kind,
         FaultKind::MissingFeed { .. }
             | FaultKind::ArcRadiusMismatch { .. }
+            | FaultKind::ArcFitsAbsolute { .. }
             | FaultKind::ArcRadiusTooSmall { .. }
             | FaultKind::VectorNotUnit { .. }
             | FaultKind::AmbiguousDecimal

@@ -207,7 +207,10 @@ impl<'d> Iso<'d> {
             self.cutter_number(words, report);
         }
         if words.other_spindle {
-            self.core.state.spindle.turn(None);
+            self.core.state.spindle.lose();
+        }
+        if words.builder_code {
+            self.core.state.spindle.may_start();
         }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));

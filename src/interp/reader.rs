@@ -215,7 +215,10 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         match role {
             Role::BlockNumber => return,
             Role::ProgramNumber => {
-                self.words.program_number = Some(word.range);
+                // a letter O without a number is a slip, no program
+                if !matches!(word.value, Value::Bad | Value::Missing) {
+                    self.words.program_number = Some(word.range);
+                }
                 return;
             }
             Role::G => return self.code_word(CodeKind::G, word),

@@ -98,6 +98,11 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => &mut engine.core_mut().state)
     }
 
+    /// Axes that stand at 0 because the machine lacks them or the program never names them: bits as in [`crate::Position::known`].
+    pub fn standing(&self) -> u16 {
+        with_engine!(&self.engine, engine => engine.core().standing.axes())
+    }
+
     /// Asks for effects: without, [`Sink::effect`] is never called.
     pub fn watch_effects(&mut self) {
         with_engine!(&mut self.engine, engine => engine.core_mut().effects.watch());

@@ -1,4 +1,4 @@
-//! What is in effect before the first block.
+//! The modal state before the first block.
 use crate::{FeedMode, ModalState, Orientation, Position};
 use trunnion_dialect::{Dialect, Plane};
 use trunnion_syntax::Format;

@@ -46,6 +46,12 @@ impl Iso<'_> {
         }
     }
 
+    /// Whether the program has given no number of a tool length, or only that of another tool than the one in use.
+    pub(crate) fn lacks_length_number(&self) -> bool {
+        let given = self.memory.length_offset;
+        given.is_none() || self.core.state.tool.number().is_some_and(|tool| given != Some(tool))
+    }
+
     /// The mistake of a motion that is about to be emitted.
     pub(crate) fn tcp_mistake(&mut self, motion: &Motion) -> Option<TcpMistake> {
         let state = &self.core.state;

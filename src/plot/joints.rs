@@ -90,12 +90,12 @@ pub fn joints(
     }
     legend.extend(entries(&rules));
     sheet(header, &legend, |body| {
-        let count = machine.axes.len();
+        let count = machine.own_axes().count();
         let (width, height) = body.dim_in_pixel();
         // the last field has the labels below it
         let labels = 500;
         let each = (height as i32 - labels) / count as i32;
-        for (joint, axis) in machine.axes.iter().enumerate() {
+        for (joint, axis) in machine.own_axes() {
             let last = joint + 1 == count;
             let top = each * joint as i32;
             let bottom = if last { height as i32 } else { top + each };

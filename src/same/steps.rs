@@ -1,4 +1,4 @@
-//! A program as a stream of what it does: nothing is kept but what the current block has brought.
+//! A program as a stream of what it does: only the steps of the current block are kept.
 use crate::counted::Counted;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};

@@ -136,7 +136,19 @@ impl<'p> Items<'p> {
 
     /// A word in one piece.
     fn word(&mut self, at: TokenId, sink: &mut impl Sink) -> Item {
+        if self.is_numbered_call(at) {
+            return self.name(at, self.stage, sink);
+        }
         self.plain_word(at).map_or_else(|| self.odd_word(at, sink), Item::Word)
+    }
+
+    /// Whether it is the call of a subprogram with a number, and with arguments where parentheses are not comments: `L140(1)`.
+    fn is_numbered_call(&self, at: TokenId) -> bool {
+        let scan = self.scan;
+        let [b'L' | b'l', number @ ..] = scan.text(at) else {
+            return false;
+        };
+        scan.kind(at + 1) == TokenKind::ParenOpen && !number.is_empty() && number.iter().all(u8::is_ascii_digit)
     }
 
     /// A word with `=` or a comma after it, or with an odd number.

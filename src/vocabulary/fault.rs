@@ -59,6 +59,46 @@ pub enum TcpMistake {
     ToolChange,
     /// Machine coordinates (G53) under TCP.
     MachineCoordinates,
+    /// TCP is switched on by a code that takes the number of a tool length, and the program has given none for this tool.
+    NoLengthNumber,
+}
+
+/// What of the machine or the tool a program rests on and nothing declares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lacks<'a> {
+    /// The position of a reference point.
+    ReferencePoint,
+    /// The radius of a tool, by its number as written: `D1`.
+    Radius(&'a str),
+}
+
+const REFERENCE_LACKS: &str = ": its position is not declared";
+const RADIUS_OF: &str = "cutter radius compensation: the radius of ";
+const RADIUS_LACKS: &str = " is not declared; the programmed path is used instead";
+
+impl FaultKind {
+    /// Nothing declares the position of a reference point.
+    pub fn reference_lacks(number: u32) -> Self {
+        let what = format!("reference point {number}{REFERENCE_LACKS}");
+        Self::NotModelled { what }
+    }
+
+    /// Nothing declares the radius of a tool that compensation needs; `number`: as written, `D1`.
+    pub fn radius_lacks(number: &str) -> Self {
+        let what = format!("{RADIUS_OF}{number}{RADIUS_LACKS}");
+        Self::NotModelled { what }
+    }
+
+    /// What is not declared, where that is why something is not modelled.
+    pub fn lacks(&self) -> Option<Lacks<'_>> {
+        let Self::NotModelled { what } = self else { return None };
+        if what.ends_with(REFERENCE_LACKS) {
+            return Some(Lacks::ReferencePoint);
+        }
+        what.strip_prefix(RADIUS_OF)?
+            .strip_suffix(RADIUS_LACKS)
+            .map(Lacks::Radius)
+    }
 }
 
 /// What is wrong.
@@ -141,6 +181,14 @@ pub enum FaultKind {
         end: f64,
         /// mm, the dialect's limit.
         tolerance: f64,
+    },
+    /// Start and end of an arc lie at different distances from the centre, and at the same from the point that I J K give as coordinates,
+    /// although they are distances here.
+    ArcFitsAbsolute {
+        /// From the centre as programmed, mm.
+        start: f64,
+        /// From the centre as programmed, mm.
+        end: f64,
     },
     /// Radius form: the end is farther away than two radii.
     ArcRadiusTooSmall {

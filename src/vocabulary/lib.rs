@@ -17,13 +17,13 @@ pub use action::{Action, Plane};
 pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
-pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
+pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
 pub use modal::{
     Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
 };
 pub use motion::{
-    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
+    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
     ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,

@@ -176,6 +176,15 @@ impl Undeclared {
     }
 }
 
+/// Spindle speed during a motion at constant cutting speed (G96): it changes with the radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spin {
+    /// That with which the motion takes as long as it does at F per turn, 1/min.
+    pub mean_rpm: f64,
+    /// The highest, 1/min.
+    pub most_rpm: f64,
+}
+
 /// One motion as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
@@ -205,6 +214,8 @@ pub struct Motion {
     pub spindle_on: Option<bool>,
     /// Spindle speed, 1/min.
     pub spindle_rpm: Option<f64>,
+    /// The same at constant cutting speed (G96), where it is known.
+    pub spin: Option<Spin>,
     /// Work offset in effect, mm / deg, order of [`AXIS_LETTERS`]; to be added unless the words are machine coordinates.
     pub zero: [f64; 9],
     /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In effect also where the words are
@@ -226,6 +237,16 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// Spindle speed to compute its time with, 1/min.
+    pub fn mean_rpm(&self) -> Option<f64> {
+        self.spindle_rpm.or(self.spin.map(|spin| spin.mean_rpm))
+    }
+
+    /// The highest spindle speed of it, 1/min.
+    pub fn most_rpm(&self) -> Option<f64> {
+        self.spindle_rpm.or(self.spin.map(|spin| spin.most_rpm))
+    }
+
     /// A feed motion in axis words that no program contains: nothing is active with it (no offset, no tool, no tool centre point control;
     /// feed and spindle are not set).
     pub fn line(start: Position, end: Position) -> Self {
@@ -242,6 +263,7 @@ impl Motion {
             feed: Feed::Unknown,
             spindle_on: None,
             spindle_rpm: None,
+            spin: None,
             zero: [0.0; 9],
             tool_length_mm: 0.0,
             undeclared: Undeclared::NOTHING,

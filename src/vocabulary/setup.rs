@@ -168,6 +168,10 @@ pub struct ControlData {
     pub clamp_codes: crate::AllClampCodes,
     /// Letters of axes that the machine has in addition to X Y Z A B C: on a LinuxCNC only they are words (`[TRAJ] COORDINATES`).
     pub further_axes: Vec<u8>,
+    /// The axis that a machine with two linear axes lacks, an index into [`crate::AXIS_LETTERS`]: it is always at 0.
+    pub absent_axis: Option<u8>,
+    /// The machine has rotary axes; `false` also where no machine is known.
+    pub has_rotary: bool,
     /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the
     /// machine says; `None`: Z by 1 mm. LinuxCNC always takes it along Z.
     pub length_along: Option<[f64; 3]>,
@@ -188,6 +192,9 @@ pub struct Setup {
     pub library: Library,
     /// Parameters of the control.
     pub control: ControlData,
+    /// Lets an axis of X, Y, Z that no word of the program names stand at 0: for judging one program, where its place changes nothing. Two
+    /// programs that are compared may differ in what they name.
+    pub unnamed_stand: bool,
     /// Numbered variables that have a value before the program runs, sorted by number, each once; `None` is vacant. In program units.
     pub variables: Vec<(u32, Option<f64>)>,
 }

@@ -162,6 +162,8 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     control.units = control.units.or(of.units);
     control.peck_clearance_mm = control.peck_clearance_mm.or(of.peck_clearance_mm);
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(of.chip_break_retract_mm);
+    control.roughing_escape = control.roughing_escape.or(of.roughing_escape);
+    control.thread_pull_out = control.thread_pull_out.or(of.thread_pull_out);
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }
@@ -316,5 +318,5 @@ fn dialect_for(
 /// Whether the part can turn on a spindle of the machine: an axis is one, X words are diameters, or there is no Y.
 fn turns(machine: &Machine) -> bool {
     let spins = |axis: &trunnion_machine::Axis| axis.extra.spindle || axis.extra.diameter;
-    machine.axes.iter().any(spins) || machine.axes.iter().all(|axis| axis.letter != b'Y')
+    machine.axes.iter().any(spins) || machine.own_axes().all(|(_, axis)| axis.letter != b'Y')
 }

@@ -114,6 +114,8 @@ impl FileControl {
             }),
             clamp_codes: trunnion_interp::AllClampCodes::default(),
             further_axes: Vec::new(),
+            absent_axis: None,
+            has_rotary: false,
             length_along: None,
             reference_points,
         })

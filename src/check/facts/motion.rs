@@ -30,8 +30,6 @@ macro_rules! plain {
 plain! {
     /// The first feed motion after the tool of the feed motions changed.
     FirstCut = |view| view.motion.is_feed() && view.motion.tool != view.last_cut;
-    /// A feed motion with the spindle off.
-    CutSpindleOff = |view| view.motion.is_feed() && view.motion.spindle_on == Some(false) && !view.motion.machine_coordinates;
     /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
     CutSpindleUnlimited = |view| view.in_force.surface_speed
         && view.in_force.spindle_limit_rpm.is_none()
@@ -39,5 +37,5 @@ plain! {
         && view.motion.spindle_on != Some(false)
         && view.dialect.advice.spindle_limit.is_some();
     /// A length of which nothing says whether it is inch or mm.
-    UnsaidUnits = |view| !view.in_force.units_said && view.changes_a_length();
+    UnsaidUnits = |view| !view.in_force.unit_programmed && view.changes_a_length();
 }

@@ -21,7 +21,7 @@
 //!
 //! # Guarantee
 //! Sound for coordinates, arc centres, radii and, on a Haas, feeds that are written as numbers other than zero.
-//! Consecutive blocks are reported once, and in each block only the first such word.
+//! Coordinates are reported once in the program, and feeds once, with the number of blocks; each block counts by its first such word.
 //!
 //! # Sources
 //! * FANUC Series 30i B-64490EN (parameter manual): parameter 3401, bit 0 (DPI).
@@ -49,6 +49,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
         draft
             .help(format!("write `{text}.`"))
-            .merge(Merge::run(u64::from(feed), 0.0));
+            .merge(Merge::once(u64::from(feed)));
     }
 }

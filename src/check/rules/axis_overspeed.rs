@@ -130,7 +130,7 @@ fn undecided(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
     let why = match (cut.motion().feed, cut.motion().kind) {
         // the faults that removed the feed or the centre of the arc are reported by their own rules
         (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
-        (Feed::PerRevolution(_), _) if cut.motion().spindle_rpm.is_none() => {
+        (Feed::PerRevolution(_), _) if cut.motion().most_rpm().is_none() => {
             "the feed is per revolution and the spindle speed is unknown"
         }
         _ if cut.leg.length <= 0.0 && cut.rotary_turns() => {

@@ -25,6 +25,9 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Text(check), Wake::Refused(Refusal::Number, plain)]);
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
+    if error.kind == SyntaxErrorKind::BadNumber && out.is_slip(error.range) {
+        return;
+    }
     let text = out.text(error.range);
     match error.kind {
         SyntaxErrorKind::BadNumber => {

@@ -58,7 +58,7 @@ mod tests {
             let rules: Vec<_> = report.diagnostics.iter().map(|d| d.rule).collect();
             (rules, report.summary.motions, report.verdict(Severity::Error))
         };
-        let text = "G21\rG0 X0 Y0 Z0\rG1 X5 F100\rM30\r";
+        let text = "G21 M3 S100\rG0 X0 Y0 Z0\rG1 X5 F100\rM30\r";
         assert_eq!(found(text), (vec!["bare-carriage-return"], 2, Verdict::Pass));
         assert_eq!(found(&text.replace('\r', "\r\n")), (vec![], 2, Verdict::Pass));
     }

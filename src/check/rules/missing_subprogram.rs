@@ -36,10 +36,15 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let caller = caller
             .as_ref()
             .map_or_else(String::new, |place| format!(", called in {place}"));
+        let near = crate::nearest::nearest_code(name, out.dialect());
         let refused = searched.iter().find_map(|place| place.refused.as_ref());
         let draft = out.report(
             fault.range,
             match refused {
+                None if near.is_some() => {
+                    let near = near.as_deref().unwrap_or_default();
+                    format!("program `{name}` not found{caller}; did you mean the code `{near}`?")
+                }
                 None => format!("program `{name}` not found{caller}"),
                 Some(why) => format!("program `{name}`{caller} is not read: {why}"),
             },

@@ -20,13 +20,28 @@
 //!
 //! # Sources
 //! * docs/contract.md#verdicts
+use crate::nearest::nearest_code;
 use crate::prelude::*;
+use trunnion_interp::Lacks;
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind.lacks() == Some(Lacks::ReferencePoint) && !out.judges_machine() {
+        // without a machine no rule asks where it is
+        out.report(
+            fault.range,
+            "this move goes to a position of the machine that is not declared",
+        )
+        .note("positions after it are unknown until the program sets them again")
+        .help("to check it, name the machine: --machine NAME or FILE, with reference_points in its [control]")
+        .merge(Merge::once(0));
+        return;
+    }
     if let FaultKind::NotModelled { what } = &fault.kind {
-        out.report(fault.range, format!("not modelled: {}", short(what)))
+        let near =
+            nearest_code(what, out.dialect()).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        out.report(fault.range, format!("not modelled: {}{near}", short(what)))
             .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
             .unknown()
             .merge(Merge::once(hash(what)));

@@ -26,6 +26,7 @@
 //! * NISTIR 6556 (2000), section 3.3 on the format of a line.
 //! * ISO 6983-1:2009, the format of a block.
 use crate::prelude::*;
+use trunnion_syntax::Program;
 
 pub(super) const RULE: Body = Body::sound(
     Error,
@@ -37,7 +38,23 @@ pub(super) const RULE: Body = Body::sound(
 );
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
+    if matches!(
+        error.kind,
+        SyntaxErrorKind::WordWithoutValue | SyntaxErrorKind::NumberWithoutLetter
+    ) && out.is_slip(error.range)
+    {
+        return;
+    }
     let text = out.text(error.range);
+    if error.kind == SyntaxErrorKind::UnbalancedBracket && text == "[" {
+        let before = word_after_bracket(out.program(), error.range);
+        let message = match &before {
+            Some(word) => format!("missing `]` before `{word}`"),
+            None => "missing `]`: this `[` is not closed".to_owned(),
+        };
+        out.report(error.range, message).help("close the bracket");
+        return;
+    }
     let (message, help) = match error.kind {
         SyntaxErrorKind::NestedComment => (
             "a comment starts inside another comment".to_owned(),
@@ -88,6 +105,24 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
         return;
     }
     out.report(error.range, message).help(help);
+}
+
+/// The word after an open bracket, before which it should have been closed: it begins with a letter after a value.
+fn word_after_bracket(program: &Program, bracket: TextRange) -> Option<String> {
+    let line = program.source().get(bracket.end as usize..)?;
+    let line = line.split(|byte| matches!(byte, b'\r' | b'\n' | b'(' | b';')).next()?;
+    let text = core::str::from_utf8(line).ok()?;
+    text.split_ascii_whitespace()
+        .skip(1)
+        .find(|word| {
+            let mut bytes = word.bytes();
+            let letter = bytes.next().is_some_and(|byte| byte.is_ascii_alphabetic());
+            letter
+                && bytes
+                    .next()
+                    .is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'))
+        })
+        .map(|word| word.chars().take(40).collect())
 }
 
 /// Reports that a file is UTF-16, instead of a problem for each of its bytes.

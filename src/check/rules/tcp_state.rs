@@ -29,7 +29,7 @@
 //! # Guarantee
 //! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same
 //! tool; a feed motion under it with a tool whose length is not active; a tool change or machine coordinates under
-//! it. `path-deviation` judges the resulting path.
+//! it; a code that wants H and has none, where no H of this tool was programmed before. `path-deviation` judges the resulting path.
 //!
 //! # Sources
 //! * docs/contract.md#tool-centre-point-control
@@ -62,6 +62,11 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             "machine coordinates are programmed under tool centre point control",
             "it depends on the control whether this block suspends tool centre point control",
             "switch tool centre point control off first",
+        ),
+        TcpMistake::NoLengthNumber => (
+            "tool centre point control is switched on without H: the program gives no length for this tool",
+            "the control takes the H that was last in effect, maybe H0: then it guides the spindle nose as if it were the tip",
+            "write H with the number of the tool, as G43.4 H1",
         ),
     };
     out.report(fault.range, message)
@@ -100,6 +105,11 @@ mod tests {
         );
         let length = "T1 M6\nG43.4 H1\nG49\nG43.5 H0\nG0 X0. Y0. Z50. A20. C0.\nG1 X10. F500.\nM30\n";
         assert!(found("fanuc-30i", length).is_empty());
+        let without = "T1 M6\nG43.4\nG0 X0. Y0. Z50. A20. C0.\nG1 X10. F500.\nM30\n";
+        assert_eq!(found("fanuc-30i", without), ["tool centre point control x1"]);
+        // H of the tool before
+        let before = "T1 M6\nG43.4 H1\nG49\nT2 M6\nG43.5\nG49\nG43.4 H2\nG49\nG43.4\nG49\nM30\n";
+        assert_eq!(found("fanuc-30i", before), ["tool centre point control x1"]);
         let none = "T1 M6 D0\nTRAORI\nG0 X0 Y0 Z50 A20 C0 D0\nG1 X10 F500\nX20\nM30\n";
         assert_eq!(found("sinumerik-840d", none), ["the tool cuts under x1"]);
     }

@@ -20,15 +20,24 @@
 //!
 //! # Sources
 //! * grammar/README.md, the dialect tables and their sources.
+use crate::nearest::nearest_code;
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     const HELP: &str = "correct the code, or name the dialect of the program: --dialect NAME";
+    let is_unknown = matches!(fault.kind, FaultKind::UnknownCode { machine_builder: false });
+    if is_unknown && out.is_slip(fault.range) {
+        return;
+    }
     let text = out.text(fault.range);
     let dialect = &out.dialect().name;
-    let message = format!("{dialect} has no code {text}");
+    let near = nearest_code(&text, out.dialect());
+    let message = match &near {
+        Some(near) => format!("{dialect} has no code {text}; did you mean `{near}`?"),
+        None => format!("{dialect} has no code {text}"),
+    };
     let once = hash(&text);
     if let Some(draft) = out.refused(fault, Refusal::UnknownCode) {
         draft.say(message).help(HELP).merge(Merge::run(once, 0.0));
@@ -51,8 +60,39 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             out.report(fault.range, message)
                 .note("it is ignored: the rest is checked as if it were not there")
                 .help(HELP)
-                .merge(Merge::run(once, 0.0));
+                .merge(Merge::run(once, 0.0))
+                .replace_with_some(near);
         }
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn a_letter_o_for_a_zero_is_one_finding() {
+        for (dialect, rule) in [
+            ("iso-6983", "unknown-code"),
+            ("fanuc-30i", "unknown-code"),
+            ("linuxcnc", "bad-expression"),
+        ] {
+            let text = format!(
+                "G21 G90 G94 M3 S900\nGO X0. Y0. Z5.\n;^ {rule}: `GO` contains the letter O; did you mean `G0`?\nM2\n"
+            );
+            let report = assert_drawn(&format!("gcode {dialect}"), &text);
+            assert_eq!(report.diagnostics[0].replacement.as_deref(), Some("G0"));
+        }
+        for dialect in ["iso-6983", "fanuc-30i"] {
+            let text = "G21 G90 G94 M3 S900\nG1 X5O. F1OO\n;  ^^^^ bad-number: `X5O.` contains the letter O; did you mean `X50.`?\n;       ^^^^ unknown-code: `F1OO` contains the letter O; did you mean `F100`?\nX60. F100.\nM2\n";
+            assert_drawn(&format!("gcode {dialect}"), text);
+        }
+    }
+
+    #[test]
+    fn a_misspelt_name_is_near_a_known_one() {
+        let text = "G71 G0 X0\nTRAORY\n;^^^^^ not-modelled: not modelled: TRAORY; did you mean `TRAORI`?\nM30\n";
+        assert_drawn("gcode sinumerik-840d", text);
     }
 }

@@ -24,7 +24,7 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::UnknownWord, plain)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if fault.kind == FaultKind::UnknownWord {
+    if fault.kind == FaultKind::UnknownWord && !out.is_slip(fault.range) {
         let text = out.text(fault.range);
         let dialect = &out.dialect().name;
         out.report(fault.range, format!("`{text}` has no meaning in {dialect}"))

@@ -19,6 +19,7 @@ fn finding(at: u32, message: &str) -> Diagnostic {
         help: None,
         values: Vec::new(),
         fixes: Vec::new(),
+        replacement: None,
         related: Vec::new(),
         count: 1,
         last: range,

@@ -46,10 +46,7 @@ impl<'d> Iso<'d> {
                 self.memory.compensation.stage = Stage::Off;
                 if !std::mem::replace(&mut self.core.compensation_reported, true) {
                     let d = d.map_or_else(|| "D".to_owned(), |d| format!("D{d}"));
-                    let what = format!(
-                        "cutter radius compensation: the radius of {d} is not declared; the programmed path is used instead"
-                    );
-                    report.fault(found.range, FaultKind::NotModelled { what });
+                    report.fault(found.range, FaultKind::radius_lacks(&d));
                 }
             }
         }

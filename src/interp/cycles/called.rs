@@ -12,6 +12,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::{Argument, FaultKind, Feed, FeedMode, Motion, MotionKind};
 use std::sync::Arc;
+use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
 
 /// One number of a call.
@@ -68,6 +69,69 @@ const CYCLES: [(&str, Sort, usize); 9] = [
     ("CYCLE89", Sort::BoreFeed, 6),
 ];
 
+/// _GMODE, _DMODE and _AMODE at the end of a call of CYCLE81 to CYCLE83: what the numbers before them mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Modes {
+    /// The call has none, or they are all zero: the depth is the last of DP and DPR that is there.
+    None,
+    /// They say which of the two depths counts, and maybe in which plane.
+    Depth {
+        incremental: bool,
+        /// G17, G18 or G19; `None`: the one in effect.
+        plane: Option<Plane>,
+    },
+    /// They say something else, or are not evaluated.
+    Other,
+}
+
+impl Modes {
+    const COUNT: usize = 3;
+
+    /// Source: Sinumerik 840D sl G code Programming Manual, Programming cycles externally (CYCLE81, CYCLE82, CYCLE83). _DMODE: 1 to 3 are
+    /// G17 to G19. _AMODE: the last digit is 1 for an incremental and 2 for an absolute depth, the one before it 1 for a dwell in seconds;
+    /// the others of CYCLE83 are about steps.
+    fn of(id: &str, numbers: &[Given]) -> Self {
+        let (first, steps) = match id {
+            "CYCLE81" | "CYCLE82" => (6, false),
+            "CYCLE83" => (17, true),
+            _ => return Self::None,
+        };
+        let mode = |place: usize| numbers.get(first + place).copied().unwrap_or(Given::Nothing).or_zero();
+        let (Some(geometry), Some(display), Some(alternative)) = (mode(0), mode(1), mode(2)) else {
+            return Self::Other;
+        };
+        if [geometry, display, alternative] == [0.0; 3] {
+            return Self::None;
+        }
+        let is_whole = alternative.fract() == 0.0 && (0.0..1e9).contains(&alternative);
+        let digits = if is_whole {
+            alternative as u32
+        } else {
+            return Self::Other;
+        };
+        let plane = match display {
+            0.0 => None,
+            1.0 => Some(Plane::Xy),
+            2.0 => Some(Plane::Zx),
+            3.0 => Some(Plane::Yz),
+            _ => return Self::Other,
+        };
+        let depth = match digits % 10 {
+            1 => true,
+            2 => false,
+            _ => return Self::Other,
+        };
+        let in_seconds = digits / 10 % 10 <= 1;
+        if geometry != 0.0 || !in_seconds || !steps && digits >= 100 {
+            return Self::Other;
+        }
+        Self::Depth {
+            incremental: depth,
+            plane,
+        }
+    }
+}
+
 /// A cycle with its numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct HoleCall {
@@ -76,6 +140,8 @@ pub(crate) struct HoleCall {
     numbers: Vec<Given>,
     /// It has numbers that have no meaning here.
     further: bool,
+    /// The modes at the end that newer posts write.
+    modes: Modes,
     /// The call as it is compared where its motions are not known.
     pub(crate) said: Argument,
 }
@@ -84,6 +150,8 @@ impl HoleCall {
     /// The call of a cycle; `None`: none of those that are known.
     pub(crate) fn new(id: &str, numbers: Vec<Given>, said: Argument) -> Option<Self> {
         let (id, sort, known) = *CYCLES.iter().find(|(name, ..)| *name == id)?;
+        let modes = Modes::of(id, &numbers);
+        let known = known + if modes == Modes::None { 0 } else { Modes::COUNT };
         let rest = numbers.get(known..).unwrap_or_default();
         let further = rest.iter().any(|given| given.or_zero() != Some(0.0));
         Some(Self {
@@ -91,6 +159,7 @@ impl HoleCall {
             sort,
             numbers,
             further,
+            modes,
             said,
         })
     }
@@ -103,7 +172,12 @@ impl HoleCall {
             return None;
         };
         let (surface, clearance) = (self.number(1).or_zero()?, self.number(2).or_zero()?.abs());
-        let bottom = match (self.number(3), self.number(4)) {
+        let depths = match self.modes {
+            Modes::Depth { incremental: true, .. } => (Given::Nothing, self.number(4)),
+            Modes::Depth { incremental: false, .. } => (self.number(3), Given::Nothing),
+            _ => (self.number(3), self.number(4)),
+        };
+        let bottom = match depths {
             (Given::Unread, _) | (_, Given::Unread) | (Given::Nothing, Given::Nothing) => return None,
             (_, Given::Number(depth)) if depth != 0.0 => surface - depth.abs(),
             (Given::Number(bottom), _) => bottom,
@@ -179,7 +253,12 @@ impl Iso<'_> {
             Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
             _ => false,
         };
-        let why = if call.further || other_axis {
+        let other_mode = match call.modes {
+            Modes::None => false,
+            Modes::Depth { plane, .. } => plane.is_some_and(|plane| plane != self.core.state.coordinates.plane()),
+            Modes::Other => true,
+        };
+        let why = if call.further || other_axis || other_mode {
             Some("with numbers that select other meanings")
         } else if call.levels().is_none() {
             Some("without known levels that make a hole")
@@ -211,10 +290,10 @@ impl Iso<'_> {
         if call.sort == Sort::Tap {
             // direction after the cycle: 3, 4, otherwise the spindle is off
             let after = call.number(6).or_zero();
-            self.core
-                .state
-                .spindle
-                .turn(after.map(|code| code == 3.0 || code == 4.0));
+            match after {
+                Some(code) => self.core.state.spindle.switch(code == 3.0 || code == 4.0),
+                None => self.core.state.spindle.lose(),
+            }
         }
     }
 
@@ -265,7 +344,7 @@ impl Iso<'_> {
     fn call_spindle(&mut self, call: &HoleCall) {
         match call.sort {
             Sort::Tap => {
-                self.core.state.spindle.turn(Some(true));
+                self.core.state.spindle.switch(true);
                 let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
                 self.core.state.spindle.set_rpm(speed);
             }
@@ -276,10 +355,10 @@ impl Iso<'_> {
                 };
                 if let Some(code) = call.number(place).or_zero() {
                     if code == 3.0 || code == 4.0 {
-                        self.core.state.spindle.turn(Some(true));
+                        self.core.state.spindle.switch(true);
                     }
                 } else {
-                    self.core.state.spindle.turn(None);
+                    self.core.state.spindle.lose();
                 }
             }
             _ => {}
@@ -326,7 +405,7 @@ impl Iso<'_> {
         }
         self.down(plan, MotionKind::Rapid, plan.back, report);
         if call.sort == Sort::BoreStop {
-            self.core.state.spindle.turn(None);
+            self.core.state.spindle.lose();
         }
     }
 

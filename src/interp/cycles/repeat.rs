@@ -167,7 +167,7 @@ impl Iso<'_> {
         for motion in motions {
             let mut motion = shifted(motion, by[0], by[1]);
             motion.block = self.core.main_block(report.block);
-            (motion.spindle_on, motion.spindle_rpm) = (self.core.state.spindle.on(), self.core.state.spindle.rpm());
+            self.core.spindle_of(&mut motion);
             if motion.kind != MotionKind::Rapid {
                 motion.feed = feed;
             }

@@ -27,39 +27,14 @@ impl Situation {
             .map(|((name, a), (_, b))| (name, written(&a), written(&b)))
     }
 
-    /// Whether every setting is the same to the last bit, as it is nearly always: nothing is put into words for that.
+    /// Whether every setting is the same number, as it is nearly always: nothing is put into words for that.
     fn equals(&self, other: &Self) -> bool {
         let (a, b) = (&self.state, &other.state);
-        let bits = |value: Option<f64>| value.map(f64::to_bits);
-        let numbers = |state: &ModalState| {
-            let length = bits(state.tool_length_mm);
-            let units = [state.length_unit_mm.to_bits(), state.feed_unit_mm.to_bits()];
-            (units, length, bits(state.spindle_rpm), bits(state.feed))
-        };
-        let flags = |state: &ModalState| {
-            (
-                state.incremental,
-                state.arc_centre_absolute,
-                state.tcp,
-                state.vector_mode,
-            )
-        };
-        let words = |state: &ModalState| {
-            (
-                state.plane,
-                state.motion,
-                state.compensation,
-                state.tool,
-                state.feed_mode,
-            )
-        };
         self.to_r == other.to_r
-            && flags(a) == flags(b)
-            && words(a) == words(b)
-            && numbers(a) == numbers(b)
-            && a.zero.map(f64::to_bits) == b.zero.map(f64::to_bits)
-            && a.length_of == b.length_of
-            && a.work_offset == b.work_offset
+            && (a.motion, a.compensation, a.tool.number()) == (b.motion, b.compensation, b.tool.number())
+            && (a.coordinates, a.tool_axis) == (b.coordinates, b.tool_axis)
+            && (a.feed, a.length, a.spindle.rpm()) == (b.feed, b.length, b.spindle.rpm())
+            && a.zero == b.zero
     }
 
     /// Each setting by name. Numbers are compared to a relative 1e-9; unknown values are equal.

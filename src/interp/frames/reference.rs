@@ -45,6 +45,7 @@ impl Iso<'_> {
                     self.memory.frames.intermediate = Some(self.core.state.position);
                 } else if self.core.dialect.quirks.return_moves_all {
                     named = (1 << 9) - 1;
+                    self.core.standing.end_unnamed();
                 } else {
                     return;
                 }
@@ -89,13 +90,15 @@ impl Iso<'_> {
         let mut start = self.core.state.position;
         self.to_machine(&mut start, 1.0);
         let mut end = start;
-        let mut all = true;
+        // a return of all axes moves those that the machine has: of others nothing is declared, and they stay unknown
+        let every = named.count_ones() == 9;
+        let mut all = !every || declared.is_some();
         for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
             if let Some(value) = declared.and_then(|point| point.get(axis)) {
                 end.set(axis, value);
             } else {
                 end.forget(axis);
-                all = false;
+                all &= every;
             }
         }
         let orientation = self.core.held_orientation();
@@ -110,8 +113,7 @@ impl Iso<'_> {
             return;
         }
         if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
-            let what = format!("reference point {number}: its position is not declared");
-            report.fault(range, FaultKind::NotModelled { what });
+            report.fault(range, FaultKind::reference_lacks(number));
         }
         let start = self.core.state.position;
         self.core.state.position.known &= !named;

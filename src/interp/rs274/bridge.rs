@@ -139,6 +139,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             feed,
             spindle_on: modal.spindle.on(),
             spindle_rpm: modal.spindle.rpm(),
+            spin: None,
             zero: shift.zero,
             tool_length_mm: shift.length,
             undeclared: if state.machine_frame {

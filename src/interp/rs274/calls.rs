@@ -5,7 +5,7 @@ use super::frames::Shift;
 use super::setup::{FIRST_SYSTEM, SYSTEMS};
 use crate::tools::Chosen;
 use crate::{Fault, FaultKind, LengthOf, Sink};
-use trunnion_dialect::{Action, Code, Dialect, Plane};
+use trunnion_dialect::{Action, Code, Dialect, Owner, Plane};
 use trunnion_ngc::{At, Canon, OwnCode, Pose, Side, SpindleTurn, State, Units};
 use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
@@ -40,10 +40,15 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let clamps_axis = self.clamp_code(own, state);
         let Some(code) = code else {
             if !clamps_axis {
+                self.core.state.spindle.may_start();
                 self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
             }
             return;
         };
+        if own.letter == b'M' && code.owner == Owner::MachineBuilder && code.action == Action::NoMotion && !clamps_axis
+        {
+            self.core.state.spindle.may_start();
+        }
         let known = matches!(
             code.action,
             Action::TcpOn
@@ -173,8 +178,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             Canon::StopSync => self.told.synced = None,
             Canon::Spindle(0, turn) => {
-                self.core.state.spindle.turn(Some(turn != SpindleTurn::Stop));
+                self.core.state.spindle.switch(turn != SpindleTurn::Stop);
             }
+            // which spindle holds the tool is not known
+            Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.spindle.may_start(),
             Canon::SpindleSpeed(0, speed) => {
                 let surface = self.told.surface_speed;
                 self.core

@@ -217,7 +217,7 @@ impl Ngc<'_> {
                 let named: Vec<usize> = (0..9).filter(|axis| refused.axes & (1 << axis) != 0).collect();
                 forget(engine, bridge.told, &named);
                 if refused.spindle {
-                    bridge.core.state.spindle.turn(None);
+                    bridge.core.state.spindle.lose();
                 }
             }
             Step::Ended => *done = true,

@@ -4,7 +4,7 @@ use crate::flow::{Back, Running};
 use crate::iso::Iso;
 use crate::own::{Own, Scope, Sort, arguments};
 use crate::{Fault, FaultKind, Refusal};
-use trunnion_syntax::{BlockId, Item, Program};
+use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value, Word};
 
 /// Program levels of the control, the main program's among them (Programming Manual, 12/2019, p. 493).
 const LEVELS: usize = 16;
@@ -215,8 +215,21 @@ impl Iso<'_> {
 
     /// RET or M17 of the main program.
     pub(crate) fn leave_main_program(&mut self, back: &Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
-        let what = "RET in the main program: taken as its end".to_owned();
-        self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
+        // without a program end of its own the file is a subprogram that is run alone
+        let ends = |block: Block<'_>| {
+            let is_end = |word: Word| {
+                let number = match word.value {
+                    Value::Number(number) => number.to_f64(),
+                    _ => return false,
+                };
+                word.address == Address::Letter(b'M') && (number == 2.0 || number == 30.0)
+            };
+            block.words().any(is_end)
+        };
+        if running.program().blocks().any(ends) {
+            let what = "RET in the main program: taken as its end".to_owned();
+            self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
+        }
         self.stop();
     }
 

@@ -75,7 +75,7 @@ pub fn describe(machine: &Machine) -> Description {
     Description {
         id: machine.id.clone(),
         name: machine.name.clone(),
-        axes: (0..machine.axes.len()).map(|joint| axis(machine, joint)).collect(),
+        axes: machine.own_axes().map(|(joint, _)| axis(machine, joint)).collect(),
         tool_axis: machine.home.tool_axis.into(),
         gauge_point: machine.home.gauge_point.into(),
         formula: tool_axis_formula(machine),

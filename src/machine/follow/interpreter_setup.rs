@@ -1,6 +1,6 @@
 //! The data of a machine for the interpreter of a program.
-use crate::Machine;
 use crate::follow::words::Words;
+use crate::{AxisKind, Machine};
 use trunnion_interp::ControlData;
 
 impl Machine {
@@ -11,6 +11,15 @@ impl Machine {
         control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();
         control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
         control.length_along = machine.and_then(Self::length_along);
+        control.absent_axis = machine.and_then(Self::absent_axis);
+        control.has_rotary =
+            machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.kind == AxisKind::Rotary));
+    }
+
+    /// Index of the letter of the axis that it lacks.
+    pub(crate) fn absent_axis(&self) -> Option<u8> {
+        let letter = trunnion_interp::AxisLetter::new(self.absent?)?;
+        Some(letter.0)
     }
 
     /// How far 1 mm of tool length moves a joint while words are joints, mm: 0 for rotary axes.

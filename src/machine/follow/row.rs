@@ -53,7 +53,7 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
     let in_frame = stance.filter(|_| Words::new(machine).turned_frame(machine, motion).is_none());
     let posture = stance.filter(|_| machine.constants.pair.is_some());
     let limit = feed_limit_tight(machine, leg).filter(|limit| limit.feed_mm_min.is_finite());
-    let axes = machine.axes.iter().enumerate();
+    let axes = machine.own_axes();
     let joint = |(index, axis): (usize, &crate::Axis)| {
         (leg.known_joints.1 & (1 << index) != 0).then(|| match axis.kind {
             AxisKind::Linear => leg.known_joints.0[index],
@@ -75,7 +75,7 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
         feed_mm_min: match motion.feed {
             _ if !motion.is_feed() => None,
             Feed::PerMinute(feed) => Some(feed),
-            Feed::PerRevolution(feed) => motion.spindle_rpm.map(|rpm| feed * rpm),
+            Feed::PerRevolution(feed) => motion.mean_rpm().map(|rpm| feed * rpm),
             Feed::InverseTime(per_minute) => (leg.length > 0.0).then_some(per_minute * leg.length),
             Feed::Unknown | Feed::Rapid => None,
         },

@@ -25,6 +25,8 @@ pub(crate) struct Words {
     count: usize,
     /// Letters without an axis on the machine.
     foreign: u16,
+    /// The one of them that stands at 0.
+    absent: u16,
     /// X, Y, Z words to mm (diameters to radii).
     point_scale: Vec3,
     /// Whether words of some axis are diameters.
@@ -53,6 +55,7 @@ impl Words {
             per_length: [0.0; MAX_AXES],
             count: machine.axes.len().min(MAX_AXES),
             foreign: (1 << AXIS_LETTERS.len()) - 1,
+            absent: machine.absent_axis().map_or(0, |axis| 1 << axis),
             point_scale: Vec3::new(1.0, 1.0, 1.0),
             diameters: false,
             wraps: false,
@@ -67,7 +70,7 @@ impl Words {
             words.wraps |= axis.kind == AxisKind::Rotary && axis.extra.wrap != Wrap::Literal;
             if let Some(index) = AXIS_LETTERS.iter().position(|&letter| letter == axis.letter) {
                 words.letter[joint] = index as u8;
-                words.foreign &= !(1 << index);
+                words.foreign &= !(1 << index) | words.absent;
                 words.letters |= 1 << index;
                 if index < 3 {
                     words.point_scale[index] = words.scale[joint];
@@ -106,7 +109,8 @@ impl Words {
         let mut named = motion.end.known & self.foreign;
         while named != 0 {
             let letter = named.trailing_zeros() as usize;
-            if motion.start.get(letter) != motion.end.get(letter) {
+            let stands = self.absent & (1 << letter) != 0 && motion.end.values[letter] == 0.0;
+            if !stands && motion.start.get(letter) != motion.end.get(letter) {
                 return Some(AXIS_LETTERS[letter]);
             }
             named &= named - 1;

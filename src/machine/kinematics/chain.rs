@@ -197,6 +197,10 @@ pub struct Control {
     pub peck_clearance_mm: Option<f64>,
     /// How far G73 retracts to break the chip, mm; `None`: not declared.
     pub chip_break_retract_mm: Option<f64>,
+    /// How a turning tool leaves the cuts of a roughing cycle; `None`: not declared.
+    pub roughing_escape: Option<trunnion_interp::RoughingEscape>,
+    /// How many leads before its end the tool leaves a thread of one pass; `None`: not declared.
+    pub thread_pull_out: Option<f64>,
 }
 
 /// Thresholds of the rules.
@@ -295,6 +299,8 @@ pub struct Machine {
     pub constants: Constants,
     /// Axes that mirror another one.
     pub gantries: Vec<Gantry>,
+    /// Letter of the axis that a machine with two linear axes lacks (Y of a lathe): it is the last of `axes`, and never moves.
+    pub absent: Option<u8>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
     /// What the file declares and nothing uses yet, one sentence each: rules that depend on it judge without it.
@@ -312,6 +318,12 @@ impl Machine {
     pub fn joint(&self, letter: u8) -> Option<usize> {
         let upper = letter.to_ascii_uppercase();
         self.axes.iter().position(|axis| axis.letter == upper)
+    }
+
+    /// The axes that it really has, with their joints.
+    pub fn own_axes(&self) -> impl Iterator<Item = (usize, &Axis)> {
+        let axes = self.axes.iter().enumerate();
+        axes.filter(|(_, axis)| Some(axis.letter) != self.absent)
     }
 
     /// The codes of its clamps, in the form of the interpreter.

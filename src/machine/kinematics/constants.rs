@@ -218,6 +218,9 @@ fn snap(value: f64) -> f64 {
     if value.abs() < 1e-15 { 0.0 } else { value }
 }
 
+/// Volume of three unit vectors (area of two) up to which they count as flat.
+pub(crate) const NEARLY_FLAT: f64 = 1e-3;
+
 /// Three linear axes that span space: X, Y, Z if they do, else the first three (in the order XYZUVW) that do; of several choices
 /// the first one with a volume above 1e-3.
 fn choose_solved(axes: &[Axis], linear: &[LinearAxis]) -> Option<[usize; 3]> {
@@ -233,7 +236,7 @@ fn choose_solved(axes: &[Axis], linear: &[LinearAxis]) -> Option<[usize; 3]> {
         for (m, &b) in order.iter().enumerate().skip(n + 1) {
             for &c in order.iter().skip(m + 1) {
                 let volume = linear[a].motion.cross(&linear[b].motion).dot(&linear[c].motion).abs();
-                if volume > 1e-3 {
+                if volume > NEARLY_FLAT {
                     return Some([a, b, c]);
                 }
             }

@@ -140,7 +140,11 @@ mod tests {
         ) {
             let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
             let (mut start, mut end) = (Position::default(), Position::default());
-            let own = |axis: &usize| machine.axes.iter().any(|own| own.letter == AXIS_LETTERS[*axis]);
+            let own = |axis: &usize| machine.own_axes().any(|(_, own)| own.letter == AXIS_LETTERS[*axis]);
+            if let Some(absent) = machine.absent_axis() {
+                start.set(usize::from(absent), 0.0);
+                end.set(usize::from(absent), 0.0);
+            }
             for axis in (0..9).filter(own) {
                 start.set(axis, from[axis]);
                 let way = if still & (1 << axis) == 0 { by[axis] * share } else { 0.0 };

@@ -290,11 +290,11 @@ fn changing_load(course: &JointPath<'_>, above: f64, coarse: f64) -> Option<Opti
     Some(axes.load(axes.at(found.at).1, bound))
 }
 
-/// Programmed feed along the path, mm/min; `None` for rapids and where it is unknown.
+/// Programmed feed along the path, mm/min, at its highest where the spindle speed changes; `None` for rapids and where it is unknown.
 fn programmed_feed(leg: &Leg) -> Option<f64> {
     match leg.motion.feed {
         Feed::PerMinute(feed) => Some(feed),
-        Feed::PerRevolution(feed) => Some(feed * leg.motion.spindle_rpm?),
+        Feed::PerRevolution(feed) => Some(feed * leg.motion.most_rpm()?),
         Feed::InverseTime(per_minute) => Some(per_minute * leg.length),
         Feed::Unknown | Feed::Rapid => None,
     }
@@ -316,7 +316,12 @@ pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
         Feed::InverseTime(per_minute) if per_minute > 0.0 => 60.0 / per_minute,
         Feed::InverseTime(_) | Feed::Unknown => return None,
         Feed::PerMinute(_) | Feed::PerRevolution(_) => {
-            let feed = programmed_feed(leg).filter(|feed| *feed > 0.0)?;
+            let mean = |per_turn| Some(per_turn * leg.motion.mean_rpm()?);
+            let feed = match leg.motion.feed {
+                Feed::PerRevolution(per_turn) => mean(per_turn),
+                _ => programmed_feed(leg),
+            };
+            let feed = feed.filter(|feed| *feed > 0.0)?;
             let way = if leg.length > 0.0 { leg.length } else { rotary_way(leg)? };
             way / feed * 60.0
         }

@@ -113,6 +113,42 @@ fn what_a_cycle_does_not_tell_is_unknown() {
 }
 
 #[test]
+fn modes_at_the_end_of_a_call_say_which_depth_counts() {
+    let drilled = ["R X0 Y0 Z3", "L X0 Y0 Z-20 F100", "R X0 Y0 Z10"];
+    for call in [
+        "CYCLE81(10,0,3,-20,0,0,0,1,12)",
+        "CYCLE81(10,0,3,-20,5,0,0,1,2)",
+        "CYCLE81(10,0,3,,20,0,0,1,11)",
+        "CYCLE81(10,0,3,-7,20,0,0,0,1)",
+        "CYCLE82(10,0,3,-20,0,0,0,1,12)",
+    ] {
+        assert_eq!(cycle(call), drilled, "{call}");
+    }
+    assert_eq!(
+        cycle("CYCLE83(10,0,3,,20,,5,100,0,0.5,100,1,0,1.2,1.4,0,1.6,0,1,11211111)"),
+        ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]
+    );
+    for call in [
+        // another plane, a depth of the shank, revolutions, an expression
+        "CYCLE81(10,0,3,-20,0,0,0,2,12)",
+        "CYCLE82(10,0,3,-20,0,0,10,1,12)",
+        "CYCLE82(10,0,3,-20,0,3,0,1,22)",
+        "CYCLE82(10,0,3,-20,0,3,0,1,R7)",
+    ] {
+        let got = faults("sinumerik-840d", &format!("{HEAD}{call}\n"));
+        assert!(
+            got.iter().any(|fault| fault.contains("other meanings")),
+            "{call}: {got:?}"
+        );
+    }
+    let got = faults("sinumerik-840d", &format!("{HEAD}CYCLE81(10,0,3,,20,0,0,1,12)\n"));
+    assert!(
+        got.iter().any(|fault| fault.contains("without known levels")),
+        "{got:?}"
+    );
+}
+
+#[test]
 fn variables_are_followed_until_the_flow_is_lost() {
     let source =
         "DEF REAL _HOME, _UP=2.5\n_HOME=-10 R1=4\nG0 X=_HOME+R1*2 Y=R1/8 Z=_UP\nX=IC(R1) Y=AC(R1)\nR1=R1+1\nX=R1\n";

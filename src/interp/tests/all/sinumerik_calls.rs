@@ -12,6 +12,7 @@ impl Files for Folder {
             "CUT.SPF" => "PROC CUT(REAL DEPTH, INT CNT=2, VAR REAL OUT)\nG0 Z=DEPTH\nZ=CNT\nOUT=DEPTH+CNT\nM17\n",
             "L20.SPF" => "R1=R1+1\nG0 X=R1\nM17\n",
             "L020.SPF" => "G0 X=-20\nM17\n",
+            "L140.SPF" => "PROC L140(REAL DEPTH)\nG0 Z=DEPTH\nRET\n",
             "PLAIN.SPF" => "G0 Y1\nRET\n",
             "MAINP.MPF" => "G0 Y7\nM30\n",
             "MAINP.SPF" => "G0 Y8\nM17\n",
@@ -172,6 +173,11 @@ fn what_a_call_leaves_open_is_said() {
 }
 
 #[test]
+fn a_subprogram_with_a_number_takes_arguments() {
+    assert_eq!(run("L140(7)\nM30\n"), (vec!["R Z7".to_owned()], Vec::new()));
+}
+
+#[test]
 fn ret_of_the_main_program_is_said_to_be_its_end() {
     assert_eq!(
         said("G0 X1\nRET\nX2\nM30\n"),
@@ -179,6 +185,9 @@ fn ret_of_the_main_program_is_said_to_be_its_end() {
     );
     assert_eq!(lines(SINUMERIK, "G0 X1\nRET\nX2\nM30\n"), ["R X1"]);
     assert_eq!(said("G0 X1\nM17\n"), [""; 0]);
+    // a subprogram that is run alone returns to its caller
+    assert_eq!(said("G0 X1\nRET\n"), [""; 0]);
+    assert_eq!(said("PROC SLOT\nG0 X1\nRET\n"), [""; 0]);
 }
 
 #[test]

@@ -36,6 +36,16 @@ fn words() {
 }
 
 #[test]
+fn subprograms_with_a_number_may_have_arguments() {
+    check(&[
+        (SINUMERIK, "L140(1)", "L140(1)", ""),
+        (SINUMERIK, "N10 L140 (1,R2) ", "N=10 L140(1,R2)", ""),
+        (SINUMERIK, "L140 P2", "L=140 P=2", ""),
+        (CORE, "L140(1)", "L=140 (1)", ""),
+    ]);
+}
+
+#[test]
 fn broken_words() {
     check(&[
         (CORE, "X", "X=?", "WordWithoutValue[X]"),

@@ -1,0 +1,89 @@
+//! Whether a file is a main program or a subprogram: of that, F, S, the spindle and the position may come from the program that calls it.
+use crate::suppress::has_code;
+use trunnion_dialect::{Dialect, Language};
+use trunnion_syntax::{Address, BlockId, Item, Program};
+
+/// What a file is, as far as its text says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// A main program: it has a program end (M2, M30).
+    Main,
+    /// A subprogram.
+    Called,
+    /// Neither says so: a part of a program.
+    Fragment,
+}
+
+/// What the text says: a subprogram begins with PROC, or the first code that ends a program is one that returns to a caller (M99, M17, RET).
+/// In LinuxCNC, where subprograms come first, the last such code counts.
+pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
+    let sinumerik = dialect.quirks.language == Language::Sinumerik;
+    let returns: &[&str] = if sinumerik { &["M17", "RET"] } else { &["M99"] };
+    let mut blocks = (0..program.block_count() as u32).map(BlockId);
+    if sinumerik
+        && blocks
+            .clone()
+            .find(|&id| has_code(program, id))
+            .is_some_and(|id| says(program, id, &["PROC"]))
+    {
+        return Part::Called;
+    }
+    let end = |id: BlockId| {
+        if says(program, id, returns) {
+            return Some(Part::Called);
+        }
+        says(program, id, &["M2", "M30"]).then_some(Part::Main)
+    };
+    let found = if dialect.quirks.language == Language::Linuxcnc {
+        blocks.rev().find_map(end)
+    } else {
+        blocks.find_map(end)
+    };
+    found.unwrap_or(Part::Fragment)
+}
+
+/// Whether a block has one of these codes; M2 is also M02.
+fn says(program: &Program, id: BlockId, wanted: &[&str]) -> bool {
+    program.block(id).items().any(|item| match item {
+        Item::Call(call) => {
+            let name = program.bytes(call.name);
+            wanted.iter().any(|code| name.eq_ignore_ascii_case(code.as_bytes()))
+        }
+        Item::Word(word) if word.address == Address::Letter(b'M') => {
+            let text = program.text(word.range);
+            let number = text.trim_start_matches(['M', 'm', ' ', '0']);
+            wanted.iter().any(|code| code.strip_prefix('M') == Some(number))
+        }
+        _ => false,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Part, part};
+
+    #[test]
+    fn the_text_says_whether_it_is_called() {
+        for (dialect, text, wanted) in [
+            ("fanuc-30i", "%\nO1\nG1 X1.\nM99\n%\n", Part::Called),
+            ("fanuc-30i", "%\nO1\nG1 X1.\nM98 P2\nM30\n%\n", Part::Main),
+            ("fanuc-30i", "O1\nG1 X1.\nM30\nO2\nG1 X1.\nM99\n", Part::Main),
+            ("linuxcnc", "G1 X1\nM99\n", Part::Called),
+            ("linuxcnc", "O1\nG1 X1\nM99\nG1 X1\nM02\n", Part::Main),
+            ("iso-6983", "G1 X1\nM2\n", Part::Main),
+            ("sinumerik-840d", "G1 X1\nM17\n", Part::Called),
+            ("sinumerik-840d", "G1 X1\nRET\n\n; the end\n", Part::Called),
+            (
+                "sinumerik-840d",
+                "; a part\nPROC SLOT(REAL F1)\nG1 X1\nM30\n",
+                Part::Called,
+            ),
+            ("sinumerik-840d", "G1 X1\nM30\n", Part::Main),
+            ("sinumerik-840d", "G1 X1\n", Part::Fragment),
+        ] {
+            let dialect = trunnion_dialect::builtin(dialect).expect("built in");
+            let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+            assert_eq!(part(&program, dialect), wanted, "{text}");
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Feed motions while the spindle does not turn, put together: one cause is one stretch of the program.
+use crate::caller::Part;
+use crate::view::InForce;
+use std::collections::BTreeMap;
+use trunnion_interp::{ChainId, Motion};
+use trunnion_syntax::BlockId;
+
+/// Why the tool does not turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Still {
+    /// The program switched the spindle off.
+    Off,
+    /// It is on, with S0.
+    NoSpeed,
+    /// It is on, and the program has given no S.
+    SpeedUnsaid,
+    /// Nothing in the program starts a spindle.
+    NeverStarted,
+}
+
+/// Feed motions in a row for which the same holds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StillCuts {
+    pub(crate) why: Still,
+    /// The block of the first.
+    pub(crate) first: BlockId,
+    /// The block of the last.
+    pub(crate) last: BlockId,
+    /// The calls that led to the first.
+    pub(crate) chain: ChainId,
+    /// How many.
+    pub(crate) count: u32,
+    /// S was above zero in other feed motions with the same tool: it may be the power of a laser.
+    pub(crate) other_speed: bool,
+    tool: Option<u32>,
+}
+
+/// Collects them while a program runs.
+#[derive(Default)]
+pub(crate) struct Cuts {
+    /// Why the last feed motion was one of them, and where its stretch begins.
+    open: Option<(Still, BlockId)>,
+    found: BTreeMap<(BlockId, Still), StillCuts>,
+    /// Feed motions before any code of the spindle.
+    quiet: Option<StillCuts>,
+    /// Tools of which a feed motion had S above zero.
+    with_speed: Vec<Option<u32>>,
+}
+
+impl Cuts {
+    /// Takes a motion; `allowed` says whether a comment allows the finding in its block.
+    #[inline]
+    pub(crate) fn add(&mut self, motion: &Motion, in_force: &InForce, allowed: impl FnOnce() -> bool) {
+        if !motion.is_feed() || motion.machine_coordinates {
+            return;
+        }
+        let why = match motion.spindle_on {
+            Some(true) if motion.spindle_rpm == Some(0.0) => Still::NoSpeed,
+            Some(true) if !in_force.speed_programmed && !in_force.spindle_unread => Still::SpeedUnsaid,
+            Some(true) => {
+                self.open = None;
+                if motion.spindle_rpm.is_some_and(|rpm| rpm > 0.0) && self.with_speed.last() != Some(&motion.tool) {
+                    self.turned_with(motion.tool);
+                }
+                return;
+            }
+            Some(false) => Still::Off,
+            None if in_force.spindle_unread => {
+                self.open = None;
+                return;
+            }
+            None => Still::NeverStarted,
+        };
+        self.count(why, motion, allowed);
+    }
+
+    fn turned_with(&mut self, tool: Option<u32>) {
+        if !self.with_speed.contains(&tool) {
+            self.with_speed.push(tool);
+        }
+    }
+
+    fn count(&mut self, why: Still, motion: &Motion, allowed: impl FnOnce() -> bool) {
+        let new = StillCuts {
+            why,
+            first: motion.block,
+            last: motion.block,
+            chain: motion.chain,
+            count: 0,
+            other_speed: false,
+            tool: motion.tool,
+        };
+        let cuts = if why == Still::NeverStarted {
+            self.open = None;
+            self.quiet.get_or_insert(new)
+        } else {
+            if why != Still::SpeedUnsaid && allowed() {
+                return;
+            }
+            let first = match self.open {
+                Some((open, first)) if open == why => first,
+                _ => motion.block,
+            };
+            self.open = Some((why, first));
+            self.found.entry((first, why)).or_insert(new)
+        };
+        cuts.last = motion.block;
+        cuts.count = cuts.count.saturating_add(1);
+    }
+
+    /// All stretches in the order of their blocks. Only of a main program it is said that nothing starts the spindle, or gives S: the
+    /// caller of a subprogram may have done so, as may what comes before a part of a program. `started`: something started a spindle, or may have.
+    pub(crate) fn finish(&self, part: Part, started: bool) -> Vec<StillCuts> {
+        if started || part == Part::Called {
+            let may_turn = |cuts: &StillCuts| StillCuts {
+                other_speed: self.with_speed.contains(&cuts.tool),
+                ..*cuts
+            };
+            let told = |cuts: &&StillCuts| part == Part::Main || cuts.why != Still::SpeedUnsaid;
+            return self.found.values().filter(told).map(may_turn).collect();
+        }
+        let quiet = self.quiet.iter().filter(|_| part == Part::Main);
+        let whole = quiet.chain(self.found.values()).copied().reduce(|mut whole, cuts| {
+            if cuts.first < whole.first {
+                (whole.first, whole.chain) = (cuts.first, cuts.chain);
+            }
+            whole.last = whole.last.max(cuts.last);
+            whole.count = whole.count.saturating_add(cuts.count);
+            whole
+        });
+        let never = |cuts| StillCuts {
+            why: Still::NeverStarted,
+            ..cuts
+        };
+        whole.map(never).into_iter().collect()
+    }
+}

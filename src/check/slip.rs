@@ -1,0 +1,95 @@
+//! Slips of the pen: the letter O where a zero belongs.
+use trunnion_syntax::{Program, TextRange};
+
+/// A word with the letter O in its number, and what was meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Slip {
+    /// The word.
+    pub(crate) range: TextRange,
+    /// It with zeros.
+    pub(crate) meant: String,
+}
+
+/// The word at a byte of a program's code, if it has a letter O in its number and is a word with zeros instead: `X5O.`, `GO`.
+pub(crate) fn letter_o(program: &Program, at: u32) -> Option<Slip> {
+    let source = program.source();
+    let at = at as usize;
+    let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'+' | b'-' | b'_');
+    let before = source.get(..at)?.iter().rev().take_while(|byte| is_part(byte)).count();
+    let after = source[at..].iter().take_while(|byte| is_part(byte)).count();
+    let end = at + after;
+    let mut start = at - before;
+    while start < end {
+        let in_number = |byte: &&u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-' | b'O' | b'o');
+        let stop = start + 1 + source[start + 1..end].iter().take_while(in_number).count();
+        if (start..stop.max(start + 1)).contains(&at) {
+            return word(source, start, stop);
+        }
+        start = stop;
+    }
+    None
+}
+
+fn word(source: &[u8], start: usize, end: usize) -> Option<Slip> {
+    let (letter, number) = source[start..end].split_first()?;
+    let is_slip = letter.is_ascii_alphabetic()
+        && !letter.eq_ignore_ascii_case(&b'O')
+        && number.iter().any(|byte| byte.eq_ignore_ascii_case(&b'O'))
+        && !goes_on(&source[end..])
+        && !matches!(
+            start.checked_sub(1).map(|before| source[before]),
+            Some(b'A'..=b'Z' | b'a'..=b'z' | b'_' | b'$' | b'<')
+        );
+    if !is_slip {
+        return None;
+    }
+    let text = core::str::from_utf8(&source[start..end]).ok()?;
+    let meant = format!("{}{}", char::from(*letter), text[1..].replace(['O', 'o'], "0"));
+    let digits = meant[1..].strip_prefix(['+', '-']).unwrap_or(&meant[1..]);
+    let is_number = digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
+        && digits.bytes().filter(|byte| *byte == b'.').count() <= 1;
+    is_number.then(|| Slip {
+        range: TextRange::new(start as u32, end as u32),
+        meant,
+    })
+}
+
+/// Whether what was taken for a word goes on as a name, or calls something.
+fn goes_on(rest: &[u8]) -> bool {
+    match rest {
+        [b'A'..=b'Z' | b'a'..=b'z', next, ..] => !matches!(next, b'0'..=b'9' | b'+' | b'-' | b'.' | b'#' | b'['),
+        [first, ..] => first.is_ascii_alphabetic() || matches!(first, b'_' | b'(' | b'[' | b'=' | b':' | b'<'),
+        [] => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::letter_o;
+
+    #[test]
+    fn a_word_with_a_letter_o_is_found_at_each_of_its_bytes() {
+        for (text, at, wanted) in [
+            ("G1 X5O. F100", 3, Some("X50.")),
+            ("G1 X5O. F100", 6, Some("X50.")),
+            ("G1X5O.Y3.", 5, Some("X50.")),
+            ("GO X0", 0, Some("G0")),
+            ("GO X0", 1, Some("G0")),
+            ("G1 X1 F1OO", 9, Some("F100")),
+            ("M3O", 2, Some("M30")),
+            ("X-O.5", 1, Some("X-0.5")),
+            ("GOTO 5", 0, None),
+            ("O100", 0, None),
+            ("X5 Y3", 0, None),
+            ("X1.O.2", 3, None),
+            ("N10 DO=5", 4, None),
+            ("FOO(1)", 0, None),
+            ("GO", 5, None),
+        ] {
+            let dialect = trunnion_dialect::builtin("iso-6983").expect("built in");
+            let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+            let found = letter_o(&program, at).map(|slip| slip.meant);
+            assert_eq!(found.as_deref(), wanted, "{text} {at}");
+        }
+    }
+}

@@ -205,7 +205,7 @@ fn held(reading: &Reading, setup: &trunnion_interp::Setup) -> Result<(), Refused
     let Some(block) = reading.given_up else { return Ok(()) };
     let most = setup.limits.held;
     let message = format!(
-        "given up: a conversion holds all motions (and faults) in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
+        "stopped: a conversion holds all motions (and faults) in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
          motion takes up to 4 kB)"
     );
     Err(Refused::at(&reading.program, block, message))

@@ -180,7 +180,7 @@ mod tests {
         let all = found(&twice);
         assert_eq!((all.len(), all[0].status, all[0].count), (1, Status::Unknown, 2));
         assert!(
-            all[0].message.contains("the tool length is not known"),
+            all[0].message.contains("the tool length is unknown"),
             "{}",
             all[0].message
         );

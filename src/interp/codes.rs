@@ -155,6 +155,9 @@ impl<'d> Iso<'d> {
             Action::OrientationAxes => state.tool_axis.set_great_circle(false),
             Action::OrientationVector => state.tool_axis.set_great_circle(true),
             Action::ProgramEnd => block.end = true,
+            Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
+                self.memory.thread_chamfer_off = found.code.id == "M24";
+            }
             Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }

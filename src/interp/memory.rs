@@ -46,4 +46,6 @@ pub(crate) struct Memory<'d> {
     /// Motions of the current block except its last.
     pub(crate) out: Vec<crate::Motion>,
     pub(crate) percent_seen: bool,
+    /// M24 of a Haas lathe: threads are left at their end.
+    pub(crate) thread_chamfer_off: bool,
 }

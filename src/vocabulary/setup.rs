@@ -156,6 +156,12 @@ pub struct ControlData {
     pub roughing_escape: Option<RoughingEscape>,
     /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: unknown.
     pub thread_pull_out: Option<f64>,
+    /// G71 and G72 in one block: how far the tool goes off a cut, mm (Fanuc parameter 5133, Haas setting 73).
+    pub roughing_retract_mm: Option<f64>,
+    /// G76 in one block: the least depth of a cut, mm (Fanuc parameter 5140, Haas setting 99).
+    pub thread_least_cut_mm: Option<f64>,
+    /// G76 in one block: what the last cut is left, mm (Fanuc parameter 5141, Haas setting 86).
+    pub thread_finish_mm: Option<f64>,
     /// Path of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
     /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: unknown, they are run.

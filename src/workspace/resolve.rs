@@ -164,6 +164,9 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(of.chip_break_retract_mm);
     control.roughing_escape = control.roughing_escape.or(of.roughing_escape);
     control.thread_pull_out = control.thread_pull_out.or(of.thread_pull_out);
+    control.roughing_retract_mm = control.roughing_retract_mm.or(of.roughing_retract_mm);
+    control.thread_least_cut_mm = control.thread_least_cut_mm.or(of.thread_least_cut_mm);
+    control.thread_finish_mm = control.thread_finish_mm.or(of.thread_finish_mm);
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }

@@ -69,6 +69,13 @@ impl Iso<'_> {
         Some(value * self.core.state.coordinates.unit_mm())
     }
 
+    /// The same of a turning cycle in one block. Without a decimal point controls take it for least increments or for millimetres, whatever
+    /// they do with coordinates: `None` where the settings do not say.
+    pub(super) fn one_block_length(&self, words: &Words, letter: u8) -> Option<f64> {
+        let has_point = words.letter(letter).number()?.has_point;
+        (has_point || self.core.setup.control.implicit_decimals.is_some()).then(|| self.length_word(words, letter))?
+    }
+
     /// Keeps the data of a block.
     pub(super) fn store_hole(&mut self, words: &Words, axis: usize) {
         let stored = |said: bool, value: Option<f64>, incremental: bool| match (said, value) {

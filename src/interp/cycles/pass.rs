@@ -111,6 +111,9 @@ impl Iso<'_> {
 
     /// What happens to the corners of a thread that is left before its end. If that is not declared, they stay, and that is reported.
     fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
+        if self.memory.thread_chamfer_off {
+            return;
+        }
         let (Some(leads), Feed::PerRevolution(lead)) = (self.core.setup.control.thread_pull_out, lead) else {
             let why =
                 "whether the tool pulls out before the end of the thread (declare [control] thread_pull_out, in leads)";

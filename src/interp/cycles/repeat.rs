@@ -134,10 +134,21 @@ impl Iso<'_> {
     /// G73: along the contour, each run nearer by the same step.
     fn pattern_repeat(&mut self, contour: &Contour, start: Position, words: &Words, report: &mut Report<'_>) {
         let kept = self.memory.cycle.kept;
-        let (Some([x, z]), Some(runs @ 2..)) = (kept.relief, kept.runs) else {
+        let in_one = words.letter(b'D').is_said();
+        let (relief, runs) = if in_one {
+            self.pattern_in_one(words)
+        } else {
+            (kept.relief, kept.runs)
+        };
+        let (Some([x, z]), Some(runs @ 2..)) = (relief, runs) else {
             let what = format!(
-                "{} without U, W and at least two passes (R of its first block)",
-                self.memory.cycle.id
+                "{} without {}",
+                self.memory.cycle.id,
+                if in_one {
+                    "known I and K and at least two passes (D)"
+                } else {
+                    "U, W and at least two passes (R of its first block)"
+                }
             );
             return self.somehow_back(&what, start, report);
         };
@@ -160,6 +171,17 @@ impl Iso<'_> {
             self.along(&contour.motions, by, feed, report);
         }
         self.rapid_straight(start, report);
+    }
+
+    /// G73 in one block (Haas; Fanuc Series 10/11 format): I and K the distance of the first run from the last, D the number of runs.
+    fn pattern_in_one(&self, words: &Words) -> (Option<[f64; 2]>, Option<u32>) {
+        let length = |letter| match self.length_word(words, letter) {
+            None if words.letter(letter).is_said() => None,
+            length => Some(length.unwrap_or(0.0)),
+        };
+        let relief = length(b'I').zip(length(b'K')).map(|(x, z)| [x, z]);
+        let runs = words.letter(b'D').index().filter(|runs| (1..=MOST_RUNS).contains(runs));
+        (relief, runs)
     }
 
     /// Along a contour that is moved by X and Z, mm: F, S and M of its blocks are ignored, those of the cycle apply.

@@ -4,6 +4,7 @@
 //! axis at the feed up to the contour, which is moved by the allowance; off at 45 degrees by the escape; back in rapid to the start line; in by
 //! depth and escape; and where the first point of the contour is reached or would be passed, in to that point and along the whole contour, then
 //! back to the start point in rapid. Depth and escape stay until they are programmed again (parameters 5132 and 5133), for both cycles.
+//! In one block (Haas; Fanuc Series 10/11 format) D is the depth, and the control has set the escape.
 //!
 //! Sources: Robur concise guide to Fanuc lathe cycles, page 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions);
 //! Rockwell 9/Series lathe manual, page 24-9. Fanuc's own (Series 30i operator's manual, lathe system, stock removal in turning and facing) was
@@ -125,15 +126,7 @@ impl Iso<'_> {
         } else {
             [X, Z]
         };
-        if [b'D', b'I', b'K', b'R']
-            .iter()
-            .any(|&letter| words.letter(letter).is_said())
-        {
-            return Err("the format in one block");
-        }
-        let Roughing { depth, escape } = self.memory.cycle.kept.roughing;
-        let depth = depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132)")?;
-        let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
+        let (depth, escape) = self.roughing_data(words)?;
         let allowance = self.allowance(words).ok_or("its finishing allowance is unknown")?;
         if self.core.state.coordinates.plane() != Plane::Zx {
             return Err("a plane other than that of X and Z");
@@ -181,6 +174,33 @@ impl Iso<'_> {
             infeed: first.kind,
             feed,
         })
+    }
+
+    /// Depth of cut and escape, mm: of the block before, or in one block D and what the control has set.
+    fn roughing_data(&self, words: &Words) -> Result<(f64, f64), &'static str> {
+        let set = self.core.setup.control.roughing_retract_mm;
+        let kept = self.memory.cycle.kept.roughing;
+        if words.letter(b'R').is_said() {
+            return Err("R in the block with P and Q");
+        }
+        if [b'I', b'K'].iter().any(|&letter| words.letter(letter).is_said()) {
+            return Err("with an allowance for a cut before the last (I, K)");
+        }
+        if words.letter(b'D').is_said() {
+            let depth = self.one_block_length(words, b'D').filter(|depth| *depth > 0.0);
+            let depth =
+                depth.ok_or("the format in one block: its depth of cut (D) is not above 0, or has no decimal point")?;
+            let escape = set.ok_or(
+                "the format in one block: declare [control] roughing_retract (Haas setting 73, parameter 5133)",
+            )?;
+            return Ok((depth, escape));
+        }
+        let depth = kept.depth;
+        let depth =
+            depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132, Haas setting 72)")?;
+        let escape = kept.escape.or(set);
+        let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
+        Ok((depth, escape))
     }
 
     /// The motions of a contour for which type I can be computed.

@@ -68,6 +68,9 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
         roughing_escape: roughing_escape(raw.roughing_escape.as_ref())?,
         thread_pull_out: non_negative("thread_pull_out", raw.thread_pull_out.as_ref())?,
+        roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
+        thread_least_cut_mm: non_negative("thread_least_cut", raw.thread_least_cut.as_ref())?,
+        thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;

@@ -22,6 +22,21 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             control.chip_break_retract_mm,
             "",
         ),
+        (
+            "a roughing cycle in one block (G71, G72) goes off its cuts by",
+            control.roughing_retract_mm,
+            "",
+        ),
+        (
+            "a threading cycle in one block (G76) cuts at least",
+            control.thread_least_cut_mm,
+            "deep",
+        ),
+        (
+            "a threading cycle in one block (G76) leaves its last cut",
+            control.thread_finish_mm,
+            "",
+        ),
     ];
     for (what, value, rest) in retracts {
         if let Some(value) = value {

@@ -183,6 +183,9 @@ pub(crate) struct RawControl {
     pub(crate) chip_break_retract: Option<Number>,
     pub(crate) roughing_escape: Option<Word>,
     pub(crate) thread_pull_out: Option<Number>,
+    pub(crate) roughing_retract: Option<Number>,
+    pub(crate) thread_least_cut: Option<Number>,
+    pub(crate) thread_finish: Option<Number>,
 }
 
 #[derive(Deserialize, Default)]

@@ -201,6 +201,12 @@ pub struct Control {
     pub roughing_escape: Option<trunnion_interp::RoughingEscape>,
     /// How many leads before its end the tool leaves a thread of one pass; `None`: not declared.
     pub thread_pull_out: Option<f64>,
+    /// How far the tool goes off a cut of a roughing cycle in one block, mm; `None`: not declared.
+    pub roughing_retract_mm: Option<f64>,
+    /// Least depth of a cut of a threading cycle in one block, mm; `None`: not declared.
+    pub thread_least_cut_mm: Option<f64>,
+    /// What the last cut of such a cycle is left, mm; `None`: not declared.
+    pub thread_finish_mm: Option<f64>,
 }
 
 /// Thresholds of the rules.

@@ -2,6 +2,7 @@
 mod control;
 mod file;
 mod format;
+mod plain;
 mod tool;
 mod variables;
 

@@ -130,6 +130,10 @@ impl Setup {
             .whole("TRAJ", "SPINDLES")
             .map_or(1, |count| count.clamp(1, 8) as usize)
     }
+    /// What M19 adds to its angle, degrees: `[RS274NGC]ORIENT_OFFSET`.
+    pub fn orient_offset(&self) -> f64 {
+        self.ini.number("RS274NGC", "ORIENT_OFFSET").unwrap_or(0.0)
+    }
     /// Whether the changer swaps tools: `[EMCIO]RANDOM_TOOLCHANGER`.
     pub fn random_tool_changer(&self) -> bool {
         self.ini
@@ -172,5 +176,10 @@ impl Ini {
             .trim()
             .parse()
             .ok()
+    }
+    /// A value as a number; section and key in upper case. `None`: it is not there, or is none.
+    pub fn number(&self, section: &str, key: &str) -> Option<f64> {
+        let text = self.values.get(&(section.to_owned(), key.to_owned()))?;
+        text.trim().parse().ok().filter(|value: &f64| value.is_finite())
     }
 }

@@ -98,7 +98,10 @@ impl<'p> Items<'p> {
         } else {
             next
         };
-        if behind == TokenKind::Equals || next == TokenKind::Comma {
+        if behind == TokenKind::Equals
+            || matches!(next, TokenKind::Comma | TokenKind::ParenOpen)
+            || behind == TokenKind::ParenOpen
+        {
             return None;
         }
         let range = scan.range(at);
@@ -148,7 +151,9 @@ impl<'p> Items<'p> {
         let [b'L' | b'l', number @ ..] = scan.text(at) else {
             return false;
         };
-        scan.kind(at + 1) == TokenKind::ParenOpen && !number.is_empty() && number.iter().all(u8::is_ascii_digit)
+        scan.kind(scan.skip_blank(at + 1)) == TokenKind::ParenOpen
+            && !number.is_empty()
+            && number.iter().all(u8::is_ascii_digit)
     }
 
     /// A word with `=` or a comma after it, or with an odd number.

@@ -250,7 +250,11 @@ impl Iso<'_> {
     fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
-            Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
+            // _AXN 3 is the third geometry axis, as 0 is: Z
+            Sort::Deep | Sort::Tap => !match call.number(12).or_zero() {
+                Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.plane == Plane::Xy,
+                None => false,
+            },
             _ => false,
         };
         let other_mode = match call.modes {

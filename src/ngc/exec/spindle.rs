@@ -89,6 +89,7 @@ fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Re
     // the control takes all of them as stopped, whichever it turns
     engine.state.turning = [0; 8];
     if block.has(b'R') || block.has(b'P') {
+        let angle = angle + engine.setup.orient_offset();
         engine.emit(Canon::OrientSpindle(number, angle, mode as i32), at, sink);
     }
     if let Some(timeout) = block.word(b'Q') {

@@ -85,11 +85,23 @@ pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
     }
 }
 
+/// Whether a name is that of a number in the INI file; one that is not there is a parameter like others.
+fn is_of_ini(engine: &Engine, name: &str) -> bool {
+    let inside = name.strip_prefix("_ini[").and_then(|inside| inside.split_once(']'));
+    inside.is_some_and(|(section, key)| {
+        let number = engine
+            .setup
+            .ini
+            .number(&section.to_ascii_uppercase(), &key.to_ascii_uppercase());
+        number.is_some()
+    })
+}
+
 fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: f64) -> Result<(), Error> {
     match (&assignment.target, slot) {
         (Target::Numbered(_), Some(slot)) => engine.store.set(slot, value),
         (Target::Numbered(_), None) => engine.store.forget(),
-        (Target::Named(name), _) if Values::is_system(name) => {
+        (Target::Named(name), _) if Values::is_system(name) || is_of_ini(engine, name) => {
             let text = format!("Cannot assign to read-only parameter #<{name}>");
             return Err(Error::with(&problems::READ_ONLY_NAME, assignment.target_range, text));
         }

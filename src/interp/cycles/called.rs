@@ -252,7 +252,7 @@ impl Iso<'_> {
         let other_axis = match call.sort {
             // _AXN 3 is the third geometry axis, as 0 is: Z
             Sort::Deep | Sort::Tap => !match call.number(12).or_zero() {
-                Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.plane == Plane::Xy,
+                Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.coordinates.plane() == Plane::Xy,
                 None => false,
             },
             _ => false,

@@ -2,6 +2,7 @@
 mod control;
 mod file;
 mod format;
+mod plain;
 mod tool;
 mod variables;
 
@@ -30,7 +31,7 @@ pub struct Config {
     pub machine: Option<String>,
     /// `dialect = "NAME"`.
     pub dialect: Option<String>,
-    /// `dialect_table = "FILE"`: a dialect table of one's own, relative to the file, with its bytes in the file.
+    /// `dialect_table = "FILE"`: a dialect table of your own, relative to the file, with its bytes in the file.
     pub dialect_table: Option<(String, core::ops::Range<usize>)>,
     /// `[rules]`.
     pub rules: Vec<(String, RuleLevel)>,
@@ -201,7 +202,7 @@ pub struct Settings<'a> {
     pub setup: Setup,
     /// Rule levels, last wins (config, then command line).
     pub rules: Vec<(String, RuleLevel)>,
-    /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
+    /// Dialects that the program is to be ported to: the rule `porting` says what would change its meaning there.
     pub port_to: Vec<String>,
     /// How much is judged, if somebody says so. Default: all that the machine allows, and without a machine the motions.
     pub scope: Option<Scope>,

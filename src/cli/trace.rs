@@ -86,7 +86,7 @@ struct Tracer<'a, W: Write> {
     writer: Rows<W>,
     error: Option<Failure>,
     faults: usize,
-    /// Why it is not whole.
+    /// Why it is incomplete.
     given_up: Option<String>,
 }
 
@@ -134,7 +134,7 @@ impl<W: Write> Rows<W> {
         let joints = machine
             .own_axes()
             .map(|(_, axis)| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
-        // a posture that is open: why, and the other one that the control may take
+        // an undecided posture: why, and the other one that the control may take
         let others = machine
             .rotary
             .iter()

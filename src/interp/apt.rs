@@ -14,7 +14,7 @@ use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{Block, BlockId, Program, Record, TextRange};
 
-/// What APT keeps between records beside the modal state.
+/// What APT keeps between records in addition to the modal state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AptState {
     /// RAPID: the next motion is a rapid.
@@ -23,7 +23,7 @@ pub(crate) struct AptState {
     pub(crate) circle: Option<Circle>,
     /// TLAXIS: the orientation of the next motion.
     pub(crate) axis: Option<Orientation>,
-    /// The last vector could not be read, so no orientation is in force.
+    /// The last vector could not be read, so no orientation is in effect.
     pub(crate) axis_lost: bool,
     /// Where the coordinates of the records are in the part.
     pub(crate) frame: frame::Frame,
@@ -216,7 +216,7 @@ impl Apt<'_> {
             .lose(self.core.unknown.any() || self.kept.frame.unread);
     }
 
-    /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
+    /// An unknown record may move the tool or the coordinates: neither is known until the end of the program.
     fn unknown_record(&mut self, what: String, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what });
         self.lose_place();

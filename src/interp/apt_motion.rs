@@ -56,7 +56,7 @@ impl Apt<'_> {
         }
     }
 
-    /// FROM: where the tool is, without a motion.
+    /// FROM: the position of the tool, without a motion.
     pub(crate) fn from(&mut self, args: &Args, report: &mut Report<'_>) {
         let numbers = args.numbers();
         if args.odd || !matches!(numbers.len(), 3 | 6) {
@@ -172,7 +172,7 @@ impl Apt<'_> {
             .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report)
     }
 
-    /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
+    /// The orientation of a GOTO: its vector, else the one in effect, else straight along Z.
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
         let set = self.kept.axis.take();
         if let Some(vector) = vector {

@@ -19,7 +19,7 @@ pub(crate) struct Found<'d> {
     pub(crate) with_arguments: bool,
 }
 
-/// What the codes of a block say about this block alone.
+/// What the codes of a block mean for this block alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BlockCodes {
     /// Number of codes.
@@ -73,7 +73,7 @@ fn rank(action: Action) -> u8 {
 const FIRST_AFTER_WORDS: u8 = 4;
 
 impl<'d> Iso<'d> {
-    /// Applies all codes and the words F S T D; what concerns the block's motion comes back.
+    /// Applies all codes and the words F S T D; returns what concerns the block's motion.
     pub(crate) fn apply(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> BlockCodes {
         if codes.len() > 1 {
             conflicts(codes, report);

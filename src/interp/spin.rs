@@ -9,7 +9,7 @@ const X: usize = 0;
 /// Pieces of an arc.
 const PIECES: u32 = 64;
 
-/// The spindle speed of a motion with what is in force; `None`: no such speed, or not known. `radii`: X is a radius here.
+/// The spindle speed of a motion with what is in effect; `None`: no such speed, or not known. `radii`: X is a radius here.
 pub(crate) fn spin(state: &ModalState, radii: bool, kind: MotionKind, [start, end]: [&Position; 2]) -> Option<Spin> {
     if !state.spindle.surface_speed() || !radii {
         return None;

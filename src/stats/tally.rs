@@ -1,4 +1,4 @@
-//! Counts what a run says.
+//! Counts what a run reports.
 use crate::calls::{Call, calls};
 use crate::stop::Stops;
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub struct ToolUse {
 /// Everything counted. Lengths mm along the programmed X Y Z path, times s.
 #[derive(Default)]
 pub struct Tally {
-    /// Blocks that hold something.
+    /// Blocks with content.
     pub blocks: u64,
     /// Blocks that ran, repeated ones each time.
     pub run: u64,
@@ -57,7 +57,7 @@ pub struct Tally {
     pub feed_mm: f64,
     /// Of `feed_mm`, with the spindle off.
     pub spindle_off_mm: f64,
-    /// Motions whose length is not known.
+    /// Motions whose length is unknown.
     pub unmeasured: u64,
     /// Time of feed motions at the programmed feed.
     pub feed_s: f64,

@@ -1,4 +1,4 @@
-//! Floor 1: the words that all floors above share: motions, what is in force, effects, faults, set-up, and who receives them.
+//! Floor 1: the types that all floors above share: motions, modal state, effects, faults, set-up, and their receivers.
 //!
 //! It knows neither dialects nor machines, and runs nothing.
 mod action;

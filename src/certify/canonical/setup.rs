@@ -68,7 +68,7 @@ impl Encode for ToolShape {
     }
 }
 
-/// Each axis, in the order of `AXIS_LETTERS`, or nothing: what the place of an unknown one holds means nothing.
+/// Each axis, in the order of `AXIS_LETTERS`, or nothing: the value stored for an unknown one means nothing.
 impl Encode for Position {
     fn encode(&self, out: &mut CanonicalV1) {
         let Self { values, known: _ } = self;

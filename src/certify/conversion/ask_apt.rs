@@ -76,7 +76,7 @@ pub(super) fn record_asks(block: &Block<'_>) -> Found {
                 .any(|word| has(&record, word)) => {}
         "CYCLE" if has(&record, "TAP") => found.own(range, major, text, Why::Synchronised),
         "CYCLE" => found.own(range, major, text, Why::Motion),
-        // said by the user to be a remark, or refused by the run
+        // declared a remark by the user, or refused by the run
         "INSERT" => found.own(range, major, text, Why::Machine),
         held if HELD.contains(&held) => {}
         idle if IDLE.contains(&idle) => found.asks.push((range, Ask::Idle(idle.to_owned()))),

@@ -63,7 +63,7 @@ pub(crate) struct Hole {
     pub(crate) back: Back,
     pub(crate) pecks: Pecks,
     pub(crate) stay: Option<Stay>,
-    /// `None`: the one in force.
+    /// `None`: the one in effect.
     pub(crate) feed: Option<Feed>,
     pub(crate) out: Out,
 }

@@ -10,7 +10,7 @@ pub(crate) enum Stored {
     /// Not given yet.
     #[default]
     Nothing,
-    /// Given, but its value is not known.
+    /// Given, but its value is unknown.
     Unknown,
     /// mm as a coordinate.
     At(f64),
@@ -19,7 +19,7 @@ pub(crate) enum Stored {
 }
 
 impl Stored {
-    /// The coordinate, from the level that a distance counts from.
+    /// The coordinate, from the level that a distance is relative to.
     pub(crate) fn from(self, level: Option<f64>) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),

@@ -75,7 +75,7 @@ impl Iso<'_> {
                 self.memory.cycle.id
             );
             self.refuse(words, Refusal::CannedCycle, message, None, report);
-            // no number of steps of 0 comes to an end
+            // steps of 0 never reach the end
             return self.nowhere(start, report);
         }
         let feed = self.feed_of(MotionKind::Linear, words, report);

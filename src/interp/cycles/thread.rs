@@ -7,7 +7,7 @@
 //! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
 //!
 //! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
-//! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
+//! 30i operator's manual, lathe system, multiple threading cycle) was not available. Where in Z a cut begins that goes in along the flank (angle above 0), and
 //! the shape of the pull-out (parameter 5131), are shown in pictures only: unknown.
 use crate::core::Report;
 use crate::iso::Iso;
@@ -45,12 +45,12 @@ struct Data {
     taper: f64,
 }
 
-/// A thread that can be worked out, mm.
+/// A thread that can be computed, mm.
 struct Plan {
     start: Position,
     /// Root of the thread at its end.
     root: [f64; 2],
-    /// Which way X leads out of the work: 1 or -1.
+    /// Direction of X out of the work: 1 or -1.
     out: f64,
     taper: f64,
     height: f64,
@@ -104,7 +104,7 @@ impl Iso<'_> {
         }
     }
 
-    /// The thread, or why it cannot be worked out.
+    /// The thread, or why it cannot be computed.
     fn plan_thread(&self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
         let data = if [b'A', b'D', b'I', b'K']
             .iter()

@@ -7,7 +7,7 @@ use crate::{FaultKind, Feed, MotionKind, Position};
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
-/// A return in the block in hand.
+/// A return in the current block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Return {
     /// G27.
@@ -54,7 +54,7 @@ impl Iso<'_> {
         }
     }
 
-    /// The present point becomes a reference point; what is not known of it stays unknown.
+    /// The present point becomes a reference point; its unknown coordinates stay unknown.
     pub(crate) fn store_reference(&mut self, place: usize) {
         let mut position = self.core.state.position;
         self.to_machine(&mut position, 1.0);

@@ -25,7 +25,7 @@ const FAMILIES: &[&str] = &[
     "apt",
 ];
 
-/// Checks the part and keeps what later floors read.
+/// Checks this part and keeps what later floors read.
 pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault> {
     let family = one_of("family", raw.family.as_ref(), FAMILIES)?;
     let mut orientation = None;
@@ -273,7 +273,7 @@ fn passing_type(number: Option<&Number>) -> Result<Option<u8>, Fault> {
     }
 }
 
-/// What is known of the choice of postures, the pole and the meaning of F, for people.
+/// What is known about the choice of postures, the pole and the meaning of F, for people.
 pub(crate) fn in_words(control: &Control) -> Vec<String> {
     let branch = &control.branch;
     let mut lines = Vec::new();
@@ -321,11 +321,11 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         _ => {}
     }
     match control.feed {
-        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F counts along X Y Z".to_owned()),
+        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F is the speed along X Y Z".to_owned()),
         Some(FeedMeaning::Combined) => {
-            lines.push("without tool centre point control F counts along the root of mm2 + deg2".to_owned());
+            lines.push("without tool centre point control F is the speed along sqrt(mm2 + deg2)".to_owned());
         }
-        // RS274/NGC says it, Sinumerik counts along the geometry axes
+        // RS274/NGC says so, on a Sinumerik F is the speed along the geometry axes
         None if matches!(control.family.as_str(), "linuxcnc" | "grbl" | "sinumerik-840d" | "generic" | "apt") => {}
         None => lines.push(
             "it is not declared what F means when rotary and linear axes move together without tool centre point control: reported as unknown where it matters"

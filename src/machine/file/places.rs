@@ -1,4 +1,4 @@
-//! Places of a machine that its control knows, as people read them.
+//! Positions of a machine that its control knows, for people.
 use crate::Control;
 use trunnion_interp::{AXIS_LETTERS, RoughingEscape};
 

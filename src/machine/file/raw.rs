@@ -36,7 +36,7 @@ pub(crate) struct RawMachine {
     pub(crate) unknown: Vec<Word>,
 }
 
-/// What the axes must give: a pose, or travels and speeds written a second time.
+/// What the axes must yield: a pose, or travels and speeds written a second time.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawCheck {

@@ -13,7 +13,7 @@ use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::AXIS_LETTERS;
 
-/// Two directions nearer than this count as parallel, rad.
+/// Two directions nearer than this are taken as parallel, rad.
 const PARALLEL: f64 = 1e-3;
 
 /// Above this condition number of the linear axes the machine is warned about (docs/kinematics.md#linear-axes-for-a-given-tip).
@@ -125,7 +125,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     Ok(machine)
 }
 
-/// What is odd and yet usable.
+/// What is suspicious but usable.
 fn warnings(axes: &[Axis], constants: &Constants) -> Vec<String> {
     let mut out = Vec::new();
     let condition = constants.condition();

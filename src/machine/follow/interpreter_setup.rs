@@ -1,11 +1,11 @@
-//! What an interpreter learns about the machine that a program runs on.
+//! The data of a machine for the interpreter of a program.
 use crate::follow::words::Words;
 use crate::{AxisKind, Machine};
 use trunnion_interp::ControlData;
 
 impl Machine {
-    /// Sets what the machine says into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
-    /// points at home. What was set for another machine before is gone; without a machine, all of it.
+    /// Copies the declarations of the machine into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
+    /// points at home. Data of another machine are removed; without a machine, all of it.
     pub fn tell(machine: Option<&Self>, control: &mut ControlData) {
         control.tcp_codes = machine.and_then(|machine| machine.control.tcp_codes.clone());
         control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();
@@ -27,7 +27,7 @@ impl Machine {
         Words::new(self).joint_per_length(joint)
     }
 
-    /// Letters of its axes beside X Y Z A B C.
+    /// Letters of its axes other than X Y Z A B C.
     fn further_axes(&self) -> Vec<u8> {
         let letters = self.axes.iter().map(|axis| axis.letter);
         letters.filter(|letter| !b"XYZABC".contains(letter)).collect()

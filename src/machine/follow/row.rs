@@ -1,4 +1,4 @@
-//! One row of a trace: what the machine does in one motion, in the units people read.
+//! One row of a trace: what the machine does in one motion, in the units of messages.
 use crate::follow::follower::has_tip_words;
 use crate::follow::words::Words;
 use crate::path::speed::feed_limit_tight;
@@ -36,8 +36,8 @@ pub struct Row {
     pub limiting_axis: Option<char>,
     /// Joint values in chain order, mm or deg; `None` where unknown.
     pub joints: Vec<Option<f64>>,
-    /// The other posture that the control may take at the end of the block, in one word why, and its rotary values, workpiece side first,
-    /// deg; `None` where nothing is open.
+    /// The other posture that the control may take at the end of the block: the reason in one word, and its rotary values, workpiece side
+    /// first, deg; `None` if the posture is certain.
     pub open: Option<(&'static str, [f64; 2])>,
 }
 

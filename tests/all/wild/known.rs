@@ -33,6 +33,8 @@ struct Watch<'k> {
     /// Why an axis is not known, since it was known last.
     why: [Option<String>; 3],
     last_fault: Option<String>,
+    /// The tool of the last motion, and whether there was one.
+    tool: Option<Option<u32>>,
 }
 
 impl Sink for Watch<'_> {
@@ -41,6 +43,9 @@ impl Sink for Watch<'_> {
             return;
         }
         let known = motion.end.known & self.tip;
+        if self.tool.replace(motion.tool).is_some_and(|last| last != motion.tool) {
+            self.last_fault = Some("tool change".to_owned());
+        }
         for axis in 0..3 {
             let bit = 1 << axis;
             if known & bit != 0 {
@@ -84,6 +89,8 @@ fn outside(cause: &str) -> Option<&'static str> {
     match cause {
         "start" => Some("the start is not programmed"),
         "reference point" => Some("a reference point"),
+        // the axes stand where the machine changes tools, which is a reference point
+        "tool change" => Some("a reference point (the tool change)"),
         _ if cause.contains("the probed position") => Some("a probe"),
         _ => None,
     }
@@ -124,6 +131,7 @@ pub(super) fn count(path: &Path, into: &mut Known) -> bool {
         ever: 0,
         why: [None, None, None],
         last_fault: None,
+        tool: None,
     };
     run(&program, resolved.dialect, &resolved.setup, &mut watch);
     true

@@ -6,7 +6,7 @@
 //! described differently, so that is unknown.
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::Words;
+use crate::words::{Said, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 
@@ -28,6 +28,16 @@ struct Grooves {
     feed: Feed,
 }
 
+/// How a block writes its steps.
+struct GrooveWords {
+    in_one: bool,
+    /// Of the cut, and aside.
+    letters: [u8; 2],
+    /// mm.
+    steps: [Option<f64>; 2],
+    relief: Said,
+}
+
 impl Iso<'_> {
     /// G74 and G75: the first of two blocks says the lift, the second the rest.
     pub(super) fn peck_groove(&mut self, action: Action, words: &Words, report: &mut Report<'_>) {
@@ -46,28 +56,12 @@ impl Iso<'_> {
             [X, Z]
         };
         let named = |axis: usize| (words.axes.given | words.axes.unread) & (1 << axis) != 0;
-        let letters = if action == Action::FacePeckCycle {
-            [b'Q', b'P']
-        } else {
-            [b'P', b'Q']
-        };
-        // in one block (Haas; Fanuc Series 10/11 format) I is the step of X as a radius, K that of Z, D the relief
-        let in_one = [b'I', b'K', b'D'].iter().any(|&letter| words.letter(letter).is_said());
-        let (letters, steps, relief) = if in_one {
-            let letters = if action == Action::FacePeckCycle {
-                [b'K', b'I']
-            } else {
-                [b'I', b'K']
-            };
-            let steps = letters.map(|letter| self.one_block_length(words, letter).map(f64::abs));
-            (letters, steps, words.letter(b'D'))
-        } else {
-            (
-                letters,
-                letters.map(|letter| self.increment_word(words, letter)),
-                words.radius,
-            )
-        };
+        let GrooveWords {
+            in_one,
+            letters,
+            steps,
+            relief,
+        } = self.groove_words(action, words);
         let unread = in_one && (0..2).any(|place| steps[place].is_none() && words.letter(letters[place]).is_said());
         if !named(axes[0]) || !unread && steps[0].is_none_or(|step| step == 0.0) && words.letter(letters[0]).is_said() {
             let message = format!(
@@ -121,6 +115,29 @@ impl Iso<'_> {
             feed,
         };
         self.grooves(&grooves, report);
+    }
+
+    /// Two blocks: P and Q, a radius and a length; in one block (Haas; Fanuc Series 10/11 format) I is the step of X as a radius, K that
+    /// of Z, D the relief.
+    fn groove_words(&self, action: Action, words: &Words) -> GrooveWords {
+        let in_one = [b'I', b'K', b'D'].iter().any(|&letter| words.letter(letter).is_said());
+        let mut letters = if in_one { [b'I', b'K'] } else { [b'P', b'Q'] };
+        if action == Action::FacePeckCycle {
+            letters.reverse();
+        }
+        let step = |letter| {
+            if in_one {
+                self.one_block_length(words, letter).map(f64::abs)
+            } else {
+                self.increment_word(words, letter)
+            }
+        };
+        GrooveWords {
+            in_one,
+            letters,
+            steps: letters.map(step),
+            relief: if in_one { words.letter(b'D') } else { words.radius },
+        }
     }
 
     fn grooves(&mut self, grooves: &Grooves, report: &Report<'_>) {

@@ -60,10 +60,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
         posture_words: posture_words(&raw.posture_words, axes)?,
         units: units(raw.units.as_ref())?,
-        reference_points: match &raw.reference_points {
-            Some(points) => Some(reference_points(points, axes)?),
-            None => None,
-        },
+        reference_points: reference_points(raw, axes)?,
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
         roughing_escape: roughing_escape(raw.roughing_escape.as_ref())?,
@@ -177,7 +174,10 @@ fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<Stri
 }
 
 /// Where G28, G30 P2, ... end: mm and degrees, by letters of axes.
-fn reference_points(points: &[BTreeMap<Word, Number>], axes: &[Axis]) -> Result<Vec<Position>, Fault> {
+fn reference_points(raw: &RawControl, axes: &[Axis]) -> Result<Option<Vec<Position>>, Fault> {
+    let Some(points) = &raw.reference_points else {
+        return Ok(None);
+    };
     let mut out = vec![Position::default(); points.len()];
     for (point, position) in points.iter().zip(&mut out) {
         for (letter, value) in point {
@@ -188,7 +188,7 @@ fn reference_points(points: &[BTreeMap<Word, Number>], axes: &[Axis]) -> Result<
             }
         }
     }
-    Ok(out)
+    Ok(Some(out))
 }
 
 fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {

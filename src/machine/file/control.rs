@@ -4,7 +4,6 @@ use crate::file::text::number;
 use crate::file::validate::{Fault, finite, non_negative, positive};
 use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
-use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 

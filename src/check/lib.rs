@@ -37,6 +37,7 @@ mod sink;
 mod slip;
 mod suppress;
 mod time;
+mod told;
 mod trail;
 mod unreadable;
 mod view;

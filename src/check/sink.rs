@@ -148,11 +148,6 @@ impl<'a> Reporter<'a> {
         self.draft().say(message)
     }
 
-    /// Whether a fault is a block that the control refuses for this sort of reason.
-    pub(crate) fn is_refusal(&self, fault: &Fault, sort: Refusal) -> bool {
-        matches!(fault.kind, FaultKind::Rejected { refusal, .. } if refusal == sort)
-    }
-
     /// Reports a block that the control refuses for this sort of reason, with what the control itself says of it.
     pub(crate) fn refused(&mut self, fault: &Fault, sort: Refusal) -> Option<&mut Draft<'a>> {
         let FaultKind::Rejected {

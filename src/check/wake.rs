@@ -12,7 +12,7 @@ use crate::look::Look;
 use crate::sink::Reporter;
 use crate::view::{LegView, MotionView, Overview};
 use trunnion_dialect::Foreign;
-use trunnion_interp::{Fault, Refusal};
+use trunnion_interp::{Fault, FaultKind, Refusal};
 use trunnion_syntax::{SyntaxError, TextRange};
 
 /// What is known when the run has come to its end.
@@ -97,11 +97,12 @@ macro_rules! wakes {
                 match self {
                     Self::Fault(rule) => rule(fault, out),
                     Self::Refused(sort, add) => {
+                        let is_refusal = matches!(fault.kind, FaultKind::Rejected { refusal, .. } if refusal == sort);
                         let misread = matches!(
                             sort,
                             Refusal::Syntax | Refusal::Number | Refusal::Expression | Refusal::UnknownWord
                         );
-                        if misread && out.is_refusal(fault, sort) && out.is_slip(fault.range) {
+                        if misread && is_refusal && out.is_slip(fault.range) {
                             return;
                         }
                         if let Some(draft) = out.refused(fault, sort) {

@@ -6,7 +6,7 @@ use crate::iso::Iso;
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{Said, Words};
-use crate::{FaultKind, FeedMode, LengthOf, TcpMistake};
+use crate::{FaultKind, FeedMode, LengthOf};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
 
@@ -182,13 +182,7 @@ impl<'d> Iso<'d> {
             }
             Action::TcpOn | Action::TcpVectorOn => {
                 let unread = tcp_variant(found, words, report);
-                let wants_number = found.code.words.iter().any(|word| word == "H");
-                if wants_number && !words.length_offset.is_said() && self.lacks_length_number() {
-                    report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
-                }
-                if words.length_offset.is_said() || wants_number {
-                    self.length_on(words.length_offset, found.range, report);
-                }
+                self.tcp_length(found, words, report);
                 self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
                 if let Some(what) = unread {
                     report.fault(found.range, FaultKind::NotModelled { what });

@@ -46,10 +46,18 @@ impl Iso<'_> {
         }
     }
 
-    /// Whether the program has given no number of a tool length, or only that of another tool than the one in use.
-    pub(crate) fn lacks_length_number(&self) -> bool {
+    /// The tool length with which a code switches tool centre point control on; reports a number that it wants and does not have.
+    pub(crate) fn tcp_length(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
+        let is_said = words.length_offset.is_said();
+        let wants_number = found.code.words.iter().any(|word| word == "H");
         let given = self.memory.length_offset;
-        given.is_none() || self.core.state.tool.is_some_and(|tool| given != Some(tool))
+        let lacks = given.is_none() || self.core.state.tool.is_some_and(|tool| given != Some(tool));
+        if wants_number && !is_said && lacks {
+            report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
+        }
+        if is_said || wants_number {
+            self.length_on(words.length_offset, found.range, report);
+        }
     }
 
     /// The mistake of a motion that is about to be emitted.

@@ -1,4 +1,4 @@
-//! Hover: the code under the cursor, what is in force, and what the machine does in the block.
+//! Hover: the code under the cursor, what is in effect, and what the machine does in the block.
 use crate::{
     analysis::{Analysed, Judged},
     names,
@@ -12,7 +12,7 @@ use trunnion_interp::{FeedMode, ModalState};
 use trunnion_machine::{AxisKind, Machine, Row};
 use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 
-/// The hover at a position; `None` where there is nothing to say.
+/// The hover at a position; `None` where there is nothing to show.
 pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding) -> Option<Hover> {
     let judged = analysed.outcome.as_ref().ok()?;
     let at = offset(&analysed.text, &analysed.starts, position, encoding) as u32;
@@ -110,13 +110,13 @@ fn code_of<'a>(dialect: &'a Dialect, word: &Word) -> Option<&'a Code> {
 }
 
 fn modal(text: &mut String, state: &ModalState) {
-    let feed = match (state.feed, state.feed_mode) {
+    let feed = match (state.feed.value(), state.feed.mode()) {
         (None, _) => "not programmed".to_owned(),
         (Some(feed), FeedMode::PerMinute) => format!("{feed:.1} mm/min"),
         (Some(feed), FeedMode::PerRevolution) => format!("{feed:.4} mm/rev"),
         (Some(feed), FeedMode::InverseTime) => format!("{feed:.4} 1/min (inverse time)"),
     };
-    let speed = match (state.spindle_on, state.spindle_rpm) {
+    let speed = match (state.spindle.on(), state.spindle.rpm()) {
         (Some(true), Some(rpm)) => format!("{rpm:.0} 1/min"),
         (Some(true), None) => "on".into(),
         (Some(false), _) => "off".into(),
@@ -124,10 +124,23 @@ fn modal(text: &mut String, state: &ModalState) {
     };
     let tool = state
         .tool
+        .number()
         .map_or_else(|| "unknown".to_owned(), |tool| format!("T{tool}"));
-    let mode = if state.tcp { "on: the tip is programmed" } else { "off" };
-    let sense = if state.incremental { "incremental" } else { "absolute" };
-    let unit = if state.length_unit_mm == 1.0 { "mm" } else { "inch" };
+    let mode = if state.tool_axis.tcp() {
+        "on: the tip is programmed"
+    } else {
+        "off"
+    };
+    let sense = if state.coordinates.incremental() {
+        "incremental"
+    } else {
+        "absolute"
+    };
+    let unit = if state.coordinates.unit_mm() == 1.0 {
+        "mm"
+    } else {
+        "inch"
+    };
     let _ = writeln!(
         text,
         "**Active:** feed {feed}, spindle {speed}, tool {tool}, {sense}, {unit}, TCP {mode}\n"

@@ -1,6 +1,6 @@
 //! Certificate and files to verdict, from scratch: the file to read if you trust nobody.
 //!
-//! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the ways between
+//! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the paths between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
 use crate::certificate::{NamedDigest, SCHEMA, TextDigest, other_schema};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
@@ -27,7 +27,7 @@ pub fn certify(
     certify_across(before, after, [dialect, dialect], machine, setup, claim)
 }
 
-/// The same for two texts in two dialects: APT beside G code.
+/// The same for two texts in two dialects: APT against G code.
 pub fn certify_across(
     before: &[u8],
     after: &[u8],
@@ -39,7 +39,7 @@ pub fn certify_across(
     certify_beside([before, after], dialects, machine, (setup, &setup.library), claim)
 }
 
-/// The same where the program after has called programs of its own. Such a certificate can be checked again only where both call the same.
+/// The same where the changed program has its own called programs. Such a certificate can be checked again only where both call the same.
 pub fn certify_beside(
     [before, after]: [&[u8]; 2],
     dialects: [&Dialect; 2],
@@ -94,17 +94,17 @@ fn inputs_match(
 ) -> Result<(), Outcome> {
     let refuse = |what: &str| {
         Err(Outcome::refuted(format!(
-            "the certificate was made for {what}: its SHA-256 differs"
+            "the certificate was made for {what}: the SHA-256 values differ"
         )))
     };
     if let Some(why) = other_schema(&certificate.schema) {
         return Err(Outcome::refuted(why));
     }
     if certificate.before != text_digest(before) {
-        return refuse("another text before");
+        return refuse("another original program");
     }
     if certificate.after != text_digest(after) {
-        return refuse("another text after");
+        return refuse("another changed program");
     }
     if certificate.dialect.name != dialect.name || certificate.dialect.sha256 != dialect_digest(dialect) {
         return refuse(&format!(
@@ -151,14 +151,16 @@ fn prove(
 ) -> Result<Certificate, Outcome> {
     claim_makes_sense(claim)?;
     let old = parse(before.to_vec(), dialect.lex);
-    let new = parse(after.to_vec(), other.lex);
-    let text = text_change(&old, &new, dialect);
+    // a program is compared with itself to see what of it is known: its text is held once
+    let other_text = (before != after || dialect.lex != other.lex).then(|| parse(after.to_vec(), other.lex));
+    let new = other_text.as_ref().unwrap_or(&old);
+    let text = text_change(&old, new, dialect);
     if claim.is_rewrite() && !text.rest_identical {
         return Err(Outcome::refuted(
             "the texts differ in more than numbers of coordinate words",
         ));
     }
-    let mut proof = Proof::new(machine, claim, &new);
+    let mut proof = Proof::new(machine, claim, new);
     let (recorded, recorded_after, libraries) = record_both(setup, after_library);
     let input = |program, dialect, setup| Input {
         program,
@@ -168,7 +170,7 @@ fn prove(
     };
     let mut sides = [
         Steps::new(input(&old, dialect, &recorded)),
-        Steps::new(input(&new, other, &recorded_after)),
+        Steps::new(input(new, other, &recorded_after)),
     ];
     let [old_steps, new_steps] = &mut sides;
     let (mm, degrees) = claim.tolerances();
@@ -186,16 +188,16 @@ fn prove(
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
     if verdict != Verdict::Same {
-        // the comparison may take a refutation back: where it is not known whether a block moves the machine at all
+        // the comparison may withdraw a refutation: where it is unknown whether a block moves the machine at all
         let taken_back = |outcome: &Outcome| matches!((outcome, &verdict), (Outcome::Refuted(_), Verdict::Unknown(_)));
         if let Some(outcome) = proof.failed.take().filter(|outcome| !taken_back(outcome)) {
             return Err(outcome);
         }
         return Err(proof.outcome(verdict, &old));
     }
-    // a rewrite says of each place that it changes that the change is proved; two programs are what they do
+    // a rewrite claims that each change is proved; two programs are compared by what they do
     if text.rest_identical && claim.is_rewrite() {
-        every_change_ran(&sides, (&old, &new))?;
+        every_change_ran(&sides, (&old, new))?;
     }
     Ok(Certificate {
         schema: SCHEMA.into(),

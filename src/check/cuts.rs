@@ -59,7 +59,7 @@ impl Cuts {
         }
         let why = match motion.spindle_on {
             Some(true) if motion.spindle_rpm == Some(0.0) => Still::NoSpeed,
-            Some(true) if !in_force.speed_said && !in_force.spindle_unread => Still::SpeedUnsaid,
+            Some(true) if !in_force.speed_programmed && !in_force.spindle_unread => Still::SpeedUnsaid,
             Some(true) => {
                 self.open = None;
                 if motion.spindle_rpm.is_some_and(|rpm| rpm > 0.0) && self.with_speed.last() != Some(&motion.tool) {

@@ -1,8 +1,8 @@
 //! What undeclared zero points and tool lengths leave open about the travel of the linear axes.
 //!
-//! A joint of a chain of linear axes is its word plus zero point and tool length, so that the path spans the same wherever its zero lies:
+//! A joint of a chain of linear axes is its word plus zero point and tool length, so that the span of the path is the same wherever its zero is:
 //! what spans more than the travel fits no zero point, and what spans less fits a range of them. Where rotary axes turn the part or the
-//! tool, nothing is said about linear joints.
+//! tool, linear joints are not judged.
 mod fit;
 mod listed;
 mod name;
@@ -12,18 +12,20 @@ pub(crate) use fit::{Fit, Missing, Open, Overrun};
 pub use listed::assumptions;
 pub(crate) use name::OffsetName;
 
+use crate::keyed::Keyed;
 use crate::place::names_axis;
 use crate::view::InForce;
 use span::{Basis, Span};
+use std::collections::HashSet;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{AxisLetter, ChainId, LengthOf, Motion, MotionKind, Undeclared};
 use trunnion_machine::{AxisKind, Leg, Limits, MAX_AXES, Machine};
 use trunnion_syntax::{BlockId, Program};
 
-/// Joints that differ by no more are at one place, mm.
+/// Joints that differ by no more are at the same position, mm.
 const SAME_MM: f64 = 1e-9;
 
-/// What is taken as zero although nobody declared it.
+/// Undeclared values that are taken as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Assume {
     /// `work-offset`.
@@ -52,7 +54,7 @@ impl Assume {
         true
     }
 
-    /// What of a motion stays undeclared.
+    /// Which values of a motion are undeclared.
     #[inline]
     pub(crate) fn leaves(self, undeclared: Undeclared) -> Undeclared {
         Undeclared {
@@ -81,15 +83,15 @@ pub(crate) struct Datum {
     /// No rotary axis: a joint is its word plus what is undeclared.
     is_linear: bool,
     assume: Assume,
-    /// The present place of each joint, and what it rests on.
+    /// The present position of each joint, and what it depends on.
     anchors: [Option<(f64, Basis)>; MAX_AXES],
-    spans: Vec<Span>,
-    overruns: Vec<Overrun>,
-    open: Vec<Open>,
-    /// What the last motion rested on, so that nothing is looked up twice.
+    spans: Keyed<(usize, Basis), Span>,
+    overruns: Keyed<(u8, Missing), Overrun>,
+    open: Keyed<Missing, Open>,
+    /// What the last motion depended on, so that nothing is looked up twice.
     last: Option<(Undeclared, OffsetName, LengthOf)>,
-    assumed: Vec<Missing>,
-    /// A zero point was set from where the machine stood: no span is certain.
+    assumed: Keyed<Missing, ()>,
+    /// A zero point was set at the position of the machine: no span is certain.
     mixed: bool,
 }
 
@@ -110,11 +112,11 @@ impl Datum {
             is_linear: machine.rotary.is_empty(),
             assume,
             anchors: [None; MAX_AXES],
-            spans: Vec::new(),
-            overruns: Vec::new(),
-            open: Vec::new(),
+            spans: Keyed::default(),
+            overruns: Keyed::default(),
+            open: Keyed::default(),
             last: None,
-            assumed: Vec::new(),
+            assumed: Keyed::default(),
             mixed: false,
         }
     }
@@ -147,9 +149,7 @@ impl Datum {
         let offset = (undeclared.zero != 0 && self.assume.work_offset).then_some(Missing::Offset(in_force.offset));
         let length = (undeclared.length && self.assume.tool_length).then_some(Missing::Length(in_force.length_of));
         for missing in offset.into_iter().chain(length) {
-            if !self.assumed.contains(&missing) {
-                self.assumed.push(missing);
-            }
+            self.assumed.insert(missing, ());
         }
     }
 
@@ -158,21 +158,19 @@ impl Datum {
         let offset = (undeclared.zero & linear != 0).then_some(Missing::Offset(in_force.offset));
         let length = undeclared.length.then_some(Missing::Length(in_force.length_of));
         for missing in offset.into_iter().chain(length) {
-            if !self.open.iter().any(|open| open.missing == missing) {
-                self.open.push(Open {
-                    missing,
-                    block: motion.block,
-                    chain: motion.chain,
-                    fits: Vec::new(),
-                });
-            }
+            self.open.entry(missing, || Open {
+                missing,
+                block: motion.block,
+                chain: motion.chain,
+                fits: Vec::new(),
+            });
         }
     }
 
-    /// Where the joints of a leg are, each under what it rests on.
+    /// Where the joints of a leg are, each with what it depends on.
     fn span(&mut self, leg: &Leg, undeclared: Undeclared, in_force: &InForce, program: &Program) {
         if undeclared.set_here && undeclared.any() {
-            // the shift counts from where the machine stood, which may be known without the offset
+            // the shift is relative to the position of the machine, which may be known without the offset
             self.mixed = true;
             self.note_open(undeclared, in_force, &leg.motion);
         }
@@ -190,7 +188,7 @@ impl Datum {
             };
             let end = joints[axis.joint];
             match self.anchors[axis.joint].replace((end, basis)) {
-                // an increment counts from where the axis was
+                // an increment starts from where the axis was
                 Some((_, before)) if leg.motion.says_way & axis.bit != 0 => {
                     self.anchors[axis.joint] = Some((end, before));
                     basis = before;
@@ -198,7 +196,7 @@ impl Datum {
                 }
                 Some((at, before)) if (at - end).abs() <= SAME_MM && before != basis => {
                     self.anchors[axis.joint] = Some((at, before));
-                    // its word leads to where it seems to be already, or the block does not name it
+                    // its word names the position where it already seems to be, or the block does not name it
                     if leg.motion.chain != ChainId::MAIN || names_axis(program, leg.motion.block, axis.letter) {
                         self.may_reach(axis, basis, [end, end], place);
                     }
@@ -221,12 +219,8 @@ impl Datum {
         if basis.is_declared() {
             return None;
         }
-        let same = |span: &Span| span.joint == axis.joint && span.basis == basis;
-        let at = self.spans.iter().position(same).unwrap_or_else(|| {
-            self.spans.push(Span::new(axis.joint, basis, place));
-            self.spans.len() - 1
-        });
-        self.spans.get_mut(at)
+        let new = || Span::new(axis.joint, basis, place);
+        Some(self.spans.entry((axis.joint, basis), new))
     }
 
     fn reach(&mut self, axis: Limited, basis: Basis, [low, high]: [f64; 2], place: (BlockId, ChainId)) {
@@ -253,11 +247,8 @@ impl Datum {
             span_mm: width,
             travel_mm: to - from,
         };
-        let same = |known: &&mut Overrun| known.letter == overrun.letter && known.missing == overrun.missing;
-        match self.overruns.iter_mut().find(same) {
-            Some(known) => known.span_mm = width,
-            None => self.overruns.push(overrun),
-        }
+        let key = (overrun.letter, overrun.missing);
+        self.overruns.entry(key, || overrun).span_mm = width;
     }
 
     fn may_reach(&mut self, axis: Limited, basis: Basis, [low, high]: [f64; 2], place: (BlockId, ChainId)) {
@@ -266,44 +257,42 @@ impl Datum {
         }
     }
 
-    /// What does not fit wherever the zero lies.
-    pub(crate) fn overruns(&self) -> &[Overrun] {
-        if self.mixed { &[] } else { &self.overruns }
+    /// What does not fit wherever the zero is.
+    pub(crate) fn overruns(&self) -> impl Iterator<Item = &Overrun> {
+        self.overruns.values().filter(|_| !self.mixed)
     }
 
     /// What was taken as zero because the settings say so.
-    pub(crate) fn assumed(&self) -> &[Missing] {
-        &self.assumed
+    pub(crate) fn assumed(&self) -> impl Iterator<Item = &Missing> {
+        self.assumed.keys()
     }
 
-    /// What is left open, each cause once; with the ranges that fit on a chain of linear axes. A cause of which something does not fit at
+    /// What is left open, each cause once; with the ranges that fit on a chain of linear axes. A cause with something that does not fit at
     /// all is not open.
     pub(crate) fn open(&self) -> Vec<Open> {
         let mut open = self.open.clone();
-        for span in &self.spans {
+        let overrun: HashSet<Missing> = self.overruns().map(|overrun| overrun.missing).collect();
+        for span in self.spans.values() {
             let missing = span.basis.missing();
-            if self.overruns().iter().any(|overrun| overrun.missing == missing) {
+            if overrun.contains(&missing) {
                 continue;
             }
             let Some(axis) = self.axes.iter().find(|axis| axis.joint == span.joint) else {
                 continue;
             };
-            let at = open.iter().position(|open| open.missing == missing).unwrap_or_else(|| {
-                open.push(Open {
-                    missing,
-                    block: span.place.0,
-                    chain: span.place.1,
-                    fits: Vec::new(),
-                });
-                open.len() - 1
+            let entry = open.entry(missing, || Open {
+                missing,
+                block: span.place.0,
+                chain: span.place.1,
+                fits: Vec::new(),
             });
-            open[at].fits.push(Fit {
+            entry.fits.push(Fit {
                 letter: axis.letter,
                 with_length: span.basis.offset.and(span.basis.length),
                 range: span.possible.room(axis.travel).filter(|_| !self.mixed),
             });
         }
-        open
+        open.into_values()
     }
 }
 

@@ -21,6 +21,7 @@ mod facts;
 mod finding;
 pub mod fixture;
 pub mod header;
+mod keyed;
 mod look;
 mod nearest;
 mod open;

@@ -3,7 +3,7 @@ use super::failure::{remark, shown};
 use std::io::{self, BufWriter, Write};
 
 /// Standard output. Where it cannot be written to, the command still ends with the status of its verdict: when the reader has gone away
-/// (`| head`) the rest is dropped without a word, and any other error is reported once, at the end.
+/// (`| head`) the rest is dropped silently, and any other error is reported once, at the end.
 pub(super) struct Out<W: Write = io::Stdout> {
     inner: BufWriter<W>,
     failed: Option<io::Error>,
@@ -62,6 +62,33 @@ impl<W: Write> Drop for Out<W> {
     }
 }
 
+/// Puts blanks before each line but the first.
+pub(super) struct Indented<'w, W> {
+    inner: &'w mut W,
+    indent: &'static str,
+}
+
+impl<'w, W: Write> Indented<'w, W> {
+    pub(super) fn new(inner: &'w mut W, indent: &'static str) -> Self {
+        Self { inner, indent }
+    }
+}
+
+impl<W: Write> Write for Indented<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+            self.inner.write_all(line)?;
+            if line.ends_with(b"\n") {
+                self.inner.write_all(self.indent.as_bytes())?;
+            }
+        }
+        Ok(bytes.len())
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,6 +111,15 @@ mod tests {
         assert!(out.flush().is_ok());
         assert!(out.failed.is_some());
         assert!(writeln!(out, "more").is_ok());
+    }
+
+    #[test]
+    fn lines_are_indented_but_the_first() {
+        let mut written = Vec::new();
+        let mut out = Indented::new(&mut written, "  ");
+        out.write_all(b"{\n\"a\"").expect("written");
+        out.write_all(b": 1\n}").expect("written");
+        assert_eq!(written, b"{\n  \"a\": 1\n  }");
     }
 
     #[test]

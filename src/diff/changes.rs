@@ -1,16 +1,16 @@
 //! From two runs to the list of differences. First pass: a key per motion, 16 bytes each, which are aligned. Second pass: the
-//! motions of the stretches that differ are made again and compared in numbers, so that the first pass may be coarse.
+//! motions of the stretches that differ are produced again and compared in numbers, so that the first pass may be coarse.
 use crate::align::{Stretch, align};
-use crate::event::{Body, Event, Tech};
+use crate::event::{Body, Event};
+use crate::keys::{Keys, Techs, keys, place_unknown};
 use crate::match_up::match_up;
 use crate::point::{Point, Tolerance};
 use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
-use std::hash::{DefaultHasher, Hash, Hasher};
 use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, run_alike};
 use trunnion_syntax::BlockId;
 
-/// So many motions are compared in detail; more are only counted.
+/// This many motions are compared in detail; more are only counted.
 const MOST_DETAILS: usize = 50_000;
 /// So many different changes of feed, speed and the like are kept.
 const MOST_TECHS: usize = 10_000;
@@ -18,13 +18,13 @@ const MOST_TECHS: usize = 10_000;
 /// One difference.
 #[derive(Clone, Debug)]
 pub enum Change {
-    /// A motion leads elsewhere.
+    /// A motion ends at another position.
     Moved(Box<(BlockId, Point)>, Box<(BlockId, Point)>),
     /// Only in the first (`false`) or second (`true`) program.
     Only(bool, BlockId, Box<Body>),
 }
 
-/// A change of what is in force, with all motions that have it.
+/// A change of the modal state, with all motions that have it.
 #[derive(Clone, Debug)]
 pub struct TechChange {
     /// Name, before, after.
@@ -43,15 +43,15 @@ pub struct Found {
     pub verdict: Verdict,
     /// Motions of each program.
     pub motions: [u64; 2],
-    /// Motions that lead elsewhere, and what only one of them has.
+    /// Motions that end at another position, and what only one of them has.
     pub changes: Vec<Change>,
     /// Other feeds, speeds and the like.
     pub techs: Vec<TechChange>,
     /// Motions and statements that differ and were not compared in detail.
     pub not_compared: u64,
-    /// Motions whose other feed and the like are not listed.
+    /// Motions whose changes of feed and the like are not listed.
     pub techs_not_listed: u64,
-    /// Motions whose end is not known in numbers: they are the same only as far as their words are.
+    /// Motions whose end is unknown in numbers: they are the same only as far as their words are.
     pub unknown: u64,
     /// The two have too little in common to be aligned.
     pub too_different: bool,
@@ -88,22 +88,6 @@ impl Found {
     }
 }
 
-/// What the first pass keeps of a program.
-#[derive(Default)]
-struct Keys {
-    hashes: Vec<u64>,
-    /// Index into the common list of what is in force; `u32::MAX` for statements.
-    techs: Vec<u32>,
-    blocks: Vec<u32>,
-}
-
-/// What was in force in any motion, each once.
-#[derive(Default)]
-struct Techs {
-    list: Vec<Tech>,
-    index: HashMap<Tech, u32>,
-}
-
 /// Two programs that are compared.
 #[derive(Clone, Copy)]
 pub struct Pair<'a> {
@@ -111,7 +95,7 @@ pub struct Pair<'a> {
     pub before: Input<'a>,
     /// After; with the machine of the first one.
     pub after: Input<'a>,
-    /// They have the same settings, so that a certificate may be asked.
+    /// They have the same settings, so that the comparison of `certify` may be used.
     pub one_setup: bool,
 }
 
@@ -135,18 +119,28 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         deg: tolerance.deg,
     };
     let mut sides = [Steps::new(before), Steps::new(after)];
+    for side in &mut sides {
+        side.count_motions(place_unknown);
+    }
     let [one, other] = &mut sides;
     let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
     if matches!(verdict, Verdict::Unknown(_)) && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
     }
     let mut found = Found::new(verdict);
+    if found.same() {
+        // what the comparison has not come to is counted too; nothing is run a second time
+        for (side, steps) in sides.iter_mut().enumerate() {
+            steps.for_each(drop);
+            found.motions[side] = steps.counted()[0];
+            found.stops[side] = steps.stop().cloned();
+        }
+        found.unknown = sides[0].counted()[1];
+        return found;
+    }
     let mut techs = Techs::default();
     let a = keys(before, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, tolerance, &mut techs, (1, &mut found));
-    if found.same() {
-        return found;
-    }
     let stretches = match align(&a.hashes, &b.hashes) {
         Some(stretches) => stretches,
         None if a.hashes.len() == b.hashes.len() => {
@@ -176,7 +170,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     found
 }
 
-/// Where ends and shapes do not decide, the bounds between the ends may: a tool vector beside rotary words.
+/// Where ends and shapes do not decide, the bounds between the ends may: a tool vector against rotary words.
 fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     let Some(machine) = pair.before.machine.filter(|_| pair.one_setup) else {
         return false;
@@ -206,45 +200,7 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     matches!(outcome, trunnion_certify::Outcome::Proved(_))
 }
 
-fn keys(input: Input<'_>, tolerance: Tolerance, techs: &mut Techs, to: (usize, &mut Found)) -> Keys {
-    let (side, found) = to;
-    let mut keys = Keys::default();
-    let mut events = Events::new(input);
-    for event in &mut events {
-        let mut state = DefaultHasher::new();
-        let tech = match &event.body {
-            Body::Motion(point, tech) => {
-                found.motions[side] += 1;
-                found.unknown += u64::from(side == 0 && point.known & 7 != 7 && point.way.is_a_move());
-                point.hash(tolerance, &mut state);
-                techs.number(tech)
-            }
-            Body::Statement(text) => {
-                text.hash(&mut state);
-                u32::MAX
-            }
-        };
-        keys.hashes.push(state.finish());
-        keys.techs.push(tech);
-        keys.blocks.push(event.block.0);
-    }
-    found.stops[side] = events.stop().cloned();
-    keys
-}
-
-impl Techs {
-    fn number(&mut self, tech: &Tech) -> u32 {
-        if let Some(&known) = self.index.get(tech) {
-            return known;
-        }
-        let number = self.list.len() as u32;
-        self.list.push(tech.clone());
-        self.index.insert(tech.clone(), number);
-        number
-    }
-}
-
-/// What is in force in motions that lead to the same place.
+/// The modal state of motions that end at the same position.
 fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], found: &mut Found) {
     let mut groups: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for stretch in stretches {
@@ -278,7 +234,7 @@ impl TechChange {
 }
 
 impl Found {
-    /// Notes that a motion has another feed or the like; where it stands in the list.
+    /// Records that a motion has another feed or the like; its place in the list.
     fn note(&mut self, parts: Parts, blocks: (BlockId, BlockId)) -> Option<usize> {
         if parts.is_empty() {
             return None;
@@ -302,7 +258,7 @@ impl Found {
         Some(self.techs.len() - 1)
     }
 
-    /// Compares two events that stand at the same place.
+    /// Compares two events at the same place.
     fn pair(&mut self, a: Event, b: Event, tolerance: Tolerance) {
         match (a.body, b.body) {
             (Body::Motion(from, tech), Body::Motion(to, other)) => {

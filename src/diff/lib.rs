@@ -4,6 +4,7 @@
 mod align;
 mod changes;
 mod event;
+mod keys;
 mod match_up;
 mod point;
 mod run;

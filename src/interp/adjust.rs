@@ -1,4 +1,4 @@
-//! What a control reads into words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
+//! How a control interprets words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
 use crate::codes::{BlockCodes, Found, dwell_reads, not_modelled};
 use crate::core::LINEAR;
 use crate::core::Report;
@@ -35,7 +35,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Puts the words of the block as they are meant.
+    /// Replaces the words of the block by their meaning.
     #[cold]
     pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words) {
         let has = |action: Action| codes.iter().any(|found| found.code.action == action);
@@ -47,7 +47,7 @@ impl Iso<'_> {
                 let inch = if has(Action::Inch) || has(Action::Metric) {
                     has(Action::Inch)
                 } else {
-                    self.core.state.length_unit_mm != 1.0
+                    self.core.state.coordinates.unit_mm() != 1.0
                 };
                 self.least_increments(codes, words, inch);
             }
@@ -58,6 +58,7 @@ impl Iso<'_> {
         if diameter && !has(Action::Dwell) && !has(Action::DiameterSwitch) {
             words.axes.values[0] *= 0.5;
         }
+        self.core.drawing_words(codes, words);
     }
 
     /// U, V, W, H are distances of X, Y, Z, C.
@@ -81,7 +82,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Coordinates without a point count 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
+    /// Coordinates without a decimal point are in units of 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
     /// (Fanuc Series 30i operator's manual, least input increment IS-B).
     fn least_increments(&self, codes: &[Found<'_>], words: &mut Words, inch: bool) {
         let divisor = if inch { 10_000.0 } else { 1000.0 };
@@ -91,7 +92,7 @@ impl Iso<'_> {
             words.axes.values[axis] /= if linear { divisor } else { 1000.0 };
         }
         words.axes.point |= whole;
-        if !self.core.state.vector_mode {
+        if !self.core.state.tool_axis.vectors() {
             let whole = words.centre.given & !words.centre.point;
             for place in (0..3).filter(|place| whole & (1 << place) != 0) {
                 words.centre.values[place] /= divisor;
@@ -111,7 +112,7 @@ impl Iso<'_> {
         scale(&mut words.radius, if turns { 1000.0 } else { divisor });
         let mode = codes
             .iter()
-            .fold(self.core.state.feed_mode, |mode, found| match found.code.action {
+            .fold(self.core.state.feed.mode(), |mode, found| match found.code.action {
                 Action::FeedPerMinute => FeedMode::PerMinute,
                 Action::FeedPerRevolution => FeedMode::PerRevolution,
                 Action::FeedInverseTime => FeedMode::InverseTime,
@@ -128,7 +129,7 @@ impl Iso<'_> {
     /// Reports F without a decimal point, which a setting of the control reads as written or as least increments.
     pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
         let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
-        let Some(feed) = feed.filter(|_| self.core.state.feed_mode != FeedMode::InverseTime) else {
+        let Some(feed) = feed.filter(|_| self.core.state.feed.mode() != FeedMode::InverseTime) else {
             return;
         };
         if !dwell_reads(codes, "F") {

@@ -32,7 +32,7 @@ fn shape(numbers: &[f64], diameter: f64, unit: f64) -> Option<ToolShape> {
 impl Apt<'_> {
     /// CUTTER: the shape of the tool in use, or of the one that is loaded next.
     pub(crate) fn cutter(&mut self, args: &Args, report: &mut Report<'_>) {
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let numbers = args.numbers();
         let cutter = match numbers.first() {
             Some(&diameter) if !args.odd && args.words().is_empty() && diameter > 0.0 => {
@@ -64,24 +64,20 @@ impl Apt<'_> {
         self.core.tools.end_cutter();
         self.core.forget_linear();
         self.core.tools.load(number.map_or(Chosen::Unread, Chosen::Number));
-        self.core.state.tool = number;
-        self.core.state.length_of = LengthOf::Tool(number);
+        self.core.state.tool.load(number);
+        let of = LengthOf::Tool(number);
         self.core.merge_tool();
         if let Some(length) = args.after(report.program, "LENGTH") {
-            let length = length * self.core.state.length_unit_mm;
-            if let Some(tool) = &mut self.core.state.tool_data {
-                tool.length_mm = Some(length);
-            }
-            self.core.state.tool_length_mm = Some(length);
-            self.core.state.undeclared.length = false;
+            let length = length * self.core.state.coordinates.unit_mm();
+            self.core.state.tool.declare_length(length);
+            self.core.state.length.set(Some(length), of);
             return;
         }
-        let length = self.core.state.tool_data.and_then(|tool| tool.length_mm);
+        let length = self.core.state.tool.own_length_mm();
         let name = self.core.tools.name();
         if length.is_none() && self.core.tools.first_report_of_length(&name) {
             report.fault(args.range, FaultKind::ToolLengthUnset { tool: name });
         }
-        self.core.state.tool_length_mm = Some(length.unwrap_or(0.0));
-        self.core.state.undeclared.length = length.is_none();
+        self.core.state.length.set_declared(length, of);
     }
 }

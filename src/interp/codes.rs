@@ -6,7 +6,7 @@ use crate::iso::Iso;
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{Said, Words};
-use crate::{FaultKind, FeedMode, LengthOf};
+use crate::{FaultKind, FeedMode, LengthOf, TcpMistake};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
 
@@ -19,7 +19,7 @@ pub(crate) struct Found<'d> {
     pub(crate) with_arguments: bool,
 }
 
-/// What the codes of a block say about this block alone.
+/// What the codes of a block mean for this block alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BlockCodes {
     /// Number of codes.
@@ -73,7 +73,7 @@ fn rank(action: Action) -> u8 {
 const FIRST_AFTER_WORDS: u8 = 4;
 
 impl<'d> Iso<'d> {
-    /// Applies all codes and the words F S T D; what concerns the block's motion comes back.
+    /// Applies all codes and the words F S T D; returns what concerns the block's motion.
     pub(crate) fn apply(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> BlockCodes {
         if codes.len() > 1 {
             conflicts(codes, report);
@@ -110,7 +110,7 @@ impl<'d> Iso<'d> {
         if self.core.dialect.quirks.offset_compensation && self.core.state.compensation == 0 {
             self.cutter_number_ahead(words);
         }
-        self.core.state.frame_unknown = self.core.unknown.any();
+        self.core.state.zero.lose(self.core.unknown.any());
         block
     }
 
@@ -131,13 +131,13 @@ impl<'d> Iso<'d> {
                 }
             }
             Action::Dwell => block.dwell = true,
-            Action::PlaneXy => state.plane = Plane::Xy,
-            Action::PlaneZx => state.plane = Plane::Zx,
-            Action::PlaneYz => state.plane = Plane::Yz,
-            Action::Absolute => state.incremental = false,
-            Action::Incremental => state.incremental = true,
-            Action::ArcCentreAbsolute => state.arc_centre_absolute = true,
-            Action::ArcCentreIncremental => state.arc_centre_absolute = false,
+            Action::PlaneXy => state.coordinates.set_plane(Plane::Xy),
+            Action::PlaneZx => state.coordinates.set_plane(Plane::Zx),
+            Action::PlaneYz => state.coordinates.set_plane(Plane::Yz),
+            Action::Absolute => state.coordinates.set_incremental(false),
+            Action::Incremental => state.coordinates.set_incremental(true),
+            Action::ArcCentreAbsolute => state.coordinates.set_arc_centre_absolute(true),
+            Action::ArcCentreIncremental => state.coordinates.set_arc_centre_absolute(false),
             Action::Inch => state.units(25.4, 25.4),
             Action::InchLengthsOnly => state.units(25.4, 1.0),
             Action::Metric => state.units(1.0, 1.0),
@@ -145,23 +145,19 @@ impl<'d> Iso<'d> {
             Action::FeedPerMinute => self.feed_mode(FeedMode::PerMinute),
             Action::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution),
             Action::ConstantSurfaceSpeed => {
-                self.memory.surface_speed = true;
-                state.surface_speed = true;
-                state.spindle_rpm = None;
+                state.spindle.set_surface_speed(true);
             }
-            Action::ConstantSpindleSpeed => {
-                state.surface_speed = false;
-                if std::mem::replace(&mut self.memory.surface_speed, false) {
-                    state.spindle_rpm = None;
-                }
-            }
-            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.switch_spindle(true),
-            Action::SpindleStop => state.switch_spindle(false),
+            Action::ConstantSpindleSpeed => state.spindle.set_surface_speed(false),
+            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.switch(true),
+            Action::SpindleStop => state.spindle.switch(false),
             Action::ToolChange => self.change_tool(report),
             Action::MachineCoordinates => block.machine_coordinates = true,
-            Action::OrientationAxes => state.great_circle = Some(false),
-            Action::OrientationVector => state.great_circle = Some(true),
+            Action::OrientationAxes => state.tool_axis.set_great_circle(false),
+            Action::OrientationVector => state.tool_axis.set_great_circle(true),
             Action::ProgramEnd => block.end = true,
+            Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
+                self.memory.thread_chamfer_off = found.code.id == "M24";
+            }
             Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
@@ -180,16 +176,7 @@ impl<'d> Iso<'d> {
                 self.end_tcp_of_group(found.code);
                 self.set_length(None, LengthOf::Nothing);
             }
-            Action::TcpOn | Action::TcpVectorOn => {
-                let unread = tcp_variant(found, words, report);
-                self.tcp_length(found, words, report);
-                self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
-                if let Some(what) = unread {
-                    report.fault(found.range, FaultKind::NotModelled { what });
-                    self.core.unknown.begin(found.code, true);
-                    self.core.forget_position();
-                }
-            }
+            Action::TcpOn | Action::TcpVectorOn => self.tcp_code(found, words, report),
             Action::TcpOff => {
                 self.core.unknown.end(found.code);
                 self.tcp_off();
@@ -251,29 +238,49 @@ impl<'d> Iso<'d> {
         }
     }
 
+    /// G43.4, G43.5 and their kind.
+    fn tcp_code(&mut self, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
+        let unread = tcp_variant(found, words, report);
+        let wants_number = found.code.words.iter().any(|word| word == "H");
+        if wants_number && !words.length_offset.is_said() && self.lacks_length_number() {
+            report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
+        }
+        if words.length_offset.is_said() || wants_number {
+            self.length_on(words.length_offset, found.range, report);
+        }
+        self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
+        if let Some(what) = unread {
+            report.fault(found.range, FaultKind::NotModelled { what });
+            self.core.unknown.begin(found.code, true);
+            self.core.forget_position();
+        }
+    }
+
     fn feed_mode(&mut self, mode: FeedMode) {
-        if self.core.state.feed_mode != mode {
-            self.core.state.feed_mode = mode;
-            self.core.state.feed = None;
+        if self.core.state.feed.mode() != mode {
+            self.core.state.feed.switch_mode(mode);
             self.core.feed_unread = false;
         }
     }
 
     fn feed_word(&mut self, codes: &[Found<'_>], words: &Words) {
-        if self.core.state.feed_mode == FeedMode::InverseTime {
-            self.core.state.feed = None;
+        if self.core.state.feed.mode() == FeedMode::InverseTime {
+            self.core.state.feed.set(None);
             self.core.feed_unread = false;
         }
         if !words.feed.is_said() || dwell_reads(codes, "F") {
             return;
         }
-        let unit = if self.core.state.feed_mode == FeedMode::InverseTime {
+        let unit = if self.core.state.feed.mode() == FeedMode::InverseTime {
             1.0
         } else {
-            self.core.state.feed_unit_mm
+            self.core.state.feed.unit_mm()
         };
-        self.core.state.feed = words.feed.number().map(|number| number.value * unit);
-        self.core.feed_unread = self.core.state.feed.is_none();
+        self.core
+            .state
+            .feed
+            .set(words.feed.number().map(|number| number.value * unit));
+        self.core.feed_unread = self.core.state.feed.value().is_none();
     }
 
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
@@ -285,12 +292,19 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.core.state.speed_said = true;
-            self.core.state.spindle_rpm = words
-                .speed
-                .number()
-                .map(|number| number.value)
-                .filter(|_| !self.memory.surface_speed);
+            let value = words.speed.number().map(|number| number.value);
+            let state = &mut self.core.state;
+            if state.spindle.surface_speed() {
+                // S is in feet per minute where lengths are in inches
+                let unit = if state.coordinates.unit_mm() == 1.0 {
+                    1.0
+                } else {
+                    0.3048
+                };
+                state.spindle.set_cutting_speed(value.map(|value| value * unit));
+            } else {
+                state.spindle.set_rpm(value);
+            }
         }
     }
 }

@@ -16,7 +16,7 @@ impl Iso<'_> {
             .motion_in_frame(kind, [position, position], self.core.held_orientation(), feed, report)
     }
 
-    /// Axes that are named in a dwell's block and are not its time.
+    /// Axes in the block of a dwell that are not its time.
     pub(crate) fn axes_beside_dwell(codes: &[Found<'_>], words: &Words) -> u16 {
         let named = words.axes.given | words.axes.unread;
         if named == 0 {
@@ -67,7 +67,7 @@ impl Iso<'_> {
             return Some(f.value);
         }
         if let Some(turns) = words.speed.number().filter(|_| reads("S")) {
-            let rpm = self.core.state.spindle_rpm.filter(|&rpm| rpm > 0.0)?;
+            let rpm = self.core.state.spindle.rpm().filter(|&rpm| rpm > 0.0)?;
             return Some(turns.value / rpm * 60.0);
         }
         let axis = [(0, "X"), (6, "U")]

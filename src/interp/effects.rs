@@ -1,4 +1,4 @@
-//! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
+//! The effects of an ISO block: those of its codes and words that are neither in its motions nor in the modal state.
 mod assignments;
 mod collected;
 mod lengths;
@@ -26,7 +26,7 @@ use sort::{
 use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
 
-/// Whether a fault means that its block does more than its motions and the modal state hold.
+/// Whether a fault means that its block does more than its motions and the modal state contain.
 pub(crate) fn does_more(kind: &FaultKind) -> bool {
     !matches!(
         kind,
@@ -129,7 +129,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
+    /// Several codes that are compared by their words, or one that happens once: the codes in a fixed order, with all words that
     /// nothing else reads.
     fn several(&mut self, opaque: &[&Found<'_>], rest: Vec<Argument>, words: &Words, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
@@ -162,12 +162,12 @@ impl Iso<'_> {
             event.extend(all_arguments(words));
             if in_lengths(&alone, words) {
                 for argument in &mut event {
-                    to_mm(argument, self.core.state.length_unit_mm);
+                    to_mm(argument, self.core.state.coordinates.unit_mm());
                 }
-            } else if self.core.state.length_unit_mm != 1.0 {
-                event.push(Argument::number("mm per unit", self.core.state.length_unit_mm));
+            } else if self.core.state.coordinates.unit_mm() != 1.0 {
+                event.push(Argument::number("mm per unit", self.core.state.coordinates.unit_mm()));
             }
-            if self.core.state.incremental {
+            if self.core.state.coordinates.incremental() {
                 event.push(Argument::code("incremental"));
             }
         }
@@ -232,7 +232,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Letters of parameters in the block that no cycle in force reads.
+    /// Letters of parameters in the block that no active cycle reads.
     fn free_letters(&self, words: &Words) -> u32 {
         let parameters = (b'A'..=b'Z')
             .filter(|letter| self.core.dialect.role(*letter) == Some(Role::Parameter))
@@ -268,7 +268,7 @@ impl Iso<'_> {
         let unknown_end = motions.iter().any(|motion| ends_unknown(motion, named));
         let frame = codes.iter().any(|found| is_frame(found.code.action));
         let offset = codes.iter().any(|found| found.code.action == Action::WorkOffset);
-        let lost = self.core.state.zero.iter().any(|value| value.is_nan()) || self.core.state.frame_unknown;
+        let lost = self.core.state.zero.values().iter().any(|value| value.is_nan()) || self.core.state.zero.is_lost();
         let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
         let unread = has_unread(words);
         if frame && !unknown_frame {
@@ -348,7 +348,7 @@ impl Iso<'_> {
                     if READ_COMMENTS.contains(&found.code.id.as_str()) {
                         event.extend(comments(view));
                     }
-                    // the operator may do anything at a stop; the control goes on from where it was
+                    // the operator may do anything at a stop; the control continues from where it was
                     self.core.effects.add_with(block, Effect::Event(event), Reach::Itself);
                 }
                 Sort::Group => {
@@ -366,7 +366,7 @@ impl Iso<'_> {
     }
 }
 
-/// Whether a word of the block has a value that is not known.
+/// Whether a word of the block has a value that is unknown.
 fn has_unread(words: &Words) -> bool {
     let values = [
         words.feed,

@@ -1,4 +1,4 @@
-//! The motion of an ISO block, from its words and what is in force.
+//! The motion of an ISO block, from its words and the modal state.
 use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
 use crate::core::Report;
@@ -12,12 +12,12 @@ use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::Turning;
 
-/// A coordinate that differs by no more than this has not moved, mm: sums of offsets round.
+/// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
 const STANDS_MM: f64 = 1e-9;
 
 impl Iso<'_> {
     pub(crate) fn modelled_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Motion {
-        let frame_hides = self.core.state.frame_unknown && !block.machine_coordinates;
+        let frame_hides = self.core.state.zero.is_lost() && !block.machine_coordinates;
         let mut start = self.core.state.position;
         if block.machine_coordinates {
             self.to_machine(&mut start, 1.0);
@@ -92,16 +92,16 @@ impl Iso<'_> {
     }
 
     /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along the tool at home, its length. Under tool
-    /// centre point control the linear axes of one are not known from the other.
+    /// centre point control the linear axes of one do not give those of the other.
     pub(crate) fn to_machine(&self, position: &mut Position, sign: f64) {
-        for (value, zero) in position.values.iter_mut().zip(self.core.state.zero) {
+        for (value, zero) in position.values.iter_mut().zip(self.core.state.zero.values()) {
             *value += sign * zero;
         }
-        let length = sign * self.core.state.tool_length_mm.unwrap_or(0.0);
+        let length = sign * self.core.state.length.mm().unwrap_or(0.0);
         for (value, along) in position.values.iter_mut().zip(self.core.setup.length_along()) {
             *value += length * along;
         }
-        if self.core.state.tcp || self.core.state.frame_unknown || self.memory.frames.tilt.is_some() {
+        if self.core.state.tool_axis.tcp() || self.core.state.zero.is_lost() || self.memory.frames.tilt.is_some() {
             position.known &= !LINEAR;
         }
         if self.core.unknown.hides_rotary() {
@@ -113,7 +113,7 @@ impl Iso<'_> {
     /// With D0 there is none.
     fn suppressed_length(&self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
         let linear = (words.axes.given | words.axes.unread) & LINEAR;
-        let length = self.core.state.tool_length_mm;
+        let length = self.core.state.length.mm();
         let active = length.is_some_and(|length| length != 0.0 || self.memory.tool_data_written);
         if self.core.dialect.quirks.machine_data_suppress_length && active && linear != 0 {
             let what = "SUPA with tool length (MN_G53_TOOLCORR)";
@@ -123,7 +123,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Where the coordinates of the block lead: what is not given stays, what cannot be computed is forgotten.
+    /// The end of the block: coordinates that are not given stay, those that cannot be computed become unknown.
     pub(crate) fn targets(&self, axes: &Places<9>, machine: bool, end: &mut Position) {
         let mut rest = axes.given;
         while rest != 0 {
@@ -131,15 +131,15 @@ impl Iso<'_> {
             let bit = 1 << axis;
             rest &= rest - 1;
             let scale = if LINEAR & bit != 0 {
-                self.core.state.length_unit_mm
+                self.core.state.coordinates.unit_mm()
             } else {
                 1.0
             };
             let value = axes.values[axis] * scale;
             let directed = axes.shortest | axes.positive | axes.negative;
             let absolute = axes.absolute | directed;
-            let incremental =
-                axes.incremental & bit != 0 || (self.core.state.incremental && !machine && absolute & bit == 0);
+            let incremental = axes.incremental & bit != 0
+                || (self.core.state.coordinates.incremental() && !machine && absolute & bit == 0);
             let before = end.get(axis);
             let target = match (incremental, before) {
                 (true, before) => before.map(|before| before + value),
@@ -158,11 +158,11 @@ impl Iso<'_> {
         end.known &= !axes.unread;
     }
 
-    /// In a tilted plane, without the tip being led, rotary words alone turn the tool away from where it was in the plane.
+    /// In a tilted plane, without the tip being guided, rotary words alone turn the tool away from where it was in the plane.
     fn turned_by_hand(&self, words: &Words, end: &mut Position, machine: bool) {
         let named = words.axes.given | words.axes.unread;
         if self.memory.frames.tilt.is_some()
-            && !self.core.state.tcp
+            && !self.core.state.tool_axis.tcp()
             && !machine
             && named & ROTARY != 0
             && named & XYZ == 0
@@ -171,10 +171,10 @@ impl Iso<'_> {
         }
     }
 
-    /// Letters whose words are no plain places: [`Motion::says_way`].
+    /// Letters whose words are not plain positions: [`Motion::says_way`].
     fn says_way(&self, axes: &Places<9>, machine: bool) -> u16 {
         let directed = axes.shortest | axes.positive | axes.negative;
-        let modal = if self.core.state.incremental && !machine {
+        let modal = if self.core.state.coordinates.incremental() && !machine {
             axes.given & !axes.absolute
         } else {
             0
@@ -192,10 +192,10 @@ impl Iso<'_> {
     ) -> MotionKind {
         let setting = ArcSetting {
             dialect: self.core.dialect,
-            plane: self.core.state.plane,
+            plane: self.core.state.coordinates.plane(),
             turning,
-            centre_absolute: self.core.state.arc_centre_absolute,
-            length_unit_mm: self.core.state.length_unit_mm,
+            centre_absolute: self.core.state.coordinates.arc_centre_absolute(),
+            length_unit_mm: self.core.state.coordinates.unit_mm(),
             start,
             end,
             turns: self.turns(words),
@@ -240,16 +240,16 @@ impl Iso<'_> {
         self.core.feed(kind, range, report)
     }
 
-    /// F counts degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
-    /// not move. A full circle names none of them and runs all the same.
+    /// F is in degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
+    /// not move. A full circle names none of them and still moves.
     fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
         let named = words.axes.given | words.axes.unread;
-        let inch = self.core.state.feed_unit_mm;
+        let inch = self.core.state.feed.unit_mm();
         let stands = |axis: usize| matches!((start.get(axis), end.get(axis)), (Some(from), Some(to)) if (from - to).abs() < STANDS_MM);
         let moves = |axis: &usize| named & LINEAR & (1 << axis) != 0 && !stands(*axis);
         if inch == 1.0
             || matches!(kind, MotionKind::Arc(_))
-            || self.core.state.tcp
+            || self.core.state.tool_axis.tcp()
             || words.vector.any()
             || (0..start.values.len()).any(|axis| moves(&axis))
             || named & ROTARY == 0
@@ -270,7 +270,7 @@ impl Iso<'_> {
         if words.centre.any() || words.vector.any() || self.core.state.motion == Some(Action::CannedCycle) {
             forgotten |= LINEAR;
         }
-        if words.vector.any() || self.core.state.vector_mode {
+        if words.vector.any() || self.core.state.tool_axis.vectors() {
             forgotten |= ROTARY;
             self.core.state.orientation = Orientation::Words;
         }

@@ -68,7 +68,7 @@ impl<'d> Iso<'d> {
         self.codes = codes;
     }
 
-    /// Hands the effects of a block on.
+    /// Emits the effects of a block.
     #[cold]
     fn collect(
         &mut self,
@@ -97,7 +97,7 @@ impl<'d> Iso<'d> {
         over
     }
 
-    /// Hands the motions of a block on.
+    /// Emits the motions of a block.
     #[inline]
     fn put_out(&mut self, motion: Option<&Motion>, block: &Block<'_>, sink: &mut impl Sink) {
         let memory = &self.memory;
@@ -148,7 +148,7 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// What waits at the end of a program without an end.
+    /// What is pending at the end of a program without an end code.
     pub(crate) fn put_out_rest(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
             self.core.state.ended = true;
@@ -202,15 +202,15 @@ impl<'d> Iso<'d> {
             .corner
             .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
             .filter(|_| !block.takes_coordinates)
-            .map(|(letter, number)| (letter, number.value * self.core.state.length_unit_mm));
+            .map(|(letter, number)| (letter, number.value * self.core.state.coordinates.unit_mm()));
         if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }
         if words.other_spindle {
-            self.core.state.lose_spindle();
+            self.core.state.spindle.lose();
         }
         if words.builder_code {
-            self.core.state.may_start_spindle();
+            self.core.state.spindle.may_start();
         }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
@@ -273,7 +273,7 @@ impl<'d> Iso<'d> {
         {
             return self.cycle_motion(words, report);
         }
-        let by_vector = words.vector.any() || (self.core.state.vector_mode && !is_arc && words.centre.any());
+        let by_vector = words.vector.any() || (self.core.state.tool_axis.vectors() && !is_arc && words.centre.any());
         if block.takes_coordinates || !(words.axes.any() || by_vector || circle) {
             return None;
         }
@@ -317,7 +317,7 @@ impl<'d> Iso<'d> {
         None
     }
 
-    /// Motions of codes that hold for one block.
+    /// Motions of codes that apply to one block.
     fn special_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Option<Motion> {
         if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_numbers(words, report);
@@ -334,7 +334,7 @@ impl<'d> Iso<'d> {
         None
     }
 
-    /// Tells the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
+    /// Reports the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
     fn whole_numbers(&mut self, words: &Words, report: &mut Report<'_>) {
         if self.core.setup.control.implicit_decimals.is_some() {
             return;
@@ -355,7 +355,7 @@ impl<'d> Iso<'d> {
             let sized = match role {
                 Some(Role::Axis | Role::Increment | Role::ArcRadius) => true,
                 // under G43.5 I J K are a direction; K of a cycle counts
-                Some(Role::ArcCentre) => !self.core.state.vector_mode && (!cycle || letter != b'K'),
+                Some(Role::ArcCentre) => !self.core.state.tool_axis.vectors() && (!cycle || letter != b'K'),
                 Some(Role::Parameter) => cycle && letter == b'Q',
                 _ => false,
             };

@@ -1,4 +1,4 @@
-//! Work offsets, tool lengths and cutting edges, and what they do to the programmed position.
+//! Work offsets, tool lengths and cutting edges, and their effect on the programmed position.
 use crate::codes::Found;
 use crate::core::Report;
 use crate::frames::OffsetValues;
@@ -33,13 +33,12 @@ impl Iso<'_> {
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: OffsetValues) {
-        self.core.state.work_offset = name;
-        self.core.state.undeclared.zero = Undeclared::ALL_ZEROS & !zero.known;
+        self.core.state.zero.choose(name, Undeclared::ALL_ZEROS & !zero.known);
         self.memory.frames.selected = zero.values;
         self.refresh_zero();
     }
 
-    /// Selects no work offset (G500): what is left of the zero point is its base, which may be declared under that name.
+    /// Selects no work offset (G500): the rest of the zero point is its base, which may be declared under that name.
     pub(crate) fn no_work_offset(&mut self, name: &str) {
         let base = self.offset_values(name).unwrap_or_default();
         self.set_zero(None, base);
@@ -53,15 +52,15 @@ impl Iso<'_> {
             .position
             .values
             .iter_mut()
-            .zip(self.core.state.zero)
+            .zip(self.core.state.zero.values())
             .zip(zero)
         {
             *value += old - new;
         }
-        if self.memory.frames.tilt.is_some() && zero != self.core.state.zero {
+        if self.memory.frames.tilt.is_some() && zero != self.core.state.zero.values() {
             self.core.forget_linear();
         }
-        self.core.state.zero = zero;
+        self.core.state.zero.set(zero);
     }
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
@@ -71,9 +70,9 @@ impl Iso<'_> {
         }
         let (tool, key, of) = match (offset, self.memory.length_offset) {
             (Said::Nothing, None) => (
-                self.core.state.tool_data,
+                self.core.state.tool.data(),
                 self.core.tools.name(),
-                LengthOf::Tool(self.core.state.tool),
+                LengthOf::Tool(self.core.state.tool.number()),
             ),
             (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0), LengthOf::Nothing),
             (Said::Nothing | Said::Number(_), Some(number)) => {
@@ -103,7 +102,7 @@ impl Iso<'_> {
             .length_offset
             .number()
             .map_or(TextRange::default(), |number| number.range);
-        if self.core.state.tool_length_mm.is_some() {
+        if self.core.state.length.mm().is_some() {
             self.length_on(words.length_offset, range, report);
         } else if let Some(number) = words.length_offset.index() {
             self.memory.length_offset = Some(number);
@@ -122,7 +121,7 @@ impl Iso<'_> {
         Some(offset.length.or_else(declared)? + offset.length_wear)
     }
 
-    /// D: the cutting edge in force. Edge 1 has the tool's declared length, 0 none.
+    /// D: the active cutting edge. Edge 1 has the tool's declared length, 0 none.
     pub(crate) fn edge_word(&mut self, edge: Said, report: &mut Report<'_>) {
         let range = edge.number().map_or(TextRange::default(), |number| number.range);
         self.memory.edge = edge.index();
@@ -134,14 +133,14 @@ impl Iso<'_> {
         }
     }
 
-    /// A feed motion while T has chosen the first tool and nothing has brought it: where T alone changes tools the length of the tool is in
-    /// force, elsewhere it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
+    /// A feed motion while T has selected the first tool and no code has loaded it: if T alone changes tools the length of the tool is active,
+    /// otherwise it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
     pub(crate) fn tool_never_changed(&mut self, words: &Words, report: &mut Report<'_>) {
         let waits = *self.core.tools.in_spindle() == Chosen::Nothing
             && self.core.dialect.quirks.edge_at_tool_change
             && self.core.tools.waits_for_change()
             && self.memory.edge != Some(0)
-            && self.core.state.tool_length_mm.is_none();
+            && self.core.state.length.mm().is_none();
         if waits && !self.memory.tool_never_changed {
             self.memory.tool_never_changed = true;
             let what = "the length of a tool that T selects and no M6 loads (machine data 22550 decides whether T alone changes tools)";
@@ -158,15 +157,15 @@ impl Iso<'_> {
         match edge {
             Some(0) => self.set_length(None, LengthOf::Nothing),
             Some(1) => {
-                let of = LengthOf::Tool(self.core.state.tool);
-                self.take_length(self.core.state.tool_data, (&name, of), range, report);
+                let of = LengthOf::Tool(self.core.state.tool.number());
+                self.take_length(self.core.state.tool.data(), (&name, of), range, report);
             }
             Some(edge) => self.take_length(None, (&format!("{name} D{edge}"), LengthOf::Other), range, report),
             None => self.take_length(None, (&format!("{name} D"), LengthOf::Other), range, report),
         }
     }
 
-    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, reported once.
+    /// Makes a tool's length active, with its name and its tool; if it is not declared it is zero, reported once.
     fn take_length(
         &mut self,
         tool: Option<Tool>,
@@ -179,18 +178,16 @@ impl Iso<'_> {
             report.fault(range, FaultKind::ToolLengthUnset { tool: key.to_owned() });
         }
         self.set_length(Some(length.unwrap_or(0.0)), of);
-        self.core.state.undeclared.length = length.is_none();
+        self.core.state.length.set_declared(length, of);
     }
 
     /// The machine stays where it is, so the programmed position moves: along the tool at home while the axes are joints; anywhere
     /// under tool centre point control.
     pub(crate) fn set_length(&mut self, length: Option<f64>, of: LengthOf) {
-        self.core.state.length_of = of;
-        self.core.state.undeclared.length = false;
-        let change = length.unwrap_or(0.0) - self.core.state.tool_length_mm.unwrap_or(0.0);
-        self.core.state.tool_length_mm = length;
+        let change = length.unwrap_or(0.0) - self.core.state.length.mm().unwrap_or(0.0);
+        self.core.state.length.set(length, of);
         if change != 0.0 {
-            if self.core.state.tcp {
+            if self.core.state.tool_axis.tcp() {
                 self.core.forget_linear();
             } else {
                 let along = self.core.setup.length_along();

@@ -15,14 +15,14 @@ impl Iso<'_> {
             Some(Action::ArcClockwise | Action::ArcCounterClockwise)
         );
         let orientation = if words.vector.any() {
-            if self.core.state.tcp {
+            if self.core.state.tool_axis.tcp() {
                 self.vector(&words.vector, false, report, words)
             } else {
                 let what = "tool vector without tool centre point control".to_owned();
                 report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
                 self.core.unknown_orientation()
             }
-        } else if self.core.state.vector_mode && !is_arc && words.centre.any() {
+        } else if self.core.state.tool_axis.vectors() && !is_arc && words.centre.any() {
             self.vector(&words.centre, self.core.dialect.quirks.unit_vectors, report, words)
         } else if (words.axes.given | words.axes.unread) & ROTARY != 0 {
             Orientation::Words

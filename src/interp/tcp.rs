@@ -10,35 +10,35 @@ use trunnion_dialect::{Code, CodeKind};
 impl<'d> Iso<'d> {
     /// Begins tool centre point control.
     pub(crate) fn tcp_on(&mut self, code: &'d Code, vectors: bool) {
-        if !self.core.state.tcp {
+        if !self.core.state.tool_axis.tcp() {
             self.core.forget_linear();
         }
-        self.core.state.tcp = true;
+        self.core.state.tool_axis.set_tcp(true);
         self.memory.tcp_used = true;
-        self.core.state.vector_mode = vectors;
+        self.core.state.tool_axis.set_vectors(vectors);
         self.memory.tcp_group = code.group.as_deref();
     }
 
     /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.
     pub(crate) fn tcp_off(&mut self) {
-        if self.core.state.tcp {
+        if self.core.state.tool_axis.tcp() {
             self.core.forget_linear();
         }
-        self.core.state.tcp = false;
-        self.core.state.vector_mode = false;
+        self.core.state.tool_axis.set_tcp(false);
+        self.core.state.tool_axis.set_vectors(false);
         self.core.state.orientation = Orientation::Words;
     }
 
     /// G43 and G49 end a tool centre point control that is a code of their own group (G43.4).
     pub(crate) fn end_tcp_of_group(&mut self, code: &Code) {
-        if self.core.state.tcp && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
+        if self.core.state.tool_axis.tcp() && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
             self.tcp_off();
         }
     }
 }
 
 impl Iso<'_> {
-    /// What is wrong with tool centre point control in a motion by words of a block.
+    /// Mistakes of tool centre point control in a motion with words of a block.
     pub(crate) fn tcp_mistakes(&mut self, motion: &Motion, words: &Words, report: &mut Report<'_>) {
         let range = words.first.unwrap_or_default();
         if let Some(mistake) = self.tcp_mistake(motion) {
@@ -46,31 +46,24 @@ impl Iso<'_> {
         }
     }
 
-    /// The tool length with which a code switches tool centre point control on; reports a number that it wants and does not have.
-    pub(crate) fn tcp_length(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
-        let is_said = words.length_offset.is_said();
-        let wants_number = found.code.words.iter().any(|word| word == "H");
+    /// Whether the program has given no number of a tool length, or only that of another tool than the one in use.
+    pub(crate) fn lacks_length_number(&self) -> bool {
         let given = self.memory.length_offset;
-        let lacks = given.is_none() || self.core.state.tool.is_some_and(|tool| given != Some(tool));
-        if wants_number && !is_said && lacks {
-            report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
-        }
-        if is_said || wants_number {
-            self.length_on(words.length_offset, found.range, report);
-        }
+        given.is_none() || self.core.state.tool.number().is_some_and(|tool| given != Some(tool))
     }
 
     /// The mistake of a motion that is about to be emitted.
     pub(crate) fn tcp_mistake(&mut self, motion: &Motion) -> Option<TcpMistake> {
         let state = &self.core.state;
-        if state.tcp {
+        if state.tool_axis.tcp() {
             if motion.machine_coordinates {
                 return Some(TcpMistake::MachineCoordinates);
             }
-            let without = motion.is_feed() && state.tool_length_mm.is_none() && state.tool.is_some_and(|tool| tool > 0);
-            let news = without && self.memory.tcp_length_said != state.tool;
+            let without =
+                motion.is_feed() && state.length.mm().is_none() && state.tool.number().is_some_and(|tool| tool > 0);
+            let news = without && self.memory.tcp_length_said != state.tool.number();
             if news {
-                self.memory.tcp_length_said = state.tool;
+                self.memory.tcp_length_said = state.tool.number();
             }
             return news.then_some(TcpMistake::NoLength);
         }
@@ -80,10 +73,10 @@ impl Iso<'_> {
 
     /// The tool in the spindle changes.
     pub(crate) fn tcp_at_tool_change(&mut self, report: &mut Report<'_>) {
-        if self.core.state.tcp {
+        if self.core.state.tool_axis.tcp() {
             report.fault(report.whole(), FaultKind::TcpState(TcpMistake::ToolChange));
         }
-        self.memory.tcp_used = self.core.state.tcp;
+        self.memory.tcp_used = self.core.state.tool_axis.tcp();
     }
 }
 
@@ -95,7 +88,7 @@ fn turned(start: &Position, end: &Position) -> bool {
         .any(|(axis, value)| start.get(axis) != Some(value))
 }
 
-/// What of a code for tool centre point control is not modelled: TRAORI of another transformation than the first, or with further
+/// Forms of a code for tool centre point control that are not modelled: TRAORI of another transformation than the first, or with further
 /// arguments; G43.4 with P, Q or L, which choose modes.
 pub(crate) fn tcp_variant(found: &Found<'_>, words: &Words, report: &Report<'_>) -> Option<String> {
     let code = &found.code.id;

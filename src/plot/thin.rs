@@ -1,25 +1,47 @@
-//! Fewer points for the same line: what no eye sees is left out, so that a picture of a million blocks stays small.
+//! Fewer points for the same line: invisible points are left out, so that a picture of a million blocks stays small.
 
-/// How far a point that is left out may lie from the line, in tenths of a pixel.
+/// How far a point that is left out may be from the line, in tenths of a pixel.
 const UNSEEN: f64 = 2.5;
+
+/// How often a point is looked at, on average, before the line is cut into [`PIECE`]s. A line that is halved each time needs no more than
+/// this up to a million points; one that zigzags loses one point a time, and would need half its length.
+const LOOKS: usize = 40;
+
+/// A piece of such a line, points.
+const PIECE: usize = 64;
 
 /// The points of a polyline (in tenths of a pixel) that are needed to draw it (Douglas and Peucker, 1973). Ends stay; points that are not
 /// numbers are dropped.
 pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    counted(points).0
+}
+
+/// [`thin`], and how many distances it computed.
+fn counted(points: &[(f64, f64)]) -> (Vec<(f64, f64)>, usize) {
     let points: Vec<(f64, f64)> = points
         .iter()
         .copied()
         .filter(|(x, y)| x.is_finite() && y.is_finite())
         .collect();
     if points.len() < 3 {
-        return points;
+        return (points, 0);
     }
     let mut keep = vec![false; points.len()];
     let last = points.len() - 1;
     (keep[0], keep[last]) = (true, true);
+    let (mut looks, most) = (0, points.len() * LOOKS);
     let mut open = vec![(0, last)];
     while let Some((from, to)) = open.pop() {
+        if looks > most && to - from > PIECE {
+            // the cuts stay as points: the line is as true as before, and perhaps longer than it need be
+            for start in (from..to).step_by(PIECE) {
+                keep[start] = true;
+                open.push((start, to.min(start + PIECE)));
+            }
+            continue;
+        }
         let (mut worst, mut at) = (UNSEEN, None);
+        looks += to - from;
         for i in from + 1..to {
             let off = distance(points[i], points[from], points[to]);
             if off > worst {
@@ -31,12 +53,8 @@ pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
             open.extend([(from, at), (at, to)]);
         }
     }
-    points
-        .iter()
-        .zip(keep)
-        .filter(|(_, keep)| *keep)
-        .map(|(point, _)| *point)
-        .collect()
+    let kept = points.iter().zip(keep).filter(|(_, keep)| *keep);
+    (kept.map(|(point, _)| *point).collect(), looks)
 }
 
 /// Distance of a point from a segment.
@@ -64,5 +82,21 @@ mod tests {
         points[700].1 = f64::NAN;
         let thinned = thin(&points);
         assert!(thinned.contains(&(500.0, 300.0)) && thinned.len() < 8, "{thinned:?}");
+    }
+
+    #[test]
+    fn a_zigzag_costs_no_more_than_its_length() {
+        let count = 100_000;
+        let zigzag: Vec<(f64, f64)> = (0..count)
+            .map(|i| {
+                (
+                    f64::from(i),
+                    if i % 2 == 0 { 0.0 } else { 5000.0 - 1e-3 * f64::from(i) },
+                )
+            })
+            .collect();
+        let (thinned, looks) = counted(&zigzag);
+        assert!(thinned.len() > zigzag.len() / 4, "{} points", thinned.len());
+        assert!(looks < 100 * zigzag.len(), "{looks} distances of {count} points");
     }
 }

@@ -78,9 +78,9 @@ impl Sink for Collector<'_> {
             feed: motion.is_feed(),
             tcp: motion.tcp || vector,
             vector,
-            incremental: state.incremental,
-            unit_mm: state.length_unit_mm,
-            tip: match state.tool_shape() {
+            incremental: state.coordinates.incremental(),
+            unit_mm: state.coordinates.unit_mm(),
+            tip: match state.tool.shape() {
                 None => Tip::Undeclared,
                 Some((ToolShape::Ball, diameter)) => Tip::Ball(0.5 * diameter),
                 Some(_) => Tip::Other,
@@ -134,7 +134,7 @@ impl Sink for Programmed {
         self.motions.push(ProgrammedMotion {
             block: motion.block,
             rotary,
-            incremental: state.incremental,
+            incremental: state.coordinates.incremental(),
             vector: matches!(motion.orientation, Orientation::Vector(..)),
         });
     }
@@ -148,7 +148,7 @@ pub(crate) fn programmed(program: &Program, dialect: &trunnion_dialect::Dialect,
     programmed
 }
 
-/// Notes whether motions come from inside a call.
+/// Records whether motions come from inside a call.
 #[derive(Default)]
 struct Calls(bool);
 
@@ -159,7 +159,7 @@ impl Sink for Calls {
     fn fault(&mut self, _: Fault) {}
 }
 
-/// Whether the program runs straight through, each block once and in the text's order; else why an edit of one block is not the
+/// Whether the program runs linearly, each block once and in the order of the text; else why an edit of one block is not the
 /// edit of one motion.
 pub(crate) fn runs_straight(program: &Program, settings: &Settings<'_>) -> Result<(), String> {
     let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);

@@ -8,7 +8,7 @@ use trunnion_interp::{Argument, Motion};
 pub(crate) struct Since {
     /// Something may have moved the coordinates, or the machine, since the last motion.
     pub(crate) disturbed: bool,
-    /// Something ran that may have changed everything modal: what is restated from then on counts.
+    /// Something ran that may have changed everything modal: what is restated from then on matters.
     pub(crate) lost: bool,
     /// Some motion was made in machine coordinates, or with another offset or length than the one after it: an axis may still be where
     /// that motion put it.
@@ -18,7 +18,7 @@ pub(crate) struct Since {
 }
 
 impl Since {
-    /// A motion is made: whether it lies in the frame of the motion before, with nothing between that may have changed it.
+    /// A motion is made: whether it is in the frame of the motion before, with nothing between that may have changed it.
     pub(crate) fn motion(&mut self, motion: &Motion, held: &Held) -> bool {
         let same = self.last.as_ref().is_some_and(|(last, was)| {
             let zero = last
@@ -34,20 +34,20 @@ impl Since {
                 && last.radii == motion.radii
                 && last.tilt == motion.tilt
         });
-        // a new length counts along Z: a motion that goes there leaves nothing of the one before
+        // a new length acts along Z: after a motion along Z nothing is left of the old one
         let to_new_height = motion.start.get(2) != motion.end.get(2);
         let other_frame = |(_, was): &(Motion, Held)| {
             was.work_offset != held.work_offset || was.length_of != held.length_of && !to_new_height
         };
-        // LinuxCNC's motions in machine coordinates rest on nothing undeclared, and do not say more
+        // LinuxCNC's motions in machine coordinates depend on nothing undeclared
         self.strayed |=
             motion.machine_coordinates || !motion.undeclared.any() || self.last.as_ref().is_some_and(other_frame);
         self.last = Some((*motion, held.clone()));
         !std::mem::take(&mut self.disturbed) && same
     }
 
-    /// Whether an event only says that a zero point is set from here, with the offset and the length of all motions so far: then nothing
-    /// that is not declared comes into it.
+    /// Whether an event only says that a zero point is set from here, with the offset and the length of all motions so far: then no
+    /// undeclared value matters.
     pub(crate) fn is_set_plainly(&self, words: &[Argument]) -> bool {
         let [name, offset, length] = words else { return false };
         name.name == FROM_HERE
@@ -60,7 +60,7 @@ impl Since {
     }
 }
 
-/// The event of a zero point that is set from where the machine stands (G92).
+/// The event of a zero point that is set at the position of the machine (G92).
 const FROM_HERE: &str = "zero point set from here";
 
 /// Whether an event is that one.
@@ -70,15 +70,11 @@ pub(crate) fn sets_from_here(words: &[Argument]) -> bool {
 
 /// Whether the text of a statement may write a variable of the control (#1000 and above, `$...`), where offsets may be kept.
 pub(crate) fn writes_control(text: &str) -> bool {
-    let text: String = text
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
-        .to_ascii_uppercase();
-    if let Some((_, then)) = text.split_once("THEN") {
-        return writes_control(then);
-    }
-    !steers(&text) && assigns_control(&text)
+    let mut text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.make_ascii_uppercase();
+    // the statement that is run in the end
+    let then = text.rsplit_once("THEN").map_or(text.as_str(), |(_, then)| then.trim());
+    !steers(then) && assigns_control(then)
 }
 
 /// Whether a block only decides which block runs next: `N10 IF [#1 EQ 1] GOTO 20`.
@@ -99,11 +95,11 @@ pub(crate) fn only_steers(text: &str) -> bool {
 
 /// Whether a statement only decides which block runs next.
 fn steers(text: &str) -> bool {
-    let assigns = ["==", "<=", ">=", "<>"]
-        .iter()
-        .fold(text.to_owned(), |text, sign| text.replace(sign, " "))
-        .contains('=');
-    let name = |text: &str| -> String { text.chars().take_while(char::is_ascii_alphabetic).collect() };
+    let assigns = text.contains('=')
+        && ["==", "<=", ">=", "<>"]
+            .iter()
+            .fold(text.to_owned(), |text, sign| text.replace(sign, " "))
+            .contains('=');
     // a block of LinuxCNC: `o100 while [...]`, `o<name> if [...]`
     let labelled = text.strip_prefix('O').and_then(|rest| match rest.strip_prefix('<') {
         Some(rest) => rest.split_once('>').map(|(_, rest)| rest),
@@ -111,16 +107,18 @@ fn steers(text: &str) -> bool {
             Some(rest.trim_start().trim_start_matches(|sign: char| sign.is_ascii_digit())).filter(|left| *left != rest)
         }
     });
-    let word = name(labelled.unwrap_or(text).trim_start());
+    let statement = labelled.unwrap_or(text).trim_start();
+    let length = statement.bytes().take_while(u8::is_ascii_alphabetic).count();
+    let word = &statement[..length];
     let loops = ["IF", "WHILE", "DO", "ELSE", "ENDIF", "ENDWHILE", "REPEAT"];
     let found = match labelled {
-        Some(_) => ["ELSEIF", "ENDREPEAT", "BREAK", "CONTINUE"].contains(&word.as_str()),
+        Some(_) => ["ELSEIF", "ENDREPEAT", "BREAK", "CONTINUE"].contains(&word),
         None => [
             "END", "GOTO", "GOTOF", "GOTOB", "GOTOC", "LOOP", "ENDLOOP", "UNTIL", "ENDFOR",
         ]
-        .contains(&word.as_str()),
+        .contains(&word),
     };
-    !assigns && (found || loops.contains(&word.as_str()))
+    !assigns && (found || loops.contains(&word))
 }
 
 fn assigns_control(text: &str) -> bool {
@@ -131,7 +129,7 @@ fn assigns_control(text: &str) -> bool {
     }
 }
 
-/// Whether a code surely leaves the machine where it is, and its coordinates where they lie, but for what a motion itself says of them.
+/// Whether a code certainly leaves the machine and its coordinates where they are, apart from what the motion itself does.
 pub(crate) fn keeps_place(code: &Code, dialect: &Dialect) -> bool {
     // LinuxCNC's engine runs its cycles itself
     let runs_cycles = dialect.quirks.rs274() && code.action == Action::CannedCycle;
@@ -143,6 +141,13 @@ pub(crate) fn keeps_place(code: &Code, dialect: &Dialect) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{only_steers, writes_control};
+
+    #[test]
+    fn a_line_of_conditions_needs_no_stack() {
+        let many = "IF[#1EQ1]THEN ".repeat(200_000);
+        assert!(writes_control(&format!("{many}#5221=7.")));
+        assert!(!writes_control(&format!("{many}GOTO 10")));
+    }
 
     #[test]
     fn what_only_steers_the_run_writes_nothing() {

@@ -1,10 +1,9 @@
-//! What the actions of codes leave alone: who compares programs, or writes them for another control, asks here.
+//! What the actions of codes do not change: used to compare programs, or to write them for another control.
 use crate::Action;
 
 impl Action {
-    /// Whether the whole effect of the code is in the motions, and in the feeds, tools, offsets and spindle speeds that go with them.
-    #[expect(clippy::too_many_lines, reason = "one row for each action")]
-    pub fn is_in_motions(self) -> bool {
+    /// Whether the code only says how the motions that follow are made, in which frame, and with which spindle.
+    fn is_of_motions(self) -> bool {
         matches!(
             self,
             Self::Rapid
@@ -26,108 +25,89 @@ impl Action {
                 | Self::FeedPerMinute
                 | Self::FeedPerRevolution
                 | Self::CompensationOff
-                | Self::CompensationLeft
-                | Self::CompensationRight
-                | Self::ToolLengthOn
-                | Self::ToolLengthOff
-                | Self::TcpOn
-                | Self::TcpVectorOn
-                | Self::TcpOff
-                | Self::Kinematics
-                | Self::MachineCoordinates
                 | Self::WorkOffset
-                | Self::WorkOffsetNone
                 | Self::SpindleClockwise
                 | Self::SpindleCounterClockwise
-                | Self::ToolChange
                 | Self::ProgramEnd
-                | Self::FrameChange
-                | Self::FrameLost
-                | Self::DiameterSwitch
-                | Self::ProgrammableShift
-                | Self::FrameReset
-                | Self::TiltedPlane
-                | Self::TiltedPlaneTurn
-                | Self::TiltedPlaneTurnTip
-                | Self::SwivelCycle
-                | Self::Declaration
-                | Self::DrillDwellCycle
-                | Self::PeckCycle
-                | Self::ChipBreakCycle
                 | Self::ReturnInitial
                 | Self::ReturnToR
-                | Self::LocalShift
-                | Self::PositionPreset
-                | Self::RotationOn
-                | Self::RotationOff
-                | Self::ScalingOn
-                | Self::ScalingOff
-                | Self::MirrorOn
-                | Self::MirrorOff
-                | Self::PolarOn
-                | Self::PolarOff
-                | Self::ReferenceCheck
-                | Self::ReferenceReturn
-                | Self::ReferenceReturnOther
-                | Self::ReferenceFrom
-                | Self::CirclePocket
-                | Self::BoltCircle
-                | Self::BoltArc
-                | Self::BoltLine
-                | Self::TurningCycle
-                | Self::FacingCycle
-                | Self::FinishCycle
-                | Self::RoughTurnCycle
-                | Self::RoughFaceCycle
-                | Self::PatternRepeatCycle
-                | Self::FacePeckCycle
-                | Self::GroovePeckCycle
                 | Self::CycleOff
-                | Self::SubprogramCall
                 | Self::OrientationAxes
                 | Self::OrientationVector
-                | Self::PointToPoint
-                | Self::PointToPointRapid
-                | Self::ContinuousPath
         )
     }
 
-    /// Whether the code surely leaves the machine where it is, and its coordinates where they lie, but for what a motion itself says.
-    pub fn keeps_place(self) -> bool {
-        self.is_hole_cycle()
+    /// Whether the whole effect of the code is in the motions, and in the feeds, tools, offsets and spindle speeds that go with them.
+    pub fn is_in_motions(self) -> bool {
+        self.is_of_motions()
             || matches!(
                 self,
-                Self::Rapid
-                    | Self::Linear
-                    | Self::ArcClockwise
-                    | Self::ArcCounterClockwise
-                    | Self::Dwell
-                    | Self::PlaneXy
-                    | Self::PlaneZx
-                    | Self::PlaneYz
-                    | Self::Absolute
-                    | Self::Incremental
-                    | Self::ArcCentreAbsolute
-                    | Self::ArcCentreIncremental
-                    | Self::Inch
-                    | Self::InchLengthsOnly
-                    | Self::Metric
-                    | Self::FeedInverseTime
-                    | Self::FeedPerMinute
-                    | Self::FeedPerRevolution
-                    | Self::CompensationOff
-                    | Self::WorkOffset
-                    | Self::SpindleClockwise
-                    | Self::SpindleCounterClockwise
-                    | Self::SpindleStop
+                Self::CompensationLeft
+                    | Self::CompensationRight
+                    | Self::ToolLengthOn
+                    | Self::ToolLengthOff
+                    | Self::TcpOn
+                    | Self::TcpVectorOn
+                    | Self::TcpOff
+                    | Self::Kinematics
+                    | Self::MachineCoordinates
+                    | Self::WorkOffsetNone
+                    | Self::ToolChange
+                    | Self::FrameChange
+                    | Self::FrameLost
+                    | Self::DiameterSwitch
+                    | Self::ProgrammableShift
+                    | Self::FrameReset
+                    | Self::TiltedPlane
+                    | Self::TiltedPlaneTurn
+                    | Self::TiltedPlaneTurnTip
+                    | Self::SwivelCycle
+                    | Self::Declaration
+                    | Self::DrillDwellCycle
+                    | Self::PeckCycle
+                    | Self::ChipBreakCycle
+                    | Self::LocalShift
+                    | Self::PositionPreset
+                    | Self::RotationOn
+                    | Self::RotationOff
+                    | Self::ScalingOn
+                    | Self::ScalingOff
+                    | Self::MirrorOn
+                    | Self::MirrorOff
+                    | Self::PolarOn
+                    | Self::PolarOff
+                    | Self::ReferenceCheck
+                    | Self::ReferenceReturn
+                    | Self::ReferenceReturnOther
+                    | Self::ReferenceFrom
+                    | Self::CirclePocket
+                    | Self::BoltCircle
+                    | Self::BoltArc
+                    | Self::BoltLine
+                    | Self::TurningCycle
+                    | Self::FacingCycle
+                    | Self::FinishCycle
+                    | Self::RoughTurnCycle
+                    | Self::RoughFaceCycle
+                    | Self::PatternRepeatCycle
+                    | Self::FacePeckCycle
+                    | Self::GroovePeckCycle
+                    | Self::SubprogramCall
+                    | Self::PointToPoint
+                    | Self::PointToPointRapid
+                    | Self::ContinuousPath
+            )
+    }
+
+    /// Whether the code certainly leaves the machine and its coordinates where they are, apart from what the motion itself does.
+    pub fn keeps_place(self) -> bool {
+        self.is_of_motions()
+            || self.is_hole_cycle()
+            || matches!(
+                self,
+                Self::SpindleStop
                     | Self::ProgramStop
-                    | Self::ProgramEnd
                     | Self::PathMode
-                    | Self::ReturnInitial
-                    | Self::ReturnToR
-                    | Self::CycleOff
-                    | Self::OrientationAxes
-                    | Self::OrientationVector
                     | Self::ConstantSurfaceSpeed
                     | Self::ConstantSpindleSpeed
             )

@@ -1,4 +1,4 @@
-//! Floor 1: the words that all floors above share: motions, what is in force, effects, faults, set-up, and who receives them.
+//! Floor 1: the types that all floors above share: motions, modal state, effects, faults, set-up, and their receivers.
 //!
 //! It knows neither dialects nor machines, and runs nothing.
 mod action;
@@ -19,9 +19,11 @@ pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
 pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
-pub use modal::{FeedMode, LengthOf, ModalState};
+pub use modal::{
+    Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
+};
 pub use motion::{
-    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
+    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
     ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,

@@ -1,104 +1,41 @@
-//! The modal state: what is in force between blocks.
-use crate::{Action, Orientation, Plane, Position, Tool, ToolShape, Undeclared};
-use std::sync::Arc;
+//! The modal state: what is in effect between blocks. Each part changes its own fields only.
+mod coordinates;
+mod feed;
+mod spindle;
+mod tool;
+mod tool_axis;
+mod zero;
 
-/// How F is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FeedMode {
-    /// G94.
-    PerMinute,
-    /// G95.
-    PerRevolution,
-    /// G93.
-    InverseTime,
-}
+pub use coordinates::Coordinates;
+pub use feed::{FeedMode, FeedWord};
+pub use spindle::Spindle;
+pub use tool::{LengthOf, ToolInUse, ToolLength};
+pub use tool_axis::ToolAxis;
+pub use zero::Zero;
 
-/// Whose length is compensated. It distinguishes lengths that are not declared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum LengthOf {
-    /// None is in force.
-    #[default]
-    Nothing,
-    /// That of the tool with this number; `None`: of a tool in use whose number is not known.
-    Tool(Option<u32>),
-    /// One that is no tool's own (another edge than the first, a sum of several), or whose number could not be read.
-    Other,
-}
+use crate::{Action, Orientation, Position, Undeclared};
 
-impl core::fmt::Display for LengthOf {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Nothing => f.write_str("none"),
-            Self::Tool(Some(number)) => write!(f, "that of tool {number}"),
-            Self::Tool(None) => f.write_str("that of the tool in use"),
-            Self::Other => f.write_str("one that belongs to no tool"),
-        }
-    }
-}
-
-/// What is in force between blocks.
+/// What is in effect between blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalState {
-    /// Motion code in force (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
+    /// Motion code in effect (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
     pub motion: Option<Action>,
-    /// Plane.
-    pub plane: Plane,
-    /// G91.
-    pub incremental: bool,
-    /// Arc centres absolute.
-    pub arc_centre_absolute: bool,
-    /// The program or the setup has set whether lengths are mm or inch.
-    pub units_said: bool,
-    /// mm per programmed length unit: 1 or 25.4.
-    pub length_unit_mm: f64,
-    /// mm per length unit of F.
-    pub feed_unit_mm: f64,
-    /// Meaning of F.
-    pub feed_mode: FeedMode,
-    /// F in mm/min, mm/rev or 1/min; `None` before the first, and where its value could not be read.
-    pub feed: Option<f64>,
-    /// Spindle running.
-    pub spindle_on: Option<bool>,
-    /// 1/min; `None` before the first S, and under constant cutting speed.
-    pub spindle_rpm: Option<f64>,
-    /// The program has given an S.
-    pub speed_said: bool,
-    /// Something that is not modelled may have switched the spindle or given S: a builder's code, a program that is missing.
-    pub spindle_unread: bool,
-    /// The program has started a spindle, or something that is not modelled may have.
-    pub spindle_started: bool,
-    /// G96: S is a cutting speed.
-    pub surface_speed: bool,
-    /// Highest spindle speed that the program allows (G50 S, G92 S), 1/min; NaN where its value could not be read.
-    pub spindle_limit_rpm: Option<f64>,
-    /// Active work offset's name.
-    pub work_offset: Option<Arc<str>>,
-    /// Its values, mm and degrees.
-    pub zero: [f64; 9],
-    /// What of zero and tool length is not declared.
-    pub undeclared: Undeclared,
-    /// Tool in the spindle; `None` unknown, or chosen by a name.
-    pub tool: Option<u32>,
-    /// Tool prepared by T, waiting for M6.
-    pub tool_prepared: Option<u32>,
-    /// What is declared about the tool in use: merged from the run's setup, the program's comments and CUTTER.
-    pub tool_data: Option<Tool>,
-    /// Compensated tool length, mm; `None` = off.
-    pub tool_length_mm: Option<f64>,
-    /// Whose that is.
-    pub length_of: LengthOf,
-    /// TCP on.
-    pub tcp: bool,
-    /// Orientation on great circle.
-    pub great_circle: Option<bool>,
-    /// G43.5 / APT: vectors are programmed.
-    pub vector_mode: bool,
-    /// APT MULTAX.
-    pub multax: bool,
+    /// Plane, distance mode, unit of lengths.
+    pub coordinates: Coordinates,
+    /// F.
+    pub feed: FeedWord,
+    /// The main spindle.
+    pub spindle: Spindle,
+    /// The zero point.
+    pub zero: Zero,
+    /// The tool.
+    pub tool: ToolInUse,
+    /// The tool length.
+    pub length: ToolLength,
+    /// The tool axis.
+    pub tool_axis: ToolAxis,
     /// Cutter radius compensation side: 0 off, 41, 42.
     pub compensation: u8,
-    /// Coordinates are in a frame that is not modelled (G68.2, CYCLE800, TRANS): motions have unknown X Y Z.
-    pub frame_unknown: bool,
     /// Clamps of rotary axes, where the setup names their codes.
     pub clamps: crate::Clamps,
     /// Programmed position.
@@ -110,35 +47,45 @@ pub struct ModalState {
 }
 
 impl ModalState {
-    /// What a length and a length of F count, mm.
+    /// The size of a unit of length and of a unit of F, mm.
     pub fn units(&mut self, length_mm: f64, feed_mm: f64) {
-        (self.length_unit_mm, self.feed_unit_mm) = (length_mm, feed_mm);
-        self.units_said = true;
+        self.coordinates.set_unit(length_mm, true);
+        self.feed.set_unit(feed_mm);
     }
-    /// Switches the spindle on or off.
-    pub fn switch_spindle(&mut self, on: bool) {
-        self.spindle_on = Some(on);
-        self.spindle_started |= on;
+    /// The same of the unit that the control has by itself.
+    pub fn own_units(&mut self, length_mm: f64, feed_mm: f64) {
+        let programmed = self.coordinates.unit_programmed();
+        self.coordinates.set_unit(length_mm, programmed);
+        self.feed.set_unit(feed_mm);
     }
-    /// What is not modelled may have switched the spindle: whether it turns is unknown.
-    pub fn lose_spindle(&mut self) {
-        self.spindle_on = None;
-        self.spindle_unread = true;
-        self.spindle_started = true;
-    }
-    /// What is not modelled may have started the spindle: it is not known to stand still any more.
-    pub fn may_start_spindle(&mut self) {
-        if self.spindle_on != Some(true) {
-            self.lose_spindle();
+    /// Which of zero point and tool length is undeclared.
+    pub fn undeclared(&self) -> Undeclared {
+        Undeclared {
+            zero: self.zero.undeclared(),
+            length: self.length.is_undeclared(),
+            set_here: self.zero.is_set_here(),
         }
     }
-    /// Declared length of the tool in use, mm.
-    pub fn own_length_mm(&self) -> Option<f64> {
-        self.tool_data?.length_mm
+    /// Whether two states are the same, where an unknown number equals an unknown number.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        let places = self.position.values.iter().zip(&other.position.values);
+        let without_numbers = |state: &Self| {
+            let mut state = state.clone();
+            state.position.values = [0.0; 9];
+            (state.feed, state.spindle) = (FeedWord::new(FeedMode::PerMinute), Spindle::default());
+            (state.length, state.zero) = (ToolLength::default(), Zero::default());
+            state
+        };
+        without_numbers(self) == without_numbers(other)
+            && self.feed.is_alike(&other.feed)
+            && self.spindle.is_alike(&other.spindle)
+            && self.length.is_alike(&other.length)
+            && self.zero.is_alike(&other.zero)
+            && places.into_iter().all(|(a, b)| alike(Some(*a), Some(*b)))
     }
-    /// Declared shape of the tool in use, with its diameter in mm; `None` where either is not declared.
-    pub fn tool_shape(&self) -> Option<(ToolShape, f64)> {
-        let tool = self.tool_data?;
-        Some((tool.shape?, tool.diameter_mm?))
-    }
+}
+
+/// Whether two numbers are the same, both unknown (NaN), or both absent.
+fn alike(a: Option<f64>, b: Option<f64>) -> bool {
+    a == b || a.is_some_and(f64::is_nan) && b.is_some_and(f64::is_nan)
 }

@@ -1,6 +1,6 @@
-//! Programs that a program calls: looked for beside it, then in the folders of `subprogram_path`, and nowhere else.
+//! Programs that a program calls: searched in its folder, then in the folders of `subprogram_path`, and nowhere else.
+use crate::listing::{Listing, Listings};
 use std::{
-    collections::BTreeMap,
     fs::{self, File},
     io::Read,
     path::{Path, PathBuf},
@@ -8,69 +8,28 @@ use std::{
 };
 use trunnion_interp::{Files, Loaded, Searched};
 
-/// A larger file is no subprogram, bytes.
+/// A larger file is not a subprogram, bytes.
 const LARGEST: u64 = 64 << 20;
 
-/// More entries of a folder than these are not looked at.
-const MOST_ENTRIES: usize = 100_000;
+/// The folders that were read last by this process.
+static LISTINGS: Listings = Listings::new();
 
-/// Extensions that are tried, in this order; the first is none.
-const EXTENSIONS: &[&str] = &["", "ngc", "nc", "tap", "mpf", "spf", "cnc", "eia", "gcode"];
-
-/// File names of a folder by their lower-case forms, each list sorted, so that the answer does not depend on the file system's order.
-type Names = BTreeMap<String, Vec<String>>;
-
-/// A folder that is searched, and its file names once they were needed.
+/// A folder that is searched, and what it held when it was first needed.
 struct Folder {
     path: PathBuf,
-    names: OnceLock<Names>,
+    listing: OnceLock<Result<Arc<Listing>, String>>,
 }
 
 impl Folder {
     fn new(path: PathBuf) -> Self {
         Self {
             path,
-            names: OnceLock::new(),
+            listing: OnceLock::new(),
         }
     }
 
-    /// Names of the files in it.
-    fn names(&self) -> &Names {
-        self.names.get_or_init(|| {
-            let mut names = Names::new();
-            let entries = fs::read_dir(&self.path)
-                .into_iter()
-                .flatten()
-                .take(MOST_ENTRIES)
-                .flatten();
-            for name in entries.filter_map(|entry| entry.file_name().into_string().ok()) {
-                names.entry(name.to_ascii_lowercase()).or_default().push(name);
-            }
-            for alike in names.values_mut() {
-                alike.sort();
-            }
-            names
-        })
-    }
-
-    /// The file called like one of `stems`: as written before other cases, without an extension before with one.
-    fn find(&self, stems: &[String]) -> Option<PathBuf> {
-        let names = self.names();
-        for stem in stems {
-            for extension in EXTENSIONS {
-                let wanted = if extension.is_empty() {
-                    stem.clone()
-                } else {
-                    format!("{stem}.{extension}")
-                };
-                let alike = names.get(&wanted.to_ascii_lowercase());
-                let found = alike.and_then(|alike| alike.iter().find(|name| **name == wanted).or(alike.first()));
-                if let Some(path) = found.map(|name| self.path.join(name)).filter(|path| path.is_file()) {
-                    return Some(path);
-                }
-            }
-        }
-        None
+    fn listing(&self) -> &Result<Arc<Listing>, String> {
+        self.listing.get_or_init(|| LISTINGS.of(&self.path))
     }
 }
 
@@ -89,7 +48,7 @@ impl Subprograms {
 }
 
 /// The names that a file of a program may have: as called, and for a number with and without `O` and leading zeros (`M98 P50` calls
-/// `O0050`). `None` where the name is no plain file name: it may not lead out of the folders.
+/// `O0050`). `None` if the name is not a plain file name: it must not point outside the folders.
 fn stems(name: &str) -> Option<Vec<String>> {
     let name = name.trim();
     let plain = !name.is_empty()
@@ -141,8 +100,17 @@ impl Files for Subprograms {
         let stems = stems(name);
         for folder in &self.folders {
             let shown = folder.path.display().to_string();
-            let Some(path) = stems.as_ref().and_then(|stems| folder.find(stems)) else {
-                searched.push(shown.into());
+            let listing = match folder.listing() {
+                Ok(listing) => listing,
+                // the program may be in it
+                Err(why) => {
+                    let refused = Some(format!("{shown} {why}"));
+                    searched.push(Searched { folder: shown, refused });
+                    return Err(searched);
+                }
+            };
+            let Some(path) = stems.as_ref().and_then(|stems| listing.find(stems, &folder.path)) else {
+                searched.push((shown + &listing.remark()).into());
                 continue;
             };
             match read(&path, &folder.path) {

@@ -15,7 +15,6 @@ mod flow;
 mod generate;
 mod mistakes;
 mod motions;
-mod random;
 mod settings;
 mod topics;
 mod turning;

@@ -7,9 +7,10 @@ mod running;
 mod samples;
 mod words;
 
-use self::mutants::{Base, Random};
+use self::mutants::Base;
 use self::reading::{Expected, Pair};
 use self::running::{Answer, ask_all};
+use crate::random::Random;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@
 const MOST: usize = 15;
 
 /// `G54`; empty where no work offset was selected.
-#[derive(Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub(crate) struct OffsetName {
     bytes: [u8; MOST],
     length: u8,

@@ -37,5 +37,5 @@ plain! {
         && view.motion.spindle_on != Some(false)
         && view.dialect.advice.spindle_limit.is_some();
     /// A length of which nothing says whether it is inch or mm.
-    UnsaidUnits = |view| !view.in_force.units_said && view.changes_a_length();
+    UnsaidUnits = |view| !view.in_force.unit_programmed && view.changes_a_length();
 }

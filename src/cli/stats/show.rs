@@ -1,9 +1,10 @@
 //! What was counted, for people and for programs.
 use crate::cli::{json::tidy, load::Loaded};
+use serde::{Serialize, Serializer, ser::SerializeMap};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use trunnion_interp::AXIS_LETTERS;
-use trunnion_stats::{Range, Tally};
+use trunnion_stats::{Call, Range, Tally};
 
 /// Units of F, per minute, per turn, inverse time.
 const FEEDS: [(&str, &str); 3] = [
@@ -53,9 +54,10 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
         } else {
             format!(", {} times", number(call.count))
         };
-        format!("{} in line {}{times}", call.name, call.line)
+        format!("{} on line {}{times}", call.name, call.line)
     });
-    rows(&mut row, "calls", &calls.collect::<Vec<_>>());
+    let calls: Vec<String> = calls.take(ROWS).collect();
+    rows_of(&mut row, "calls", &calls, tally.calls.len());
     let unmodelled = tally.not_modelled.iter().map(|(what, count)| match count {
         1 => what.clone(),
         count => format!("{what}, {} times", number(*count)),
@@ -69,11 +71,16 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
 
 /// Several rows under one name; more than fit are counted.
 fn rows(row: &mut impl FnMut(&str, &str), name: &str, texts: &[String]) {
+    rows_of(row, name, texts, texts.len());
+}
+
+/// The same; there are `count`, of which `texts` are at least the first.
+fn rows_of(row: &mut impl FnMut(&str, &str), name: &str, texts: &[String], count: usize) {
     for (at, text) in texts.iter().take(ROWS).enumerate() {
         row(if at == 0 { name } else { "" }, text);
     }
-    if texts.len() > ROWS {
-        row("", &format!("and {} more", number((texts.len() - ROWS) as u64)));
+    if count > ROWS {
+        row("", &format!("and {} more", number((count - ROWS) as u64)));
     }
 }
 
@@ -98,7 +105,7 @@ fn path(tally: &Tally) -> String {
     if tally.spindle_off_mm > 0.0 {
         let _ = write!(
             text,
-            " (of which {} mm with the spindle not known to turn)",
+            " ({} mm of it with the spindle off or in an unknown state)",
             decimal(tally.spindle_off_mm, 3)
         );
     }
@@ -143,7 +150,7 @@ fn joints(tally: &Tally) -> Vec<String> {
         .collect()
 }
 
-/// A B C of the letters of axes.
+/// The letters of axes with blanks between them.
 fn is_rotary(axis: usize) -> bool {
     (3..6).contains(&axis)
 }
@@ -232,7 +239,41 @@ fn ends(range: Range) -> Value {
 }
 
 /// The form for programs.
-pub(super) fn json(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Value {
+pub(super) struct File<'t> {
+    /// All fields but the calls.
+    fields: Value,
+    /// A million of them are written as they are.
+    calls: &'t [Call],
+}
+
+impl Serialize for File<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let fields = self.fields.as_object();
+        let mut map = serializer.serialize_map(None)?;
+        for (key, value) in fields.into_iter().flatten() {
+            match key.as_str() {
+                "calls" => map.serialize_entry(key, &Calls(self.calls))?,
+                _ => map.serialize_entry(key, value)?,
+            }
+        }
+        map.end()
+    }
+}
+
+struct Calls<'t>(&'t [Call]);
+
+impl Serialize for Calls<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(
+            self.0
+                .iter()
+                .map(|call| json!({ "name": call.name, "line": call.line, "count": call.count })),
+        )
+    }
+}
+
+/// See [`File`].
+pub(super) fn json<'t>(loaded: &Loaded, tally: &'t Tally, cycle_time_s: Option<[f64; 2]>) -> File<'t> {
     let resolved = &loaded.resolved;
     let unit = |rotary: bool| if rotary { "deg" } else { "mm" };
     let mut extents = Map::new();
@@ -256,11 +297,7 @@ pub(super) fn json(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
     let tools = tally.tools.iter().map(|(tool, used)| {
         json!({ "tool": tool, "line": used.line, "motions": used.motions, "feed_length_mm": tidy(used.feed_mm) })
     });
-    let calls = tally
-        .calls
-        .iter()
-        .map(|call| json!({ "name": call.name, "line": call.line, "count": call.count }));
-    json!({
+    let fields = json!({
         "path": loaded.name,
         "dialect": resolved.dialect.name,
         "dialect_reason": resolved.dialect_reason,
@@ -283,8 +320,10 @@ pub(super) fn json(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
         "spindle_rpm": tally.spindle.map(ends),
         "tools": tools.collect::<Vec<_>>(),
         "tool_changes": tally.tool_changes,
-        "calls": calls.collect::<Vec<_>>(),
+        "calls": null,
         "not_modelled": tally.not_modelled,
         "not_followed": tally.stop.as_ref().map(|(line, why)| json!({ "line": line, "why": why })),
-    })
+    });
+    let calls = &tally.calls;
+    File { fields, calls }
 }

@@ -2,8 +2,8 @@
 //! MCALL, after every motion.
 //!
 //! Order of the numbers and of the motions: Sinumerik 840D sl Programming Manual, Cycles (drilling cycles). All begin with RTP, RFP, SDIS,
-//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; where both
-//! depths are there the last one counts.
+//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; if both
+//! depths are given the last one is used.
 use super::hole::Plan;
 use super::modes::Modes;
 use crate::arc::plane_axes;
@@ -57,7 +57,7 @@ enum Sort {
     BoreFeed,
 }
 
-/// The cycles with how many numbers of theirs are known here.
+/// The cycles, and how many of their numbers are known here.
 const CYCLES: [(&str, Sort, usize); 9] = [
     ("CYCLE81", Sort::Drill, 6),
     ("CYCLE82", Sort::Drill, 6),
@@ -76,7 +76,7 @@ pub(crate) struct HoleCall {
     id: &'static str,
     sort: Sort,
     numbers: Vec<Given>,
-    /// Numbers that are there have no meaning here.
+    /// It has numbers that have no meaning here.
     further: bool,
     /// The modes at the end that newer posts write.
     modes: Modes,
@@ -186,18 +186,18 @@ impl Iso<'_> {
 
     /// Runs a cycle at the present position.
     fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.core.state.plane)[2];
+        let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
             // _AXN 3 is the third geometry axis, as 0 is: Z
             Sort::Deep | Sort::Tap => !match call.number(12).or_zero() {
-                Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.plane == Plane::Xy,
+                Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.coordinates.plane() == Plane::Xy,
                 None => false,
             },
             _ => false,
         };
         let other_mode = match call.modes {
             Modes::None => false,
-            Modes::Depth { plane, .. } => plane.is_some_and(|plane| plane != self.core.state.plane),
+            Modes::Depth { plane, .. } => plane.is_some_and(|plane| plane != self.core.state.coordinates.plane()),
             Modes::Other => true,
         };
         let why = if call.further || other_axis || other_mode {
@@ -216,7 +216,7 @@ impl Iso<'_> {
             self.memory.out.push(motion);
             return;
         };
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let feed = self.call_feed(call, words, report);
         let plan = Plan {
             axis,
@@ -233,19 +233,19 @@ impl Iso<'_> {
             // direction after the cycle: 3, 4, otherwise the spindle is off
             let after = call.number(6).or_zero();
             match after {
-                Some(code) => self.core.state.switch_spindle(code == 3.0 || code == 4.0),
-                None => self.core.state.lose_spindle(),
+                Some(code) => self.core.state.spindle.switch(code == 3.0 || code == 4.0),
+                None => self.core.state.spindle.lose(),
             }
         }
     }
 
     /// The feed that a cycle goes down with.
     fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         match call.sort {
             Sort::Ream => self.own_feed(call.number(6)),
             Sort::Tap => {
-                // PIT in mm, or in the units in force; threads per inch and MPIT are other numbers
+                // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
                 let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
                     (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
                         let mm = match unit_of_pitch as i64 {
@@ -273,8 +273,8 @@ impl Iso<'_> {
         let Given::Number(number) = given else {
             return Feed::Unknown;
         };
-        let feed = number * self.core.state.feed_unit_mm;
-        match self.core.state.feed_mode {
+        let feed = number * self.core.state.feed.unit_mm();
+        match self.core.state.feed.mode() {
             _ if feed <= 0.0 => Feed::Unknown,
             FeedMode::PerMinute => Feed::PerMinute(feed),
             FeedMode::PerRevolution => Feed::PerRevolution(feed),
@@ -286,10 +286,9 @@ impl Iso<'_> {
     fn call_spindle(&mut self, call: &HoleCall) {
         match call.sort {
             Sort::Tap => {
-                self.core.state.switch_spindle(true);
+                self.core.state.spindle.switch(true);
                 let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
-                self.core.state.spindle_rpm = speed;
-                self.core.state.speed_said = true;
+                self.core.state.spindle.set_rpm(speed);
             }
             Sort::Bore | Sort::BoreStop => {
                 let place = match (call.sort, call.id) {
@@ -298,10 +297,10 @@ impl Iso<'_> {
                 };
                 if let Some(code) = call.number(place).or_zero() {
                     if code == 3.0 || code == 4.0 {
-                        self.core.state.switch_spindle(true);
+                        self.core.state.spindle.switch(true);
                     }
                 } else {
-                    self.core.state.lose_spindle();
+                    self.core.state.spindle.lose();
                 }
             }
             _ => {}
@@ -338,23 +337,23 @@ impl Iso<'_> {
                 self.down(&out, MotionKind::Linear, plan.r, report);
             }
             Sort::Bore => {
-                self.core.state.spindle_on = Some(false);
+                self.core.state.spindle.turn(Some(false));
                 self.lift_off(call, 1.0, report);
                 self.down(plan, MotionKind::Rapid, plan.back, report);
                 self.lift_off(call, -1.0, report);
                 return;
             }
-            Sort::BoreStop => self.core.state.spindle_on = Some(false),
+            Sort::BoreStop => self.core.state.spindle.turn(Some(false)),
         }
         self.down(plan, MotionKind::Rapid, plan.back, report);
         if call.sort == Sort::BoreStop {
-            self.core.state.lose_spindle();
+            self.core.state.spindle.lose();
         }
     }
 
     /// CYCLE86: RPA, RPO and RPAP off the wall (1), and RPA and RPO back over the hole (-1).
     fn lift_off(&mut self, call: &HoleCall, sign: f64, report: &mut Report<'_>) {
-        let axes = plane_axes(self.core.state.plane);
+        let axes = plane_axes(self.core.state.coordinates.plane());
         let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
         let mut place = before;
@@ -363,7 +362,7 @@ impl Iso<'_> {
                 continue;
             }
             match (call.number(number).or_zero(), place.get(axis)) {
-                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.core.state.length_unit_mm),
+                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.core.state.coordinates.unit_mm()),
                 _ => place.forget(axis),
             }
         }
@@ -377,7 +376,7 @@ impl Iso<'_> {
         let seconds = match given {
             Given::Nothing => return,
             Given::Number(seconds) if seconds >= 0.0 => Some(seconds),
-            Given::Number(turns) => self.core.state.spindle_rpm.map(|rpm| -turns / rpm * 60.0),
+            Given::Number(turns) => self.core.state.spindle.rpm().map(|rpm| -turns / rpm * 60.0),
             Given::Unread => None,
         };
         if seconds != Some(0.0) {

@@ -10,7 +10,7 @@ pub(crate) enum Stored {
     /// Not given yet.
     #[default]
     Nothing,
-    /// Given, but its value is not known.
+    /// Given, but its value is unknown.
     Unknown,
     /// mm as a coordinate.
     At(f64),
@@ -19,7 +19,7 @@ pub(crate) enum Stored {
 }
 
 impl Stored {
-    /// The coordinate, from the level that a distance counts from.
+    /// The coordinate, from the level that a distance is relative to.
     pub(crate) fn from(self, level: Option<f64>) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),
@@ -61,12 +61,19 @@ impl Iso<'_> {
     pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;
         let least = self.core.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement);
-        let value = match (least && !number.has_point, self.core.state.length_unit_mm != 1.0) {
+        let value = match (least && !number.has_point, self.core.state.coordinates.unit_mm() != 1.0) {
             (true, true) => number.value / 10_000.0,
             (true, false) => number.value / 1000.0,
             (false, _) => number.value,
         };
-        Some(value * self.core.state.length_unit_mm)
+        Some(value * self.core.state.coordinates.unit_mm())
+    }
+
+    /// The same of a turning cycle in one block. Without a decimal point controls take it for least increments or for millimetres, whatever
+    /// they do with coordinates: `None` where the settings do not say.
+    pub(super) fn one_block_length(&self, words: &Words, letter: u8) -> Option<f64> {
+        let has_point = words.letter(letter).number()?.has_point;
+        (has_point || self.core.setup.control.implicit_decimals.is_some()).then(|| self.length_word(words, letter))?
     }
 
     /// Keeps the data of a block.
@@ -77,8 +84,8 @@ impl Iso<'_> {
             (true, Some(value)) if incremental => Some(Stored::By(value)),
             (true, Some(value)) => Some(Stored::At(value)),
         };
-        let incremental = self.core.state.incremental;
-        let unit = self.core.state.length_unit_mm;
+        let incremental = self.core.state.coordinates.incremental();
+        let unit = self.core.state.coordinates.unit_mm();
         let z = words.axes.get(axis).map(|value| value * unit);
         let z_said = (words.axes.given | words.axes.unread) & (1 << axis) != 0;
         let bottom = stored(z_said, z, incremental);

@@ -10,7 +10,7 @@ use trunnion_dialect::Action;
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
 
-/// Motions of one block that are worked out: they are held until the block is done.
+/// Motions of one block that are computed: they are held until the block is done.
 pub(super) const MOST_MOTIONS: usize = 200_000;
 
 /// One hole with its numbers, all as coordinates of the words.
@@ -25,9 +25,9 @@ pub(super) struct Plan {
 }
 
 impl Iso<'_> {
-    /// Runs the cycle in force at the places that the block says.
+    /// Runs the cycle in effect at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.core.state.plane)[2];
+        let axis = plane_axes(self.core.state.coordinates.plane())[2];
         self.store_hole(words, axis);
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
@@ -77,7 +77,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Whether the block in hand, or the cycles of the run together, have made more motions than are worked out.
+    /// Whether the current block, or the cycles of the run together, have made more motions than are computed.
     pub(super) fn is_full(&self) -> bool {
         self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
     }
@@ -272,9 +272,10 @@ impl Iso<'_> {
     }
 
     fn with_spindle_off(&mut self, run: impl FnOnce(&mut Self)) {
-        let before = self.core.state.spindle_on.replace(false);
+        let before = self.core.state.spindle.on();
+        self.core.state.spindle.turn(Some(false));
         run(self);
-        self.core.state.spindle_on = before;
+        self.core.state.spindle.turn(before);
     }
 
     /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and
@@ -286,7 +287,7 @@ impl Iso<'_> {
         {
             return Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]);
         }
-        let [a, b, _] = plane_axes(self.core.state.plane);
+        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         let declared = self
             .core
             .setup
@@ -309,7 +310,7 @@ impl Iso<'_> {
 
     /// Moves the tool off the wall (1) or back (-1).
     fn shift(&mut self, aside: Option<[f64; 2]>, sign: f64, report: &Report<'_>) {
-        let [a, b, _] = plane_axes(self.core.state.plane);
+        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         let position = self.core.state.position;
         let mut place = self.memory.frames.programmed(&position);
         let kept = self.memory.cycle.hole_place;
@@ -355,7 +356,7 @@ impl Iso<'_> {
         });
     }
 
-    /// Where coordinates lead, polar ones too, as words tell it.
+    /// The target of coordinates, polar ones too, as words.
     pub(crate) fn place(&mut self, words: &Words, place: &mut Position) {
         self.targets(&words.axes, false, place);
         if self.memory.frames.active {

@@ -1,4 +1,4 @@
-//! Holes on a circle, an arc or a line (Haas G70, G71, G72): the cycle in force runs at each of them.
+//! Holes on a circle, an arc or a line (Haas G70, G71, G72): the active cycle runs at each of them.
 use crate::arc::plane_axes;
 use crate::codes::Found;
 use crate::core::Report;
@@ -11,7 +11,7 @@ use trunnion_geometry::math::sin_cos;
 /// Holes of one block.
 const MOST_HOLES: u32 = 10_000;
 
-/// A pattern in the block in hand.
+/// A pattern in the current block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pattern {
     /// G70.
@@ -34,9 +34,9 @@ impl Pattern {
 }
 
 impl Iso<'_> {
-    /// Runs the cycle in force at the holes of the pattern; I is a radius or distance, J an angle, K an angle, L counts.
+    /// Runs the active cycle at the holes of the pattern; I is a radius or distance, J an angle, K an angle, L counts.
     pub(crate) fn pattern(&mut self, pattern: Pattern, words: &Words, report: &mut Report<'_>) {
-        let [a, b, _] = plane_axes(self.core.state.plane);
+        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         if !self.core.state.motion.is_some_and(Action::is_hole_cycle) {
             let message = "a pattern of holes without a canned cycle: program the cycle first, with L0".to_owned();
             self.refuse(words, Refusal::CannedCycle, message, None, report);
@@ -69,10 +69,10 @@ impl Iso<'_> {
             self.core.forget_linear();
             return;
         };
-        let incremental = std::mem::replace(&mut self.core.state.incremental, false);
+        let incremental = std::mem::replace(&mut self.core.state.coordinates.incremental(), false);
         for hole in 0..count {
             if self.is_full() {
-                self.too_many(words, plane_axes(self.core.state.plane)[2], report);
+                self.too_many(words, plane_axes(self.core.state.coordinates.plane())[2], report);
                 break;
             }
             let number = f64::from(hole);
@@ -81,7 +81,7 @@ impl Iso<'_> {
                 _ => (size, first + step * number),
             };
             let (sin, cos) = sin_cos(degrees.to_radians());
-            let unit = self.core.state.length_unit_mm;
+            let unit = self.core.state.coordinates.unit_mm();
             let mut place = Words::default();
             place.axes.values[a] = (x + along * cos) / unit;
             place.axes.values[b] = (y + along * sin) / unit;
@@ -90,6 +90,6 @@ impl Iso<'_> {
             place.feed = words.feed;
             self.hole_cycle(&place, report);
         }
-        self.core.state.incremental = incremental;
+        self.core.state.coordinates.set_incremental(incremental);
     }
 }

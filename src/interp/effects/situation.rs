@@ -15,8 +15,11 @@ impl Situation {
         Self { state, to_r }
     }
 
-    /// The first setting that differs: name, before, after. `feed_counts`: whether F may not differ.
+    /// The first setting that differs: name, before, after. `feed_counts`: whether F must be the same.
     pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
+        if self.equals(other) {
+            return None;
+        }
         let (a, b) = (self.settings(feed_counts), other.settings(feed_counts));
         a.into_iter()
             .zip(b)
@@ -24,17 +27,30 @@ impl Situation {
             .map(|((name, a), (_, b))| (name, written(&a), written(&b)))
     }
 
-    /// Each setting by name. Numbers compare to 1e-9 of their size, what is unknown is like what is unknown.
+    /// Whether every setting is the same number, as it is nearly always: nothing is put into words for that.
+    fn equals(&self, other: &Self) -> bool {
+        let (a, b) = (&self.state, &other.state);
+        self.to_r == other.to_r
+            && (a.motion, a.compensation, a.tool.number()) == (b.motion, b.compensation, b.tool.number())
+            && (a.coordinates, a.tool_axis) == (b.coordinates, b.tool_axis)
+            && (a.feed, a.length, a.spindle.rpm()) == (b.feed, b.length, b.spindle.rpm())
+            && a.zero == b.zero
+    }
+
+    /// Each setting by name. Numbers are compared to a relative 1e-9; unknown values are equal.
     fn settings(&self, feed_counts: bool) -> Vec<(&'static str, Vec<Argument>)> {
         let state = &self.state;
         let flag = |is_on: bool| vec![Argument::code(if is_on { "on" } else { "off" })];
         let number = |value: Option<f64>| vec![Argument::number("", value.unwrap_or(f64::NAN))];
         let mut settings = vec![
-            ("incremental programming", flag(state.incremental)),
-            ("absolute arc centres", flag(state.arc_centre_absolute)),
-            ("the unit of lengths", number(Some(state.length_unit_mm))),
-            ("the unit of feeds", number(Some(state.feed_unit_mm))),
-            ("the working plane", vec![Argument::code(plane(state.plane))]),
+            ("incremental programming", flag(state.coordinates.incremental())),
+            ("absolute arc centres", flag(state.coordinates.arc_centre_absolute())),
+            ("the unit of lengths", number(Some(state.coordinates.unit_mm()))),
+            ("the unit of feeds", number(Some(state.feed.unit_mm()))),
+            (
+                "the working plane",
+                vec![Argument::code(plane(state.coordinates.plane()))],
+            ),
             (
                 "the motion code",
                 vec![Argument::code(
@@ -51,27 +67,30 @@ impl Situation {
             ),
             (
                 "the work offset",
-                vec![Argument::code(
-                    state.work_offset.as_deref().unwrap_or("none").to_owned(),
-                )],
+                vec![Argument::code(state.zero.offset().unwrap_or("none").to_owned())],
             ),
             (
                 "the zero point",
-                state.zero.iter().map(|value| Argument::number("", *value)).collect(),
+                state
+                    .zero
+                    .values()
+                    .iter()
+                    .map(|value| Argument::number("", *value))
+                    .collect(),
             ),
-            ("the tool length in force", number(state.tool_length_mm)),
+            ("the active tool length", number(state.length.mm())),
             (
-                "whose tool length is in force",
-                vec![Argument::code(state.length_of.to_string())],
+                "which tool's length is active",
+                vec![Argument::code(state.length.of().to_string())],
             ),
-            ("the tool", number(state.tool.map(f64::from))),
-            ("tool centre point control", flag(state.tcp)),
-            ("programming by tool vectors", flag(state.vector_mode)),
-            ("the spindle's speed", number(state.spindle_rpm)),
+            ("the tool", number(state.tool.number().map(f64::from))),
+            ("tool centre point control", flag(state.tool_axis.tcp())),
+            ("programming by tool vectors", flag(state.tool_axis.vectors())),
+            ("the spindle's speed", number(state.spindle.rpm())),
         ];
         if feed_counts {
-            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed_mode))]));
-            settings.push(("the feed", number(state.feed)));
+            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed.mode()))]));
+            settings.push(("the feed", number(state.feed.value())));
         }
         settings
     }

@@ -130,7 +130,7 @@ impl<'d> Iso<'d> {
         };
         for (axis, kept) in zero.values.iter_mut().enumerate() {
             if let Some(value) = self.axis_value(words, axis) {
-                if self.core.state.incremental {
+                if self.core.state.coordinates.incremental() {
                     *kept += value;
                 } else {
                     *kept = value;
@@ -146,14 +146,14 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// The program writes a work offset; it acts at once where it is in force.
+    /// The program writes a work offset; it acts at once if it is active.
     pub(crate) fn store_offset(&mut self, name: &str, zero: OffsetValues) {
         let written = &mut self.memory.frames.written;
         match written.iter_mut().find(|(known, _)| **known == *name) {
             Some(known) => known.1 = zero,
             None => written.push((name.into(), zero)),
         }
-        let in_force = match self.core.state.work_offset.as_deref() {
+        let in_force = match self.core.state.zero.offset() {
             Some(known) => known.eq_ignore_ascii_case(name),
             None => self.core.dialect.quirks.first_offset_at_start && name == "G54",
         };
@@ -168,8 +168,8 @@ impl<'d> Iso<'d> {
     }
 
     fn write_tool(&mut self, l: u32, number: u32, words: &Words, found: &Found<'d>, report: &mut Report<'_>) {
-        let value = words.radius.number().map_or(0.0, |number| number.value) * self.core.state.length_unit_mm;
-        let incremental = self.core.state.incremental;
+        let value = words.radius.number().map_or(0.0, |number| number.value) * self.core.state.coordinates.unit_mm();
+        let incremental = self.core.state.coordinates.incremental();
         let add = |old: f64| if incremental { old + value } else { value };
         let declared = self
             .core
@@ -197,8 +197,8 @@ impl<'d> Iso<'d> {
             }
             offset.radius_unclear |= unclear && l >= 12;
         }
-        // when the new length acts is a parameter of the control; the next G43 or G49 makes it plain
-        let in_force = self.memory.length_offset == Some(number) && self.core.state.tool_length_mm.is_some();
+        // a parameter of the control decides when the new length acts; after the next G43 or G49 it is certain
+        let in_force = self.memory.length_offset == Some(number) && self.core.state.length.mm().is_some();
         if l <= 11 && in_force {
             let what = format!("{} of the active length offset", found.code.id);
             report.fault(found.range, FaultKind::NotModelled { what });

@@ -4,7 +4,7 @@ use crate::words::Words;
 use crate::{ModalState, Position};
 use trunnion_geometry::math::sin_cos;
 
-/// What was given last; `None`: not known.
+/// What was given last; `None`: unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Polar {
     radius: Option<f64>,
@@ -12,20 +12,20 @@ pub(crate) struct Polar {
 }
 
 impl Polar {
-    /// Puts the position that the words give into `end`. An incremental radius counts from the present position, which makes a new
+    /// Puts the position that the words give into `end`. An incremental radius starts from the present position, which makes a new
     /// centre; that is not followed.
     pub(crate) fn place(&mut self, words: &Words, state: &ModalState, end: &mut Position) {
-        let [a, b, _] = plane_axes(state.plane);
+        let [a, b, _] = plane_axes(state.coordinates.plane());
         let said = words.axes.given | words.axes.unread;
         if said & ((1 << a) | (1 << b)) == 0 {
             return;
         }
         if said & (1 << a) != 0 {
-            let radius = words.axes.get(a).filter(|_| !state.incremental);
-            self.radius = radius.map(|radius| radius * state.length_unit_mm);
+            let radius = words.axes.get(a).filter(|_| !state.coordinates.incremental());
+            self.radius = radius.map(|radius| radius * state.coordinates.unit_mm());
         }
         if said & (1 << b) != 0 {
-            self.degrees = match (words.axes.get(b), state.incremental) {
+            self.degrees = match (words.axes.get(b), state.coordinates.incremental()) {
                 (Some(angle), true) => self.degrees.map(|degrees| degrees + angle),
                 (angle, _) => angle,
             };

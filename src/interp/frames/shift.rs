@@ -5,28 +5,35 @@ use crate::iso::Iso;
 use crate::words::Words;
 
 impl<'d> Iso<'d> {
-    /// The zero point in force from its parts. The machine stays where it is.
+    /// The active zero point from its parts. The machine stays where it is.
     pub(crate) fn refresh_zero(&mut self) {
         let frames = &self.memory.frames;
         let mut zero = frames.selected;
         for (axis, value) in zero.iter_mut().enumerate() {
             *value += frames.added(axis);
         }
-        self.core.state.undeclared.set_here = frames.shift != [0.0; 9];
+        self.core.state.zero.set_here(frames.shift != [0.0; 9]);
         self.move_zero(zero);
     }
 
     /// Length of a word of an axis in mm or degrees, radius where the control programs diameters.
     pub(crate) fn axis_value(&self, words: &Words, axis: usize) -> Option<f64> {
         let linear = crate::core::LINEAR & (1 << axis) != 0;
-        let unit = if linear { self.core.state.length_unit_mm } else { 1.0 };
+        let unit = if linear {
+            self.core.state.coordinates.unit_mm()
+        } else {
+            1.0
+        };
         words.axes.get(axis).map(|value| value * unit)
     }
 
     /// Shifts can be applied only where words are work coordinates.
     fn shifts_plainly(&self, words: &Words) -> bool {
         let frames = &self.memory.frames;
-        frames.shape.is_identity() && words.axes.unread == 0 && !self.core.state.tcp && frames.tilt.is_none()
+        frames.shape.is_identity()
+            && words.axes.unread == 0
+            && !self.core.state.tool_axis.tcp()
+            && frames.tilt.is_none()
     }
 
     /// G52: the work coordinates' zero moves to the given place; 0 ends it.
@@ -38,9 +45,9 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         block.takes_coordinates = true;
-        // the sources do not say whether the distance counts from the last shift
-        let unclear =
-            self.core.state.incremental && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
+        // the sources do not say whether the distance is relative to the last shift
+        let unclear = self.core.state.coordinates.incremental()
+            && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
         if unclear || !self.shifts_plainly(words) {
             self.frame_change(found, words, block, report);
             return;
@@ -53,8 +60,8 @@ impl<'d> Iso<'d> {
         self.refresh_zero();
     }
 
-    /// TRANS, ATRANS: the zero point moves by the coordinates of the block, whatever G91 says (Sinumerik 840D sl Programming Manual,
-    /// Fundamentals, frames). TRANS comes instead of all programmable frames before it, ATRANS is added to them.
+    /// TRANS, ATRANS: the zero point moves by the coordinates of the block, regardless of G91 (Sinumerik 840D sl Programming Manual,
+    /// Fundamentals, frames). TRANS replaces all programmable frames before it, ATRANS is added to them.
     pub(crate) fn programmable_shift(
         &mut self,
         found: &Found<'d>,
@@ -71,7 +78,7 @@ impl<'d> Iso<'d> {
             self.refresh_zero();
         }
         let turns = (words.axes.given | words.axes.unread) & crate::core::ROTARY != 0;
-        let plain = words.axes.unread == 0 && !(self.core.state.tcp && turns);
+        let plain = words.axes.unread == 0 && !(self.core.state.tool_axis.tcp() && turns);
         if !words.axes.any() {
             return;
         }
@@ -97,7 +104,7 @@ impl<'d> Iso<'d> {
     ) {
         if words.speed.is_said() {
             let limit = words.speed.number().map_or(f64::NAN, |number| number.value);
-            self.core.state.spindle_limit_rpm = Some(limit);
+            self.core.state.spindle.limit(limit);
             if !words.axes.any() {
                 return;
             }
@@ -106,9 +113,9 @@ impl<'d> Iso<'d> {
         let known = words.axes.given & !self.core.state.position.known == 0;
         // under a length offset the coordinates are those of the point before it
         let named = |(axis, along): (usize, f64)| along != 0.0 && words.axes.get(axis).is_some();
-        let length = self.core.state.tool_length_mm.is_some_and(|length| length != 0.0)
+        let length = self.core.state.length.mm().is_some_and(|length| length != 0.0)
             && self.core.setup.length_along().into_iter().enumerate().any(named);
-        if !known || length || !self.shifts_plainly(words) || self.core.state.frame_unknown {
+        if !known || length || !self.shifts_plainly(words) || self.core.state.zero.is_lost() {
             self.frame_change(found, words, block, report);
             return;
         }

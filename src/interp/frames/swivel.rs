@@ -10,11 +10,11 @@ use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 
 impl<'d> Iso<'d> {
-    /// A motion as it is put out: in the workpiece frame.
+    /// A motion as it is emitted: in the workpiece frame.
     #[inline]
     pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
         match &self.memory.frames.tilt {
-            Some(tilt) if !motion.machine_coordinates && !self.core.state.frame_unknown => tilt.motion_to_work(motion),
+            Some(tilt) if !motion.machine_coordinates && !self.core.state.zero.is_lost() => tilt.motion_to_work(motion),
             _ => *motion,
         }
     }
@@ -35,9 +35,9 @@ impl<'d> Iso<'d> {
             position = new.to_plane(&position);
         }
         self.memory.frames.tilt = tilt;
-        if !self.core.state.tcp {
-            // words without tool centre point control are no places of the tip where a rotary axis is turned, or the tool hangs off the
-            // zero of the axes; where the tip is, the machine knows
+        if !self.core.state.tool_axis.tcp() {
+            // without tool centre point control words are not positions of the tip if a rotary axis is turned, or if the tool is off the
+            // zero of the axes; only the machine gives the position of the tip
             position.known &= !XYZ;
         }
         self.core.state.position = position;
@@ -53,8 +53,8 @@ impl<'d> Iso<'d> {
     }
 
     /// G68.2 X Y Z I J K: zero of the plane, and Euler angles about Z, the turned X, the turned Z (Series 30i operator's manual, tilted
-    /// working plane). P1 gives turns about X, Y, Z with their order in Q; whether about fixed or turned axes is a parameter of the run
-    /// and makes no difference where at most one is not zero. The other kinds of P are not modelled. G68.4 is relative to the active plane.
+    /// working plane). P1 gives turns about X, Y, Z with their order in Q; a parameter of the run decides between fixed and turned axes;
+    /// it makes no difference where at most one is not zero. The other kinds of P are not modelled. G68.4 is relative to the active plane.
     pub(crate) fn tilted_plane(
         &mut self,
         found: &Found<'d>,
@@ -64,11 +64,13 @@ impl<'d> Iso<'d> {
     ) {
         let adds = found.code.id == "G68.4";
         let turns = self.plane_turns(words, report);
-        let clear = words.axes.unread == 0 && !self.core.state.incremental && self.memory.frames.shape.is_identity();
+        let clear = words.axes.unread == 0
+            && !self.core.state.coordinates.incremental()
+            && self.memory.frames.shape.is_identity();
         let outer = self.memory.frames.tilt.filter(|_| adds);
         let (Some(turns), true) = (
             turns,
-            clear && adds == outer.is_some() && !self.core.state.frame_unknown,
+            clear && adds == outer.is_some() && !self.core.state.zero.is_lost(),
         ) else {
             self.end_tilt(report);
             self.frame_change(found, words, block, report);
@@ -80,7 +82,7 @@ impl<'d> Iso<'d> {
         self.tilt_to(Some(outer.map_or(plane, |outer| outer.then(&plane))), report);
     }
 
-    /// Axis and degrees of the turns that I J K tell.
+    /// Axis and degrees of the turns that I J K give.
     fn plane_turns(&self, words: &Words, report: &mut Report<'_>) -> Option<[(usize, f64); 3]> {
         let implicit = self.core.setup.control.implicit_decimals;
         let angle = |letter| match words.letter(letter) {
@@ -151,7 +153,7 @@ impl<'d> Iso<'d> {
             self.unmodelled_code(found, words, block, report);
             return;
         };
-        if self.memory.frames.tilt.is_none() || self.core.state.tcp {
+        if self.memory.frames.tilt.is_none() || self.core.state.tool_axis.tcp() {
             self.unmodelled_code(found, words, block, report);
             return;
         }
@@ -167,7 +169,7 @@ impl<'d> Iso<'d> {
     /// Turns the rotary axes onto the plane's normal.
     fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &Report<'_>) {
         let start = self.core.state.position;
-        // also where the tip stays: what X Y Z were without it being led is no place of the tip
+        // also where the tip stays: X Y Z from before it was guided are not a position of the tip
         self.core.forget_linear();
         self.core.state.position.known &= !ROTARY;
         let mut end = self.core.state.position;
@@ -208,7 +210,7 @@ impl<'d> Iso<'d> {
         let ended = self.core.unknown.end(found.code);
         self.core.forget_if(ended);
         block.takes_coordinates = true;
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let shifted = |by: [f64; 3]| Tilted::new(Vec3::from(by) * unit, &[]);
         let plane = shifted(call.before)
             .then(&Tilted::new(Vec3::zeros(), &call.turns))
@@ -225,12 +227,12 @@ impl<'d> Iso<'d> {
             (false, true) => Swivel::TipStays,
             (false, false) => Swivel::AxesStay,
         };
-        self.core.state.frame_unknown = self.core.unknown.any();
+        self.core.state.zero.lose(self.core.unknown.any());
         self.swivel(swivel, posture, report);
     }
 }
 
-/// What a call of CYCLE800 says.
+/// The arguments of a call of CYCLE800.
 #[derive(Clone, Debug, PartialEq)]
 struct SwivelCall {
     retracts: bool,
@@ -244,8 +246,8 @@ struct SwivelCall {
 }
 
 impl SwivelCall {
-    /// `None` where it says something that is not modelled: another mode than axis by axis, the end of a data record, values that are
-    /// no numbers.
+    /// `None` for what is not modelled: a mode other than axis by axis, the end of a data record, values that are not
+    /// numbers.
     fn read(text: &str) -> Option<Self> {
         let inside = text.split_once('(')?.1.trim_end().strip_suffix(')')?;
         let values: Vec<&str> = inside.split(',').map(str::trim).collect();

@@ -7,10 +7,10 @@ use crate::iso::Iso;
 use crate::words::Words;
 
 impl<'d> Iso<'d> {
-    /// Whether nothing is in force that would make a new frame's place unclear.
+    /// Whether nothing is active that would make the position of a new frame unclear.
     fn frames_are_plain(&self) -> bool {
-        !self.core.state.frame_unknown
-            && !self.core.state.tcp
+        !self.core.state.zero.is_lost()
+            && !self.core.state.tool_axis.tcp()
             && self.memory.frames.polar.is_none()
             && self.memory.frames.tilt.is_none()
     }
@@ -28,12 +28,12 @@ impl<'d> Iso<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        let plane = self.core.state.plane;
+        let plane = self.core.state.coordinates.plane();
         let [a, b, _] = plane_axes(plane);
         let angle = words.radius.number().map(|number| number.value);
         let position = self.core.state.position;
         let here = self.memory.frames.programmed(&position);
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let centre = [a, b].map(|axis| match words.axes.get(axis) {
             Some(value) => Some(value * unit),
             None if words.axes.unread & (1 << axis) != 0 => None,
@@ -81,7 +81,7 @@ impl<'d> Iso<'d> {
         let factors = self.scale_factors(words);
         let position = self.core.state.position;
         let here = self.memory.frames.programmed(&position);
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let mut centre = [0.0; 3];
         let mut known = words.axes.unread == 0 && plain;
         if let Some(factors) = factors {
@@ -172,12 +172,12 @@ impl<'d> Iso<'d> {
         self.reshaped();
     }
 
-    /// What a turned plane says about coordinates that a block gives: after G68 an axis that no word has named yet has no known
-    /// place once the other is given; after G69 the first coordinate must be absolute.
+    /// The effect of a turned plane on coordinates of a block: after G68 an axis that no word has named yet has an unknown position
+    /// once the other is given; after G69 the first coordinate must be absolute.
     pub(crate) fn after_turn(&mut self, words: &Words, end: &mut crate::Position) {
         let named = words.axes.given | words.axes.unread;
         let frames = &mut self.memory.frames;
-        let absolute = !self.core.state.incremental;
+        let absolute = !self.core.state.coordinates.incremental();
         if named & frames.fresh != 0 && absolute {
             end.known &= !(frames.fresh & !named);
             frames.fresh &= !named;

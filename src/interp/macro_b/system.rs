@@ -1,4 +1,4 @@
-//! System variables: what a run knows of #1000 and above, and what the others are.
+//! System variables: which of #1000 and above a run knows, and what the others are.
 //!
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
@@ -7,7 +7,7 @@ use crate::iso::Iso;
 use crate::{FeedMode, ModalState, Setup};
 use trunnion_dialect::{Action, Plane};
 
-/// What a variable of the control is, for people who ask why its value is not known.
+/// What a variable of the control is, for messages about why its value is unknown.
 pub(crate) fn what(number: u32) -> &'static str {
     match number {
         1000..=1999 => "a signal of the machine",
@@ -16,18 +16,18 @@ pub(crate) fn what(number: u32) -> &'static str {
         3901 | 3902 => "a counter of parts",
         4000..=4199 => "modal information that the run does not keep",
         5001..=5160 if is_probing(number) => "the result of probing",
-        5001..=5160 => "a position that is not known here",
+        5001..=5160 => "a position that is unknown here",
         5201..=5324 | 7001..=7960 => "a work offset of the control",
         _ => "a value of the control",
     }
 }
 
-/// #5061 ff.: where a skip signal came.
+/// #5061 ff.: the position of a skip signal.
 fn is_probing(number: u32) -> bool {
     (5061..=5080).contains(&number)
 }
 
-/// What a system variable is read from.
+/// The data from which system variables are read.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<'a> {
     pub(crate) state: &'a ModalState,
@@ -38,7 +38,7 @@ pub(crate) struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// The value of a system variable, NaN where it is not known.
+    /// The value of a system variable, NaN where it is unknown.
     pub(crate) fn read(&self, number: u32) -> f64 {
         let unknown = f64::NAN;
         match number {
@@ -62,25 +62,25 @@ impl Known<'_> {
                 Action::ArcCounterClockwise => 3.0,
                 _ => return None,
             },
-            2 => match state.plane {
+            2 => match state.coordinates.plane() {
                 Plane::Xy => 17.0,
                 Plane::Zx => 18.0,
                 Plane::Yz => 19.0,
             },
             3 => {
-                if state.incremental {
+                if state.coordinates.incremental() {
                     91.0
                 } else {
                     90.0
                 }
             }
-            5 => match state.feed_mode {
+            5 => match state.feed.mode() {
                 FeedMode::InverseTime => 93.0,
                 FeedMode::PerMinute => 94.0,
                 FeedMode::PerRevolution => 95.0,
             },
             6 => {
-                if state.length_unit_mm > 1.0 {
+                if state.coordinates.unit_mm() > 1.0 {
                     20.0
                 } else {
                     21.0
@@ -92,47 +92,50 @@ impl Known<'_> {
             },
             12 if !self.fanuc => self.offset_code()?,
             14 if self.fanuc => self.offset_code()?,
-            109 => state.feed? / state.feed_unit_mm,
-            119 => state.spindle_rpm?,
-            120 => f64::from(state.tool_prepared.or(state.tool)?),
+            109 => state.feed.value()? / state.feed.unit_mm(),
+            119 => state.spindle.rpm()?,
+            120 => f64::from(state.tool.prepared().or(state.tool.number())?),
             _ => return None,
         };
         Some(code)
     }
 
-    /// 54 to 59: the work offset in force.
+    /// 54 to 59: the active work offset.
     fn offset_code(&self) -> Option<f64> {
-        let name = self.state.work_offset.as_deref()?;
+        let name = self.state.zero.offset()?;
         name.strip_prefix('G')?.parse().ok()
     }
 
     /// End point of the block before, program units.
     fn end(&self, axis: usize) -> Option<f64> {
-        if self.frames.active || self.state.frame_unknown {
+        if self.frames.active || self.state.zero.is_lost() {
             return None;
         }
-        Some(self.state.position.get(axis)? / self.state.length_unit_mm)
+        Some(self.state.position.get(axis)? / self.state.coordinates.unit_mm())
     }
 
     /// End point of the block before with the tool's length, which lies along the tool at home while tool centre point control is off.
     fn with_length(&self, axis: usize) -> Option<f64> {
         let length = self.length(axis)?;
-        Some((self.state.position.get(axis)? + length) / self.state.length_unit_mm)
+        Some((self.state.position.get(axis)? + length) / self.state.coordinates.unit_mm())
     }
 
     /// The same in machine coordinates.
     fn machine(&self, axis: usize) -> Option<f64> {
         let length = self.length(axis)?;
-        Some((self.state.position.get(axis)? + self.state.zero[axis] + length) / self.state.length_unit_mm)
+        Some(
+            (self.state.position.get(axis)? + self.state.zero.values()[axis] + length)
+                / self.state.coordinates.unit_mm(),
+        )
     }
 
     fn length(&self, axis: usize) -> Option<f64> {
-        let shifted = self.frames.active || self.state.frame_unknown || self.state.compensation != 0;
-        if self.state.tcp || shifted {
+        let shifted = self.frames.active || self.state.zero.is_lost() || self.state.compensation != 0;
+        if self.state.tool_axis.tcp() || shifted {
             return None;
         }
         let along = self.setup.length_along().get(axis).copied().unwrap_or(0.0);
-        Some(self.state.tool_length_mm.unwrap_or(0.0) * along)
+        Some(self.state.length.mm().unwrap_or(0.0) * along)
     }
 
     /// Known where the setup declares the offset, or the program has written it.
@@ -145,7 +148,7 @@ impl Known<'_> {
                 (zero.known & (1 << axis) != 0).then_some(zero.values[axis])?
             }
         };
-        Some(value / self.state.length_unit_mm)
+        Some(value / self.state.coordinates.unit_mm())
     }
 }
 
@@ -166,7 +169,7 @@ impl Iso<'_> {
     /// An assignment to #5201 to #5323: a zero point moves, the machine stays where it is. `value` in program units.
     pub(crate) fn system_write(&mut self, number: u32, value: f64) {
         let Some((name, axis)) = offset_of(number) else { return };
-        let value = value * self.core.state.length_unit_mm;
+        let value = value * self.core.state.coordinates.unit_mm();
         let Some(name) = name else {
             self.memory.frames.external[axis] = value;
             return self.refresh_zero();

@@ -64,7 +64,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.fault(at, range, FaultKind::NotModelled { what });
     }
 
-    /// Says so where compensation begins with a radius of zero, because nothing is declared of the tool.
+    /// Reports compensation that begins with a radius of zero, because the tool is not declared.
     pub(super) fn radius_unset(&mut self, state: &State, at: At) {
         let on = state.side != trunnion_ngc::Side::Off;
         let was = std::mem::replace(&mut self.told.compensated, on);
@@ -98,7 +98,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;
         let mut kind = kind;
-        if self.core.state.tcp && state.machine_frame {
+        if self.core.state.tool_axis.tcp() && state.machine_frame {
             self.frame_unknown(at);
             kind = MotionKind::Unknown;
             for axis in LINEAR_AXES {
@@ -128,27 +128,28 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             start,
             end,
             // lines that are emitted as differences may name other rotary axes
-            says_way: if modal.incremental {
+            says_way: if modal.coordinates.incremental() {
                 crate::core::ROTARY | state.named_axes
             } else {
                 0
             },
             orientation: Orientation::Words,
-            tcp: modal.tcp,
-            great_circle: modal.great_circle,
+            tcp: modal.tool_axis.tcp(),
+            great_circle: modal.tool_axis.great_circle(),
             feed,
-            spindle_on: modal.spindle_on,
-            spindle_rpm: modal.spindle_rpm,
+            spindle_on: modal.spindle.on(),
+            spindle_rpm: modal.spindle.rpm(),
+            spin: None,
             zero: shift.zero,
             tool_length_mm: shift.length,
             undeclared: if state.machine_frame {
                 crate::Undeclared::NOTHING
             } else {
-                modal.undeclared
+                modal.undeclared()
             },
             machine_coordinates: false,
             radii: state.lathe_diameter,
-            tool: modal.tool,
+            tool: modal.tool.number(),
             tilt: crate::Tilt::default(),
             effects: core.effects.count(),
         };
@@ -336,7 +337,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// Where the probe touches is known to the machine only: on every axis that the block moves the position is lost.
+    /// Where the probe touches is known to the machine only: the position of every axis that the block moves is lost.
     fn probe(&mut self, kind: u8, pose: &Pose, at: At, state: &State) {
         let shift = self.shift(state);
         let target = shift.coordinates(pose);

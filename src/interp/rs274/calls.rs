@@ -1,4 +1,4 @@
-//! Calls that move nothing: tools, offsets, feed, spindle, planes, units, and codes of the machine's own.
+//! Calls that move nothing: tools, offsets, feed, spindle, planes, units, and the machine's own codes.
 use super::bridge::{Bridge, LINEAR_AXES};
 use super::feed::Rate;
 use super::frames::Shift;
@@ -31,23 +31,23 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.kinematics_unknown = true;
         self.told.lost = true;
         self.told.lost_rotary = true;
-        self.core.state.frame_unknown = true;
+        self.core.state.zero.lose(true);
     }
 
-    /// A code of the machine's own: what the dialect's table says of it, otherwise the position after it is unknown.
+    /// One of the machine's own codes: its effect by the dialect's table, otherwise the position after it is unknown.
     fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
         let code = table_entry(self.core.dialect, own);
         let clamps_axis = self.clamp_code(own, state);
         let Some(code) = code else {
             if !clamps_axis {
-                self.core.state.may_start_spindle();
+                self.core.state.spindle.may_start();
                 self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
             }
             return;
         };
         if own.letter == b'M' && code.owner == Owner::MachineBuilder && code.action == Action::NoMotion && !clamps_axis
         {
-            self.core.state.may_start_spindle();
+            self.core.state.spindle.may_start();
         }
         let known = matches!(
             code.action,
@@ -64,11 +64,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.kinematics_unknown = true;
             self.told.lost_rotary = true;
-            self.core.state.frame_unknown = true;
+            self.core.state.zero.lose(true);
             return;
         }
         if known && state.named_axes != 0 {
-            // the words are arguments of the remap, or a motion beside it: the interpreter does not run them
+            // the words are arguments of the remap, or a motion with it: the interpreter does not run them
             let what = format!("{} with axis words in its block", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.lost = true;
@@ -91,7 +91,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 }
             }
         }
-        self.core.state.frame_unknown = self.told.is_hidden();
+        self.core.state.zero.lose(self.told.is_hidden());
     }
 
     /// Takes a code that closes or opens a clamp; whether it is one.
@@ -135,7 +135,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.lost = true;
     }
 
-    /// The first code of the block in hand that `is` says, ten times its number; the whole block where it is not written as a number.
+    /// The first code of the current block that `is` says, ten times its number; the whole block where it is not written as a number.
     pub(super) fn code_range(&mut self, at: At, letter: u8, is: impl Fn(i64) -> bool) -> TextRange {
         let block = self.block(at);
         let mut words = self.program.block(block).words();
@@ -150,8 +150,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// The linear axes of one kind of coordinates are not known from the other.
     pub(super) fn tcp(&mut self, on: bool) {
-        if self.core.state.tcp != on {
-            self.core.state.tcp = on;
+        if self.core.state.tool_axis.tcp() != on {
+            self.core.state.tool_axis.set_tcp(on);
             self.told.lost = true;
         }
     }
@@ -164,7 +164,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                     mm: rate * unit,
                     deg: rate,
                 });
-                self.core.state.feed = Some(rate * unit);
+                self.core.state.feed.set(Some(rate * unit));
             }
             Canon::FeedMode(_, mode) => self.told.per_revolution = mode == 1,
             Canon::StartSync(synced) => {
@@ -174,28 +174,30 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::SpindleMode(0, ceiling) => self.told.surface_speed = ceiling != 0.0,
             Canon::G92Offset(ref offset) => {
                 self.told.g92 = Shift::metric(offset, unit);
-                self.core.state.undeclared.set_here = self.told.g92 != [0.0; 9];
+                self.core.state.zero.set_here(self.told.g92 != [0.0; 9]);
             }
             Canon::StopSync => self.told.synced = None,
             Canon::Spindle(0, turn) => {
-                self.core.state.switch_spindle(turn != SpindleTurn::Stop);
+                self.core.state.spindle.switch(turn != SpindleTurn::Stop);
             }
             // which spindle holds the tool is not known
-            Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.may_start_spindle(),
+            Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.spindle.may_start(),
             Canon::SpindleSpeed(0, speed) => {
                 let surface = self.told.surface_speed;
-                self.core.state.speed_said = true;
-                self.core.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
+                self.core
+                    .state
+                    .spindle
+                    .set_rpm((!surface && speed.is_finite()).then_some(speed));
             }
             Canon::SelectTool(number) => {
                 let number = u32::try_from(number).ok();
-                self.core.state.tool_prepared = number;
+                self.core.state.tool.prepare(number);
                 self.core.tools.prepare(number.map_or(Chosen::Unread, Chosen::Number));
             }
             Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. } => {
                 let number = u32::try_from(state.tool).ok();
                 let core = &mut *self.core;
-                core.state.tool = number;
+                core.state.tool.load(number);
                 core.tools.load(number.map_or(Chosen::Unread, Chosen::Number));
                 core.merge_tool();
                 // the change may move the machine: the interpreter has forgotten X Y Z too
@@ -216,18 +218,19 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::Units(units) => {
                 // the first one is the control's own, before the program
                 let own = !std::mem::replace(&mut self.told.own_units, true);
-                let modal = &mut self.core.state;
-                let said = modal.units_said || !own;
                 let unit = if units == Units::Inch { 25.4 } else { 1.0 };
-                modal.units(unit, unit);
-                modal.units_said = said;
+                if own {
+                    self.core.state.own_units(unit, unit);
+                } else {
+                    self.core.state.units(unit, unit);
+                }
             }
             Canon::Plane(plane) => {
-                self.core.state.plane = match plane {
+                self.core.state.coordinates.set_plane(match plane {
                     trunnion_ngc::Plane::Xz => Plane::Zx,
                     trunnion_ngc::Plane::Yz => Plane::Yz,
                     _ => Plane::Xy,
-                };
+                });
             }
             _ => {}
         }
@@ -237,16 +240,20 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
         self.told.tool_offset = Shift::metric(offset, state.units.mm());
         let length = self.told.tool_offset[2];
-        self.core.state.tool_length_mm = (on && length.is_finite()).then_some(length);
-        self.core.state.length_of = match state.length_of {
-            Some(0) => LengthOf::Tool(self.core.state.tool),
+        let of = match state.length_of {
+            Some(0) => LengthOf::Tool(self.core.state.tool.number()),
             Some(number) => u32::try_from(number).map_or(LengthOf::Other, |number| LengthOf::Tool(Some(number))),
             None => LengthOf::Nothing,
         };
-        let declared = self.core.state.tool_data.and_then(|tool| tool.length_mm).is_some();
-        self.core.state.undeclared.length =
-            on && length == 0.0 && !declared && self.core.state.length_of != LengthOf::Nothing;
-        if on && length == 0.0 && !declared {
+        let declared = self.core.state.tool.data().and_then(|tool| tool.length_mm).is_some();
+        let in_force = (on && length.is_finite()).then_some(length);
+        let undeclared = in_force == Some(0.0) && !declared;
+        if undeclared && of != LengthOf::Nothing {
+            self.core.state.length.set_declared(None, of);
+        } else {
+            self.core.state.length.set(in_force, of);
+        }
+        if undeclared {
             let tool = self.core.tools.name();
             if self.core.tools.first_report_of_length(&tool) {
                 let range = self.code_range(at, b'G', |code| (430..=432).contains(&code));
@@ -259,8 +266,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
             return;
         };
-        let changed = self.core.state.work_offset.as_deref() != Some(*name);
-        self.core.state.work_offset = Some((*name).into());
+        let changed = self.core.state.zero.offset() != Some(*name);
         let declared = self
             .core
             .setup
@@ -268,11 +274,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             .iter()
             .any(|known| known.name.eq_ignore_ascii_case(name));
         let zero = offset.iter().all(|value| *value == 0.0);
-        self.core.state.undeclared.zero = if declared {
+        let undeclared = if declared {
             0
         } else {
             self.zeros_without_value(index, offset)
         };
+        self.core.state.zero.choose(Some((*name).into()), undeclared);
         let begun = self.core.last_content.is_some();
         if begun && changed && zero && !declared && self.core.offsets_reported.first(name) {
             let name = (*name).to_owned();
@@ -281,8 +288,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// Axes of a work offset of which nothing says that it is declared: the control knows no difference between a zero that somebody set and
-    /// one that was never set.
+    /// Axes of a work offset that is not known to be declared: the control does not distinguish a zero that was set from one that was never
+    /// set.
     fn zeros_without_value(&self, index: i32, offset: &Pose) -> u16 {
         let first = FIRST_SYSTEM + 20 * (index - 1).max(0).unsigned_abs();
         let given = |axis: usize| {
@@ -313,7 +320,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 }
 
-/// What the dialect's table says of a code of the machine's own.
+/// What the dialect's table says about one of the machine's own codes.
 fn table_entry(dialect: &Dialect, own: OwnCode) -> Option<&Code> {
     if own.letter == b'G' {
         dialect.g(own.tenths)

@@ -6,6 +6,8 @@ mod effects;
 mod faults;
 mod feed;
 mod frames;
+mod handed;
+mod line_effects;
 mod modal;
 mod places;
 mod setup;
@@ -15,14 +17,11 @@ mod told;
 
 use crate::core::Core;
 use crate::engine::Engine;
-use crate::words::Words;
-use crate::written::{Keep, Values, resolved, written};
-use crate::{Argument, Effect};
+use crate::written::Values;
 use crate::{FaultKind, Frame, Sink};
 use bridge::{Bridge, LINEAR_AXES};
 use frames::Shift;
 use std::sync::Arc;
-use stored::stored_offsets;
 use told::Told;
 use trunnion_dialect::Dialect;
 use trunnion_ngc::{FileId, Source, Step};
@@ -37,7 +36,7 @@ pub(crate) struct Rs274 {
     done: bool,
 }
 
-/// The block in which each line (from 0) has its first word; `None` where blocks are lines. A lone CR ends blocks and no lines.
+/// The block in which each line (from 0) has its first word; `None` where blocks are lines. A lone CR ends blocks but not lines.
 fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
     let source = program.source();
     let lone = |at: usize| source.get(at + 1) != Some(&b'\n');
@@ -77,7 +76,7 @@ impl Rs274 {
     pub(crate) fn variable(&self, text: &str) -> Option<f64> {
         self.engine.variable(text)
     }
-    /// Variables that outlive the program, as far as they are known.
+    /// Variables that keep their values after the program ends, as far as they are known.
     pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
         self.engine.outliving()
     }
@@ -177,93 +176,9 @@ impl Values for Ngc<'_> {
 }
 
 impl Ngc<'_> {
-    /// The words of a line that does more than is modelled, or whose values are unknown.
-    #[cold]
-    fn line_effect(&mut self, program: &Program, block: BlockId, at: trunnion_ngc::At, sink: &mut impl Sink) {
-        let Some(run) = &mut self.run else { return };
-        let does_more = std::mem::take(&mut run.told.does_more);
-        let unknown_end = std::mem::take(&mut run.told.unknown_end);
-        let text = run.engine.text_of(at.file, at.line);
-        let names = crate::written::names(&text);
-        let skip = match program.block(block).items().next() {
-            Some(trunnion_syntax::Item::Skip(level, _)) if self.core.setup.control.block_delete.is_none() => {
-                Some(level)
-            }
-            _ => None,
-        };
-        if let Some(level) = skip.filter(|_| at.file == FileId::MAIN) {
-            let words = vec![Argument::number("/", f64::from(level))];
-            self.core
-                .effects
-                .add_with(block, Effect::Event(words), crate::Reach::Itself);
-            self.hand_on(sink);
-        }
-        let Some(run) = &mut self.run else { return };
-        let codes = Codes::of(run.engine.block_at(at));
-        let upper = crate::written::packed(&text);
-        // in the main program it starts again, or ends, as the control is set up
-        if (codes.returns || is_return(&upper)) && run.told.places.chain(at) == crate::ChainId::MAIN {
-            self.core.effects.add(block, Effect::End(vec![Argument::code("M99")]));
-            self.hand_on(sink);
-        }
-        // which point it is, and that the control moves there even where no axis is named
-        if ["G28", "G30", "G43.2", "M19"].iter().any(|code| upper.contains(code)) {
-            let words = if at.file == FileId::MAIN {
-                written(&program.block(block), self, &Words::default(), Keep::All)
-            } else {
-                vec![Argument::text("", &resolved(self, &text))]
-            };
-            let counts = |word: &Argument| matches!(word.name.as_ref(), "G" | "M" | "H" | "R" | "P" | "Q" | "");
-            let words = words.into_iter().filter(counts).collect();
-            self.core.effects.add(block, Effect::Event(words));
-            self.hand_on(sink);
-        }
-        // the control keeps what is written to its offsets, also where that is what they are without a declaration
-        for store in stored_offsets(&upper, &names, |name| self.variable(name)) {
-            self.core.effects.add(block, Effect::Store(store));
-            self.hand_on(sink);
-        }
-        if codes.own && at.file == FileId::MAIN {
-            // what the machine's own codes do is not known: they may read any word of their line
-            let held = |word: &Argument| {
-                let letter = word.name.as_bytes();
-                matches!(
-                    letter,
-                    [b'G' | b'M' | b'F' | b'S' | b'T' | b'D' | b'H' | b'A'..=b'C' | b'U'..=b'Z']
-                )
-            };
-            let words = written(&program.block(block), self, &Words::default(), Keep::All);
-            let words: Vec<Argument> = words.into_iter().filter(|word| !held(word)).collect();
-            if !words.is_empty() {
-                self.core.effects.add(block, Effect::Unmodelled(words));
-                self.hand_on(sink);
-            }
-        }
-        let lost = codes.shifts && (codes.ninth || self.core.state.position.xyz().is_none());
-        let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
-        if !(does_more || unknown_end || unknown) {
-            return;
-        }
-        let arguments = if at.file == FileId::MAIN {
-            let keep = if unknown_end || unknown {
-                Keep::All
-            } else {
-                Keep::BesideMotion
-            };
-            written(&program.block(block), self, &Words::default(), keep)
-        } else {
-            vec![Argument::text("", &resolved(self, &text))]
-        };
-        if arguments.is_empty() {
-            return;
-        }
-        self.core.effects.add(block, Effect::Unmodelled(arguments));
-        self.hand_on(sink);
-    }
-
     fn hand_on(&mut self, sink: &mut impl Sink) {
         if let Some(run) = &mut self.run {
-            // the next motion says anew how many effects came before it
+            // the next motion states again how many effects came before it
             run.told.steady = None;
         }
         self.core.hand_on_effects(sink);
@@ -302,7 +217,7 @@ impl Ngc<'_> {
                 let named: Vec<usize> = (0..9).filter(|axis| refused.axes & (1 << axis) != 0).collect();
                 forget(engine, bridge.told, &named);
                 if refused.spindle {
-                    bridge.core.state.lose_spindle();
+                    bridge.core.state.spindle.lose();
                 }
             }
             Step::Ended => *done = true,
@@ -348,16 +263,16 @@ impl Ngc<'_> {
     }
 }
 
-/// What the codes of a line do that no canonical call shows.
+/// Effects of the codes of a line that no canonical call shows.
 #[derive(Default)]
 struct Codes {
     /// M99.
     returns: bool,
-    /// G10, G52, G53, G92: they count from the present position, or set where coordinates count from.
+    /// G10, G52, G53, G92: they are relative to the present position, or set the zero of coordinates.
     shifts: bool,
-    /// The machine has codes of its own in it.
+    /// It contains the machine's own codes.
     own: bool,
-    /// G10 L11 counts from the ninth coordinate system, which may not be declared.
+    /// G10 L11 is relative to the ninth coordinate system, which may not be declared.
     ninth: bool,
 }
 
@@ -372,19 +287,7 @@ impl Codes {
     }
 }
 
-/// Whether a line is M99, which is read as a line of the flow and not as a block.
-fn is_return(line: &str) -> bool {
-    let line = line.trim_start_matches('/');
-    let after_number = line.strip_prefix('N');
-    let line = after_number.map_or(line, |rest| {
-        rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.')
-    });
-    let digits = line.strip_prefix('M').unwrap_or_default();
-    let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
-    digits[..end].parse() == Ok(99)
-}
-
-/// Axes are not known any more.
+/// Axes become unknown.
 fn forget(engine: &mut trunnion_ngc::Engine, told: &mut Told, axes: &[usize]) {
     for &axis in axes {
         engine.state.current[axis] = f64::NAN;

@@ -1,10 +1,10 @@
-//! What is in force, as the rules read it.
+//! The modal state for rules.
 use super::frames::Shift;
 use crate::{FeedMode, ModalState};
 use trunnion_dialect::Action;
 use trunnion_ngc::{DistanceMode, Side, State};
 
-/// The motion code in force; 800 is G80.
+/// The motion code in effect; 800 is G80.
 fn motion(code: i16) -> Option<Action> {
     Some(match code {
         0 => Action::Rapid,
@@ -17,23 +17,27 @@ fn motion(code: i16) -> Option<Action> {
     })
 }
 
-/// Takes over what the interpreter has in force but feed, spindle, tool and offsets, which calls tell in step with motions.
+/// Copies the modal state of the interpreter except feed, spindle, tool and offsets, which calls set in step with motions.
 pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
     modal.motion = motion(state.motion);
-    modal.incremental = state.distance == DistanceMode::Incremental;
-    modal.arc_centre_absolute = state.arc_distance == DistanceMode::Absolute;
-    modal.feed_mode = match state.feed_mode {
+    modal
+        .coordinates
+        .set_incremental(state.distance == DistanceMode::Incremental);
+    modal
+        .coordinates
+        .set_arc_centre_absolute(state.arc_distance == DistanceMode::Absolute);
+    modal.feed.set_mode(match state.feed_mode {
         trunnion_ngc::FeedMode::InverseTime => FeedMode::InverseTime,
         trunnion_ngc::FeedMode::PerMinute => FeedMode::PerMinute,
         trunnion_ngc::FeedMode::PerRevolution => FeedMode::PerRevolution,
-    };
+    });
     refresh_feed(modal, state);
     modal.compensation = match state.side {
         Side::Off => 0,
         Side::Left => 41,
         Side::Right => 42,
     };
-    modal.zero = shift.zero;
+    modal.zero.set(shift.zero);
 }
 
 /// The same after a line of a motion and its F only.
@@ -44,7 +48,7 @@ pub(super) fn refresh_motion(modal: &mut ModalState, state: &State) {
 }
 
 fn refresh_feed(modal: &mut ModalState, state: &State) {
-    if modal.feed_mode == FeedMode::InverseTime {
-        modal.feed = (state.inverse_time > 0.0).then_some(state.inverse_time);
+    if modal.feed.mode() == FeedMode::InverseTime {
+        modal.feed.set((state.inverse_time > 0.0).then_some(state.inverse_time));
     }
 }

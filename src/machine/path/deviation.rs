@@ -1,4 +1,4 @@
-//! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
+//! How far the tip deviates from the programmed segment inside a block: sampled value and proven bound.
 use crate::follow::follower::leads_path;
 use crate::path::curve_distance::CurveDistance;
 use crate::path::peak::{Piece, SAMPLES, peak};
@@ -23,17 +23,20 @@ pub(crate) fn runs_dogleg(machine: &Machine, leg: &Leg) -> bool {
     matches!(leg.motion.kind, MotionKind::Rapid) && machine.control.rapid == RapidPath::Dogleg
 }
 
-/// Where sample and bound are this near, mm, more samples say nothing more.
+/// If sample and bound are this near, mm, more samples are useless.
 const CLOSE_MM: f64 = 2e-5;
 
 /// Samples spent on closeness; beyond them a bound of [`RATIO`] times the sample is enough.
 const CLOSE_SAMPLES: u32 = 256;
 
+/// Samples spent where even the most samples would prove nothing.
+const VAIN_SAMPLES: u32 = 16;
+
 /// Above the tolerance the bound is brought down to this multiple of the largest sample: 1.2 times the truth is promised.
 pub(crate) const RATIO: f64 = 1.19;
 
 /// Set distance of the tip path to the programmed segment. `tolerance_mm`: the bound may be loose where it already proves
-/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes run each for itself.
+/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes move independently.
 ///
 /// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc in its position in the workpiece at the
 /// start of the block, its end carried evenly to where the tip ends. With TCP or vectors the control keeps the tip on the programmed
@@ -60,7 +63,7 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
     let run = Run::new(machine, start, end);
     let tolerance = tolerance_mm.max(0.0);
     if arc.is_none() {
-        // most lines are settled here, without a path
+        // most lines are decided here, without a path
         let (bend, rounding) = run.bound(None);
         let at_once = bend * 0.125 + rounding;
         if at_once <= tolerance {
@@ -81,12 +84,10 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         });
     }
     let room = (tolerance - path.rounding).max(0.0);
-    // what the most samples leave open, spread evenly: where an axis winds thousands of times within a block, they prove nothing
+    // what remains open after the most samples, spread evenly: if an axis winds thousands of times within a block, they prove nothing
     let open = (path.bend + arc.as_ref().map_or(0.0, |arc| arc.bend)) * 0.125 / f64::from(SAMPLES).powi(2);
-    let enough = |bound: f64, sampled: f64, samples: u32| {
-        let is_close = bound <= sampled * RATIO || (open > room && open > sampled * (RATIO - 1.0));
-        bound <= room || bound <= sampled + CLOSE_MM || (samples > CLOSE_SAMPLES && is_close)
-    };
+    let search = Search { room, open };
+    let enough = |bound: f64, sampled: f64, samples: u32| search.ends(bound, sampled, samples);
     let (sampled, bound, at) = if let Some(arc) = arc {
         let stray = CurveDistance {
             point: |t| path.way(t),
@@ -111,6 +112,24 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
     })
 }
 
+/// When the search for the largest distance ends.
+struct Search {
+    /// A bound up to this proves the tolerance, mm.
+    room: f64,
+    /// What the most samples leave open, mm.
+    open: f64,
+}
+
+impl Search {
+    fn ends(&self, bound: f64, sampled: f64, samples: u32) -> bool {
+        let in_vain = self.open > self.room && self.open > sampled * (RATIO - 1.0);
+        bound <= self.room
+            || bound <= sampled + CLOSE_MM
+            || (samples > CLOSE_SAMPLES && bound <= sampled * RATIO)
+            || (samples > VAIN_SAMPLES && in_vain)
+    }
+}
+
 /// Distance of W(t) from the segment between the tips, mm.
 fn from_chord(path: &TipPath<'_>, t: f64) -> f64 {
     if t <= 0.0 || t >= 1.0 {
@@ -124,4 +143,45 @@ fn from_chord(path: &TipPath<'_>, t: f64) -> f64 {
         0.0
     };
     (off - chord * share).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Search;
+    use crate::path::peak::{Piece, SAMPLES, peak};
+    use core::cell::Cell;
+
+    /// Samples spent on a point that winds so often around a circle of 100 mm within a block.
+    fn spent(turns: f64) -> (u32, f64) {
+        let angle = core::f64::consts::TAU * turns;
+        let bend = angle * angle * 100.0;
+        let search = Search {
+            room: 0.01,
+            open: bend * 0.125 / f64::from(SAMPLES).powi(2),
+        };
+        let samples = Cell::new(0);
+        let value = |t: f64| {
+            samples.set(samples.get() + 1);
+            200.0 * trunnion_geometry::math::sin(0.5 * angle * t).abs()
+        };
+        let found = peak(
+            value,
+            |piece: &Piece| piece.below_parabola(bend),
+            |bound, sampled, samples| search.ends(bound, sampled, samples),
+        );
+        assert!(found.bound >= 199.9, "{found:?}");
+        (samples.get(), found.bound)
+    }
+
+    #[test]
+    fn where_no_sample_proves_anything_few_are_spent() {
+        let (few, _) = spent(278_000.3);
+        assert!(few < 32, "{few} samples");
+        // and where they do, the bound closes
+        let (many, bound) = spent(30.3);
+        assert!(
+            (256..SAMPLES).contains(&many) && bound < 200.0 * 1.2,
+            "{many} samples, {bound} mm"
+        );
+    }
 }

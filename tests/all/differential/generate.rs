@@ -1,6 +1,6 @@
 //! Random LinuxCNC programs: mostly such as people write, some with a mistake.
-use super::random::Random;
 use super::settings::Case;
+use crate::random::Random;
 use core::fmt::Write;
 
 /// A program as it grows.
@@ -28,7 +28,7 @@ pub(crate) fn number(value: f64) -> String {
 /// The program of a seed.
 pub(crate) fn program(seed: u64) -> Case {
     let mut program = Program {
-        random: Random::new(seed.wrapping_mul(0x1000_0001)),
+        random: Random(seed.wrapping_mul(0x1000_0001)),
         case: Case::default(),
         behind: String::new(),
         // those of the table that rs274 takes without one

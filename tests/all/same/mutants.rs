@@ -8,19 +8,6 @@ use super::words::{
 use std::path::Path;
 use trunnion::dialect::{CodeKind, Dialect, builtin};
 
-/// splitmix64: the same sample in every run.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
-    }
-}
-
 /// A program whose every unmarked word matters.
 pub(crate) struct Base {
     name: String,
@@ -194,7 +181,7 @@ impl Base {
             .collect()
     }
 
-    /// Blocks put before a line that moves: those of the base's list, and each M code that is not in force already.
+    /// Blocks put before a line that moves: those of the base's list, and each M code that is not in effect already.
     fn insertions(&self, at: usize) -> Vec<Pair> {
         if !self.moves(at) {
             return Vec::new();
@@ -211,7 +198,7 @@ impl Base {
         let effective = |id: &str| match self.group(id) {
             _ if idle(id) => false,
             None | Some("stopping") => true,
-            // what is in force at power-on is not written down in the table
+            // what is in effect at power-on is not written down in the table
             Some(group) => in_force(group).is_some_and(|code| code != id),
         };
         let m_codes = self.dialect.codes().iter().filter(|code| code.kind == CodeKind::M);

@@ -8,7 +8,7 @@ use trunnion_workspace::{Overrides, resolve};
 #[derive(Default)]
 pub(super) struct Known {
     pub(super) programs: u64,
-    pub(super) known: u64,
+    pub(super) in_full: u64,
     /// Motions whose end is unknown for a reason that lies outside the program, by that reason.
     pub(super) outside: BTreeMap<&'static str, u64>,
     /// All other motions with an unknown end, by the last fault before.
@@ -19,7 +19,7 @@ impl Known {
     /// Per cent of the motions whose end does not rest on something outside the program.
     pub(super) fn per_cent(&self) -> f64 {
         let open: u64 = self.open.values().sum();
-        100.0 * self.known as f64 / (self.known + open).max(1) as f64
+        100.0 * self.in_full as f64 / (self.in_full + open).max(1) as f64
     }
 }
 
@@ -58,7 +58,7 @@ impl Sink for Watch<'_> {
             }
         }
         if known == self.tip && motion.kind != MotionKind::Unknown {
-            self.into.known += 1;
+            self.into.in_full += 1;
             return;
         }
         let causes: Vec<&str> = self.why.iter().flatten().map(String::as_str).collect();

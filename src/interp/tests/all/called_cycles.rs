@@ -53,7 +53,7 @@ fn the_other_cycles_are_what_the_manual_says() {
         ]
     );
     assert_eq!(log.motions[2].spindle_rpm, Some(300.0));
-    assert_eq!(log.state.expect("ran").spindle_on, Some(true));
+    assert_eq!(log.state.expect("ran").spindle.on(), Some(true));
     assert_eq!(
         cycle("CYCLE85(10,0,3,-20,,0,60,120)"),
         ["R X0 Y0 Z3", "L X0 Y0 Z-20 F60", "L X0 Y0 Z3 F120", "R X0 Y0 Z10"]

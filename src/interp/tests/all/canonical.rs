@@ -1,4 +1,4 @@
-//! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
+//! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in effect with it.
 use crate::support::{faults, line, lines, run_bytes};
 use std::sync::Arc;
 use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, ProgramRun, Searched, Setup, Tool};
@@ -55,7 +55,7 @@ struct Modes(Vec<(u32, bool)>);
 
 impl trunnion_interp::Sink for Modes {
     fn motion(&mut self, motion: &trunnion_interp::Motion, state: &trunnion_interp::ModalState) {
-        self.0.push((motion.block.0, state.incremental));
+        self.0.push((motion.block.0, state.coordinates.incremental()));
     }
     fn fault(&mut self, _: trunnion_interp::Fault) {}
 }

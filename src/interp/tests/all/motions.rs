@@ -104,7 +104,7 @@ fn dwells() {
     let log = run_text("sinumerik-840d", "F200 S1000\nG4 F0.5\nG4 S3\n");
     let state = log.state.expect("a block ran");
     assert_eq!(
-        (state.feed, state.spindle_rpm),
+        (state.feed.value(), state.spindle.rpm()),
         (Some(200.0), Some(1000.0)),
         "the dwell's F and S are its own"
     );
@@ -133,7 +133,7 @@ fn axis_words_without_a_motion_code() {
     assert_eq!(
         lines("sinumerik-840d", "X1 F100\n"),
         ["L X1 F100"],
-        "G1 is in force at the start"
+        "G1 is in effect at the start"
     );
 }
 
@@ -176,7 +176,7 @@ fn work_offsets_move_the_programmed_position() {
         .collect();
     assert_eq!(got, want);
     assert_eq!(log.faults, []);
-    assert_eq!(log.state.expect("a block ran").work_offset, None);
+    assert_eq!(log.state.expect("a block ran").zero.offset(), None);
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn additional_work_offsets_are_named_with_their_p() {
 fn first_offset_is_in_force_from_the_start_where_the_control_says_so() {
     let (_, log) = run_bytes("fanuc-30i", b"G0 X1\nM30\n", &offsets());
     assert_eq!(log.motions[0].zero[0], 100.0);
-    assert_eq!(log.state.expect("a block ran").work_offset.as_deref(), Some("G54"));
+    assert_eq!(log.state.expect("a block ran").zero.offset(), Some("G54"));
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn machine_coordinates_hold_for_one_block() {
     let machine = &log.motions[1];
     assert_eq!(
         (machine.start.get(0), machine.machine_coordinates, machine.zero[0]),
-        // the work offset stays in force, though these words are not meant from it
+        // the work offset stays in effect, though these words are not meant from it
         (Some(101.0), true, 100.0)
     );
 }

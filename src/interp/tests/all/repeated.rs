@@ -168,7 +168,10 @@ fn a_spindle_limit_is_no_speed() {
     );
     assert_eq!(log.motions[0].spindle_rpm, Some(500.0));
     let state = log.state.expect("blocks ran");
-    assert_eq!((state.surface_speed, state.spindle_limit_rpm), (true, Some(2000.0)));
+    assert_eq!(
+        (state.spindle.surface_speed(), state.spindle.limit_rpm()),
+        (true, Some(2000.0))
+    );
     assert_eq!(line(&log.motions[1]), "L X5 Z-5 F0.1/rev");
 }
 
@@ -206,7 +209,7 @@ fn patterns_with_unknown_lengths_are_unknown() {
     }
 }
 
-/// An unknown programmed lift is not the one before; R500 is half a millimetre where numbers without a point count increments.
+/// An unknown programmed lift is not the one before; R500 is half a millimetre where numbers without a decimal point count increments.
 #[test]
 fn the_lift_of_a_groove() {
     let control = trunnion_interp::ControlData {

@@ -54,7 +54,7 @@ fn a_killed_command_leaves_each_file_old_or_new() {
                     let _ = fs::remove_file(folder.path().join(name));
                 }
             }
-            let mut child = start(folder.path(), writer.arguments);
+            let mut child = start(folder.path(), &writer.arguments());
             // spread over the whole of a run
             let moment = whole.as_micros() as u64 * u64::from(run + 1) / u64::from(runs);
             std::thread::sleep(Duration::from_micros(moment));
@@ -101,7 +101,7 @@ fn four_processes_on_one_file_leave_it_whole() {
         let new = finished(writer, folder.path());
         fill(folder.path(), LARGE);
         let expected = names(folder.path());
-        let children: Vec<Child> = (0..4).map(|_| start(folder.path(), writer.arguments)).collect();
+        let children: Vec<Child> = (0..4).map(|_| start(folder.path(), &writer.arguments())).collect();
         for mut child in children {
             let status = child.wait().expect("ended").code();
             // done by another already, or refused because another was first
@@ -133,7 +133,7 @@ fn an_edit_that_is_saved_while_a_command_runs_stays() {
         let edited = format!("(edited)\n{}", content(&path));
         for run in 0..5 {
             fill(folder.path(), LARGE);
-            let mut child = start(folder.path(), writer.arguments);
+            let mut child = start(folder.path(), &writer.arguments());
             std::thread::sleep(Duration::from_millis(3 * run));
             fs::write(&path, &edited).expect("written");
             child.wait().expect("ended");
@@ -165,7 +165,7 @@ fn a_file_that_cannot_be_written_to_its_end_stays_as_it_was() {
                 "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"",
                 env!("CARGO_BIN_EXE_trunnion"),
             ])
-            .args(writer.arguments)
+            .args(writer.arguments())
             .current_dir(folder.path())
             .stdin(Stdio::null())
             .output()
@@ -181,7 +181,7 @@ fn a_folder_that_may_not_be_written_to_is_named() {
         let (old, before) = (outputs(writer, folder.path()), names(folder.path()));
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).expect("a mode");
         let is_obeyed = fs::write(folder.path().join("probe"), "").is_err();
-        let output = is_obeyed.then(|| trunnion_in(folder.path(), writer.arguments));
+        let output = is_obeyed.then(|| trunnion_in(folder.path(), &writer.arguments()));
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("a mode");
         let Some(output) = output else {
             println!("skipped: this user may write to read-only folders");
@@ -215,7 +215,7 @@ fn a_full_disk_leaves_the_old_file() {
                 size -= 4096;
             }
             let (old, before) = (outputs(writer, &disk), names(&disk));
-            let output = trunnion_in(&disk, writer.arguments);
+            let output = trunnion_in(&disk, &writer.arguments());
             refused(writer, &disk, &output, &old, &before);
             fs::remove_file(rest).expect("removed");
         }

@@ -8,13 +8,13 @@ use tempfile::TempDir;
 pub(super) struct Writer {
     /// Its name in messages.
     pub(super) name: &'static str,
-    /// The arguments, in the folder.
-    pub(super) arguments: &'static [&'static str],
+    /// The arguments, in the folder, with spaces between.
+    arguments: &'static str,
     /// The files that it writes. Those that are among the inputs are replaced.
     pub(super) outputs: &'static [&'static str],
 }
 
-const fn writer(name: &'static str, arguments: &'static [&'static str], outputs: &'static [&'static str]) -> Writer {
+const fn writer(name: &'static str, arguments: &'static str, outputs: &'static [&'static str]) -> Writer {
     Writer {
         name,
         arguments,
@@ -22,86 +22,51 @@ const fn writer(name: &'static str, arguments: &'static [&'static str], outputs:
     }
 }
 
+impl Writer {
+    pub(super) fn arguments(&self) -> Vec<&'static str> {
+        self.arguments.split_whitespace().collect()
+    }
+}
+
 /// All of them. In the folder are `loose.nc` (a program whose layout changes), `flip.nc` (one that a rewrite improves), `piece.apt`,
 /// `walk.ngc`, `parameters`, `required.toml` and `machine.ini`.
 pub(super) const WRITERS: &[Writer] = &[
-    writer("fmt", &["fmt", "loose.nc"], &["loose.nc"]),
+    writer("fmt", "fmt loose.nc", &["loose.nc"]),
     writer(
         "fix --write",
-        &[
-            "fix",
-            "flip.nc",
-            "--rewrite",
-            "smooth-pole",
-            "--tolerance-deg",
-            "0.08",
-            "--write",
-        ],
+        "fix flip.nc --rewrite smooth-pole --tolerance-deg 0.08 --write",
         &["flip.nc"],
     ),
     writer(
         "fix --write --backup",
-        &[
-            "fix",
-            "flip.nc",
-            "--rewrite",
-            "smooth-pole",
-            "--tolerance-deg",
-            "0.08",
-            "--write",
-            "--backup",
-        ],
+        "fix flip.nc --rewrite smooth-pole --tolerance-deg 0.08 --write --backup",
         &["flip.nc", "flip.nc.bak"],
     ),
     writer(
         "fix -o --certificate",
-        &[
-            "fix",
-            "flip.nc",
-            "--rewrite",
-            "smooth-pole",
-            "--tolerance-deg",
-            "0.08",
-            "-o",
-            "fixed.nc",
-            "--certificate",
-            "proof.json",
-        ],
+        "fix flip.nc --rewrite smooth-pole --tolerance-deg 0.08 -o fixed.nc --certificate proof.json",
         &["fixed.nc", "proof.json"],
     ),
     writer(
         "convert -o",
-        &["convert", "piece.apt", "--to", "fanuc-30i", "-o", "piece.nc"],
+        "convert piece.apt --to fanuc-30i -o piece.nc",
         &["piece.nc"],
     ),
-    writer(
-        "plot -o",
-        &["plot", "flip.nc", "--kind", "joints", "-o", "flip.svg"],
-        &["flip.svg"],
-    ),
+    writer("plot -o", "plot flip.nc --kind joints -o flip.svg", &["flip.svg"]),
     writer(
         "surface --plot",
-        &[
-            "surface",
-            "flip.nc",
-            "--required",
-            "required.toml",
-            "--reach",
-            "1000",
-            "--plot",
-            "map.svg",
-        ],
+        "surface flip.nc --required required.toml --reach 1000 --plot map.svg",
         &["map.svg"],
     ),
     writer(
         "canon --parameters",
-        &["canon", "walk.ngc", "--parameters", "parameters"],
+        "canon walk.ngc --parameters parameters",
         &["parameters", "parameters.bak"],
     ),
-    writer("sample -o", &["sample", "s-wall", "-o", "wall.apt"], &["wall.apt"]),
+    writer("sample -o", "sample s-wall -o wall.apt", &["wall.apt"]),
     writer(
         "machine import -o",
-        &["machine", "import", "machine.ini", "-o", "machine.toml"],
+        "machine import machine.ini -o machine.toml",
         &["machine.toml"],
     ),
 ];
@@ -161,7 +126,7 @@ pub(super) fn outputs(writer: &Writer, folder: &Path) -> Vec<Option<String>> {
 
 /// Runs it to its end; its outputs then, all there.
 pub(super) fn finished(writer: &Writer, folder: &Path) -> Vec<Option<String>> {
-    let output = trunnion_in(folder, writer.arguments);
+    let output = trunnion_in(folder, &writer.arguments());
     let written = outputs(writer, folder);
     let missing: Vec<_> = writer
         .outputs

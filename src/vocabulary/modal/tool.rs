@@ -1,0 +1,110 @@
+//! The tool in the spindle and its length.
+use crate::{Tool, ToolShape};
+
+/// Which tool's length is compensated. It distinguishes lengths that are not declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum LengthOf {
+    /// None is in effect.
+    #[default]
+    Nothing,
+    /// That of the tool with this number; `None`: of a tool in use whose number is not known.
+    Tool(Option<u32>),
+    /// One that belongs to no tool (another edge than the first, a sum of several), or whose number could not be read.
+    Other,
+}
+
+impl core::fmt::Display for LengthOf {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("none"),
+            Self::Tool(Some(number)) => write!(f, "that of tool {number}"),
+            Self::Tool(None) => f.write_str("that of the tool in use"),
+            Self::Other => f.write_str("one that belongs to no tool"),
+        }
+    }
+}
+
+/// Which tool is in use, and which is prepared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToolInUse {
+    number: Option<u32>,
+    prepared: Option<u32>,
+    data: Option<Tool>,
+}
+
+impl ToolInUse {
+    /// In the spindle; `None` unknown, or chosen by a name.
+    pub fn number(&self) -> Option<u32> {
+        self.number
+    }
+    /// Prepared by T, waiting for M6.
+    pub fn prepared(&self) -> Option<u32> {
+        self.prepared
+    }
+    /// What is declared about the tool in use: merged from the run's setup, the program's comments and CUTTER.
+    pub fn data(&self) -> Option<Tool> {
+        self.data
+    }
+    /// Declared length, mm.
+    pub fn own_length_mm(&self) -> Option<f64> {
+        self.data?.length_mm
+    }
+    /// Declared shape, with the diameter in mm; `None` where either is not declared.
+    pub fn shape(&self) -> Option<(ToolShape, f64)> {
+        let tool = self.data?;
+        Some((tool.shape?, tool.diameter_mm?))
+    }
+    /// T without a change.
+    pub fn prepare(&mut self, number: Option<u32>) {
+        self.prepared = number;
+    }
+    /// The change; [`Self::declare`] follows.
+    pub fn load(&mut self, number: Option<u32>) {
+        self.number = number;
+    }
+    /// The program gives its length, mm.
+    pub fn declare_length(&mut self, mm: f64) {
+        if let Some(data) = &mut self.data {
+            data.length_mm = Some(mm);
+        }
+    }
+    /// What is declared about the tool in use.
+    pub fn declare(&mut self, data: Option<Tool>) {
+        self.data = data;
+    }
+}
+
+/// The active tool length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToolLength {
+    mm: Option<f64>,
+    of: LengthOf,
+    is_undeclared: bool,
+}
+
+impl ToolLength {
+    /// mm; `None`: none is in effect.
+    pub fn mm(&self) -> Option<f64> {
+        self.mm
+    }
+    /// Whose it is.
+    pub fn of(&self) -> LengthOf {
+        self.of
+    }
+    /// Nothing declares it: it counts as zero, and is unknown.
+    pub fn is_undeclared(&self) -> bool {
+        self.is_undeclared
+    }
+    /// A length is in effect, mm.
+    pub fn set(&mut self, mm: Option<f64>, of: LengthOf) {
+        (self.mm, self.of, self.is_undeclared) = (mm, of, false);
+    }
+    /// The length, mm; where nothing declares it, it counts as zero.
+    pub fn set_declared(&mut self, mm: Option<f64>, of: LengthOf) {
+        (self.mm, self.of, self.is_undeclared) = (Some(mm.unwrap_or(0.0)), of, mm.is_none());
+    }
+    /// Equal, where an unknown number equals an unknown number.
+    pub(super) fn is_alike(&self, other: &Self) -> bool {
+        (self.of, self.is_undeclared) == (other.of, other.is_undeclared) && super::alike(self.mm, other.mm)
+    }
+}

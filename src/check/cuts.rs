@@ -1,6 +1,9 @@
 //! Feed motions while the spindle does not turn, put together: one cause is one stretch of the program.
 use crate::caller::Part;
+use crate::pass::ask;
+use crate::sink::{Active, Reporter};
 use crate::view::InForce;
+use crate::wake::Wake;
 use std::collections::BTreeMap;
 use trunnion_interp::{ChainId, Motion};
 use trunnion_syntax::BlockId;
@@ -110,7 +113,7 @@ impl Cuts {
 
     /// All stretches in the order of their blocks. Only of a main program it is said that nothing starts the spindle, or gives S: the
     /// caller of a subprogram may have done so, as may what comes before a part of a program. `started`: something started a spindle, or may have.
-    pub(crate) fn finish(&self, part: Part, started: bool) -> Vec<StillCuts> {
+    fn finish(&self, part: Part, started: bool) -> Vec<StillCuts> {
         if started || part == Part::Called {
             let may_turn = |cuts: &StillCuts| StillCuts {
                 other_speed: self.with_speed.contains(&cuts.tool),
@@ -133,5 +136,17 @@ impl Cuts {
             ..cuts
         };
         whole.map(never).into_iter().collect()
+    }
+}
+
+/// Asks the rules about each stretch. `started`: something started a spindle, or may have.
+pub(crate) fn tell_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: bool) {
+    for still in cuts.finish(reporter.part(), started) {
+        reporter.origin(false, still.chain);
+        ask(rules, reporter, (Some(still.first), 0), |wake, out| {
+            if let Wake::Still(rule) = wake {
+                rule(&still, out);
+            }
+        });
     }
 }

@@ -38,6 +38,7 @@ mod sink;
 mod slip;
 mod suppress;
 mod time;
+mod told;
 mod trail;
 mod unreadable;
 mod view;

@@ -1,13 +1,14 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
 use crate::config::Scope;
 use crate::coverage::Tally;
-use crate::cuts::Cuts;
+use crate::cuts::{Cuts, tell_still};
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
 use crate::sink::{Active, Reporter, active};
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
+use crate::told::text_has_told;
 use crate::trail::{Trail, axes_chord};
 use crate::view::{InForce, LegView, MotionView, Overview};
 use crate::visited::Visited;
@@ -16,9 +17,9 @@ use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Dialect, Foreign};
-use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, Lacks, ModalState, Motion, ProgramRun, Refusal, Sink};
+use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
-use trunnion_syntax::{BlockId, Program, SyntaxError, SyntaxErrorKind};
+use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -197,41 +198,6 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Whether the rules of the text have already reported this place.
-    fn text_has_told(&self, fault: &Fault) -> bool {
-        let refused = matches!(
-            fault.kind,
-            FaultKind::Rejected {
-                refusal: Refusal::Syntax | Refusal::Number | Refusal::Expression,
-                ..
-            }
-        );
-        let lacks_feed = matches!(fault.kind, FaultKind::MissingFeed { .. });
-        let bracket = |errors: &[SyntaxError]| {
-            let open = |error: &SyntaxError| error.kind == SyntaxErrorKind::UnbalancedBracket;
-            let in_block =
-                |error: &SyntaxError| self.reporter.program().block_at(error.range.start) == Some(fault.block);
-            errors.iter().any(|error| open(error) && in_block(error))
-        };
-        // what follows a bracket that is not closed is not read as it was meant
-        if (refused || lacks_feed) && bracket(self.reporter.program().errors()) {
-            return true;
-        }
-        refused && {
-            let program = self.reporter.program();
-            let errors = program.errors();
-            // the missing value is expected where it should begin, after the blanks
-            let before = &program.source()[..fault.range.start as usize];
-            let blanks = before.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t'));
-            let start = fault.range.start - blanks.count() as u32;
-            let from = errors.partition_point(|error| error.range.end < start);
-            // they are sorted: if the first of them begins later, so do all
-            errors
-                .get(from)
-                .is_some_and(|error| error.range.start <= fault.range.end)
-        }
-    }
-
     /// Whether a rule was checked, so that its silence means something.
     fn looked_for(&self, name: &str) -> bool {
         let has = |rules: &[Active]| rules.iter().any(|rule| rule.name == name);
@@ -260,14 +226,12 @@ impl<'a> Pass<'a> {
         let assumptions = listed.chain(self.assumed_radii).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
-            for still in cuts.finish(reporter.part(), interpreter.state().spindle.was_started()) {
-                reporter.origin(false, still.chain);
-                ask(&self.rules, &mut reporter, (Some(still.first), 0), |wake, out| {
-                    if let Wake::Still(rule) = wake {
-                        rule(&still, out);
-                    }
-                });
-            }
+            tell_still(
+                cuts,
+                &self.rules,
+                &mut reporter,
+                interpreter.state().spindle.was_started(),
+            );
         }
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
@@ -347,7 +311,7 @@ impl Sink for Pass<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        if self.text_has_told(&fault) {
+        if text_has_told(self.reporter.program(), &fault) {
             return;
         }
         if let (true, Some(Lacks::Radius(number))) = (self.assume.tool_length, fault.kind.lacks()) {

@@ -5,6 +5,7 @@ mod data;
 mod groove;
 mod hole;
 mod levels;
+mod modes;
 mod pass;
 mod pattern;
 mod pocket;

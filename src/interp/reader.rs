@@ -215,10 +215,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         match role {
             Role::BlockNumber => return,
             Role::ProgramNumber => {
-                // a letter O without a number is a slip, no program
-                if !matches!(word.value, Value::Bad | Value::Missing) {
-                    self.words.program_number = Some(word.range);
-                }
+                let is_slip = matches!(word.value, Value::Bad | Value::Missing);
+                self.words.program_number = Some(word.range).filter(|_| !is_slip);
                 return;
             }
             Role::G => return self.code_word(CodeKind::G, word),

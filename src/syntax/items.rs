@@ -98,10 +98,7 @@ impl<'p> Items<'p> {
         } else {
             next
         };
-        if behind == TokenKind::Equals
-            || matches!(next, TokenKind::Comma | TokenKind::ParenOpen)
-            || behind == TokenKind::ParenOpen
-        {
+        if next == TokenKind::Comma || matches!(behind, TokenKind::Equals | TokenKind::ParenOpen) {
             return None;
         }
         let range = scan.range(at);

@@ -151,9 +151,7 @@ fn tips(table: &[Vec<String>], faulty: &BTreeSet<String>, folder: &Path) -> Stri
         for (why, n) in &known.open {
             let _ = writeln!(out, "    {n}: {}", why.chars().take(100).collect::<String>());
         }
-        if known.per_cent() < least {
-            let _ = writeln!(out, "    BELOW {least} %");
-        }
+        assert!(known.per_cent() >= least, "{out}");
     }
     out
 }

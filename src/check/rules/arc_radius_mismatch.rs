@@ -27,6 +27,7 @@
 //! * NISTIR 6556 (2000), section 3.5.3 on arcs at feed rate (G2, G3).
 use crate::prelude::*;
 use trunnion_dialect::Action;
+use trunnion_geometry::math;
 
 const FITS: &str =
     "the end points fit when I J K are coordinates of the centre; here they are distances from the start";
@@ -100,7 +101,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
 fn refused(draft: &mut Draft<'_>) {
     if fits_absolute(draft.message()) == Some(true) {
         draft
-            .say("this arc fits absolute I J: as distances they give no circle")
             .note(FITS)
             .help("program G90.1 first, or set the post processor to incremental arc centres")
             .merge(Merge::once(1));
@@ -123,9 +123,12 @@ fn fits_absolute(message: &str) -> Option<bool> {
     };
     let (start, centre, end) = (point("start=(")?, point("center=(")?, point("end=(")?);
     let words = [centre[0] - start[0], centre[1] - start[1]];
-    let radius = |from: [f64; 2]| trunnion_geometry::math::hypot(from[0] - words[0], from[1] - words[1]);
-    let (start, end) = (radius(start), radius(end));
-    (start > SAME).then_some((start - end).abs() <= SAME.max(start * 1e-3))
+    let gap = |centre: [f64; 2]| {
+        let radius = |from: [f64; 2]| math::hypot(from[0] - centre[0], from[1] - centre[1]);
+        (radius(start), (radius(start) - radius(end)).abs())
+    };
+    let ((radius, other), (_, own)) = (gap(words), gap(centre));
+    (radius > SAME).then_some(other <= SAME && 10.0 * other < own)
 }
 
 #[cfg(test)]
@@ -139,8 +142,14 @@ mod tests {
             let report = assert_drawn(&format!("gcode {dialect}"), text);
             assert_eq!(report.diagnostics[0].count, 4, "{dialect}");
         }
-        let text = "G21 G17 G90 G94 F100\nG0 X30 Y20 Z0\nG3 X10 Y20 I20 J20\n;          ^^^ arc-radius-mismatch: this arc fits absolute I J\nG3 X30 Y20 I20 J20\nG3 X10 I20 J20\nM2\n";
+        let text = "G21 G17 G90 G94 F100\nG0 X30 Y20 Z0\nG3 X10 Y20 I20 J20\n;          ^^^ arc-radius-mismatch: Radius to end of arc differs\nG3 X30 Y20 I20 J20\nG3 X10 I20 J20\nM2\n";
         let report = assert_drawn("gcode linuxcnc", text);
+        assert!(
+            report.diagnostics[0]
+                .notes
+                .iter()
+                .any(|note| note.contains("coordinates of the centre"))
+        );
         // the second is a full circle about another centre
         assert_eq!(report.diagnostics[0].count, 2);
     }

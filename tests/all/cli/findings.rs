@@ -57,7 +57,7 @@ fn the_place_above_an_excerpt_is_that_of_the_finding() {
 #[test]
 fn a_finding_is_silenced_with_a_reason_only() {
     let folder = TempDir::new().expect("works");
-    let program = |comment: &str| format!("G21 G90 G17 G94\nG1 X1. {comment}\nM30\n");
+    let program = |comment: &str| format!("G21 G90 G17 G94 S900 M3\nG1 X1. {comment}\nM30\n");
     let run = |comment: &str| {
         let (code, found) = check(&folder, "a.nc", &program(comment), &["--allow", "machine-unset"]);
         let rule = |line: &str| line.split(['[', ']']).nth(1).map(str::to_owned);

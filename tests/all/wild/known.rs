@@ -43,9 +43,7 @@ impl Sink for Watch<'_> {
             return;
         }
         let known = motion.end.known & self.tip;
-        if self.tool.replace(motion.tool).is_some_and(|last| last != motion.tool) {
-            self.last_fault = Some("tool change".to_owned());
-        }
+        let changed = self.tool.replace(motion.tool).is_some_and(|last| last != motion.tool);
         for axis in 0..3 {
             let bit = 1 << axis;
             if known & bit != 0 {
@@ -53,7 +51,8 @@ impl Sink for Watch<'_> {
                 self.why[axis] = None;
             } else if self.why[axis].is_none() && self.tip & bit != 0 {
                 let never = self.ever & bit == 0;
-                let cause = self.last_fault.clone();
+                let change = changed.then(|| "tool change".to_owned());
+                let cause = change.or_else(|| self.last_fault.clone());
                 self.why[axis] =
                     Some(cause.unwrap_or_else(|| if never { "start" } else { "nothing is said" }.to_owned()));
             }

@@ -1,5 +1,5 @@
-//! The language server under many edits and on large nests: its findings are those of a document that is opened with the same text, and its
-//! memory stays within bounds. `TRUNNION_EDITS=10000` is the long form.
+//! The language server under many edits and on large nests: its findings are those of another server that is shown
+//! the same text, and its memory stays within bounds. `TRUNNION_EDITS=10000` is the long form.
 use crate::lsp_client::Client;
 use crate::random::Random;
 use serde_json::json;
@@ -89,14 +89,11 @@ fn random_edits_leave_the_findings_of_a_cold_run() {
             text.replace_range(start..end, new);
             if edit % BETWEEN == 0 || edit == all {
                 let found = client.diagnostics(&uri, version);
-                let cold = format!("untitled:/cold-{edit}-{name}");
-                client.open(&cold, &text);
-                assert_eq!(
-                    found,
-                    client.diagnostics(&cold, 1),
-                    "{name} after {edit} edits:\n{text}"
-                );
-                client.notify("textDocument/didClose", json!({ "textDocument": { "uri": cold } }));
+                // another server, so that nothing is left of what was there before
+                let mut cold = Client::start(&json!({}));
+                cold.open(&uri, &text);
+                assert_eq!(found, cold.diagnostics(&uri, 1), "{name} after {edit} edits:\n{text}");
+                cold.finish();
             }
         }
         client.finish();

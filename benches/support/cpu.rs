@@ -25,7 +25,7 @@ pub(crate) fn best<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The least of the times that pass while some runs go on, seconds: what other work takes beside counts, too.
+/// The least of the times that pass while some runs continue, seconds: what other work takes beside counts, too.
 #[allow(dead_code, reason = "one of the benchmarks asks for it")]
 pub(crate) fn passed<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     (0..runs)

@@ -1,4 +1,4 @@
-//! Quick fixes: rewrites that cure a finding, offered only when proved; a refusal is shown with its reason.
+//! Quick fixes: rewrites that fix a finding, offered only when proved; a refusal is shown with its reason.
 use crate::{
     analysis::Analysed,
     position::{Encoding, offset, range},
@@ -109,7 +109,7 @@ fn action(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Option<
     }
 }
 
-/// The findings of the document that the rewrite cures.
+/// The findings of the document that the rewrite fixes.
 fn cured(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Vec<Diagnostic> {
     let cures = |d: &Diagnostic| matches!(&d.code, Some(NumberOrString::String(code)) if rewrite.cures.contains(&code.as_str()));
     to_proto::diagnostics(analysed, encoding)

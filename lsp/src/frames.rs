@@ -7,11 +7,11 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use tokio::io::{AsyncBufRead, AsyncBufReadExt, AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt, BufReader};
 
-/// A message that stands for a malformed one: the service answers it with the error in its parameters.
+/// A message in place of a malformed one: the service answers it with the error in its parameters.
 pub(crate) const MALFORMED: &str = "$/malformed";
 /// JSON-RPC: the text is not JSON, or its frame is broken.
 const PARSE_ERROR: i64 = -32700;
-/// JSON-RPC: the JSON is no request or answer.
+/// JSON-RPC: the JSON is not a request or an answer.
 const INVALID_REQUEST: i64 = -32600;
 /// Longest message, bytes: the largest program that the command line reads by default, with its JSON escapes.
 const LONGEST: u64 = 600_000_000;
@@ -30,7 +30,7 @@ pub(crate) async fn pump(input: impl AsyncRead + Unpin, mut output: impl AsyncWr
     }
 }
 
-/// The next message, or the one that stands for a malformed one; `None` at the end of the input.
+/// The next message, or the one in place of a malformed one; `None` at the end of the input.
 async fn next(input: &mut (impl AsyncBufRead + Unpin)) -> std::io::Result<Option<Vec<u8>>> {
     let length = match header(input).await? {
         Header::End => return Ok(None),
@@ -56,7 +56,7 @@ enum Header {
     End,
 }
 
-/// Reads a header up to its empty line. In front of it, lines that belong to no header are passed over as one malformed message.
+/// Reads a header up to its empty line. Lines before it that do not belong to a header are skipped as one malformed message.
 async fn header(input: &mut (impl AsyncBufRead + Unpin)) -> std::io::Result<Header> {
     let mut stray = false;
     loop {
@@ -70,7 +70,7 @@ async fn header(input: &mut (impl AsyncBufRead + Unpin)) -> std::io::Result<Head
             }
             continue;
         };
-        // the rest of the header: Content-Type says nothing that is not known
+        // the rest of the header: Content-Type contains nothing new
         loop {
             match self::line(input).await? {
                 None => return Ok(Header::End),
@@ -107,7 +107,7 @@ fn content_length(line: &str) -> Option<&str> {
     Some(line[at + NAME.len()..].trim())
 }
 
-/// What tells a request or an answer; everything else is passed over.
+/// The fields that identify a request or an answer; all others are skipped.
 #[derive(Deserialize)]
 struct Head<'a> {
     #[serde(borrow)]

@@ -1,4 +1,4 @@
-//! Hover: the code under the cursor, what is in force, and what the machine does in the block.
+//! Hover: the code under the cursor, what is in effect, and what the machine does in the block.
 use crate::{
     analysis::{Analysed, Judged},
     names,
@@ -12,7 +12,7 @@ use trunnion_interp::{FeedMode, ModalState};
 use trunnion_machine::{AxisKind, Machine, Row};
 use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 
-/// The hover at a position; `None` where there is nothing to say.
+/// The hover at a position; `None` where there is nothing to show.
 pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding) -> Option<Hover> {
     let judged = analysed.outcome.as_ref().ok()?;
     let at = offset(&analysed.text, &analysed.starts, position, encoding) as u32;

@@ -1,4 +1,4 @@
-//! What a variable is worth and where an O-word leads, for the hover.
+//! The value of a variable and the target of an O-word, for the hover.
 use std::fmt::Write;
 use trunnion_check::BlockInfo;
 use trunnion_syntax::{Block, Program, TextRange};
@@ -89,7 +89,7 @@ fn o_word(program: &Program, block: &Block<'_>, at: u32) -> Option<(String, Text
     }
     let written = program.text(word);
     let mut text = match lines.iter().find(|(_, keyword)| keyword == "sub") {
-        Some((line, _)) => format!("**{written}** subprogram, starts in line {line}"),
+        Some((line, _)) => format!("**{written}** subprogram, starts on line {line}"),
         None if lines.iter().any(|(_, keyword)| keyword == "call") => {
             format!("**{written}** is not defined in this file")
         }

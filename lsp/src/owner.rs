@@ -136,7 +136,7 @@ impl Owner {
         let uris: Vec<Url> = self.documents.keys().cloned().collect();
         for uri in uris {
             if let Some(document) = self.documents.get_mut(&uri) {
-                // A run with the old settings must not count as the answer for the new ones.
+                // A run with the old settings must not be taken as the answer for the new ones.
                 document.analysed = None;
                 document.newest.store(i32::MIN, Ordering::SeqCst);
                 document.newest = Arc::new(std::sync::atomic::AtomicI32::new(document.version));

@@ -19,14 +19,14 @@
 //!   a field or a variant changes no byte. A tag is never used for a second meaning.
 //! * A field without a value (`None`) is left out. A fact that is added later gets a new tag and is left out where it has the value with
 //!   which all older versions ran: then old digests stay. Any other change of these bytes needs a new version of the certificate.
-//! * -0 and 0 are one number here. No verdict rests on that: a re-check computes everything again from the inputs that it is given.
+//! * -0 and 0 are one number here. No verdict depends on that: a re-check computes everything again from the inputs that it is given.
 
-/// How the fields of a struct are encoded: each with its tag, and those that do not count. All must be named.
+/// How the fields of a struct are encoded: each with its tag, and those that do not matter. All must be named.
 macro_rules! record {
     ($struct:ty { $($field:ident = $tag:literal),+ $(,)? } $(without { $($left_out:ident),+ $(,)? })?) => {
         impl $crate::canonical::Encode for $struct {
             fn encode(&self, out: &mut $crate::canonical::CanonicalV1) {
-                // no `..`: a new field does not compile until somebody decides whether it counts
+                // no `..`: a new field does not compile until somebody decides whether it matters
                 let Self { $($field,)+ $($($left_out: _,)+)? } = self;
                 out.record(|fields| {
                     $(fields.field($tag, $field);)+

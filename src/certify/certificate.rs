@@ -212,7 +212,7 @@ impl Certificate {
             worst.path_axis_bound_deg.value
         );
         if self.motions.unknown > 0 {
-            text.push_str("; some positions are unknown, but both programs program them alike");
+            text.push_str("; some positions are unknown, but both programs program them in the same words");
         }
         if self.motions.process_changed > 0 {
             text.push_str("; feed or spindle speed differ");
@@ -238,7 +238,7 @@ pub(crate) fn other_schema(schema: &str) -> Option<String> {
         SCHEMA => None,
         SCHEMA_1 => Some(format!(
             "this certificate was made by an older version of trunnion (schema \"{SCHEMA_1}\"), whose digests this version cannot check; make a new \
-             one from the program before: `trunnion fix BEFORE -o AFTER --certificate FILE`, with the same machine, tools and rewrite"
+             one from the original program: `trunnion fix BEFORE -o AFTER --certificate FILE`, with the same machine, tools and rewrite"
         )),
         _ => Some(format!(
             "certificate schema is {}, and this version of trunnion reads only \"{SCHEMA}\"",

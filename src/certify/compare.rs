@@ -11,7 +11,7 @@ use trunnion_same::Step;
 /// Forward kinematics may differ from the programmed pose by this much, mm and deg: more is a fault of this program, not a claim.
 const FORWARD_TOLERANCE: f64 = 1e-6;
 
-/// Where in the programs two legs stand.
+/// Where two legs are in their programs.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
     /// Index of the motion.
@@ -20,7 +20,7 @@ pub(crate) struct Place {
     pub line: u32,
 }
 
-/// What comparing two legs gave.
+/// The result of comparing two legs.
 pub(crate) enum Compared {
     /// Nothing differs.
     Same,
@@ -44,7 +44,7 @@ pub(crate) struct Pair<'a> {
     pub after: &'a Step,
 }
 
-/// The place of the zero point of X Y Z, mm.
+/// The position of the zero point of X Y Z, mm.
 fn zero(motion: &Motion) -> Vec3 {
     Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2])
 }
@@ -53,7 +53,7 @@ fn zero(motion: &Motion) -> Vec3 {
 pub(super) type Both<'s> = (&'s Stance, &'s Stance);
 
 impl Pair<'_> {
-    /// Compares the paths; what is in force was compared before. `Err` where the claim is refuted or cannot be decided.
+    /// Compares the paths; the active modes were compared before. `Err` where the claim is refuted or cannot be decided.
     pub(crate) fn compare(&self) -> Result<Compared, Outcome> {
         self.same_kind()?;
         let (old, new) = (self.before_leg()?, self.after_leg()?);
@@ -62,8 +62,8 @@ impl Pair<'_> {
             (Ok(was), Ok(is)) => (was, is),
             (Err(_), Err(_)) if alike => return Ok(Compared::UnknownAlike),
             (Err(_), Err(_)) if !self.claim.is_rewrite() => return self.by_words(),
-            (Err(why), _) => return Err(self.no_pose("before", why)),
-            (_, Err(why)) => return Err(self.no_pose("after", why)),
+            (Err(why), _) => return Err(self.no_pose("original", why)),
+            (_, Err(why)) => return Err(self.no_pose("changed", why)),
         };
         if was == is && alike {
             return Ok(Compared::Same);
@@ -125,15 +125,15 @@ impl Pair<'_> {
 
     fn no_pose(&self, which: &str, why: &NoStance) -> Outcome {
         let why = match why {
-            NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it before"),
+            NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it first"),
             NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } | NoStance::PostureRefused { .. } => {
                 "the machine cannot reach the pose".into()
             }
             NoStance::NotModelled => "the motion is not modelled".into(),
             NoStance::HeldElsewhere { axis, .. } => {
-                format!("axis {} is held elsewhere by the machine file", char::from(*axis))
+                format!("the machine file holds axis {} at another position", char::from(*axis))
             }
-            NoStance::PlaneMisaligned(_) => "the tool does not stand on the tilted plane".into(),
+            NoStance::PlaneMisaligned(_) => "the tool is not perpendicular to the tilted plane".into(),
             NoStance::RotaryOffset(letter) => {
                 format!(
                     "a work offset in {} under tool centre point control is not modelled",
@@ -142,10 +142,10 @@ impl Pair<'_> {
             }
             NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         };
-        self.unknown(&format!("in the program {which}, {why}"))
+        self.unknown(&format!("in the {which} program, {why}"))
     }
 
-    /// What must be equal in a rewrite beside what `trunnion_same` compares.
+    /// What must be equal in a rewrite in addition to what `trunnion_same` compares.
     fn same_kind(&self) -> Result<(), Outcome> {
         let (old, new) = (&self.before.motion, &self.after.motion);
         let differs = if !self.claim.is_rewrite() {
@@ -198,7 +198,7 @@ impl Pair<'_> {
         Ok(())
     }
 
-    /// How far the ways between the ends lie apart.
+    /// How far apart the paths between the ends are.
     fn way(&self, start: Option<Both<'_>>, end: Both<'_>) -> Result<Apart, Outcome> {
         let (old, new) = (self.before_leg()?, self.after_leg()?);
         let Some((was, is)) = start else {
@@ -223,7 +223,7 @@ impl Pair<'_> {
         Ok(apart(&before, &after))
     }
 
-    /// Programmed alike but for the same whole turns of rotary axes at both ends: then the way is the same whatever its shape.
+    /// Programmed alike but for the same whole turns of rotary axes at both ends: then the path is the same whatever its shape.
     fn same_way(&self, start: Both<'_>, end: Both<'_>) -> bool {
         let turned_only = |(was, is): Both<'_>| {
             let off = |&joint: &usize| off_whole_turns(deg(is.joints[joint] - was.joints[joint]));
@@ -246,7 +246,7 @@ impl Pair<'_> {
         self.machine.rotary.iter().map(turns).collect()
     }
 
-    /// Holds the numbers at the block's end against the claim.
+    /// Compares the numbers at the block's end with the claim.
     fn judge_end(&self, change: &MotionChange) -> Result<(), Outcome> {
         let (mm, degrees) = self.claim.tolerances();
         let point = if self.claim.point_height_mm() == 0.0 {
@@ -257,13 +257,13 @@ impl Pair<'_> {
         if above(change.point_shift_mm, mm) {
             let shift = change.point_shift_mm;
             return self.refute(format!(
-                "the {point} shifts by {shift:.6} mm at the block's end, allowed is {mm} mm"
+                "the {point} shifts by {shift:.6} mm at the block's end; {mm} mm is allowed"
             ));
         }
         if above(change.axis_change_deg, degrees) {
             let turn = change.axis_change_deg;
             return self.refute(format!(
-                "the tool axis turns by {turn:.6} deg at the block's end, allowed is {degrees} deg"
+                "the tool axis turns by {turn:.6} deg at the block's end; {degrees} deg is allowed"
             ));
         }
         let off = change
@@ -278,7 +278,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Holds what lies between the ends against the claim.
+    /// Compares what is between the ends with the claim.
     fn judge_way(&self, way: &Apart, start: Option<Both<'_>>, end: Both<'_>) -> Result<(), Outcome> {
         let claimed = match self.claim {
             Claim::SameBallCentre { .. } => false,
@@ -289,7 +289,7 @@ impl Pair<'_> {
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));
         if claimed && (above(way.sampled_mm, mm) || above(sampled_axis, degrees)) {
             return self.refute(format!(
-                "inside the block the tips lie {:.6} mm and the tool axes {sampled_axis:.6} deg apart; allowed are {mm} mm, {degrees} deg",
+                "inside the block the tips are {:.6} mm and the tool axes {sampled_axis:.6} deg apart; {mm} mm and {degrees} deg are allowed",
                 way.sampled_mm
             ));
         }
@@ -308,7 +308,7 @@ pub(crate) fn process_differs(old: &Motion, new: &Motion) -> bool {
     old.feed != new.feed || old.spindle_on != new.spindle_on || old.spindle_rpm != new.spindle_rpm
 }
 
-/// A motion with the block of another leg, so that the block's number plays no part in a comparison.
+/// A motion with the block of another leg, so that the block's number does not affect a comparison.
 fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
     Motion {
         block: leg.motion.block,

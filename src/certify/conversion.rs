@@ -1,7 +1,7 @@
 //! One program against another in another language, for another machine: motion for motion, pose by pose.
 //!
-//! Both texts are read from scratch by floors 0 to 3. Who converted them only says which motions belong together; a wrong
-//! hint can refuse a good conversion and never prove a bad one.
+//! Both texts are read from scratch by floors 0 to 3. The converter only says which motions belong together; a wrong hint
+//! can make a good conversion be refused, but never proves a bad one.
 mod alike;
 mod ask;
 mod ask_apt;

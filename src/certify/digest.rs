@@ -1,4 +1,4 @@
-//! Digests of the inputs: SHA-256 over the canonical encoding of the facts that a proof rests on.
+//! Digests of the inputs: SHA-256 over the canonical encoding of the facts that a proof depends on.
 use crate::canonical::{CanonicalV1, Encode};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -6,7 +6,7 @@ use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
 use trunnion_machine::Machine;
 
-/// What is digested begins with the schema and the kind of thing, so that no digest of one kind is one of another kind or version.
+/// The digested bytes begin with the schema and the kind, so that a digest of one kind never equals one of another kind or version.
 const DIALECT: &[u8] = b"trunnion-certificate/2 dialect\0";
 const MACHINE: &[u8] = b"trunnion-certificate/2 machine\0";
 const SETUP: &[u8] = b"trunnion-certificate/2 setup\0";

@@ -1,4 +1,4 @@
-//! Floor 5: vouches. Proves, refutes with a witness, or admits unknown, that one program is as good as another; and re-checks
+//! Floor 5: proofs. Proves, refutes with a witness, or reports as unknown, that one program does the same as another; and re-checks
 //! certificates from scratch.
 //!
 //! It knows neither rules nor rewrites nor any search: what it trusts is floors 0 to 3 and itself.

@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
 
-/// Stands for the digest of a program that was asked for and not found.
+/// In place of the digest of a program that was requested and not found.
 const MISSING: &str = "missing";
 
-/// Passes requests on and notes their answers.
+/// Forwards requests and records the answers.
 pub(crate) struct Recorder {
     library: Library,
     seen: Mutex<BTreeMap<String, String>>,
 }
 
 impl Recorder {
-    /// The setup with a library that notes what is loaded; the note is `None` where there is no library.
+    /// The setup with a library that records what is loaded; the record is `None` where there is no library.
     pub(crate) fn wrap(setup: &Setup) -> (Setup, Option<Arc<Self>>) {
         let mut setup = setup.clone();
         let recorder = setup.library.0.is_some().then(|| {

@@ -1,4 +1,4 @@
-//! The proof in hand: what comparing pairs of motions has found so far.
+//! The proof so far: what comparing pairs of motions has found.
 use crate::certificate::{MotionCounts, RotaryChange, Worst, WorstChanges};
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::{Claim, Outcome};
@@ -86,9 +86,9 @@ impl<'a> Proof<'a> {
             .before
             .map(|block| lines.line_column(before.source(), before.block(block).range().start).0);
         let place = match (old, line) {
-            (Some(old), Some(new)) => format!("line {old} before and line {new} after: "),
-            (Some(old), None) => format!("line {old} before: "),
-            (None, Some(new)) => format!("line {new} after: "),
+            (Some(old), Some(new)) => format!("line {old} of the original program and line {new} of the changed one: "),
+            (Some(old), None) => format!("line {old} of the original program: "),
+            (None, Some(new)) => format!("line {new} of the changed program: "),
             (None, None) => String::new(),
         };
         if refuted {

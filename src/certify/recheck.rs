@@ -1,6 +1,6 @@
 //! Certificate and files to verdict, from scratch: the file to read if you trust nobody.
 //!
-//! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the ways between
+//! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the paths between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
 use crate::certificate::{NamedDigest, SCHEMA, TextDigest, other_schema};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
@@ -27,7 +27,7 @@ pub fn certify(
     certify_across(before, after, [dialect, dialect], machine, setup, claim)
 }
 
-/// The same for two texts in two dialects: APT beside G code.
+/// The same for two texts in two dialects: APT against G code.
 pub fn certify_across(
     before: &[u8],
     after: &[u8],
@@ -39,7 +39,7 @@ pub fn certify_across(
     certify_beside([before, after], dialects, machine, (setup, &setup.library), claim)
 }
 
-/// The same where the program after has called programs of its own. Such a certificate can be checked again only where both call the same.
+/// The same where the changed program has its own called programs. Such a certificate can be checked again only where both call the same.
 pub fn certify_beside(
     [before, after]: [&[u8]; 2],
     dialects: [&Dialect; 2],
@@ -94,17 +94,17 @@ fn inputs_match(
 ) -> Result<(), Outcome> {
     let refuse = |what: &str| {
         Err(Outcome::refuted(format!(
-            "the certificate was made for {what}: its SHA-256 differs"
+            "the certificate was made for {what}: the SHA-256 values differ"
         )))
     };
     if let Some(why) = other_schema(&certificate.schema) {
         return Err(Outcome::refuted(why));
     }
     if certificate.before != text_digest(before) {
-        return refuse("another text before");
+        return refuse("another original program");
     }
     if certificate.after != text_digest(after) {
-        return refuse("another text after");
+        return refuse("another changed program");
     }
     if certificate.dialect.name != dialect.name || certificate.dialect.sha256 != dialect_digest(dialect) {
         return refuse(&format!(
@@ -188,14 +188,14 @@ fn prove(
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
     if verdict != Verdict::Same {
-        // the comparison may take a refutation back: where it is not known whether a block moves the machine at all
+        // the comparison may withdraw a refutation: where it is unknown whether a block moves the machine at all
         let taken_back = |outcome: &Outcome| matches!((outcome, &verdict), (Outcome::Refuted(_), Verdict::Unknown(_)));
         if let Some(outcome) = proof.failed.take().filter(|outcome| !taken_back(outcome)) {
             return Err(outcome);
         }
         return Err(proof.outcome(verdict, &old));
     }
-    // a rewrite says of each place that it changes that the change is proved; two programs are what they do
+    // a rewrite claims that each change is proved; two programs are compared by what they do
     if text.rest_identical && claim.is_rewrite() {
         every_change_ran(&sides, (&old, new))?;
     }

@@ -1,4 +1,4 @@
-//! Pairs of motions that are compared otherwise than by the paths of their joints: by their words, or as arcs.
+//! Pairs of motions that are not compared by the paths of their joints, but by their words, or as arcs.
 use crate::compare::{Both, Compared, Pair, above};
 use crate::path::Apart;
 use crate::{Claim, Outcome};
@@ -7,7 +7,7 @@ use trunnion_machine::Stance;
 use trunnion_same::{Judge, Near, Verdict};
 
 impl Pair<'_> {
-    /// Where the machine's place is unknown in both programs, the programmed coordinates are compared: both begin where the other does.
+    /// Where the position of the machine is unknown in both programs, the programmed coordinates are compared: both begin at the same place.
     pub(super) fn by_words(&self) -> Result<Compared, Outcome> {
         let (mm, deg) = self.claim.tolerances();
         match (Near { mm, deg }).pair(self.before, self.after) {
@@ -40,7 +40,7 @@ impl Pair<'_> {
         Ok(())
     }
 
-    /// Two arcs while no rotary axis moves: then the part sees the arcs as they are programmed, turned and shifted as a whole.
+    /// Two arcs while no rotary axis moves: then the arcs in the part are as they are programmed, turned and shifted as a whole.
     pub(super) fn arcs(&self, start: Both<'_>, end: Both<'_>) -> Result<Apart, Outcome> {
         let (a, b) = (&self.before.motion, &self.after.motion);
         let stand = |from: &Stance, to: &Stance| {
@@ -51,10 +51,10 @@ impl Pair<'_> {
         };
         let still = stand(start.0, end.0) && stand(start.1, end.1) && stand(start.0, start.1);
         let (MotionKind::Arc(Some(from)), MotionKind::Arc(Some(to))) = (&a.kind, &b.kind) else {
-            return Err(self.unknown("how far an arc and another motion lie apart is not modelled"));
+            return Err(self.unknown("the distance between an arc and a motion of another kind is not modelled"));
         };
         if !still || a.tcp != b.tcp {
-            return Err(self.unknown("how far two different arcs lie apart while rotary axes move is not modelled"));
+            return Err(self.unknown("the distance between two different arcs is not modelled while rotary axes move"));
         }
         let off = trunnion_same::arcs_apart(from, to, a, b);
         Ok(Apart {

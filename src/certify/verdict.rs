@@ -1,7 +1,7 @@
 //! Outcome of a proof attempt.
 use core::fmt;
 
-/// Where two programs differ, or where a certificate does not tell the truth.
+/// Where two programs differ, or where a certificate is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Witness {
     /// Index of the motion (from 0); `None`: the texts or the certificate, not a motion.

@@ -89,7 +89,7 @@ impl Passes {
             if later.count > 0 {
                 diagnostic.count = diagnostic.count.saturating_add(later.count);
                 diagnostic.notes.push(format!(
-                    "the block runs more than once: this was found {} times in all and is reported at the first",
+                    "the block runs more than once: this occurs {} times in all and is reported only the first time",
                     diagnostic.count
                 ));
             }

@@ -1,5 +1,5 @@
-//! One check of one program: run in the order in which the control runs it, follow, judge. Streams: what is kept beside the
-//! program is findings and one modal state.
+//! One check of one program: run in the order in which the control runs it, follow, judge. Streams: apart from the program,
+//! only findings and one modal state are kept.
 use crate::apart;
 use crate::both;
 use crate::coverage;
@@ -14,12 +14,12 @@ use trunnion_interp::{Interpreter, directives};
 use trunnion_machine::Follower;
 use trunnion_syntax::{BlockId, Program};
 
-/// Executed blocks between two check-points, and between two questions whether to go on.
+/// Executed blocks between two check-points, and between two questions whether to continue.
 pub(crate) const CHECK_POINT_BLOCKS: u64 = 1024;
 
-/// Looks on while a program runs.
+/// Observes the run of a program.
 pub(crate) trait Watch {
-    /// Before each 1024th executed block, with what is in force there; `Break` ends the check.
+    /// Before each 1024th executed block, with the modal state there; `Break` ends the check.
     fn pause(
         &mut self,
         executed: u64,
@@ -46,7 +46,7 @@ pub fn check(program: &Program, settings: &Settings<'_>) -> Report {
     check_on(program, settings, threads)
 }
 
-/// Checks a parsed program on at most so many threads (no more than two are used). The report does not depend on how many.
+/// Checks a parsed program on at most this many threads (no more than two are used). The report does not depend on their number.
 pub fn check_on(program: &Program, settings: &Settings<'_>, threads: usize) -> Report {
     if threads > 1 && program.block_count() >= apart::WORTH {
         check_apart(program, settings)
@@ -65,8 +65,8 @@ fn check_apart(program: &Program, settings: &Settings<'_>) -> Report {
     whole.unwrap_or_default()
 }
 
-/// Checks with every state of the switch for block delete that is possible; `watch` looks on at the run that runs every block. `None`
-/// when it broke off.
+/// Checks with every state of the switch for block delete that is possible; `watch` observes the run that runs every block. `None` if
+/// it stopped the run.
 pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
     let mut first = Some(watch);
     with_both(program, settings, |settings| {
@@ -108,7 +108,7 @@ fn not_read(program: &Program, settings: &Settings<'_>, foreign: Foreign) -> Rep
     pass.finish(&settings.interpreter())
 }
 
-/// Runs a program to its end; `None` when `watch` broke off.
+/// Runs a program to its end; `None` if `watch` stopped it.
 fn run(
     program: &Program,
     mut interpreter: Interpreter<'static>,
@@ -130,7 +130,7 @@ fn run(
 /// What is read of a program before it runs.
 pub(crate) type Read<'r> = &'r dyn Fn(&mut Pass<'_>);
 
-/// Checks a parsed program; `run` lets the pass read what comes before a run and shows it the run, or breaks off.
+/// Checks a parsed program; `run` lets the pass read what comes before a run and shows it the run, or stops.
 fn analyse(
     program: &Program,
     settings: &Settings<'_>,
@@ -352,7 +352,7 @@ mod tests {
         let text = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\n(there)\nG1 Y40\nG40\nM2\n";
         let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
         let session = Session::new(&program, &settings, &|| false).expect("nobody cancels");
-        // 1 mm beside the contour, and round the inside corner
+        // 1 mm beside the contour, and around the inside corner
         for (block, place) in [(3, [20.0, 1.0]), (4, [39.0, 1.0]), (6, [39.0, 40.0])] {
             let info = session.describe(&program, &settings, BlockId(block));
             let tips: Vec<_> = info

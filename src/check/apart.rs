@@ -1,6 +1,6 @@
 //! A check on two threads: one runs the program, the other follows the machine and judges.
 //!
-//! The second is shown the same motions, faults and blocks in the same order as on one thread, so that it finds the same to the letter.
+//! The second is shown the same motions, faults and blocks in the same order as on one thread, so that the report is identical.
 use crate::analysis::Read;
 use crate::pass::Pass;
 use crate::view::InForce;
@@ -12,7 +12,7 @@ use trunnion_syntax::{BlockId, Program};
 /// Programs of fewer blocks are not worth a second thread.
 pub(crate) const WORTH: usize = 1 << 14;
 
-/// So many steps are handed over at once.
+/// This many steps are handed over at once.
 const BATCH: usize = 2048;
 
 /// At most this many batches are in flight. Together they are larger than the second-level cache of a core: writing where the other core has just
@@ -30,7 +30,7 @@ enum Told {
         block: BlockId,
         /// Axes, as in [`trunnion_interp::Position`], whose places differ from those before: they are the next of [`Batch::places`].
         moved: u16,
-        /// Rotary axes of which something was foreseen: it is the next of [`Batch::sines`].
+        /// Rotary axes with a predicted sine: it is the next of [`Batch::sines`].
         foreseen: u8,
         /// After it the block has run.
         last: bool,
@@ -41,7 +41,7 @@ enum Told {
     Ran(BlockId),
 }
 
-/// What a line says beside block and places: mostly the same as the motion before it.
+/// What a line contains apart from block and positions: mostly the same as the motion before it.
 #[derive(Clone, Copy, PartialEq)]
 struct Course {
     chain: ChainId,
@@ -59,7 +59,7 @@ impl Course {
             known: motion.end.known,
         }
     }
-    /// Gives a motion that leads on from another all but its places and block.
+    /// Gives a motion that continues another one everything but its positions and block.
     fn set(&self, motion: &mut Motion) {
         motion.chain = self.chain;
         motion.kind = if self.rapid {
@@ -228,7 +228,7 @@ pub(crate) fn run(
         // there is room for all of them
         _ = empty.send(Batch::default());
     }
-    // both channel ends are dropped on a panic, so that neither thread waits for ever
+    // both channel ends are dropped on a panic, so that neither thread waits forever
     std::thread::scope(move |scope| {
         let runner = scope.spawn(move || {
             let foresight = machine.and_then(Lookahead::new);

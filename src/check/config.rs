@@ -2,6 +2,7 @@
 mod control;
 mod file;
 mod format;
+mod plain;
 mod tool;
 mod variables;
 
@@ -30,7 +31,7 @@ pub struct Config {
     pub machine: Option<String>,
     /// `dialect = "NAME"`.
     pub dialect: Option<String>,
-    /// `dialect_table = "FILE"`: a dialect table of one's own, relative to the file, with its bytes in the file.
+    /// `dialect_table = "FILE"`: a dialect table of your own, relative to the file, with its bytes in the file.
     pub dialect_table: Option<(String, core::ops::Range<usize>)>,
     /// `[rules]`.
     pub rules: Vec<(String, RuleLevel)>,
@@ -201,7 +202,7 @@ pub struct Settings<'a> {
     pub setup: Setup,
     /// Rule levels, last wins (config, then command line).
     pub rules: Vec<(String, RuleLevel)>,
-    /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
+    /// Dialects that the program is to be ported to: the rule `porting` says what would change its meaning there.
     pub port_to: Vec<String>,
     /// How much is judged, if somebody says so. Default: all that the machine allows, and without a machine the motions.
     pub scope: Option<Scope>,
@@ -240,14 +241,16 @@ impl<'a> Settings<'a> {
         self.machine.filter(|_| self.scope() == Scope::Machine)
     }
 
-    /// At the start of a program, as the machine declares its codes.
+    /// At the start of a program, as the machine declares its codes. Without a machine, axes that the program never names stand still.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
-        if codes == self.setup.control.clamp_codes {
+        let unnamed_stand = self.machine.is_none();
+        if codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand {
             return Interpreter::new(self.dialect, &self.setup);
         }
         let mut setup = self.setup.clone();
         setup.control.clamp_codes = codes;
+        setup.unnamed_stand = unnamed_stand;
         Interpreter::new(self.dialect, &setup)
     }
 }

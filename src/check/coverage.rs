@@ -1,4 +1,4 @@
-//! What of a program was looked at: which blocks ran, how many motions, and what was left out and why.
+//! What part of a program was checked: which blocks ran, how many motions, and what was left out and why.
 mod moves;
 mod sections;
 mod tally;
@@ -23,11 +23,11 @@ pub enum NotRunReason {
     SubprogramNotCalled,
     /// They come after the end of the program.
     AfterEnd,
-    /// A jump or a branch leads past them.
+    /// A jump or a branch skips them.
     JumpedOver,
     /// They begin with `/`, and the settings say that such blocks are skipped.
     BlockDelete,
-    /// The run could not be followed so far.
+    /// The run could not be followed that far.
     GivenUp,
 }
 
@@ -47,9 +47,9 @@ impl NotRunReason {
         match self {
             Self::SubprogramNotCalled => "nothing in this file calls their subprogram",
             Self::AfterEnd => "they come after the end of the program",
-            Self::JumpedOver => "a jump or branch leads past them",
+            Self::JumpedOver => "a jump or branch skips them",
             Self::BlockDelete => "block delete skips them",
-            Self::GivenUp => "the run could not be followed so far",
+            Self::GivenUp => "the run could not be followed that far",
         }
     }
 }
@@ -67,7 +67,7 @@ pub struct NotRun {
     pub moves: bool,
 }
 
-/// Where a run was given up.
+/// Where a run was stopped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GivenUp {
     /// The block.
@@ -76,7 +76,7 @@ pub struct GivenUp {
     pub reason: &'static str,
 }
 
-/// What of a program was looked at.
+/// What part of a program was checked.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Coverage {
     /// Blocks with content in the file, each once.
@@ -91,7 +91,7 @@ pub struct Coverage {
     pub travels: u64,
     /// Blocks with content that did not run.
     pub not_run: Vec<NotRun>,
-    /// Where the run was given up.
+    /// Where the run was stopped.
     pub given_up: Option<GivenUp>,
     /// The blocks that ran.
     pub(crate) ran: Visited,
@@ -110,7 +110,7 @@ impl Coverage {
         }
     }
 
-    /// Parts that move the machine and were not looked at, and of which nothing else says why.
+    /// Parts that move the machine and were not checked, unless another finding gives the reason.
     pub(crate) fn gaps(&self) -> impl Iterator<Item = &NotRun> {
         let explained = |reason| matches!(reason, NotRunReason::GivenUp | NotRunReason::BlockDelete);
         self.not_run
@@ -186,7 +186,7 @@ impl Coverage {
 pub(crate) fn tell(program: &Program, settings: &Settings<'_>, report: &mut Report) {
     let coverage = &report.coverage;
     let has = |rule: &str| report.diagnostics.iter().any(|found| found.rule == rule);
-    // a file without any block has its finding, and a run that was given up has said why
+    // a file without any block has its finding, and a run that was stopped has reported why
     let is_told = has("empty-program") || coverage.given_up.as_ref().is_some_and(|given_up| has(given_up.reason));
     let is_open = coverage.gaps().next().is_some() || (coverage.travels == 0 && !is_told);
     if !is_open || crate::unreadable::is_utf16(program.source()) {
@@ -202,7 +202,7 @@ pub(crate) fn tell(program: &Program, settings: &Settings<'_>, report: &mut Repo
         .sort_by_key(|found| (found.range.start, found.range.end));
 }
 
-/// What the rules find in what was looked at.
+/// What the rules find in the part that was checked.
 fn findings(
     program: &Program,
     settings: &Settings<'_>,

@@ -1,8 +1,8 @@
 //! What undeclared zero points and tool lengths leave open about the travel of the linear axes.
 //!
-//! A joint of a chain of linear axes is its word plus zero point and tool length, so that the path spans the same wherever its zero lies:
+//! A joint of a chain of linear axes is its word plus zero point and tool length, so that the span of the path is the same wherever its zero is:
 //! what spans more than the travel fits no zero point, and what spans less fits a range of them. Where rotary axes turn the part or the
-//! tool, nothing is said about linear joints.
+//! tool, linear joints are not judged.
 mod fit;
 mod listed;
 mod name;
@@ -22,10 +22,10 @@ use trunnion_interp::{AxisLetter, ChainId, LengthOf, Motion, MotionKind, Undecla
 use trunnion_machine::{AxisKind, Leg, Limits, MAX_AXES, Machine};
 use trunnion_syntax::{BlockId, Program};
 
-/// Joints that differ by no more are at one place, mm.
+/// Joints that differ by no more are at the same position, mm.
 const SAME_MM: f64 = 1e-9;
 
-/// What is taken as zero although nobody declared it.
+/// Undeclared values that are taken as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Assume {
     /// `work-offset`.
@@ -54,7 +54,7 @@ impl Assume {
         true
     }
 
-    /// What of a motion stays undeclared.
+    /// Which values of a motion are undeclared.
     #[inline]
     pub(crate) fn leaves(self, undeclared: Undeclared) -> Undeclared {
         Undeclared {
@@ -83,15 +83,15 @@ pub(crate) struct Datum {
     /// No rotary axis: a joint is its word plus what is undeclared.
     is_linear: bool,
     assume: Assume,
-    /// The present place of each joint, and what it rests on.
+    /// The present position of each joint, and what it depends on.
     anchors: [Option<(f64, Basis)>; MAX_AXES],
     spans: Keyed<(usize, Basis), Span>,
     overruns: Keyed<(u8, Missing), Overrun>,
     open: Keyed<Missing, Open>,
-    /// What the last motion rested on, so that nothing is looked up twice.
+    /// What the last motion depended on, so that nothing is looked up twice.
     last: Option<(Undeclared, OffsetName, LengthOf)>,
     assumed: Keyed<Missing, ()>,
-    /// A zero point was set from where the machine stood: no span is certain.
+    /// A zero point was set at the position of the machine: no span is certain.
     mixed: bool,
 }
 
@@ -167,10 +167,10 @@ impl Datum {
         }
     }
 
-    /// Where the joints of a leg are, each under what it rests on.
+    /// Where the joints of a leg are, each with what it depends on.
     fn span(&mut self, leg: &Leg, undeclared: Undeclared, in_force: &InForce, program: &Program) {
         if undeclared.set_here && undeclared.any() {
-            // the shift counts from where the machine stood, which may be known without the offset
+            // the shift is relative to the position of the machine, which may be known without the offset
             self.mixed = true;
             self.note_open(undeclared, in_force, &leg.motion);
         }
@@ -188,7 +188,7 @@ impl Datum {
             };
             let end = joints[axis.joint];
             match self.anchors[axis.joint].replace((end, basis)) {
-                // an increment counts from where the axis was
+                // an increment starts from where the axis was
                 Some((_, before)) if leg.motion.says_way & axis.bit != 0 => {
                     self.anchors[axis.joint] = Some((end, before));
                     basis = before;
@@ -196,7 +196,7 @@ impl Datum {
                 }
                 Some((at, before)) if (at - end).abs() <= SAME_MM && before != basis => {
                     self.anchors[axis.joint] = Some((at, before));
-                    // its word leads to where it seems to be already, or the block does not name it
+                    // its word names the position where it already seems to be, or the block does not name it
                     if leg.motion.chain != ChainId::MAIN || names_axis(program, leg.motion.block, axis.letter) {
                         self.may_reach(axis, basis, [end, end], place);
                     }
@@ -257,7 +257,7 @@ impl Datum {
         }
     }
 
-    /// What does not fit wherever the zero lies.
+    /// What does not fit wherever the zero is.
     pub(crate) fn overruns(&self) -> impl Iterator<Item = &Overrun> {
         self.overruns.values().filter(|_| !self.mixed)
     }
@@ -267,7 +267,7 @@ impl Datum {
         self.assumed.keys()
     }
 
-    /// What is left open, each cause once; with the ranges that fit on a chain of linear axes. A cause of which something does not fit at
+    /// What is left open, each cause once; with the ranges that fit on a chain of linear axes. A cause with something that does not fit at
     /// all is not open.
     pub(crate) fn open(&self) -> Vec<Open> {
         let mut open = self.open.clone();

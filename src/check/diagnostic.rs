@@ -1,4 +1,4 @@
-//! A finding, as plain data: terminal, JSON and LSP are equal clients.
+//! A finding, as plain data: terminal, JSON and LSP are all its clients.
 use trunnion_interp::ChainId;
 use trunnion_syntax::TextRange;
 

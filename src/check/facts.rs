@@ -1,5 +1,5 @@
-//! Facts that wake rules, one type each. A type says what it holds of (`of`), and what a first look must leave possible before that is
-//! worked out (`may`): `may` is cheap, and never false where the rules that the fact wakes would report something; debug builds look.
+//! Facts that wake rules, one type each. A type says when it holds (`of`), and has a cheap first test that must pass before that is
+//! computed (`may`): `may` is never false where the rules that the fact wakes would report something; debug builds check that.
 //! A new fact is a type here and a line in `wake.rs`.
 mod axes;
 mod cut;
@@ -17,7 +17,7 @@ pub(crate) use pole::{NearPole, PoleCrossing, PolePass, first_pass};
 pub(crate) use posture::{OneSidedCut, OpenPosture, PostureSwap};
 pub(crate) use travel::{FarCut, WindingCut};
 
-/// A fact about a leg with its view in front: what the view knows, the fact knows.
+/// A fact about a leg, together with its view.
 macro_rules! over_view {
     ($($fact:ident),*) => {$(
         impl<'v> core::ops::Deref for $fact<'v> {

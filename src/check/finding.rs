@@ -154,7 +154,7 @@ impl<'p> Draft<'p> {
         self
     }
 
-    /// The rewrite that leads a path round the pole, where it passes near it and no limit forces the change of posture.
+    /// The rewrite that guides a path around the pole, where it passes near it and no limit forces the change of posture.
     pub(crate) fn fix_pole(&mut self, view: &LegView<'_>) -> &mut Self {
         if view.near_pole() && view.forced_swap().is_none() {
             self.fix("smooth-pole");

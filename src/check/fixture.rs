@@ -5,7 +5,7 @@
 //! ;      ^^^ rule-name: beginning of the message
 //! ```
 //!
-//! A line of carets (`;` or `$$`, carets, a rule's name, a colon, text) belongs to the nearest line above that is none. It
+//! A line of carets (`;` or `$$`, carets, a rule's name, a colon, text) belongs to the nearest line above that is not such a line. It
 //! is taken out before the program is read. The mark hides the first column: carets directly after it reach back to it, and
 //! `;^` there means a width of 1 or 2.
 use crate::{Assume, Report, RuleLevel, Settings, check};
@@ -52,7 +52,7 @@ pub struct Fixture {
     /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`, `NAME+A.cable` one whose A
     /// has `cable = true`.
     pub machine: Option<String>,
-    /// Dialects to carry the program over to.
+    /// Dialects to port the program to.
     pub port_to: Vec<String>,
     /// Work offsets and tool lengths that are not declared are unknown; else they are taken as zero.
     pub undeclared: bool,

@@ -5,7 +5,7 @@ use crate::view::turns;
 use trunnion_interp::Feed;
 use trunnion_machine::{Allowances, Leg, Machine, QuickBounds, RotaryRadii, quick_bounds};
 
-/// What holds of all legs of one machine, and storage for what is worked out of them.
+/// What holds for all legs of one machine, and storage for values computed from them.
 pub(crate) struct Looker<'m> {
     pub(crate) machine: &'m Machine,
     allowances: Allowances,
@@ -20,7 +20,7 @@ pub(crate) struct Looker<'m> {
     pub(crate) pole_pass: f64,
 }
 
-/// See the module. A number that is not known rules nothing out.
+/// See the module. An unknown number rules nothing out.
 pub(crate) struct Look<'l> {
     pub(crate) of: &'l Looker<'l>,
     pub(crate) leg: &'l Leg,
@@ -33,9 +33,9 @@ pub(crate) struct Look<'l> {
     pub(crate) cut: bool,
     /// The same, and a rotary joint turns.
     pub(crate) turning_cut: bool,
-    /// Of a line along which all joints run straight.
+    /// For a line along which all joints move linearly.
     pub(crate) bounds: Option<QuickBounds>,
-    /// How long the block takes at the programmed feed, s; NaN where a look does not do for what F means.
+    /// How long the block takes at the programmed feed, s; NaN where the first look cannot decide what F means.
     pub(crate) seconds: f64,
 }
 

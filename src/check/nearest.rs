@@ -1,4 +1,4 @@
-//! What to say about a name that is not known: the known name that it most resembles, or the list of known names.
+//! What to say about an unknown name: the known name that it most resembles, or the list of known names.
 use trunnion_dialect::{CodeKind, Dialect};
 
 /// Longer names are not compared.

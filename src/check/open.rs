@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 /// Rule, key, and whether it is unknown.
 pub(crate) type Place = (&'static str, u64, bool);
 
-/// So many places that were asked for last are tried before the others: consecutive blocks have the same findings.
+/// This many places, the last ones requested, are tried before the others: consecutive blocks have the same findings.
 const RECENT: usize = 4;
 
 /// See the module.

@@ -28,7 +28,7 @@ pub(crate) struct Pass<'a> {
     rules: Vec<Active>,
     motions: Waiting,
     legs: Waiting,
-    /// What is in force with the last motion.
+    /// The modal state of the last motion.
     in_force: Option<InForce>,
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
@@ -135,7 +135,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Says that the file is not read: it is for a control that is not supported, or no program.
+    /// Reports that the file is not read: it is for an unsupported control, or is not a program.
     pub(crate) fn tell_foreign(&mut self, foreign: Foreign) {
         ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
             if let Wake::Foreign(rule) = wake {
@@ -144,7 +144,7 @@ impl<'a> Pass<'a> {
         });
     }
 
-    /// Says that the file is not text; false where the rules that say so are allowed.
+    /// Reports that the file is not text; false where the rules that report it are allowed.
     pub(crate) fn tell_unreadable(&mut self) -> bool {
         ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
             if let Wake::Unreadable(rule) = wake {
@@ -232,7 +232,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Whether a rule was looked for, so that its silence says something.
+    /// Whether a rule was checked, so that its silence means something.
     fn looked_for(&self, name: &str) -> bool {
         let has = |rules: &[Active]| rules.iter().any(|rule| rule.name == name);
         let asked = |rule: &Active| match rule.wake {
@@ -338,7 +338,7 @@ impl Sink for Pass<'_> {
         debug_assert!(
             self.in_force
                 .is_none_or(|own| format!("{own:?}") == format!("{:?}", InForce::of(state))),
-            "what is in force changed with a line"
+            "what is in effect changed with a line"
         );
         if self.in_force.is_none() {
             return self.motion(motion, state);
@@ -379,7 +379,7 @@ impl Pass<'_> {
         }
     }
 
-    /// What is foreseen of a rotary axis.
+    /// Sets the predicted sine of a rotary axis.
     #[inline]
     pub(crate) fn foresee(&mut self, index: usize, sine: Sine) {
         if let Some(follower) = &mut self.follower {

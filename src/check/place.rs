@@ -16,7 +16,7 @@ pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRa
     code(&view)
 }
 
-/// Whether a block has a word of an axis (upper case letter), or is none of words.
+/// Whether a block has a word of an axis (upper case letter), or is not a block of words.
 pub(crate) fn names_axis(program: &Program, block: BlockId, letter: u8) -> bool {
     let view = program.block(block);
     let named = |word: trunnion_syntax::Word| word.address == Address::Letter(letter);

@@ -1,4 +1,4 @@
-//! What changes its meaning when a program goes to another control: one lint a function, read from the text and two dialects.
+//! What changes its meaning when a program goes to another control: one function per lint, which reads the text and two dialects.
 //!
 //! A lint says only what follows from the text; whether a program runs there is what a check in the other dialect says.
 mod expressions;

@@ -14,5 +14,5 @@ pub(crate) use trunnion_geometry::deg;
 pub(crate) use trunnion_interp::{Fault, FaultKind, Refusal};
 pub(crate) use trunnion_syntax::{SyntaxError, SyntaxErrorKind, TextRange};
 
-/// Adds nothing to what a control says of a block that it refuses.
+/// Adds nothing to the control's message about a block that it refuses.
 pub(crate) fn plain(_: &mut Draft<'_>) {}

@@ -67,9 +67,9 @@ pub struct Report {
     /// accelerate. Highest: the machine stops after every block and accelerates no faster than its machine file declares.
     /// `None`: some time is not known (no machine, no feed, a dwell in turns, an acceleration that is not declared).
     pub cycle_time_s: Option<[f64; 2]>,
-    /// What of the program was looked at.
+    /// What part of the program was checked.
     pub coverage: Coverage,
-    /// What nobody declared and was taken for granted, in words: `G54 = 0 (not declared)`. In the order in which the program needs it.
+    /// Undeclared values that were assumed, in words: `G54 = 0 (not declared)`. In the order in which the program needs it.
     pub assumptions: Vec<String>,
 }
 

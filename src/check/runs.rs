@@ -20,7 +20,7 @@ const LISTED: u32 = 10_000;
 /// How findings of one rule are put together. Findings that are events (`pole-flip`) have none and are never merged.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Merge {
-    /// What must agree beside the rule: an axis letter, a text's hash, or 0.
+    /// What must agree apart from the rule: an axis letter, a text's hash, or 0.
     pub(crate) key: u64,
     /// How bad: message and values of the largest are kept.
     pub(crate) badness: f64,
@@ -77,14 +77,14 @@ struct Run {
     later: Option<u32>,
 }
 
-/// A leg that is worded once its run has ended: most blocks of a long run are not the worst of it.
+/// A leg whose message is written once its run has ended: most blocks of a long run are not the worst of it.
 pub(crate) struct Kept {
     pub(crate) leg: Leg,
     pub(crate) posture_before: i8,
     pub(crate) trail: Trail,
 }
 
-/// A run that has ended and waits for its words.
+/// A run that has ended and has no message yet.
 pub(crate) struct Unworded {
     pub(crate) rule: &'static str,
     pub(crate) key: u64,
@@ -93,7 +93,7 @@ pub(crate) struct Unworded {
     run: Run,
 }
 
-/// A finding that is not worded yet, because its run may have worse to tell.
+/// A finding without a message yet, because its run may get worse.
 #[derive(Clone, Copy)]
 pub(crate) struct Repeat {
     pub(crate) rule: &'static str,
@@ -114,7 +114,7 @@ pub(crate) struct Log {
     /// Per rule: how many are listed, and the rest.
     listed: BTreeMap<&'static str, (u32, Option<Diagnostic>)>,
     passes: Passes,
-    /// The block in hand ran before.
+    /// The current block ran before.
     pub(crate) again: bool,
 }
 
@@ -205,7 +205,7 @@ impl Log {
         None
     }
 
-    /// Counts a finding without wording it: true where its run is merged already. Where it is the worst so far its leg is kept.
+    /// Counts a finding without writing its message: true if its run is merged already. Where it is the worst so far its leg is kept.
     pub(crate) fn absorb(&mut self, repeat: Repeat, view: &LegView<'_>) -> bool {
         let place = (repeat.rule, repeat.key, repeat.status == Status::Unknown);
         let Some(run) = self.open.get_mut(&place) else {
@@ -260,7 +260,7 @@ impl Log {
         }
     }
 
-    /// Ends all runs; those that wait for words are given away, to come back by [`Self::worded`].
+    /// Ends all runs; those without a message are handed out, and come back through [`Self::worded`].
     pub(crate) fn end(&mut self, program: &Program) -> Vec<Unworded> {
         for (place, run) in self.open.take() {
             self.close(place, run, program);
@@ -268,7 +268,7 @@ impl Log {
         core::mem::take(&mut self.ended)
     }
 
-    /// Takes the words of a run's worst leg.
+    /// Takes the message of a run's worst leg.
     pub(crate) fn worded(&mut self, unworded: Unworded, words: Option<Diagnostic>, program: &Program) {
         let mut run = unworded.run;
         if let (Some(words), [(_, whole)]) = (words, run.items.as_mut_slice()) {
@@ -302,7 +302,7 @@ impl Log {
 }
 
 impl Diagnostic {
-    /// Says what `worse` says; place, count and severity stay.
+    /// Takes the message of `worse`; place, count and severity stay.
     pub(crate) fn take_words(&mut self, worse: Self) {
         self.message = worse.message;
         self.notes = worse.notes;

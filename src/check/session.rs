@@ -6,7 +6,7 @@ use trunnion_interp::{Fault, Interpreter, ModalState, Motion, ProgramRun, Sink};
 use trunnion_machine::{Follower, Memory, Row, row};
 use trunnion_syntax::{BlockId, Program};
 
-/// At most so many blocks are run again to describe one, where a program of loops leaves no check-point nearer to it.
+/// At most this many blocks are run again to describe one, where a program of loops leaves no check-point nearer to it.
 const MOST_AGAIN: u64 = 1_000_000;
 
 /// A motion that is emitted late, because its end depends on a later one, is waited for this many blocks.
@@ -15,9 +15,9 @@ const LATE: u64 = 64;
 /// What is known about one block.
 #[derive(Clone, Debug)]
 pub struct BlockInfo {
-    /// In force before it.
+    /// In effect before it.
     pub before: ModalState,
-    /// In force after it.
+    /// In effect after it.
     pub after: ModalState,
     /// What the machine does in it (empty without motion or machine), the first time it runs.
     pub rows: Vec<Row>,
@@ -38,14 +38,14 @@ impl core::fmt::Debug for Variables {
 }
 
 impl Variables {
-    /// The value of a variable as it is written (`#1`, `#<name>`), before and after the block; NaN where it is not known, `None` where
+    /// The value of a variable as it is written (`#1`, `#<name>`), before and after the block; NaN where it is unknown, `None` where
     /// there is none or it is vacant.
     pub fn value(&self, text: &str) -> [Option<f64>; 2] {
         [0, 1].map(|at| self.0[at].variable(text))
     }
 }
 
-/// What is in force between two blocks.
+/// What is in effect between two blocks.
 #[derive(Clone)]
 struct CheckPoint {
     /// How many blocks ran before.
@@ -66,7 +66,7 @@ pub struct Session {
 /// In which order the blocks ran for the first time.
 #[derive(Clone)]
 enum Order {
-    /// Block after block; so many of them.
+    /// Block after block; this many of them.
     Straight(u64),
     /// How many ran before it, for each block; `u64::MAX`: it never ran.
     First(Vec<u64>),
@@ -152,7 +152,7 @@ impl Session {
     }
 
     /// Describes a block of the program the session was made of, with the same settings, as it runs the first time: at most
-    /// At most 1024 blocks are run again, or a limited number if there are loops before it. A block after the end is described as
+    /// 1024 blocks are run again, or a limited number if there are loops before it. A block after the end is described as
     /// the last one.
     pub fn describe(&self, program: &Program, settings: &Settings<'_>, block: BlockId) -> BlockInfo {
         let wanted = BlockId(block.0.min((program.block_count() as u32).saturating_sub(1)));

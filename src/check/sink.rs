@@ -1,4 +1,4 @@
-//! Where rules report to: wording is theirs; levels, suppression, block numbers and merging are done here.
+//! Where rules report to: they write the messages; levels, suppression, block numbers and merging are handled here.
 use crate::caller::Part;
 use crate::diagnostic::Origin;
 use crate::finding::Draft;
@@ -40,11 +40,11 @@ pub(crate) struct Reporter<'a> {
     /// The block it looks at; `None`: the block of what it reports.
     block: Option<BlockId>,
     sequence: u64,
-    /// The calls in which the block in hand runs.
+    /// The calls in which the current block runs.
     chain: ChainId,
     pending: Vec<Draft<'a>>,
     told: Keyed<(u64, &'static str), ()>,
-    /// A rule words a leg it has found before.
+    /// A rule writes the message of a leg that it has found before.
     wording: bool,
     /// The running rule has reported or counted something.
     spoke: bool,
@@ -149,7 +149,7 @@ impl<'a> Reporter<'a> {
         self.draft().say(message)
     }
 
-    /// Reports a block that the control refuses for this sort of reason, with what the control itself says of it.
+    /// Reports a block that the control refuses for this sort of reason, with the control's own message.
     pub(crate) fn refused(&mut self, fault: &Fault, sort: Refusal) -> Option<&mut Draft<'a>> {
         let FaultKind::Rejected {
             refusal,
@@ -180,7 +180,7 @@ impl<'a> Reporter<'a> {
         word(self.draft());
     }
 
-    /// Reports a finding of a leg. `word` words it; where blocks before it have this finding already, only when it stays the worst.
+    /// Reports a finding of a leg. `word` writes the message; if blocks before it have this finding already, only when it stays the worst.
     pub(crate) fn finding(&mut self, view: &LegView<'_>, merge: Merge, word: impl FnOnce(&mut Draft<'a>)) {
         let severity = self.level.unwrap_or(self.severity);
         if !self.absorb(severity, Status::Fail, view, merge) {
@@ -220,7 +220,7 @@ impl<'a> Reporter<'a> {
         &mut self.pending[last]
     }
 
-    /// Whether consecutive blocks have this finding already: then it is counted, and worded later should it stay the worst.
+    /// Whether consecutive blocks have this finding already: then it is counted, and its message is written later if it stays the worst.
     fn absorb(&mut self, severity: Severity, status: Status, view: &LegView<'_>, merge: Merge) -> bool {
         let Some(block) = self.block else { return false };
         let rule = self.name;
@@ -238,7 +238,7 @@ impl<'a> Reporter<'a> {
         absorbed
     }
 
-    /// Words the worst legs of runs that only kept them.
+    /// Writes the messages of the worst legs of runs that only kept them.
     pub(crate) fn word_worst(&mut self, machine: &Machine, rules: &[Active]) {
         for unworded in self.log.end(self.program) {
             let kept = &unworded.kept;
@@ -257,7 +257,7 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// True the first time the running rule asks for `cause`, so that one cause is reported once.
+    /// True the first time the running rule asks about `cause`, so that one cause is reported once.
     pub(crate) fn once(&mut self, cause: u64) -> bool {
         self.told.insert((cause, self.name), ())
     }

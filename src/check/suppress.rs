@@ -1,6 +1,6 @@
 //! Comments that allow a rule: `(trunnion: allow pole-flip because the tool is out of the cut)`.
 //!
-//! On a line of its own it holds for the whole program, beside words for its block. Without a reason it does nothing and
+//! On a line of its own it applies to the whole program, next to words to its block. Without a reason it does nothing and
 //! `broken-directive` says so.
 use core::cell::Cell;
 use trunnion_interp::Directive;

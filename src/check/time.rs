@@ -22,7 +22,7 @@ impl Default for CycleTime {
 }
 
 impl CycleTime {
-    /// Adds a block. One that leads from an unknown to a known position counts nothing: nothing is known of it.
+    /// Adds a block. One from an unknown to a known position adds nothing: its time is unknown.
     pub(crate) fn add(&mut self, view: &LegView<'_>) {
         if !self.known {
             return;

@@ -1,4 +1,4 @@
-//! What the legs before tell a rule: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
+//! What a rule can know about the legs before: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
 use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
@@ -10,17 +10,17 @@ use trunnion_syntax::BlockId;
 /// Feed blocks in the window of `excess-rotary-travel`.
 pub(crate) const WINDOW: usize = 10;
 
-/// What is remembered of the legs up to the one in hand.
+/// What is remembered about the legs up to the current one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Trail {
     window: Window,
     rapids: Rapids,
     state: State,
-    /// Clamps of the rotary axes with the leg in hand.
+    /// Clamps of the rotary axes with the current leg.
     pub(crate) clamps: Clamps,
-    /// Declared length of the tool in use with the leg in hand, mm.
+    /// Declared length of the tool in use with the current leg, mm.
     pub(crate) own_length_mm: Option<f64>,
-    /// What the leg in hand rests on that is not declared.
+    /// The undeclared values that the current leg depends on.
     pub(crate) undeclared: Undeclared,
 }
 
@@ -45,7 +45,7 @@ struct Window {
     chord: [f64; WINDOW],
     next: usize,
     count: usize,
-    /// So many of the last ones each turned no more than `ratio` times their chord.
+    /// This many of the last ones each turned no more than `ratio` times their chord.
     calm: usize,
     ratio: f64,
 }
@@ -74,7 +74,7 @@ pub(crate) struct Rapids {
     pub count: u32,
     /// Block of the first.
     pub first: BlockId,
-    /// Way of the linear axes across the tool, added up, mm.
+    /// Travel of the linear axes across the tool, added up, mm.
     pub way_mm: f64,
     /// The direct distance across the tool from start to end, mm.
     pub direct_mm: f64,
@@ -154,7 +154,7 @@ impl Trail {
     }
 
     /// Turn of the rotary axes and of the tool axis in the last ten feed blocks, rad, where the first is more than `ratio` times the
-    /// second (which counts as `least` at least).
+    /// second (which is at least `least`).
     pub(crate) fn excess_turn(&self, ratio: f64, least: f64) -> Option<(f64, f64)> {
         if !self.may_exceed(ratio, least) {
             return None;
@@ -170,18 +170,18 @@ impl Trail {
         (turned > ratio * tilted.max(least)).then_some((turned, tilted))
     }
 
-    /// Whether [`Self::excess_turn`] may find anything: most windows are far from it, which sums in any order tell.
+    /// Whether [`Self::excess_turn`] may find anything: most windows are far from it, which sums in any order show.
     #[inline]
     pub(crate) fn may_exceed(&self, ratio: f64, least: f64) -> bool {
         let window = &self.window;
-        // what holds of each holds of their sums
+        // what holds for each holds for their sums
         if window.calm >= WINDOW && window.ratio == ratio {
             return false;
         }
         window.count >= WINDOW && any_sum(&window.turned) * ROUNDED_UP > ratio * any_sum(&window.chord).max(least)
     }
 
-    /// The rapid motions that led to the feed motion in hand.
+    /// The rapid motions that led to the current feed motion.
     pub(crate) fn rapids(&self) -> Option<&Rapids> {
         (self.state == State::Arrived).then_some(&self.rapids)
     }
@@ -234,7 +234,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Where the sums in full are too large a look says so, whatever led there.
+        /// If the exact sums are too large, the first look finds it, whatever led there.
         #[test]
         fn a_look_at_each_block_rules_out_no_more_than_the_sums(
             blocks in proptest::collection::vec((0.0..2.0, prop_oneof![Just(0.0), 0.05..1.0], any::<bool>()), 0..60),

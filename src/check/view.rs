@@ -1,4 +1,4 @@
-//! What rules look at: a leg with what is computed from it at most once, and the program as a whole.
+//! What rules read: a leg with the values computed from it at most once, and the program as a whole.
 use crate::Settings;
 use crate::datum::OffsetName;
 use crate::trail::Trail;
@@ -36,17 +36,17 @@ pub(crate) struct LegView<'a> {
     pub(crate) leg: &'a Leg,
     /// Sign of the last posture that was not at the pole, before this leg; 0 when there was none.
     pub(crate) posture_before: i8,
-    /// What the legs up to this one tell.
+    /// What is known about the legs up to this one.
     pub(crate) trail: &'a Trail,
     feed_limit: OnceCell<Option<FeedLimit>>,
     deviation: OnceCell<Option<Deviation>>,
 }
 
-/// A motion as programmed, and what is in force with it.
+/// A motion as programmed, and what is in effect with it.
 pub(crate) struct MotionView<'a> {
     /// The motion.
     pub(crate) motion: &'a Motion,
-    /// What is in force.
+    /// What is in effect.
     pub(crate) in_force: &'a InForce,
     /// The tool of the last feed motion.
     pub(crate) last_cut: Option<u32>,
@@ -77,7 +77,7 @@ pub(crate) struct InForce {
     pub(crate) clamps: Clamps,
     /// Work offset.
     pub(crate) offset: OffsetName,
-    /// Whose length is compensated.
+    /// Which tool's length is compensated.
     pub(crate) length_of: LengthOf,
 }
 
@@ -113,7 +113,7 @@ impl MotionView<'_> {
     }
 }
 
-/// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
+/// Whether X Y Z are the position of the tip in the workpiece frame: tool centre point control, or vectors.
 #[inline]
 pub(crate) fn leads_tip(motion: &Motion) -> bool {
     let led = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || motion.tilt.normal.is_some();
@@ -167,7 +167,7 @@ impl<'a> LegView<'a> {
         })
     }
 
-    /// Whether the place of a linear joint rests on a zero point or a tool length that is not declared.
+    /// Whether the position of a linear joint depends on an undeclared zero point or tool length.
     pub(crate) fn rests_on_undeclared(&self, joint: usize) -> bool {
         let undeclared = self.trail.undeclared;
         let axis = &self.machine.axes[joint];
@@ -181,12 +181,12 @@ impl<'a> LegView<'a> {
         zero || undeclared.length && self.machine.per_length(joint) != 0.0
     }
 
-    /// Whether the motion of the linear joints, or of the tip, rests on one: a rotary axis turns, and the distance to it is not known.
+    /// Whether the motion of the linear joints, or of the tip, depends on one: a rotary axis turns, and the distance to it is unknown.
     pub(crate) fn lever_is_undeclared(&self) -> bool {
         self.trail.undeclared.any() && self.rotary_turns()
     }
 
-    /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
+    /// Whether X Y Z are the position of the tip in the workpiece frame: tool centre point control, or vectors.
     pub(crate) fn leads_tip(&self) -> bool {
         leads_tip(self.motion())
     }
@@ -217,7 +217,7 @@ impl<'a> LegView<'a> {
         self.feed_is_by_way() && !says_which && control.feed.is_none()
     }
 
-    /// Whether only rotary axes turn on a Haas, which counts F along circles whose diameters are its settings 34 and 79, so that they
+    /// Whether only rotary axes turn on a Haas, where F is the speed along circles whose diameters are its settings 34 and 79, so that they
     /// may turn faster than by F in degrees. Source: Haas mill operator's manual, G93, where these settings are not needed.
     pub(crate) fn turns_by_diameter(&self) -> bool {
         let only_turns = self.feed_in_degrees() && self.motion().is_feed() && self.rotary_turns();
@@ -226,7 +226,7 @@ impl<'a> LegView<'a> {
         by_diameter && only_turns && self.feed_is_by_way()
     }
 
-    /// Whether F counts along a path: neither a duration nor unknown.
+    /// Whether F is a speed along a path: neither a duration nor unknown.
     fn feed_is_by_way(&self) -> bool {
         matches!(self.motion().feed, Feed::PerMinute(_) | Feed::PerRevolution(_))
     }
@@ -250,7 +250,7 @@ impl<'a> LegView<'a> {
         }
     }
 
-    /// Length that F is meant along: of the path, mm, or of the turn, deg (root of the sum of squares, RS274/NGC).
+    /// Length along which F is the speed: of the path, mm, or of the turn, deg (root of the sum of squares, RS274/NGC).
     fn way(&self) -> f64 {
         if self.feed_in_degrees() {
             let [first, second] = self.leg.rotary_change;
@@ -299,11 +299,11 @@ impl<'a> LegView<'a> {
     }
 
     /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
-    /// Per revolution: times the spindle speed. Inverse time: the length of the path times F (RS274/NGC, G93).
+    /// Per revolution: times the spindle speed, the highest one of the motion. Inverse time: the length of the path times F (RS274/NGC, G93).
     pub(crate) fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {
             Feed::PerMinute(feed) => Some(feed),
-            Feed::PerRevolution(feed) => Some(feed * self.motion().spindle_rpm?),
+            Feed::PerRevolution(feed) => Some(feed * self.motion().most_rpm()?),
             Feed::InverseTime(per_minute) => Some(per_minute * self.way()),
             Feed::Unknown | Feed::Rapid => None,
         }
@@ -360,7 +360,7 @@ impl<'a> LegView<'a> {
         self.motion().great_circle.is_none() && !self.machine.control.tcp_declared
     }
 
-    /// Whether a rotary axis turns by more than half a turn, so that a whole turn less may reach the same place.
+    /// Whether a rotary axis turns by more than half a turn, so that a whole turn less may reach the same position.
     pub(crate) fn turns_far(&self) -> bool {
         self.leg
             .rotary_change

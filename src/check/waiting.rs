@@ -24,7 +24,7 @@ impl Waiting {
         awake
     }
 
-    /// A debug build asks also the rules that were not woken, and sees that they are silent.
+    /// A debug build also asks the rules that were not woken, and checks that they are silent.
     pub(crate) fn see_silent(
         &self,
         reporter: &mut Reporter<'_>,

@@ -1,4 +1,4 @@
-//! What wakes a rule: the type that its function reads. This list is all that there is to choose from.
+//! What wakes a rule: the type that its function reads. This list is complete.
 use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
@@ -17,7 +17,7 @@ use trunnion_syntax::{SyntaxError, TextRange};
 
 /// What is known when the run has come to its end.
 pub(crate) struct Ending<'s> {
-    /// Comments that allow a rule of which nothing was found: bytes of the comment, the rule's name.
+    /// Comments that allow a rule that found nothing: bytes of the comment, the rule's name.
     pub(crate) unused: Vec<(TextRange, &'s str)>,
 }
 
@@ -41,19 +41,19 @@ macro_rules! wakes {
             Port(fn(&Overview<'_>, &mut Reporter<'_>)),
             /// Each fault of the run.
             Fault(fn(&Fault, &mut Reporter<'_>)),
-            /// Each block that the control refuses for this sort of reason. What it says is worded already; the function may add to it.
+            /// Each block that the control refuses for this sort of reason. Its message is written already; the function may add to it.
             Refused(Refusal, fn(&mut Draft<'_>)),
             $($(#[$motion_doc])* $motion(fn(&$motion<'_>, &mut Reporter<'_>)),)*
             $($(#[$leg_doc])* $leg(fn(&$leg<'_>, &mut Reporter<'_>)),)*
             /// On a machine: each undeclared zero point or tool length on which something depends, at the end.
             Open(fn(&Open, &mut Reporter<'_>)),
-            /// On a machine: each axis that leaves its travel wherever an undeclared zero lies, at the end.
+            /// On a machine: each axis that leaves its travel wherever an undeclared zero is, at the end.
             Overrun(fn(&Overrun, &mut Reporter<'_>)),
             /// Each stretch of feed motions in which the spindle does not turn, at the end.
             Still(fn(&StillCuts, &mut Reporter<'_>)),
             /// What is known at the end, once.
             End(fn(&Ending<'_>, &mut Reporter<'_>)),
-            /// What of the program was looked at, once, after everything else.
+            /// What part of the program was checked, once, after everything else.
             Coverage(fn(&Coverage, &mut Reporter<'_>)),
         }
 
@@ -112,7 +112,7 @@ macro_rules! wakes {
                 }
             }
 
-            /// Asks the rule about a motion of which its fact holds.
+            /// Asks the rule about a motion for which its fact holds.
             pub(crate) fn read_motion(self, view: &MotionView<'_>, out: &mut Reporter<'_>) {
                 match self {
                     $(Self::$motion(rule) => if let Some(fact) = $motion::of(view) { rule(&fact, out) },)*
@@ -120,7 +120,7 @@ macro_rules! wakes {
                 }
             }
 
-            /// Asks the rule about a leg of which its fact holds.
+            /// Asks the rule about a leg for which its fact holds.
             pub(crate) fn read_leg(self, view: &LegView<'_>, out: &mut Reporter<'_>) {
                 match self {
                     $(Self::$leg(rule) => if let Some(fact) = $leg::of(view) { rule(&fact, out) },)*
@@ -129,13 +129,13 @@ macro_rules! wakes {
             }
         }
 
-        /// The facts that may hold of a motion.
+        /// The facts that may hold for a motion.
         #[inline]
         pub(crate) fn possible_of_motion(view: &MotionView<'_>) -> u32 {
             0 $(| u32::from($motion::may(view)) << Place::$motion as u32)*
         }
 
-        /// The facts that may hold of a leg.
+        /// The facts that may hold for a leg.
         #[inline]
         pub(crate) fn possible_of_leg(look: &Look<'_>) -> u32 {
             0 $(| u32::from($leg::may(look)) << Place::$leg as u32)*
@@ -163,7 +163,7 @@ wakes! {
         WindingCut,
         /// A turning cut between tool vectors.
         VectorCut,
-        /// A turning cut with a tip that is led, at whose end only one posture is left.
+        /// A turning cut with a guided tip, at whose end only one posture is left.
         OneSidedCut,
         /// A turning cut with a tool of a length other than the active compensation.
         OtherLength,
@@ -177,7 +177,7 @@ wakes! {
         PoleCrossing,
         /// More rotary travel than the posture before would need.
         PostureSwap,
-        /// A posture that is open.
+        /// An undecided posture.
         OpenPosture,
         /// A rotary axis turns by more than half a turn.
         LongTurn,
@@ -189,9 +189,9 @@ wakes! {
         ClampedTurn,
         /// A feed motion to which rapid motions led.
         Arrival,
-        /// An end at which the machine's position is not known, or that it cannot reach.
+        /// An end at which the machine's position is unknown, or that it cannot reach.
         LostEnd,
-        /// An arc from a start that is not known.
+        /// An arc from a start that is unknown.
         LostArc,
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn number(value: f64) -> String {
 /// Powers of ten.
 const SCALES: [u32; 7] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000];
 
-/// A value with so many decimals, at most six, rounded as `format!` rounds it.
+/// A value with this many decimals, at most six, rounded as `format!` rounds it.
 fn fixed(value: f64, decimals: usize) -> String {
     let scaled = value.abs() * f64::from(SCALES[decimals]);
     let whole = scaled as u64;
@@ -68,7 +68,7 @@ pub(crate) fn rate(value: f64) -> String {
     }
 }
 
-/// A highest feed, positive: rounded down, so that the printed value is never more than what holds.
+/// A highest feed, positive: rounded down, so that the printed value is never above the true one.
 pub(crate) fn highest_rate(value: f64) -> String {
     let step = match value {
         _ if value >= 100.0 => 1.0,
@@ -191,7 +191,7 @@ mod tests {
             decimals in 0..=6_usize,
         ) {
             prop_assert_eq!(fixed(value, decimals), format!("{value:.decimals$}"));
-            // at and beside the middle between two numbers
+            // at and next to the middle between two numbers
             let middle = (f64::from(steps) + 0.5) / 1000.0;
             for value in [middle, middle * (1.0 + 1e-15), middle * (1.0 - 1e-6), middle / 10.0] {
                 prop_assert_eq!(fixed(value, decimals), format!("{value:.decimals$}"));

@@ -56,7 +56,7 @@ pub(crate) struct Global {
     /// Refuse to read a program of more lines than this (every line takes memory, empty ones too).
     #[arg(long, global = true, value_name = "N", default_value_t = 2_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_lines: u64,
-    /// Give up a run that is compared, proved, converted, listed or drawn after this many executed blocks beside those of the text.
+    /// Stop a run that is compared, proved, converted, listed or drawn after this many executed blocks, in addition to one run of each block of the text.
     /// Default: `steps` of [limits] in trunnion.toml, else 1000000.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_steps: Option<u64>,
@@ -233,7 +233,7 @@ pub(crate) struct Fix {
     /// Print a unified diff (the default).
     #[arg(long)]
     pub(crate) diff: bool,
-    /// Replace the file safely: write a new file beside it, flush it, rename it.
+    /// Replace the file safely: write a new file next to it, flush it, rename it.
     #[arg(long)]
     pub(crate) write: bool,
     /// With --write: keep the original as FILE.bak.

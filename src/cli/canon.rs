@@ -17,7 +17,7 @@ use trunnion_ngc::{
 };
 use trunnion_syntax::TextRange;
 
-/// Stands for the sequence number of a line without one.
+/// In place of the sequence number of a line without one.
 const NO_NUMBER: &[u8] = b".....";
 /// A larger file is not loaded as a called program, bytes.
 const LARGEST: u64 = 64 << 20;
@@ -97,7 +97,7 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
     Ok(if out.refused { Done::Found } else { Done::Clean })
 }
 
-/// The parameter file: read at the start, written back at the end as the control does. The old one stays beside it as `.bak`.
+/// The parameter file: read at the start, written back at the end as the control does. The old one is kept next to it as `.bak`.
 struct Kept {
     path: PathBuf,
     bytes: Vec<u8>,
@@ -186,7 +186,7 @@ fn folders(command: &Command, ini: &Ini) -> Vec<PathBuf> {
     folders
 }
 
-/// A file that the control would take, and that is not read.
+/// A file that the control would use, but that is not read.
 fn refused(folder: &Path, why: String) -> Searched {
     remark(false, &why);
     Searched {
@@ -236,7 +236,7 @@ struct Printer<W: Write> {
     out: W,
     listing: Listing,
     sources: Sources,
-    /// Digits of the sequence number of the line in hand, and which line that is.
+    /// Digits of the sequence number of the current line, and which line that is.
     number: Vec<u8>,
     place: Option<At>,
     /// The calls before the first line have been printed.

@@ -37,7 +37,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
                 tolerance_deg,
             },
         };
-        // two languages: APT beside G code
+        // two languages: APT against G code
         let other = load::load(global, &command.after)
             .ok()
             .map(|other| other.resolved.dialect);

@@ -57,9 +57,9 @@ pub(super) struct Checked {
     pub(super) read_as: Option<String>,
     /// How much was judged.
     pub(super) scope: Scope,
-    /// What was looked at.
+    /// What was checked.
     pub(super) coverage: Coverage,
-    /// What nobody declared and was taken for granted.
+    /// Undeclared values that were assumed.
     pub(super) assumptions: Vec<String>,
     /// Some finding at or above `--deny`, or unknown under `--strict`.
     pub(super) found: bool,
@@ -114,7 +114,7 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
     Ok(if tally.found { Done::Found } else { Done::Clean })
 }
 
-/// What all files together came to.
+/// The result of all files together.
 #[derive(Default)]
 struct Tally {
     files: u64,

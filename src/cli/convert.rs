@@ -181,7 +181,7 @@ fn options(command: &Convert) -> Result<Options, Failure> {
     })
 }
 
-/// A post of the user's own, with the place of a mistake in it.
+/// The user's own post, with the place of a mistake in it.
 fn own_post(path: &Path) -> Result<Post, Failure> {
     let bytes = load::read(path)?;
     let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8; a TOML file must be UTF-8"))?;

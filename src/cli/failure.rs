@@ -41,7 +41,7 @@ impl Failure {
     pub(crate) fn io(path: &Path, doing: &str, error: &io::Error) -> Self {
         Self::file(path, format!("cannot {doing}: {error}"))
     }
-    /// Whether the reader of standard output went away, which is no failure of ours.
+    /// Whether the reader of standard output went away, which is not our failure.
     pub(crate) fn is_broken_pipe(&self) -> bool {
         self.broken_pipe
     }

@@ -11,7 +11,7 @@ use std::{io::IsTerminal, path::PathBuf};
 use trunnion_certify::Certificate;
 use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite, rewrites};
 
-/// What all rewrites together came to.
+/// The result of all rewrites together.
 struct Outcome {
     after: Vec<u8>,
     applied: Vec<(&'static str, Certificate)>,
@@ -68,7 +68,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     if command.diff || !(command.write || command.output.is_some()) {
         print_diff(&name, &before, &outcome.after)?;
     }
-    // the program first: a certificate beside an old program names the digest that does not fit
+    // the program first: a certificate next to an old program names the digest that does not fit
     if let Some(target) = &output {
         target.write(&outcome.after, None)?;
     } else if command.write && outcome.after != before {
@@ -98,7 +98,7 @@ fn options(command: &Fix) -> Result<Options, Failure> {
     Ok(options)
 }
 
-/// The named rewrites, or all that cure a reported finding.
+/// The named rewrites, or all that fix a reported finding.
 fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failure> {
     if command.rewrite.is_empty() {
         let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());

@@ -1,4 +1,4 @@
-//! `fmt`: layout and block numbers. A file is replaced only where both texts are proved to do the same; what cannot be proved stays.
+//! `fmt`: layout and block numbers. A file is replaced only where both texts are proved to do the same; a file that cannot be proved is not changed.
 use super::{
     Done,
     args::Global,
@@ -33,7 +33,7 @@ pub(crate) struct Fmt {
     /// Write nothing; print the new text (one file).
     #[arg(long, conflicts_with = "check")]
     stdout: bool,
-    /// Replace the files safely (the default): write new files beside them, flush them, rename them.
+    /// Replace the files safely (the default): write new files next to them, flush them, rename them.
     #[arg(long, conflicts_with_all = ["check", "diff", "stdout"])]
     write: bool,
     /// Renumber the blocks from START in steps of STEP (default 10). Jumps, M99 P, M97 P and turning contours follow. Each
@@ -56,7 +56,7 @@ fn numbers(text: &str) -> Result<Numbers, String> {
     }
 }
 
-/// What came of one file.
+/// The result for one file.
 struct Outcome {
     path: PathBuf,
     name: String,
@@ -68,7 +68,7 @@ struct Outcome {
     refused: bool,
 }
 
-/// Runs `fmt`. A file whose new layout cannot be proved stays, and makes the exit status 2.
+/// Runs `fmt`. A file whose new layout cannot be proved is not changed, and makes the exit status 2.
 pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
     let mut found = walk::programs(&command.paths)?;
     found.remark(global.quiet, global.verbose);
@@ -120,7 +120,7 @@ pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
     }
 }
 
-/// Lays out one file and gives it new numbers, if wished. Writes nothing.
+/// Lays out one file and renumbers it if requested. Writes nothing.
 fn lay_out(global: &Global, command: &Fmt, path: &Path) -> Result<Outcome, Failure> {
     if !(command.check || command.diff || command.stdout) {
         trunnion_files::sweep_beside(path);
@@ -216,14 +216,14 @@ fn place(program: &Program, range: TextRange) -> String {
     format!(":{line}:{column}")
 }
 
-/// The block before at which two runs part.
+/// The block before the point where two runs differ.
 fn block_range(program: &Program, difference: &trunnion_same::Difference) -> TextRange {
     difference
         .before
         .map_or_else(TextRange::default, |block| program.block(block).range())
 }
 
-/// Why a layout was not taken.
+/// Why a layout was rejected.
 fn refusal(loaded: &Loaded, why: &Refusal) -> String {
     let name = &loaded.name;
     match why {
@@ -241,7 +241,7 @@ fn refusal(loaded: &Loaded, why: &Refusal) -> String {
     }
 }
 
-/// Writes or shows what came of a file. `Some(true)`: it changes; `None`: it was refused.
+/// Writes or shows the result for a file. `Some(true)`: it changes; `None`: it was refused.
 fn finish(global: &Global, command: &Fmt, outcome: &Outcome) -> Result<Option<bool>, Failure> {
     for text in &outcome.remarks {
         remark(global.quiet && !outcome.refused, text);
@@ -265,7 +265,7 @@ fn finish(global: &Global, command: &Fmt, outcome: &Outcome) -> Result<Option<bo
     Ok((!outcome.refused).then_some(changed))
 }
 
-/// The style of `[format]`; what it does not say is the default.
+/// The style of `[format]`; missing keys have the default.
 fn style(settings: &FormatSettings) -> Style {
     let default = Style::default();
     Style {

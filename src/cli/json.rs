@@ -34,7 +34,7 @@ pub(super) struct File {
     diagnostics: Vec<Item>,
 }
 
-/// What was looked at.
+/// What was checked.
 #[derive(Serialize)]
 struct Coverage {
     blocks: u64,
@@ -214,7 +214,7 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome
     }
 }
 
-/// Writes the document of all files, one after the other as `each` hands them over, and what they sum up to after them.
+/// Writes the document of all files, one after the other as `each` hands them over, and their summary after them.
 pub(super) fn write(out: &mut impl Write, each: impl FnOnce(&mut dyn FnMut(Checked))) -> Result<(), Failure> {
     let mut summary = Summary::default();
     let mut machine = None;

@@ -4,8 +4,8 @@ use trunnion_interp::{Fault, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::LineIndex;
 
-/// Calls `take`, with the line and what is in force, for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
-/// Why the run did not come to the end of the program, where it was given up.
+/// Calls `take`, with the line and what is in effect, for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
+/// Returns why the run did not reach the end of the program, if it was stopped.
 pub(super) fn each_leg(
     loaded: &Loaded,
     machine: &Machine,

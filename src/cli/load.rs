@@ -46,7 +46,7 @@ impl Loaded {
             Foreign::NotAProgram(what) => format!("this is {what}"),
         })
     }
-    /// The name of the dialect, or of the control that is not supported; none of a file that is no program.
+    /// The name of the dialect, or of the control that is not supported; none for a file that is not a program.
     pub(crate) fn dialect_name(&self) -> Option<&str> {
         match self.resolved.foreign {
             Some(Foreign::Control(control)) => Some(control.name),
@@ -54,7 +54,7 @@ impl Loaded {
             None => Some(&self.resolved.dialect.name),
         }
     }
-    /// Work offsets and tool lengths that the program uses and nobody declares, as `check` lists them: the joints of the machine are computed
+    /// Undeclared work offsets and tool lengths that the program uses, as `check` lists them: the joints of the machine are computed
     /// with zero. Empty without a machine.
     pub(crate) fn assumptions(&self) -> Vec<String> {
         if self.resolved.machine.is_none() {
@@ -85,7 +85,7 @@ impl Loaded {
             machine: self.resolved.machine.as_ref(),
         }
     }
-    /// One line on what was taken and why, for `-v`.
+    /// One line on what was chosen and why, for `-v`.
     pub(crate) fn explanation(&self) -> String {
         let r = &self.resolved;
         let machine = r.machine.as_ref().map_or("none", |m| m.id.as_str());
@@ -103,21 +103,21 @@ impl Loaded {
     }
 }
 
-/// What one or two programs rest on, as a line of text begins or goes on: `assuming G54 = 0 (not declared)`; `None` where everything is
+/// What one or two programs assume, as a line of text begins or continues: `assuming G54 = 0 (not declared)`; `None` where everything is
 /// declared.
 pub(crate) fn assuming(programs: &[&Loaded]) -> Option<String> {
     let all = assumed_by(programs);
     (!all.is_empty()).then(|| format!("assuming {}", all.join(", ")))
 }
 
-/// What one or two programs rest on, each once.
+/// What one or two programs assume, each once.
 pub(crate) fn assumed_by(programs: &[&Loaded]) -> Vec<String> {
     let mut known = BTreeSet::new();
     let all = programs.iter().flat_map(|loaded| loaded.assumptions());
     all.filter(|text| known.insert(text.clone())).collect()
 }
 
-/// What the global options say.
+/// The global options.
 pub(crate) fn overrides(global: &Global) -> Overrides {
     Overrides {
         machine: global.machine.clone(),
@@ -196,7 +196,7 @@ fn bytes(path: &Path, megabytes: u64) -> Result<Option<Source>, Failure> {
     Ok(trunnion_files::read(path, most)?.map(|input| (input.bytes, Some(input.seen))))
 }
 
-/// Reads and parses a program with its settings; a file that is for a control that is not supported, or is no program, is a failure.
+/// Reads and parses a program with its settings; a file for an unsupported control, or one that is not a program, is a failure.
 pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
     let loaded = load_any(global, path)?;
     if let Some(why) = loaded.not_read() {
@@ -234,7 +234,7 @@ pub(crate) fn load_for_steps(global: &Global, path: &Path) -> Result<Loaded, Fai
     Ok(loaded)
 }
 
-/// The bounds of a run with what the command line says of them.
+/// The bounds of a run, with those of the command line.
 pub(crate) fn limits(global: &Global, mut limits: Limits) -> Limits {
     if let Some(steps) = global.max_steps {
         limits.steps = steps;
@@ -257,7 +257,7 @@ pub(crate) fn not_followed(loaded: &Loaded, fault: &Fault) -> Option<String> {
         )
     } else {
         format!(
-            "{}:{line}: given up: no end within {blocks} executed blocks; if the program is only long, use --max-steps N or raise `steps` \
+            "{}:{line}: stopped: no end within {blocks} executed blocks; if the program is only long, use --max-steps N or raise `steps` \
              of [limits] in trunnion.toml",
             loaded.name
         )

@@ -1,4 +1,4 @@
-//! One sub-command per file. Only this folder and `lsp/` touch the world.
+//! One sub-command per file. Only this folder and `lsp/` do input and output.
 mod args;
 mod canon;
 mod certify;
@@ -28,7 +28,7 @@ use args::{Args, Command};
 use clap::Parser;
 use std::process::ExitCode;
 
-/// What a command ended with.
+/// The result of a command.
 pub(crate) enum Done {
     /// Nothing at or above the `--deny` level.
     Clean,

@@ -3,7 +3,7 @@ use super::failure::{remark, shown};
 use std::io::{self, BufWriter, Write};
 
 /// Standard output. Where it cannot be written to, the command still ends with the status of its verdict: when the reader has gone away
-/// (`| head`) the rest is dropped without a word, and any other error is reported once, at the end.
+/// (`| head`) the rest is dropped silently, and any other error is reported once, at the end.
 pub(super) struct Out<W: Write = io::Stdout> {
     inner: BufWriter<W>,
     failed: Option<io::Error>,

@@ -15,7 +15,7 @@ use trunnion_syntax::{LineIndex, TextRange};
 
 /// Lines of program shown before and after the finding.
 const CONTEXT: usize = 1;
-/// Lines longer than this are cut round the finding, bytes.
+/// Lines longer than this are cut around the finding, bytes.
 const LONGEST_LINE: usize = 240;
 
 /// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
@@ -176,7 +176,7 @@ impl Diagnostic for Finding<'_> {
     }
 }
 
-/// The lines round a finding. miette would scan the file from its start for each finding; this does not.
+/// The lines around a finding. miette would scan the file from its start for each finding; this does not.
 #[derive(Debug)]
 struct Excerpt {
     name: String,

@@ -50,7 +50,7 @@ pub(crate) struct Sample {
     /// Side of the S-wall (default left); its faces are 3 mm apart.
     #[arg(long, value_enum)]
     side: Option<WallSide>,
-    /// Chord error of the S-wall's points, mm (default 0.01).
+    /// Chord error of the points of the S-wall, mm (default 0.01).
     #[arg(long, value_name = "MM")]
     chord: Option<f64>,
     /// Diameter of the tool, mm (cone, s-wall: default 20; circle-diamond-square: 10; 0: the tip runs on the wall itself).
@@ -99,7 +99,7 @@ pub(super) enum Kind {
     Cone,
     /// Ruled wall along an S whose lean changes sign.
     SWall,
-    /// Tip on a circle, turning axis once round.
+    /// Tip on a circle, turning axis one full turn.
     CircleC,
     /// Tip on an arc, tilting axis through the pole.
     CircleA,

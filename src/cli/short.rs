@@ -29,7 +29,7 @@ pub(super) fn short(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: 
 pub(super) fn worst(report: &Report, limit: usize) -> Vec<&Diagnostic> {
     let mut found: Vec<&Diagnostic> = report.diagnostics.iter().collect();
     if limit > 0 && found.len() > limit {
-        // stable: findings of one weight stay in the order of the file
+        // stable: findings of one severity stay in the order of the file
         found.sort_by_key(|d| match (d.status, d.severity) {
             (Status::Fail, Severity::Error) => 0,
             (Status::Fail, Severity::Warning) => 1,

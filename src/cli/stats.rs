@@ -20,7 +20,7 @@ pub(crate) struct Stats {
     format: ListFormat,
 }
 
-/// Runs `stats`. Nothing is judged: the exit status is 0 whatever the program holds. A file that cannot be read is reported, and the others
+/// Runs `stats`. Nothing is judged: the exit status is 0 whatever the program contains. A file that cannot be read is reported, and the others
 /// are counted; each is written before the next one is read.
 pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
     let mut out = Out::standard();

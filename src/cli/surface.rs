@@ -1,4 +1,4 @@
-//! `surface`: how far the real path of the tool strays from a required surface.
+//! `surface`: how far the real path of the tool deviates from a required surface.
 use super::{
     Done,
     args::{Global, ListFormat},
@@ -31,7 +31,7 @@ pub(crate) struct Surface {
     /// The distance that the tip keeps from the surface, for a ball centre or a flank, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     offset: f64,
-    /// Feed blocks that start or end farther than this from the surface count as approach or retract, in mm.
+    /// Feed blocks that start or end farther than this from the surface are taken as approach or retract, in mm.
     #[arg(long, value_name = "MM", default_value_t = 1.0)]
     reach: f64,
     /// Judge only the blocks of these lines, for example 100-250.
@@ -116,7 +116,7 @@ fn nothing(command: &Surface, errors: &Errors) -> String {
     "no feed motion's path is known, so nothing can be compared".to_owned()
 }
 
-/// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is not known.
+/// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is unknown.
 fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     let (Some(tolerance), Some(found)) = (command.tolerance, &errors.from_surface) else {
         return Done::Clean;
@@ -126,7 +126,7 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     }
     if found.bound > tolerance || errors.not_judged > 0 || errors.apart > 0 {
         let why = if errors.not_judged > 0 {
-            "the path of some feed blocks is not known".to_owned()
+            "the path of some feed blocks is unknown".to_owned()
         } else if errors.apart > 0 {
             format!(
                 "{} feed blocks start or end off the surface; --lines FROM-TO leaves them out",
@@ -185,7 +185,7 @@ fn judge(
         judge.leg(leg, leg.motion.other_length(state.tool.own_length_mm()).is_none());
     });
     if let Some(why) = given_up {
-        // a part of the path says nothing about the whole
+        // a part of the path proves nothing about the whole
         return Err(Failure::new(why));
     }
     Ok(judge.finish())

@@ -86,7 +86,7 @@ struct Tracer<'a, W: Write> {
     writer: Rows<W>,
     error: Option<Failure>,
     faults: usize,
-    /// Why it is not whole.
+    /// Why it is incomplete.
     given_up: Option<String>,
 }
 
@@ -132,10 +132,9 @@ enum Rows<W: Write> {
 impl<W: Write> Rows<W> {
     fn new(format: TraceFormat, mut out: W, machine: &Machine) -> Result<Self, Failure> {
         let joints = machine
-            .axes
-            .iter()
-            .map(|axis| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
-        // a posture that is open: why, and the other one that the control may take
+            .own_axes()
+            .map(|(_, axis)| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
+        // an undecided posture: why, and the other one that the control may take
         let others = machine
             .rotary
             .iter()

@@ -11,7 +11,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// How much of a file without an extension is looked at, bytes.
+/// How much of a file without an extension is read to recognise it, bytes.
 const HEAD: u64 = 8192;
 
 /// What a command runs on.
@@ -19,9 +19,9 @@ const HEAD: u64 = 8192;
 pub(crate) struct Found {
     /// Files, folders walked in name order.
     pub(crate) files: Vec<PathBuf>,
-    /// Files and folders that were passed over, with the reason.
+    /// Files and folders that were skipped, with the reason.
     pub(crate) left_out: Vec<(PathBuf, &'static str)>,
-    /// Folders and files that could not be looked at.
+    /// Folders and files that could not be inspected.
     pub(crate) failures: Vec<Failure>,
     /// A folder was among the arguments.
     pub(crate) walked: bool,
@@ -38,7 +38,8 @@ impl Found {
                 if fs::canonicalize(&link).is_ok_and(|target| real.insert(target)) {
                     files.push(link);
                 } else {
-                    self.left_out.push((link, "a link to a file that is taken already"));
+                    self.left_out
+                        .push((link, "a link to a file that is in the list already"));
                 }
             }
             files.sort();
@@ -46,7 +47,7 @@ impl Found {
         self.files.extend(files);
     }
 
-    /// Says what was left out: each with `verbose`, otherwise how many.
+    /// Reports what was left out: each with `verbose`, otherwise how many.
     pub(crate) fn remark(&self, quiet: bool, verbose: bool) {
         if self.left_out.is_empty() {
             return;
@@ -67,7 +68,7 @@ impl Found {
     }
 }
 
-/// Files named by `paths`; folders are walked for programs, which their names or, without an extension, their first lines show. Links are
+/// Files named by `paths`; folders are walked for programs, which are recognised by their names or, without an extension, by their first lines. Links are
 /// followed inside the folder; hidden files and what `.gitignore` names are left out. A folder without any program is a failure.
 pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
     let mut found = Found::default();
@@ -98,9 +99,9 @@ pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
 /// A walk through one folder.
 struct Walk<'f> {
     root: PathBuf,
-    /// Folders that were walked, links followed: a link cannot lead round for ever.
+    /// Folders that were walked, links followed: links cannot form an endless loop.
     seen: BTreeSet<PathBuf>,
-    /// `.gitignore` files in force, the outermost first.
+    /// `.gitignore` files in effect, the outermost first.
     ignores: Vec<Gitignore>,
     found: &'f mut Found,
 }
@@ -125,7 +126,7 @@ impl<'f> Walk<'f> {
     fn folder(&mut self, path: &Path) {
         let real = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         if !self.seen.insert(real.clone()) {
-            self.leave(path, "a link to a folder that is walked already");
+            self.leave(path, "a link to a folder that was searched already");
             return;
         }
         let entries = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
@@ -149,10 +150,10 @@ impl<'f> Walk<'f> {
     fn entry(&mut self, path: &Path, folder: &Path) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let Ok(metadata) = fs::metadata(path) else {
-            return self.leave(path, "a link that leads nowhere, or a file that cannot be looked at");
+            return self.leave(path, "a broken link, or a file that cannot be inspected");
         };
         if name.starts_with('.') {
-            // what git keeps for itself is no news
+            // git's own files are not mentioned
             if name != ".git" && name != ".gitignore" {
                 self.leave(path, "hidden");
             }
@@ -163,7 +164,7 @@ impl<'f> Walk<'f> {
         }
         let linked = fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink());
         if linked && !fs::canonicalize(path).is_ok_and(|real| real.starts_with(&self.root)) {
-            return self.leave(path, "a link that leads out of the folder");
+            return self.leave(path, "a link to outside the folder");
         }
         if metadata.is_dir() {
             self.folder(path);
@@ -172,11 +173,14 @@ impl<'f> Walk<'f> {
         } else if trunnion_dialect::is_program_file_name(&name) {
             self.found.files.push(path.to_owned());
         } else if path.extension().is_some() {
-            self.leave(path, "its extension names no program");
+            self.leave(path, "its extension is not one of a program");
         } else {
             match head(path) {
                 Ok(head) if trunnion_dialect::looks_like_program(&head) => self.found.files.push(path.to_owned()),
-                Ok(_) => self.leave(path, "no extension, and its first lines show no program"),
+                Ok(_) => self.leave(
+                    path,
+                    "it has no extension, and its first lines do not look like a program",
+                ),
                 Err(error) => self.found.failures.push(Failure::io(path, "read the file", &error)),
             }
         }
@@ -205,7 +209,7 @@ fn rules(folder: &Path, real: &Path) -> Option<Gitignore> {
         return None;
     }
     let mut builder = GitignoreBuilder::new(real);
-    // a rule that is not understood is passed over, as git does
+    // a rule that is not understood is ignored, as git does
     let _ = builder.add(file);
     builder.build().ok()
 }

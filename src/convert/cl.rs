@@ -1,9 +1,9 @@
-//! CL data from points, for those who make paths themselves: a list of points becomes APT text, which [`crate::convert`] posts and proves.
+//! CL data from points, for callers that make paths themselves: a list of points becomes APT text, which [`crate::convert`] posts and proves.
 use crate::number::number;
 use core::fmt::Write;
 use trunnion_geometry::Vec3;
 
-/// How a point is gone to.
+/// How the tool moves to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClFeed {
     /// Rapid.
@@ -19,7 +19,7 @@ pub struct ClPoint {
     pub tip: Vec3,
     /// Tool axis, tip -> spindle; any length but 0.
     pub axis: Vec3,
-    /// How it is gone to.
+    /// How the tool moves to it.
     pub feed: ClFeed,
 }
 

@@ -1,32 +1,32 @@
 //! Codes of the clamps of rotary axes: an axis is released before a motion that turns it, and clamped before cuts in which it stands still.
 //!
-//! Codes stand where the tool is out of the cut: motions between two rapids are one pass, through which a clamp stays as it is. Which codes
-//! these are the machine says; what a program before said of its own clamps is not carried over.
+//! Codes are written where the tool is out of the cut: motions between two rapids are one pass, in which a clamp does not change. The machine
+//! names the codes; the clamp codes of the original program are not carried over.
 use crate::Refused;
 use crate::emit_code::Writer;
 use trunnion_interp::AllClampCodes;
 use trunnion_machine::Machine;
 use trunnion_syntax::BlockId;
 
-/// Something in the program that is written on which clamps depend.
+/// Something in the output program that clamps depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Step {
     /// A motion; bit per axis (in the order of `AXIS_LETTERS`) that it may turn.
     Motion { turns: u16, cuts: bool },
-    /// An M code that the program before asked for by its number.
+    /// An M code that the original program requested by its number.
     Code(u32),
 }
 
 /// Which codes go before which step: the index of the step, the number of the code; ascending.
 pub(crate) type Plan = Vec<(usize, u16)>;
 
-/// The clamps of a program that is written: first it is written without, then with what was planned for its steps.
+/// The clamps of an output program: it is written first without them, then with what was planned for its steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Clamping {
     /// What was written so far.
     steps: Vec<Step>,
     plan: Plan,
-    /// How many of the plan are written.
+    /// How much of the plan is written.
     done: usize,
 }
 
@@ -67,7 +67,7 @@ fn joined(codes: &AllClampCodes) -> [u16; 9] {
 fn plan(codes: &AllClampCodes, steps: &[Step]) -> Plan {
     let joined = joined(codes);
     let has = |turns: u16, axis: usize| turns & joined[axis] != 0;
-    // closed or open; `None`: not said yet
+    // closed or open; `None`: not programmed yet
     let mut stands: [Option<bool>; 9] = [None; 9];
     let mut plan: Plan = Vec::new();
     let mut in_pass = false;
@@ -144,16 +144,16 @@ impl Writer<'_> {
     }
 }
 
-/// The remark that stands at the head of a program whose clamps are left to the operator.
+/// The remark at the start of a program whose clamps are left to the operator.
 pub(crate) fn remark(machine: &Machine, letter: char) -> String {
     let axis = machine.axes.iter().find(|axis| char::from(axis.letter) == letter);
     let known = axis.is_some_and(|axis| axis.extra.clamp_codes.is_some());
     let why = if known {
-        "this control has no word for its codes"
+        "the target control has no such codes"
     } else {
-        "the machine file names no codes"
+        "the machine file does not name its codes"
     };
-    format!("{letter} has a clamp. It is not written here: {why}")
+    format!("{letter} has a clamp. This program does not operate it: {why}")
 }
 
 #[cfg(test)]

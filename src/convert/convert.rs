@@ -34,13 +34,13 @@ pub struct Converted {
     pub left_out: Vec<(String, u32)>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
-    /// Axes that leave their travel, each limit once, reckoned from a zero point that nobody has declared. Where it is declared, such a
-    /// program is refused.
+    /// Axes that leave their travel, each limit once, computed from an undeclared zero point. Where it is declared, such a program is
+    /// refused.
     pub beyond: Vec<Beyond>,
     /// Lines of motions between whose ends the travel could not be decided.
     pub travel_undecided: Vec<u32>,
     /// Axes with a clamp whose codes are not written, because the machine names none or the control has no word for them. A remark at
-    /// the head of the text says so too.
+    /// the start of the text says so too.
     pub clamps: Vec<char>,
 }
 
@@ -53,7 +53,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let machine = source.machine.filter(|_| source.dialect.lex.format != Format::Apt);
     if source.assume != Assume::default() && source.dialect.quirks.rs274() {
         return Err(Refused::new(
-            "what holds at the start of an excerpt cannot be said of a LinuxCNC program: write it into the program",
+            "the state at the start of an excerpt cannot be given for a LinuxCNC program: write it into the program",
         ));
     }
     let reading = read(&Run {
@@ -64,7 +64,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     understood(&reading, options)?;
     held(&reading, source.setup)?;
     let setting = Setting::new(target, options)?;
-    // clamps are closed and opened anew for the machine that it is written for
+    // clamps are closed and opened again for the target machine
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
     let job = job(&reading, source.dialect, options, rewritten)?;
@@ -135,11 +135,11 @@ fn swaps_are_allowed(
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
         let block = reading.motions[index].motion.block;
         let message = format!(
-            "in this cut the control {} ({} such places in all): retract there, or say --allow-swap",
+            "in this cut the control {} ({} such places in all): retract there, or add --allow-swap",
             if setting.vectors {
                 "turns to the other posture for the vector"
             } else {
-                "leads the tool axis on a great circle past the pole, on which the machine cannot turn to the posture at its end"
+                "moves the tool axis along a great circle past the pole, where the machine cannot turn to the posture at the end"
             },
             turned.len()
         );
@@ -155,7 +155,7 @@ fn place(program: &Program, block: trunnion_syntax::BlockId) -> u32 {
         .0
 }
 
-/// The text; where INSERT is to be a remark, every such record is one, byte for byte as long.
+/// The text; where INSERT is to be a remark, every such record becomes one of the same length.
 fn prepared(source: &Source<'_>, options: &Options) -> Vec<u8> {
     let mut text = source.text.to_vec();
     if !options.insert_is_remark || source.dialect.lex.format != Format::Apt {
@@ -170,10 +170,10 @@ fn prepared(source: &Source<'_>, options: &Options) -> Vec<u8> {
     text
 }
 
-/// Refuses a program of which it is not known what it does.
+/// Refuses a program whose effect is unknown.
 fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     let program = &reading.program;
-    // the worst first: what becomes of a tap, not only that its cycle is not modelled
+    // the worst first: what happens to a tap, not only that its cycle is not modelled
     for asked in &reading.asks {
         if let Ask::Own(Own {
             name,
@@ -185,7 +185,7 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
         }
     }
     if let Some(error) = program.errors().first() {
-        let message = "the text is not understood here; `trunnion check` says more";
+        let message = "this text is not understood; `trunnion check` explains it";
         return Err(Refused::range(program, error.range, message));
     }
     let dropped = |fault: &&Fault| {
@@ -194,7 +194,7 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     };
     let feed_only = |fault: &&Fault| matches!(fault.kind, FaultKind::MissingFeed { .. });
     let mut faults: Vec<&Fault> = reading.grave().filter(|fault| !dropped(fault)).collect();
-    // a missing feed is told where the cut is planned
+    // a missing feed is reported where the cut is planned
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
     Err(Refused::range(program, fault.range, wording(program, fault)))
@@ -205,7 +205,7 @@ fn held(reading: &Reading, setup: &trunnion_interp::Setup) -> Result<(), Refused
     let Some(block) = reading.given_up else { return Ok(()) };
     let most = setup.limits.held;
     let message = format!(
-        "given up: a conversion holds all motions (and faults) in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
+        "stopped: a conversion holds all motions (and faults) in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
          motion takes up to 4 kB)"
     );
     Err(Refused::at(&reading.program, block, message))
@@ -215,27 +215,27 @@ fn wording(program: &Program, fault: &Fault) -> String {
     let text: String = program.text(fault.range).chars().take(40).collect();
     match &fault.kind {
         FaultKind::NotModelled { what } if what.starts_with("INSERT") => {
-            format!("{what}; where INSERT only carries remarks, say --insert-is-remark")
+            format!("{what}; if INSERT only carries remarks, add --insert-is-remark")
         }
         FaultKind::NotModelled { what } => {
-            format!("{what} is not modelled, so that it is not known what the tool does from here on")
+            format!("{what} is not modelled, so the motion of the tool is unknown from here on")
         }
         FaultKind::Rejected { message, .. } => format!("the control refuses this block: {message}"),
-        FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is not known"),
+        FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is unknown"),
         FaultKind::AptUnknownRecord => "an unknown record: it may move the tool".to_owned(),
         FaultKind::UnknownCode { .. } => format!("{text} is an unknown code"),
         FaultKind::ProgramAlarm { .. } => {
-            format!("{text} stops the program with an alarm, which is not carried over: take it away")
+            format!("{text} stops the program with an alarm, which is not carried over: remove it")
         }
         FaultKind::AmbiguousDecimal => {
-            "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml"
+            "a number without a decimal point: a parameter of the control decides what it means; declare it in trunnion.toml"
                 .to_owned()
         }
         FaultKind::EndlessLoop { blocks, proved: false } => format!(
-            "given up: no end within {blocks} executed blocks; if the program is only long, raise `steps` and `held` of [limits] in \
+            "stopped: no end within {blocks} executed blocks; if the program is only long, raise `steps` and `held` of [limits] in \
              trunnion.toml"
         ),
-        _ => format!("the program has an error at `{text}`; `trunnion check` says which"),
+        _ => format!("the program has an error at `{text}`; `trunnion check` names it"),
     }
 }
 
@@ -250,7 +250,7 @@ fn prove(
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let mut setup = source.setup.clone();
-    // codes of the builder of the machine that it is written for
+    // codes of the builder of the target machine
     Machine::tell(setting.machine, &mut setup.control);
     let after = read(&Run {
         text: text.as_bytes(),
@@ -263,7 +263,7 @@ fn prove(
     if let Some(error) = after.program.errors().first() {
         let (line, column) = LineIndex::new(text.as_bytes()).line_column(text.as_bytes(), error.range.start);
         return Err(Refused::new(format!(
-            "what was written is not understood in its line {line}, column {column}: mend the templates of the post"
+            "line {line}, column {column} of the output is not understood: correct the templates of the post"
         )));
     }
     let parts = if setting.post.is_some() {
@@ -289,8 +289,8 @@ fn prove(
     Ok((proof, turned, travel))
 }
 
-/// Motions before in whose cut a control that is given vectors turns to the other posture, as rule branch-swap counts it, or one that
-/// leads the tool axis on a great circle would have to, off the pole, which no machine can.
+/// Original motions in whose cut a control that reads vectors turns to the other posture, as rule branch-swap measures it, or in which
+/// one that moves the tool axis along a great circle would have to away from the pole, which no machine can.
 fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>, vectors: bool) -> Vec<usize> {
     let Some(machine) = machine else { return Vec::new() };
     let swaps_in = |posed: &Posed| {

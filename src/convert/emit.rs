@@ -6,7 +6,7 @@ use trunnion_certify::conversion::{Part, Reading};
 use trunnion_interp::{Tool, ToolShape};
 use trunnion_syntax::LineIndex;
 
-/// Which motions of the output belong to which before.
+/// Which motions of the output belong to which of the original.
 pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
     outs.iter()
         .map(|out| match out {

@@ -9,14 +9,14 @@ use trunnion_certify::conversion::Reading;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Feed, Tool, ToolShape};
 
-/// Digits behind the point: lengths mm and inch, vectors, feeds.
+/// Digits after the decimal point: lengths mm and inch, vectors, feeds.
 pub(crate) const LENGTH: [usize; 2] = [6, 7];
 pub(crate) const VECTOR: usize = 9;
 pub(crate) const FEED: usize = 6;
-/// Digits of a feed by inverse time.
+/// Digits of an inverse time feed.
 const TIME: usize = 10;
 
-/// Records end before this column: the columns behind it were for sequence numbers.
+/// Records end before this column: the columns after it were for sequence numbers.
 const COLUMNS: usize = 71;
 
 /// Writes CL data.
@@ -88,7 +88,7 @@ impl<'a> AptWriter<'a> {
         Ok(self.text)
     }
 
-    /// A record, continued with `$` behind a comma where it is long.
+    /// A record, continued with `$` after a comma where it is long.
     fn record(&mut self, record: &str) {
         let mut rest = record;
         let textual = record.starts_with("PARTNO") || record.starts_with("PPRINT") || record.starts_with("DISPLY");
@@ -192,13 +192,13 @@ impl<'a> AptWriter<'a> {
     }
 }
 
-/// The record of an event that is one by itself.
+/// The record of an event that has its own record.
 fn plain_record(event: &Event) -> Option<String> {
     Some(match event {
         Event::Comment(comment) => format!("PPRINT {}", text(comment)),
         Event::Message(message) => format!("DISPLY/{}", text(message)),
         Event::SpindleOff => "SPINDL/OFF".to_owned(),
-        // COOLNT/OFF is all there is
+        // only COOLNT/OFF exists
         Event::Coolant(Coolant::ThruOff)
         | Event::Tool(_)
         | Event::SpindleOn(..)

@@ -1,4 +1,4 @@
-//! Writes G-code as a post says.
+//! Writes G-code with a post.
 use crate::clamps::{Clamping, Step, remark};
 use crate::emit::{declaration, plain};
 use crate::events::ACTIVE;
@@ -29,7 +29,7 @@ pub(crate) struct Writer<'a> {
     text: String,
     pub(crate) modal: Modal,
     next_number: u32,
-    /// Lines written so far, and which of them make motions of the program before.
+    /// Lines written so far, and which of them make motions of the original program.
     pub(crate) lines: u32,
     pub(crate) moved: Vec<u32>,
     /// Tool centre point control, or compensation of the tool's length, is on.
@@ -43,7 +43,7 @@ pub(crate) struct Writer<'a> {
 /// A program as it is written.
 pub(crate) struct Written {
     pub(crate) text: String,
-    /// Its lines (from 1, ascending) that make motions of the program before.
+    /// Its lines (from 1, ascending) that make motions of the original program.
     pub(crate) moved: Vec<u32>,
     /// What was written that clamps depend on.
     pub(crate) clamping: Clamping,
@@ -121,7 +121,7 @@ impl<'a> Writer<'a> {
     ) -> Result<(), Refused> {
         let Some(template) = self.post.template(key) else {
             let message = format!(
-                "the post for {} has no `{key}`: write it into a post of your own (--post), or leave it out of the program",
+                "the post for {} has no `{key}`: add it in a post of your own (--post), or remove it from the program",
                 self.post.dialect
             );
             return Err(self.refuse(block, message));
@@ -135,7 +135,7 @@ impl<'a> Writer<'a> {
             };
             self.refuse(
                 block,
-                format!("the post's `{key}` needs {what}, which the program does not say"),
+                format!("the post's `{key}` needs {what}, which the program does not give"),
             )
         })?;
         for line in filled.lines().map(str::trim).filter(|line| !line.is_empty()) {
@@ -172,7 +172,7 @@ impl<'a> Writer<'a> {
         } else {
             text
         };
-        // a comment must not speak to the control: (ABORT,...)
+        // a comment must not command the control: (ABORT,...)
         let head = text.split(',').next().unwrap_or_default().trim().to_ascii_uppercase();
         let linuxcnc = self.post.dialect == "linuxcnc" && text.contains(',');
         let speaks = linuxcnc && (ACTIVE.contains(&head.as_str()) || head == "PY") || text.starts_with('$');
@@ -225,7 +225,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Where the machine leads the tip from the start, that ends: until a tool is in the spindle, or for the whole program.
+    /// If tool centre point control is on from the start, it is switched off: until a tool is in the spindle, or for the whole program.
     fn joints_at_start(&mut self) -> Result<(), Refused> {
         let Some(machine) = self.mode.machine() else {
             return Ok(());
@@ -235,7 +235,7 @@ impl<'a> Writer<'a> {
             Some(Some(off)) => self.line(off),
             Some(None) if matches!(self.mode, Mode::Joints(_)) => {
                 let message = format!(
-                    "{} leads the tip from the start of a program, and its file names no code that ends it: leave --no-tcp out",
+                    "{} starts programs with tool centre point control on, and its file names no code that switches it off: remove --no-tcp",
                     machine.id
                 );
                 return Err(self.refuse(None, message));
@@ -376,7 +376,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Names that every frame of a program may use.
+/// Names that every header and footer may use.
 fn self_name(name: &str, job: &Job, options: &Options, post: &Post) -> Option<String> {
     match name {
         "program" => {

@@ -26,7 +26,7 @@ impl Writer<'_> {
         number(mm / self.options.units.mm(), decimals, self.post.point)
     }
 
-    /// A rapid of which only these words are known; where the tip is not led, before tool centre point control and tool length are on.
+    /// A rapid of which only these words are known; if the tip is not guided, before tool centre point control and tool length are on.
     pub(crate) fn plain_rapid(&mut self, known: &[(usize, f64)], led: bool, block: BlockId) -> Result<(), Refused> {
         if led {
             self.get_ready(block)?;
@@ -87,7 +87,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The words of the axes, as far as they are news; bit per axis beside X Y Z that they may turn or shift.
+    /// The words of the axes that changed; bit per axis other than X Y Z that they may turn or shift.
     fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) -> u16 {
         let mut turns = 0;
         for (axis, word) in WORDS.into_iter().enumerate().take(3) {
@@ -130,7 +130,7 @@ impl Writer<'_> {
             if arc_axis.is_none() {
                 let news = self.modal.change("vector", text.unwrap_or_default());
                 if news.is_some() {
-                    // which axes turn is for the control to say
+                    // the control decides which axes turn
                     turns = u16::MAX;
                 }
                 words.extend(news);
@@ -139,7 +139,7 @@ impl Writer<'_> {
         turns
     }
 
-    /// Axes that the kinematics are not solved for stand where the plan holds them: at `hold`, or at zero. A program must say so once.
+    /// Axes that the kinematics are not solved for are where the plan holds them: at `hold`, or at zero. A program must say so once.
     fn idle_words(&mut self, machine: &Machine, words: &mut Vec<String>) -> u16 {
         let mut said = 0;
         for (joint, axis) in machine.axes.iter().enumerate() {

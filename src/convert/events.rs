@@ -1,4 +1,4 @@
-//! Events of a program: what its blocks say beside motions, in the order the control runs them.
+//! Events of a program: what its blocks contain apart from motions, in the order the control runs them.
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Refused};
 use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why};
@@ -6,7 +6,7 @@ use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
 
-/// What a block says beside its motions.
+/// What a block contains apart from its motions.
 #[derive(Debug, Default)]
 pub(crate) struct Said {
     /// Comments and messages.
@@ -21,7 +21,7 @@ pub(crate) struct Said {
 pub(crate) type Cannot = (TextRange, String);
 
 /// All events of a program.
-/// `clamps`: the codes of clamps, where they are written anew.
+/// `clamps`: the codes of clamps, where they are written again.
 pub(crate) fn job(
     reading: &Reading,
     dialect: &Dialect,
@@ -76,7 +76,7 @@ pub(crate) fn job(
     Ok(job)
 }
 
-/// What was last said of the spindle.
+/// The last command to the spindle.
 #[derive(Clone, Copy, PartialEq)]
 enum Spindle {
     Unknown,
@@ -94,8 +94,8 @@ struct Teller<'p> {
 }
 
 impl Teller<'_> {
-    /// What is asked for beside motions: events before and after those of the block. What cannot be carried over is refused by name, or
-    /// left out where the user says so.
+    /// What is requested apart from motions: events before and after those of the block. What cannot be carried over is refused by name, or
+    /// left out where the user wants it.
     fn asked(
         &mut self,
         asks: &[Asked],
@@ -139,7 +139,7 @@ impl Teller<'_> {
         let block = ran.block;
         let heard = |events: &[Event]| events.iter().any(|event| !matches!(event, Event::Comment(_)));
         if ran.motions_wait && (heard(&said.before) || heard(&asked) || heard(&after)) {
-            let message = "an M code inside a contour with cutter radius compensation: where on the offset path it belongs is not known";
+            let message = "an M code inside a contour with cutter radius compensation: where it belongs on the offset path is unknown";
             return Err(Refused::at(self.program, block, message));
         }
         self.job.name = self.job.name.take().or(said.name);
@@ -168,11 +168,11 @@ impl Teller<'_> {
         }
     }
 
-    /// Tool and work offset, where they are others now.
+    /// Tool and work offset, if they changed.
     fn tool(&mut self, ran: &Ran, change: bool) -> Result<(), Refused> {
         let block = ran.block;
         if change && ran.tool.is_none() {
-            let message = "a tool without number: its place in the magazine of another control is not known";
+            let message = "a tool without a number: its place in the magazine of the other machine is unknown";
             return Err(Refused::at(self.program, block, message));
         }
         if let Some(number) = ran.tool.filter(|_| ran.tool != self.tool) {
@@ -198,8 +198,7 @@ impl Teller<'_> {
             (Some(false), _) => Spindle::Off,
             (Some(true), Some(rpm)) => Spindle::On(turns, rpm),
             (Some(true), None) => {
-                let message =
-                    "the spindle turns with a speed that is not known (none is programmed, or a cutting speed)";
+                let message = "the spindle turns at an unknown speed (none is programmed, or a cutting speed is)";
                 return Err(Refused::at(self.program, block, message));
             }
         };
@@ -215,7 +214,7 @@ impl Teller<'_> {
     }
 }
 
-/// A comment as an event; machine-readable marks and what speaks of another dialect are left out.
+/// A comment as an event; machine-readable marks and comments about another dialect are left out.
 pub(crate) fn comment(text: &str) -> Option<Event> {
     let text = text.trim();
     let lower = text.to_ascii_lowercase();
@@ -240,7 +239,7 @@ pub(crate) fn refusal(name: &str, text: &str, why: Why) -> String {
     format!("{text} {}{way_out}", why.sentence())
 }
 
-/// The words by which a comment speaks to LinuxCNC.
+/// The keywords of comments that LinuxCNC acts on.
 pub(crate) const ACTIVE: &[&str] = &[
     "MSG",
     "DEBUG",
@@ -254,7 +253,7 @@ pub(crate) const ACTIVE: &[&str] = &[
     "ABORT",
 ];
 
-/// What an ISO block says.
+/// The events of an ISO block.
 fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
     let program = block.program();
     let mut said = Said::default();
@@ -274,8 +273,7 @@ fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
                 }
             }
             Item::Skip(_, range) => {
-                let message =
-                    "block delete: whether the block runs depends on a switch; take the `/` or the block away";
+                let message = "block delete: whether the block runs depends on a switch; remove the `/` or the block";
                 return Err((range, message.to_owned()));
             }
             Item::Word(word) => said.tool_change |= changes_tool(&word, dialect),

@@ -1,10 +1,10 @@
-//! What an APT record says beside motions.
+//! What an APT record contains apart from motions.
 use crate::Options;
 use crate::events::{Cannot, Said, comment};
 use crate::job::Event;
 use trunnion_syntax::{AptArg, Block, Record};
 
-/// What a record says.
+/// The events of a record.
 pub(crate) fn said(block: &Block<'_>, options: &Options) -> Result<Said, Cannot> {
     let mut said = Said::default();
     let program = block.program();
@@ -29,7 +29,7 @@ pub(crate) fn said(block: &Block<'_>, options: &Options) -> Result<Said, Cannot>
             }
         }
         "DWELL" => {
-            let message = "DWELL is not read as a dwell: write DELAY/seconds";
+            let message = "DWELL is not supported as a dwell: write DELAY/seconds";
             return Err((record.range, message.to_owned()));
         }
         _ => {}
@@ -37,7 +37,7 @@ pub(crate) fn said(block: &Block<'_>, options: &Options) -> Result<Said, Cannot>
     Ok(said)
 }
 
-/// The text behind the major word and its slash.
+/// The text after the major word and its slash.
 fn text(record: &Record<'_>) -> String {
     let range = trunnion_syntax::TextRange::new(record.major.end, record.range.end);
     let text = record.program.text(range);

@@ -1,17 +1,17 @@
-//! What a program says, apart from any language: events in order, motions among them.
+//! What a program does, independent of any language: events in order, including motions.
 use std::collections::{BTreeMap, BTreeSet};
 pub(crate) use trunnion_certify::conversion::Coolant;
 use trunnion_interp::Tool;
 use trunnion_syntax::BlockId;
 
-/// One thing that a program says.
+/// One event of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Event {
     /// A comment for people.
     Comment(String),
     /// A text for the operator's screen.
     Message(String),
-    /// A tool comes into the spindle.
+    /// A tool is loaded into the spindle.
     Tool(u32),
     /// The spindle turns: counter-clockwise, and its speed, 1/min.
     SpindleOn(bool, f64),
@@ -28,7 +28,7 @@ pub(crate) enum Event {
     Motion(usize),
 }
 
-/// An event and where it stands.
+/// An event and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Placed {
     pub(crate) event: Event,

@@ -1,7 +1,7 @@
 //! Floor 7: one language, control or machine to another. APT/CL to G-code, G-code to APT/CL, dialect to dialect, machine to machine.
 //!
 //! It proposes a program; [`trunnion_certify::conversion`] reads both texts from scratch and compares them motion for motion. What cannot be
-//! proved within tolerance is refused with reason and place. *It never vouches for itself.*
+//! proved within tolerance is refused with reason and place. *It never proves itself.*
 mod cl;
 mod clamps;
 mod convert;

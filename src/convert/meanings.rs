@@ -1,11 +1,11 @@
-//! What a post says of codes that its dialect leaves to the builder of the machine: `coolant-thru = "M51"`.
+//! What a post declares about codes that its dialect leaves to the machine builder: `coolant-thru = "M51"`.
 use crate::Post;
 use crate::template::fill;
 use trunnion_certify::conversion::{Ask, Coolant, asked_in};
 use trunnion_dialect::Dialect;
 
 impl Post {
-    /// What the codes of its own in its templates mean, by the text of the code: a request, or, of the frame of every program, none.
+    /// What the codes of its own in its templates mean, by the text of the code: a request, or none, for codes of the header or footer.
     pub(crate) fn meanings(&self, dialect: &Dialect) -> Vec<(String, Option<Ask>)> {
         let mut all = Vec::new();
         for (key, template) in &self.templates {

@@ -1,14 +1,14 @@
-//! What the control remembers between blocks: words that stay as they were are left out.
+//! What the control remembers between blocks: words that do not change are left out.
 use std::collections::BTreeMap;
 
-/// Texts in force, by the letter (or name) of their word.
+/// Texts in effect, by the letter (or name) of their word.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Modal {
     known: BTreeMap<&'static str, String>,
 }
 
 impl Modal {
-    /// The word, unless it is in force already.
+    /// The word, unless it is in effect already.
     pub(crate) fn change(&mut self, key: &'static str, text: String) -> Option<String> {
         if self.known.get(key) == Some(&text) {
             return None;
@@ -16,11 +16,11 @@ impl Modal {
         self.known.insert(key, text.clone());
         Some(text)
     }
-    /// The word is in force, written or not.
+    /// The word is in effect, written or not.
     pub(crate) fn set(&mut self, key: &'static str, text: String) {
         self.known.insert(key, text);
     }
-    /// Nothing is known of the word.
+    /// The word is unknown.
     pub(crate) fn forget(&mut self, key: &'static str) {
         self.known.remove(key);
     }

@@ -1,6 +1,6 @@
 //! Numbers as words carry them.
 
-/// `value` with at most `decimals` digits behind the point, without zeros at the end; `point`: a whole number keeps its point. Never "-0".
+/// `value` with at most `decimals` digits after the decimal point, without zeros at the end; `point`: a whole number keeps its point. Never "-0".
 pub(crate) fn number(value: f64, decimals: usize, point: bool) -> String {
     let mut text = format!("{value:.decimals$}");
     if text.contains('.') {
@@ -33,7 +33,7 @@ pub(crate) fn significant(value: f64, digits: usize, point: bool) -> String {
     number(value, decimals, point)
 }
 
-/// Half of the last of so many digits behind the point.
+/// Half of the last of this many digits after the decimal point.
 pub(crate) fn rounding(decimals: usize) -> f64 {
     0.5 / 10f64.powi(decimals as i32)
 }

@@ -1,8 +1,8 @@
-//! What a conversion is asked for.
+//! The options of a conversion.
 use crate::Post;
 use trunnion_machine::Machine;
 
-/// Units of the program that is written.
+/// Units of the output program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Units {
     /// Millimetres.
@@ -35,21 +35,21 @@ pub enum OrientationWords {
 /// What is written.
 #[derive(Clone, Copy)]
 pub enum Target<'a> {
-    /// APT / CL data: no machine is in it.
+    /// APT / CL data: independent of a machine.
     Apt,
     /// G-code.
     Code {
-        /// How the control is written for.
+        /// The number formats and templates for the control.
         post: &'a Post,
-        /// The machine it shall run on; `None`: the program has no rotary words.
+        /// The machine it runs on; `None`: the program has no rotary words.
         machine: Option<&'a Machine>,
     },
 }
 
-/// What a conversion is asked for.
+/// The options of a conversion.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Units of the program that is written.
+    /// Units of the output program.
     pub units: Units,
     /// Rotary words or vectors.
     pub orientation: OrientationWords,
@@ -59,7 +59,7 @@ pub struct Options {
     pub tolerance_mm: Option<f64>,
     /// A cut may turn the table to the other posture, or wind back a rotary axis.
     pub allow_swap: bool,
-    /// INSERT records are taken for remarks.
+    /// INSERT records are treated as remarks.
     pub insert_is_remark: bool,
     /// Codes that are left out: `M10`.
     pub drop: Vec<String>,

@@ -1,4 +1,4 @@
-//! Motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
+//! From motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
 use crate::job::{Event, Job};
 use crate::known::Known;
 use crate::posture::{Never, Wish, choose};
@@ -11,7 +11,7 @@ use trunnion_geometry::{Vec3, arc::Arc, deg};
 use trunnion_interp::{Feed, MotionKind, Orientation, Setup};
 use trunnion_machine::{Joints, Machine};
 
-/// What X Y Z are in the program that is written.
+/// What X Y Z are in the output program.
 #[derive(Clone, Copy)]
 pub(crate) enum Mode<'m> {
     /// The tip; the tool axis as vector or straight up.
@@ -52,10 +52,10 @@ pub(crate) struct Move {
     pub(crate) feed: Feed,
 }
 
-/// What becomes of a motion.
+/// What a motion is converted to.
 #[derive(Clone, Debug)]
 pub(crate) enum Out {
-    /// It ends nowhere known.
+    /// Its end is unknown.
     Left,
     /// A rapid of which only some axes are known.
     Words {
@@ -71,7 +71,7 @@ pub(crate) enum Out {
 /// What a plan is made from.
 pub(crate) struct Planner<'a> {
     pub(crate) reading: &'a Reading,
-    /// The machine that the program before was read with.
+    /// The machine that the original program was read with.
     pub(crate) source: Option<&'a Machine>,
     pub(crate) mode: Mode<'a>,
     /// Dialect of the output.
@@ -90,7 +90,7 @@ pub(crate) struct Planner<'a> {
     pub(crate) known: OnceCell<Known>,
 }
 
-/// The motions of the output for each motion before, and the blocks with a swap.
+/// The motions of the output for each original motion, and the blocks with a swap.
 pub(crate) type Plan = (Vec<Out>, Vec<usize>);
 
 impl Planner<'_> {
@@ -172,7 +172,7 @@ impl Planner<'_> {
         if let Some(&index) = swaps.first().filter(|_| !self.options.allow_swap) {
             let message = format!(
                 "in this cut the table must turn to the other posture, or wind back ({} such places in all): retract there, turn and come \
-                 back, or say --allow-swap",
+                 back, or add --allow-swap",
                 swaps.len()
             );
             return Err(self.refuse(&motions[index], message));
@@ -180,7 +180,7 @@ impl Planner<'_> {
         Ok((q, swaps))
     }
 
-    /// Whether joints of the program before are those of the output: the same machine, and words.
+    /// Whether joints of the original program are those of the output: the same machine, and words.
     fn keeps(&self) -> bool {
         let same = match (self.source, self.mode.machine()) {
             (Some(source), Some(target)) => source.id == target.id && source.axes == target.axes,
@@ -194,7 +194,7 @@ impl Planner<'_> {
             .all(|posed| posed.leg.is_some() && words(posed))
     }
 
-    /// Zero point and tool length in force at each motion of the output.
+    /// Zero point and active tool length at each motion of the output.
     fn frames(&self, job: &Job) -> Vec<Frame> {
         let zero_of = |name: &str| {
             let known = self.setup.work_offsets.iter();
@@ -224,7 +224,7 @@ impl Planner<'_> {
 
     fn out(&self, index: usize, posed: &Posed, q: ([f64; 2], [f64; 2]), frame: &Frame) -> Result<Out, Refused> {
         if let MotionKind::Dwell(seconds) = posed.motion.kind {
-            let why = "a dwell of a length that is not known";
+            let why = "a dwell of unknown length";
             return seconds
                 .map(Out::Dwell)
                 .ok_or_else(|| self.refuse(posed, why.to_owned()));
@@ -233,16 +233,16 @@ impl Planner<'_> {
             if self.may_leave(index) {
                 return self.partial(index, posed, frame);
             }
-            return Err(self.refuse(posed, format!("where this motion ends is not known: {why}")));
+            return Err(self.refuse(posed, format!("the end of this motion is unknown: {why}")));
         }
         let is_rapid = posed.motion.kind == MotionKind::Rapid;
         let track = Track::new(posed, self.source);
         let Some(track) = track.filter(|_| !is_rapid) else {
             if !is_rapid && !matches!(posed.motion.kind, MotionKind::Linear) {
-                return Err(self.refuse(posed, "an arc from a position that is not known".to_owned()));
+                return Err(self.refuse(posed, "an arc from an unknown position".to_owned()));
             }
             if !is_rapid && posed.start.is_some() {
-                return Err(self.refuse(posed, "how the tool gets there is not known".to_owned()));
+                return Err(self.refuse(posed, "the path of the tool to this point is unknown".to_owned()));
             }
             return self.at_once(posed, q.1, frame, is_rapid).map(Out::Moves);
         };
@@ -262,7 +262,7 @@ impl Planner<'_> {
         self.lines(posed, &track, (q.0, &ends), frame).map(Out::Moves)
     }
 
-    /// As the proof will see it: a rapid to nowhere known may go only in front of all known poses of its tool, or behind the last.
+    /// As the proof will see it: a rapid to an unknown position may be dropped only before all known poses of its tool, or after the last.
     fn may_leave(&self, index: usize) -> bool {
         let motions = &self.reading.motions;
         let posed = &motions[index];
@@ -278,7 +278,7 @@ impl Planner<'_> {
             return between.chords(track, self.tolerance_mm);
         };
         if between.keep && !posed.tip_words() && !matches!(posed.motion.kind, MotionKind::Arc(_)) {
-            // the same joints, which run as they ran
+            // the same joints, which move as they did
             return between.ends(track, 1, true);
         }
         let start = track.at(0.0);
@@ -297,7 +297,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A rapid, or a line from a position that is not known.
+    /// A rapid, or a line from a position that is unknown.
     fn at_once(&self, posed: &Posed, q: [f64; 2], frame: &Frame, is_rapid: bool) -> Result<Vec<Move>, Refused> {
         let Ok(pose) = &posed.end else { return Ok(Vec::new()) };
         let end = PartEnd {
@@ -329,10 +329,10 @@ impl Planner<'_> {
         let turns = matches!(self.mode, Mode::Joints(_)) && ends.iter().any(|end| end.q != start);
         let standing = posed.leg.as_ref().filter(|leg| leg.rotary_change == [0.0; 2]);
         let by_path = posed.feeds_the_tip() || standing.is_some();
-        // along what F counts now, where it is not the tip's way: a share of it for each part
+        // the path along which F is now the speed, if not that of the tip: a share of it for each part
         let counted = standing.filter(|_| !posed.feeds_the_tip());
         let counted = counted.map(|leg| leg.length / ends.len() as f64);
-        // X Y Z run as far as the tip does, or not: F counts along them
+        // whether or not X Y Z move as far as the tip: F is the speed along them
         let mut before = match self.mode {
             Mode::Joints(machine) if !turns => {
                 joints(machine, start, &track.at(0.0).tip, frame).map(|joints| (machine, joints))

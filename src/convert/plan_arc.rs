@@ -1,4 +1,4 @@
-//! Of a motion's plan: its feed, and whether it stays an arc.
+//! Part of a motion's plan: its feed, and whether it stays an arc.
 use crate::Refused;
 use crate::plan::{Mode, Move, Planner, Shape};
 use crate::sample::{Frame, PartEnd, joints, words};
@@ -11,18 +11,18 @@ impl Planner<'_> {
     pub(crate) fn plain_feed(&self, posed: &Posed) -> Result<Feed, Refused> {
         match posed.motion.feed {
             Feed::Unknown => {
-                let message = "no feed is known for this cut: program one, or give --feed for an excerpt";
+                let message = "the feed of this cut is unknown: program one, or add --feed for an excerpt";
                 Err(self.refuse(posed, message.to_owned()))
             }
             Feed::InverseTime(_) if !self.inverse_time => {
-                let message = "a time without a way, and the control has no feed by inverse time";
+                let message = "an inverse time feed without a path, and the target control has no inverse time feed";
                 Err(self.refuse(posed, message.to_owned()))
             }
             Feed::PerRevolution(per_turn) if !self.per_revolution => match posed.motion.spindle_rpm {
                 Some(rpm) => Ok(Feed::PerMinute(per_turn * rpm)),
                 None => Err(self.refuse(
                     posed,
-                    "a feed per turn of a spindle whose speed is not known".to_owned(),
+                    "a feed per revolution, and the spindle speed is unknown".to_owned(),
                 )),
             },
             feed => Ok(feed),
@@ -32,7 +32,7 @@ impl Planner<'_> {
     /// The feed of one of `count` equal parts by the time that the motion takes: inverse time, or mm/min where the control has none.
     pub(crate) fn timed(&self, posed: &Posed, way: f64, count: usize, end: &PartEnd) -> Result<Feed, Refused> {
         let turned = || {
-            // a turn on the spot: F counts degrees (RS274/NGC)
+            // a turn on the spot: F is in degrees (RS274/NGC)
             let before = posed.start?.axis;
             let angle = deg(trunnion_geometry::math::angle_between(&before, &end.axis));
             match posed.motion.feed {
@@ -42,7 +42,7 @@ impl Planner<'_> {
         };
         let seconds = posed.duration_s().or_else(turned).filter(|seconds| *seconds > 0.0);
         let Some(seconds) = seconds else {
-            return Err(self.refuse(posed, "how long this cut takes is not known".to_owned()));
+            return Err(self.refuse(posed, "the duration of this cut is unknown".to_owned()));
         };
         let part = seconds / count as f64;
         let keeps_minutes = matches!(self.mode, Mode::Tip | Mode::TipRotary(_))
@@ -54,7 +54,7 @@ impl Planner<'_> {
         if way > 0.0 && matches!(self.mode, Mode::Tip | Mode::TipRotary(_)) {
             return Ok(Feed::PerMinute(way / part * 60.0));
         }
-        let message = "the control has no feed by inverse time, which this cut needs";
+        let message = "the target control has no inverse time feed, which this cut needs";
         Err(self.refuse(posed, message.to_owned()))
     }
 

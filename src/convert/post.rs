@@ -1,4 +1,4 @@
-//! How a control is written for: number formats and templates, as a TOML table in `grammar/posts` or a file of one's own.
+//! Posts: number formats and templates of a control, as a TOML table in `grammar/posts` or your own file.
 use crate::template::{fill, names};
 use core::ops::Range;
 use serde::Deserialize;
@@ -17,7 +17,7 @@ pub const BUILTIN_POSTS: &[&str] = &[
     "grbl",
 ];
 
-/// Texts, in the order of [`BUILTIN_POSTS`]. A post may extend only one that stands before it.
+/// Texts, in the order of [`BUILTIN_POSTS`]. A post may extend only one that comes before it.
 const TEXTS: [&str; 6] = [
     include_str!("../../grammar/posts/iso-6983.toml"),
     include_str!("../../grammar/posts/linuxcnc.toml"),
@@ -141,14 +141,14 @@ pub(crate) enum ArcWords {
     Radius,
 }
 
-/// How a control is written for.
+/// A post: number formats and templates of a control.
 #[derive(Clone, Debug)]
 pub struct Post {
     /// Its dialect.
     pub dialect: String,
     /// Extension of its files.
     pub extension: String,
-    /// Digits behind the point: mm, inch.
+    /// Digits after the decimal point: mm, inch.
     pub(crate) length: [usize; 2],
     pub(crate) angle: usize,
     pub(crate) vector: usize,
@@ -172,13 +172,13 @@ pub fn builtin_post(name: &str) -> Option<&'static Post> {
     LOADED[index].get_or_init(|| load_post(TEXTS[index]).ok()).as_ref()
 }
 
-/// The text of a built-in post, as a start for one of one's own.
+/// The text of a built-in post, as a start for your own.
 pub fn builtin_post_source(name: &str) -> Option<&'static str> {
     let index = BUILTIN_POSTS.iter().position(|&known| known == name)?;
     Some(TEXTS[index])
 }
 
-/// Loads a post. What it does not say is as in the one that it `extends`.
+/// Loads a post. Missing keys are as in the one that it `extends`.
 ///
 /// # Errors
 /// What is wrong with it, and where.
@@ -208,7 +208,7 @@ pub fn load_post(text: &str) -> Result<Post, PostError> {
     post.tcp_off = words.tcp_off.or(post.tcp_off);
     for key in &raw.without.templates {
         if post.templates.remove(key.get_ref()).is_none() {
-            let message = format!("there is no template {:?} to do without", key.get_ref());
+            let message = format!("there is no template {:?} to leave out", key.get_ref());
             return Err(fault(key.span(), message));
         }
     }
@@ -234,7 +234,7 @@ fn fault(span: Range<usize>, message: String) -> PostError {
     }
 }
 
-/// The post that is extended, or one that says nothing.
+/// The post that is extended, or an empty one.
 fn base(raw: &RawPost) -> Result<Post, PostError> {
     if let Some(name) = &raw.extends {
         return builtin_post(name.get_ref()).cloned().ok_or_else(|| {
@@ -326,7 +326,7 @@ impl Post {
         Ok(())
     }
 
-    /// A template with its names filled in, for those who write programs that nobody proves (test pieces, faults on purpose); `None`:
+    /// A template with its names filled in, for programs that are not proved (test pieces, faults on purpose); `None`:
     /// the control has no such code.
     ///
     /// # Errors
@@ -341,7 +341,7 @@ impl Post {
     }
 
     /// The code that switches tool centre point control on or off: the one that the machine declares, else the post's. Empty where a
-    /// machine always leads the tip; `None`: there is no such code.
+    /// machine always guides the tip; `None`: there is no such code.
     pub fn tcp_code(&self, machine: Option<&Machine>, on: bool) -> Option<String> {
         let Some(codes) = machine.and_then(|machine| machine.control.tcp_codes.as_ref()) else {
             return if on { &self.tcp_on } else { &self.tcp_off }.clone();

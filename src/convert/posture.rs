@@ -1,17 +1,17 @@
 //! Postures and windings of a whole program: the cheapest sequence of rotary joint values in which no cut turns to the other posture or winds back.
 //!
-//! Forward search over the few best ways to each pose (a beam): a way costs the time of the slowest rotary axis, a swap or a rewind inside a
+//! Forward search over the few best paths to each pose (a beam search): a path costs the time of the slowest rotary axis, a swap or a rewind inside a
 //! cut costs more than any time. Angles in rad.
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_machine::{Machine, Orientations, orientations, windings};
 
-/// A pose that is wanted.
+/// A pose to be reached.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
     /// Unit tool axis.
     pub(crate) axis: Vec3,
-    /// It is gone to in a cut.
+    /// It is reached in a cut.
     pub(crate) cuts: bool,
 }
 
@@ -20,7 +20,7 @@ pub(crate) struct Wish {
 pub(crate) struct Chosen {
     /// Rotary joints, workpiece side first.
     pub(crate) q: [f64; 2],
-    /// The cut that leads here turns to the other posture, or winds a rotary axis back.
+    /// The cut to this pose turns to the other posture, or winds a rotary axis back.
     pub(crate) swap: bool,
 }
 
@@ -33,7 +33,7 @@ pub(crate) enum Never {
     Limits,
 }
 
-/// Ways that are followed at once.
+/// Paths that are followed at once.
 const BEAM: usize = 8;
 
 /// Cost of a swap inside a cut, s: more than any program takes.
@@ -209,7 +209,7 @@ fn arrive(
     let rewinds = (0..2).any(|index| moves[index] - near(index, q[index]) > 1e-6);
     let swap = cuts && (swaps || rewinds);
     let time = (moves[0] * slowness[0]).max(moves[1] * slowness[1]);
-    // rapids are cheap beside cuts; the small terms settle ties: shorter moves, then nearer zero
+    // rapids are cheap compared with cuts; the small terms break ties: shorter moves, then nearer zero
     let cost = time * if cuts { 1.0 } else { 0.1 }
         + 1e-6 * (moves[0] + moves[1])
         + 1e-9 * (q[0].abs() + q[1].abs())
@@ -253,7 +253,7 @@ mod tests {
             .collect()
     }
 
-    /// The greedy choice begins with the nearer posture and runs into the limit of A at -30 deg; the other one goes all the way.
+    /// The greedy choice begins with the nearer posture and runs into the limit of A at -30 deg; the other one reaches the end.
     #[test]
     fn the_first_posture_is_chosen_for_what_comes() {
         let mikron = builtin("mikron-ucp710").expect("built in");

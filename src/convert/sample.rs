@@ -4,7 +4,7 @@ use trunnion_certify::conversion::{Track, joint_bend};
 use trunnion_geometry::Vec3;
 use trunnion_machine::{Joints, MAX_AXES, Machine, inverse};
 
-/// What turns joints into words: zero point and tool length in force in the program that is written.
+/// What turns joints into words: zero point and active tool length in the output program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
     /// Work offset, mm and deg, order of `AXIS_LETTERS`.
@@ -30,7 +30,7 @@ pub(crate) fn joints(machine: &Machine, q: [f64; 2], tip: &Vec3, frame: &Frame) 
     Some(joints)
 }
 
-/// All joints at zero, but for those that the machine file holds elsewhere.
+/// All joints at zero, except those that the machine file holds at another position.
 fn held(machine: &Machine) -> Joints {
     let mut joints = [0.0; MAX_AXES];
     for (joint, axis) in joints.iter_mut().zip(&machine.axes) {
@@ -67,7 +67,7 @@ pub(crate) struct Between<'a> {
     /// Rotary joints at the motion's ends.
     pub(crate) from: [f64; 2],
     pub(crate) to: [f64; 2],
-    /// The program before runs on the same machine, with words: its own joints are kept.
+    /// The original program runs on the same machine, with words: its own joints are kept.
     pub(crate) keep: bool,
     pub(crate) frame: Frame,
 }
@@ -106,7 +106,7 @@ impl Between<'_> {
         Ok(ends)
     }
 
-    /// Parts after which the tip, straight between their ends, stays within tolerance of a way that bends.
+    /// Parts after which the tip, straight between their ends, stays within tolerance of a curved path.
     pub(crate) fn chords(&self, track: &Track<'_>, tolerance_mm: f64) -> Result<Vec<PartEnd>, String> {
         let wanted = (track.bend().0 / (8.0 * SHARE * tolerance_mm)).sqrt().ceil().max(1.0);
         if wanted > MOST_PARTS as f64 {
@@ -115,7 +115,7 @@ impl Between<'_> {
         self.ends(track, wanted as usize, false)
     }
 
-    /// Parts in which the joints run linearly and the tip stays within tolerance: the bound Q h^2 / 8 of both ways (kinematics notes 3).
+    /// Parts in which the joints run linearly and the tip stays within tolerance: the bound Q h^2 / 8 of both paths (kinematics notes 3).
     pub(crate) fn joint_parts(
         &self,
         track: &Track<'_>,

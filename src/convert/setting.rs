@@ -45,14 +45,14 @@ impl<'a> Setting<'a> {
         let rotary = machine.is_some_and(|machine| !machine.rotary.is_empty());
         let lacks = |key: &str, what: &str| {
             let message = format!(
-                "the post for {} has no {what} (`{key}`); use --no-tcp, or write one into a post of your own (--post)",
+                "the post for {} has no {what} (`{key}`); use --no-tcp, or add one in a post of your own (--post)",
                 post.dialect
             );
             Err(Refused::new(message))
         };
         if vectors && !options.tcp {
             return Err(Refused::new(
-                "tool vectors need tool centre point control: leave --no-tcp out",
+                "tool vectors need tool centre point control: remove --no-tcp",
             ));
         }
         if vectors && (post.template("tcp-vectors-on").is_none() || post.template("vector").is_none()) {
@@ -87,7 +87,7 @@ impl<'a> Setting<'a> {
         })
     }
 
-    /// Codes of the clamps of the machine, as far as they can be written: not where the control means something else by them.
+    /// Codes of the clamps of the machine, as far as they can be written: not if they mean something else on the control.
     pub(crate) fn clamp_codes(&self) -> AllClampCodes {
         let mut codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         for slot in &mut codes {
@@ -122,7 +122,7 @@ impl<'a> Setting<'a> {
         self.post.is_none_or(|post| post.template(key).is_some())
     }
 
-    /// What the post says of codes that the dialect leaves to the builder of the machine.
+    /// What the post declares about codes that the dialect leaves to the machine builder.
     pub(crate) fn meanings(&self) -> Vec<(String, Option<Ask>)> {
         self.post.map(|post| post.meanings(self.dialect)).unwrap_or_default()
     }
@@ -153,8 +153,8 @@ impl<'a> Setting<'a> {
         if turns && (unknown.is_some() || job.tools.is_empty()) {
             let which = unknown.map_or_else(|| "the tool".to_owned(), |(number, _)| format!("tool {number}"));
             let message = format!(
-                "{} turns the tool, so that joints depend on the length of {which}, which is not declared: \
-                 (trunnion: tool 1 ball diameter 10 length 100)",
+                "{} turns the tool, so axis positions depend on the length of {which}, which is not declared: \
+                 add (trunnion: tool 1 ball diameter 10 length 100)",
                 machine.id
             );
             return match reading.motions.first() {
@@ -189,7 +189,7 @@ impl<'a> Setting<'a> {
         write(Clamping::planned(&codes, &written.clamping))
     }
 
-    /// What the digits of the output can hold.
+    /// The precision of the digits of the output.
     pub(crate) fn claim(&self, options: &Options, path_mm: f64) -> ConversionClaim {
         let unit = options.units.mm();
         let (length, angle, vector, feed) = match self.post {

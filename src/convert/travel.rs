@@ -1,4 +1,4 @@
-//! Whether the program that is written stays inside the travel of its machine, and keeps axes still that must stand while cutting.
+//! Whether the output program stays inside the travel of its machine, and keeps axes still that must not move while cutting.
 use crate::job::{Event, Job};
 use crate::{Options, Refused};
 use trunnion_certify::conversion::{Part, Reading};
@@ -10,7 +10,7 @@ use trunnion_syntax::BlockId;
 /// An axis that would leave its travel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beyond {
-    /// Line of the program before.
+    /// Line of the original program.
     pub line: u32,
     /// Letter of the axis.
     pub axis: char,
@@ -35,7 +35,7 @@ impl core::fmt::Display for Beyond {
     }
 }
 
-/// What leaves the travel, and where that is not known: motions of the program before.
+/// What leaves the travel, and where that is unknown: motions of the original program.
 #[derive(Default)]
 pub(crate) struct Travel {
     /// Each limit once, where it is broken first, with the worst value.
@@ -46,7 +46,7 @@ pub(crate) struct Travel {
     turned: Option<(usize, char, Option<f64>)>,
 }
 
-/// Looks at every motion of the program after.
+/// Checks every motion of the converted program.
 pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>) -> Travel {
     let mut travel = Travel::default();
     let Some(machine) = machine else { return travel };
@@ -80,8 +80,8 @@ pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>)
     travel
 }
 
-/// An axis with `clamp = true` that the motion turns: its letter, and by how much, rad; `None` where it leads nobody knows how from one
-/// known place to another.
+/// An axis with `clamp = true` that the motion turns: its letter, and by how much, rad; `None` where its path from one known position to
+/// another is unknown.
 fn held_axis_turns(machine: &Machine, leg: &Leg) -> Option<(char, Option<f64>)> {
     let turns = rotary_turns(machine, leg);
     let lost = turns.is_none() && leg.start.is_some() && leg.end.is_ok();
@@ -116,7 +116,7 @@ impl Travel {
         zeros_declared: bool,
         line: impl Fn(BlockId) -> u32,
     ) -> Result<(Vec<Beyond>, Vec<u32>), Refused> {
-        // what is added in front of the first motion, or behind the last, stands there
+        // what is added before the first motion, or after the last, is listed there
         let block = |was: usize| {
             let motion = reading.motions.get(was).or(reading.motions.last());
             motion.map(|posed| posed.motion.block).unwrap_or_default()
@@ -128,7 +128,7 @@ impl Travel {
             );
             let message = format!(
                 "{what}, but the machine file of {} says clamp = true at {axis}: it must stand still while cutting. Cut with a fixed tool \
-                 axis, position {axis} in rapid motions, or take a machine whose axis is not clamped",
+                 axis, position {axis} in rapid motions, or use a machine that can cut while this axis turns",
                 machine.map_or("", |machine| machine.id.as_str())
             );
             return Err(Refused::at(&reading.program, block(was), message));
@@ -161,7 +161,7 @@ impl Travel {
     }
 }
 
-/// Whether every work offset that the program after names is declared, so that joints are where they will be.
+/// Whether every work offset that the converted program names is declared, so that the joints are right.
 pub(crate) fn zeros_declared(job: &Job, setup: &Setup, options: &Options) -> bool {
     let declared = |name: &str| {
         setup

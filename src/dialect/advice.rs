@@ -1,7 +1,7 @@
-//! `[check]` of a table: what a check says of a control. No run depends on it, so it is no part of a certificate.
+//! `[check]` of a table: what a check says of a control. No run depends on it, so it is not part of a certificate.
 use serde::Deserialize;
 
-/// What decides how F counts in a block that moves rotary axes, without tool centre point control.
+/// What decides what F means in a block that moves rotary axes, without tool centre point control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RotaryFeed {
@@ -12,17 +12,17 @@ pub enum RotaryFeed {
     Family,
     /// A parameter.
     Parameter,
-    /// A parameter; and where only rotary axes turn, F counts along circles whose diameters are settings.
+    /// A parameter; and where only rotary axes turn, F is the speed along circles whose diameters are settings.
     Diameters,
 }
 
-/// What a check says of a control. In TOML: table `[check]`, each key optional: what a table does not say stays as in the table that it
+/// What a check knows about a control. In TOML: table `[check]`, each key optional: missing keys stay as in the table that it
 /// extends.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Advice {
-    /// What decides how F counts while rotary axes move.
+    /// What decides what F means while rotary axes move.
     pub rotary_feed: RotaryFeed,
-    /// Of two words with one letter in a block the last one counts, and the control says nothing.
+    /// Of two words with one letter in a block the last one wins, without a message.
     pub last_word_wins: bool,
     /// Which setting decides what a coordinate without a decimal point means.
     pub whole_coordinate: Option<String>,
@@ -44,7 +44,7 @@ pub(crate) struct AdviceRow {
 }
 
 impl AdviceRow {
-    /// Lays what the table says over `base`.
+    /// Applies the table to `base`.
     pub(crate) fn over(self, base: &Advice) -> Advice {
         Advice {
             rotary_feed: self.rotary_feed.unwrap_or(base.rotary_feed),

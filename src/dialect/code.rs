@@ -22,7 +22,7 @@ pub struct Code {
     pub kind: CodeKind,
     /// Modal group's name; two codes of one group in a block contradict each other. `None`: belongs to no group.
     pub group: Option<String>,
-    /// Addresses the code reads beside the axes.
+    /// Addresses the code reads in addition to the axes.
     pub words: Vec<String>,
     /// What it does.
     pub action: Action,

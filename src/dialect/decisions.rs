@@ -3,7 +3,7 @@ use crate::{Dialect, Quirks};
 use serde::Deserialize;
 use trunnion_syntax::Format;
 
-/// What a language has beside words and codes.
+/// What a language has in addition to words and codes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Language {
@@ -12,20 +12,20 @@ pub enum Language {
     Words,
     /// Custom macro B: variables, IF, GOTO, WHILE, M98, G65.
     MacroB,
-    /// Sinumerik: names of the program's own (variables, labels, subprograms), so that an unknown name is no error in itself.
+    /// Sinumerik: the program defines its own names (variables, labels, subprograms), so an unknown name alone is not an error.
     Sinumerik,
     /// Programs are run by LinuxCNC's own interpreter.
     Linuxcnc,
 }
 
-/// Whose custom macro B it is.
+/// Which control's custom macro B it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Macros {
-    /// No control's in particular.
+    /// Of no control in particular.
     #[default]
     Generic,
-    /// Fanuc's: its alarms, levels of calls, numbers of modal groups (#4014) and P of M98 with the repetitions in front.
+    /// Fanuc's: its alarms, levels of calls, numbers of modal groups (#4014) and P of M98 that begins with the number of repetitions.
     Fanuc,
 }
 
@@ -68,12 +68,12 @@ pub enum WholeNumbers {
     AsWritten,
     /// A coordinate is millimetres or least increments, as a parameter of the control says (Fanuc).
     AmbiguousLengths,
-    /// The same of F, by a setting (Haas).
+    /// The same for F, by a setting (Haas).
     AmbiguousLengthsAndFeeds,
 }
 
 impl WholeNumbers {
-    /// Whether lengths without a point have two meanings.
+    /// Whether lengths without a decimal point have two meanings.
     #[inline]
     pub fn lengths_ambiguous(self) -> bool {
         match self {
@@ -81,7 +81,7 @@ impl WholeNumbers {
             Self::AmbiguousLengths | Self::AmbiguousLengthsAndFeeds => true,
         }
     }
-    /// Whether F without a point has.
+    /// Whether F without a decimal point has.
     #[inline]
     pub fn feeds_ambiguous(self) -> bool {
         match self {
@@ -103,7 +103,7 @@ pub enum Expressions {
 }
 
 impl Dialect {
-    /// The language of its expressions and flow. Words alone are read as RS274/NGC, whose subset they are.
+    /// The language of its expressions and flow. Words alone are read as RS274/NGC, of which they are a subset.
     pub fn expressions(&self) -> Expressions {
         match (self.lex.format, self.quirks.language) {
             (Format::Apt, _) | (Format::Iso, Language::Sinumerik) => Expressions::Other,

@@ -16,7 +16,7 @@ use text::{is_block, lines};
 /// A detected dialect with the reason for people.
 #[derive(Clone, Debug)]
 pub struct Detected {
-    /// The dialect; of a text that is not read the core.
+    /// The dialect; the core for a text that is not read.
     pub dialect: &'static Dialect,
     /// Why: "file extension .mpf", "the machine's control family" ...
     pub reason: String,
@@ -31,11 +31,11 @@ pub struct Detected {
 pub enum Foreign {
     /// It is for a control that is recognised and not supported.
     Control(&'static Unsupported),
-    /// It is no program: what it is.
+    /// It is not a program: what it is.
     NotAProgram(&'static str),
 }
 
-/// What is known of the machine on which a program is to run.
+/// What is known about the machine on which a program is to run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surroundings<'a> {
     /// The control family of the machine file.
@@ -44,7 +44,7 @@ pub struct Surroundings<'a> {
     pub turns: Option<bool>,
 }
 
-/// How much of a program is looked at for signs of its dialect, bytes.
+/// How much of a program is searched for signs of its dialect, bytes.
 const CONTENT_BYTES: usize = 64 * 1024;
 
 /// As [`detect_on`], where only the control family of the machine is known.
@@ -58,7 +58,7 @@ pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> D
 
 /// Modeline comment `(trunnion: dialect NAME)` in the first 10 lines, then signs in the first 64 KiB of the text, then a file extension
 /// that one control owns, then the machine's control family, then the core: extensions such as `.nc` are shared by many controls, and a
-/// program that bears the signs of another control than the machine's is still that control's program. A dialect of lathes is never chosen
+/// program with the signs of a control other than the machine's is still a program for that control. A dialect of lathes is never chosen
 /// for a machine that does not turn the part.
 pub fn detect_on(file_name: Option<&str>, source: &[u8], known: Surroundings<'_>) -> Detected {
     if let Some(what) = not_text(source) {
@@ -88,7 +88,7 @@ pub fn detect_on(file_name: Option<&str>, source: &[u8], known: Surroundings<'_>
         .unwrap_or_else(|| by_name_or_machine(extension.as_deref(), head, known))
 }
 
-/// A file that is no text has no dialect, whatever anybody says.
+/// A file that is not text has no dialect, whatever is declared.
 pub fn not_text(source: &[u8]) -> Option<Detected> {
     let what = binary(source)?;
     Some(Detected {
@@ -99,7 +99,7 @@ pub fn not_text(source: &[u8]) -> Option<Detected> {
     })
 }
 
-/// The dialect, or the control that is not supported, of a name.
+/// The dialect, or the unsupported control, with this name.
 pub fn named(name: &str, reason: String, certain: bool) -> Option<Detected> {
     if let Some(dialect) = builtin(name) {
         return Some(Detected {
@@ -142,7 +142,7 @@ fn by_name_or_machine(extension: Option<&str>, head: &[u8], known: Surroundings<
         && let Some(line) = foreign_comment(head, detected.dialect)
     {
         return core(format!(
-            "content: a comment in line {line} of a kind that {family} does not have"
+            "content: a comment on line {line} of a kind that {family} does not have"
         ));
     }
     detected
@@ -178,10 +178,10 @@ pub fn is_program_file_name(name: &str) -> bool {
     extension(name).is_some_and(|extension| program_extensions().contains(&extension.as_str()))
 }
 
-/// Lines of a file without an extension that are looked at.
+/// Lines of a file without an extension that are read to recognise it.
 const FIRST_LINES: usize = 40;
 
-/// Whether the first bytes of a file without an extension are those of a program: it bears the sign of a control, or most of its first
+/// Whether the first bytes of a file without an extension are those of a program: it has a sign of a control, or most of its first
 /// lines that are neither empty nor comments consist of words (a letter and a number) or name a program.
 pub fn looks_like_program(head: &[u8]) -> bool {
     if head.contains(&0) || binary(head).is_some() {

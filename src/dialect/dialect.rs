@@ -8,34 +8,34 @@ use trunnion_syntax::LexOptions;
 /// Slots of the look-up of G and of M codes: 0 to 999.9 in tenths.
 pub(crate) const G_SLOTS: usize = 10_000;
 
-/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional: what a table does not say stays as in
-/// the table that it extends.
+/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional: missing keys stay as in the table that
+/// it extends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quirks {
-    /// What the language has beside words and codes.
+    /// What the language has in addition to words and codes.
     pub language: Language,
-    /// Whose rules custom macros follow.
+    /// Which control's rules custom macros follow.
     pub macros: Macros,
     /// What T does.
     pub tool_word: ToolWord,
     /// What numbers without a decimal point mean.
     pub whole_numbers: WholeNumbers,
-    /// Motion code in force at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
+    /// Motion code in effect at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
     pub motion_at_start: Option<Action>,
     /// The length of a programmed tool vector must be 1 (I J K of G43.5; not A3= B3= C3=).
     pub unit_vectors: bool,
     /// A second `%` is a program end (LinuxCNC); else it only ends the text.
     pub percent_ends_program: bool,
-    /// G54 is in force from the start (LinuxCNC, Fanuc); else no settable offset (Sinumerik G500).
+    /// G54 is in effect from the start (LinuxCNC, Fanuc); else no settable offset (Sinumerik G500).
     pub first_offset_at_start: bool,
     /// A tool change makes its first cutting edge (D1), and so its length, active.
     pub edge_at_tool_change: bool,
-    /// In a dwell P without a decimal point is ms (Fanuc); else s. X and U without a point then are ms too.
+    /// In a dwell P without a decimal point is ms (Fanuc); else s. X and U without a decimal point then are ms too.
     pub dwell_in_ms: bool,
     /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever [`Dialect::arc`] says
     /// (LinuxCNC 0.001). In TOML: `relative` in `[arc-tolerance]`.
     pub arc_tolerance_relative: f64,
-    /// Of two codes of one group, or two words with one letter, in a block the last one counts and the control says nothing.
+    /// Of two codes of one group, or two words with one letter, in a block the last one wins, without a message.
     pub last_code_wins: bool,
     /// A number may follow a name directly (`DO1`, `GOTO900`).
     pub numbers_follow_names: bool,
@@ -57,7 +57,7 @@ pub struct Quirks {
     pub delete_rest: bool,
     /// Axes in the block of a dwell move after it.
     pub dwell_then_moves: bool,
-    /// A rapid runs on a straight line; else each axis may run for itself.
+    /// A rapid runs on a straight line; else each axis may move at its own speed.
     pub straight_rapids: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
@@ -95,7 +95,7 @@ pub struct Dialect {
     pub name: String,
     /// Title for people.
     pub title: String,
-    /// How its text is cut into tokens.
+    /// How its text is split into tokens.
     pub lex: LexOptions,
     /// How much an arc's end radius may differ from its start radius.
     pub arc: ArcTolerance,
@@ -119,7 +119,7 @@ pub struct Dialect {
     pub(crate) named: Vec<(String, Role)>,
     /// Facts that are neither letters nor codes.
     pub quirks: Quirks,
-    /// What a check says of the control.
+    /// What a check knows about the control.
     pub advice: Advice,
 }
 
@@ -153,13 +153,13 @@ impl Dialect {
             }
         })
     }
-    /// Whether the builder of the machine may give the code, unknown to the control, a meaning (number in tenths).
+    /// Whether the machine builder may give the code, unknown to the control, a meaning (number in tenths).
     pub fn builder_may_own(&self, kind: CodeKind, tenths: u32) -> bool {
         self.builder_codes
             .iter()
             .any(|(known, range)| *known == kind && range.contains(&tenths))
     }
-    /// How far the radii of an arc's start and end may differ, mm, where the larger one is `radius_mm`; `inch`: in a program in inch.
+    /// How far the radii of an arc's start and end may differ, mm, if the larger one is `radius_mm`; `inch`: in a program in inch.
     pub fn arc_limit_mm(&self, radius_mm: f64, inch: bool) -> f64 {
         let fixed = if inch { self.arc.inch_mm } else { self.arc.mm };
         fixed.max((self.arc.relative * radius_mm).min(self.arc.relative_up_to * fixed))
@@ -235,7 +235,7 @@ fn ignore_case(a: &str, b: &str) -> Ordering {
         .cmp(b.bytes().map(|b| b.to_ascii_uppercase()))
 }
 
-/// Place of a letter in the table of roles.
+/// Index of a letter in the table of roles.
 pub(crate) fn role_slot(letter: u8) -> Option<usize> {
     match letter {
         b'A'..=b'Z' => Some(usize::from(letter - b'A')),

@@ -8,11 +8,11 @@ use trunnion_syntax::LexOptions;
 pub struct DialectFacts<'a> {
     /// Its name.
     pub name: &'a str,
-    /// How its text is cut into tokens.
+    /// How its text is split into tokens.
     pub lex: LexOptions,
     /// How far the radii of an arc's start and end may differ.
     pub arc: &'a ArcTolerance,
-    /// Codes that the builder of the machine may own: kind, first and last number in tenths.
+    /// Codes that the machine builder may own: kind, first and last number in tenths.
     pub builder_codes: Vec<(CodeKind, u32, u32)>,
     /// Codes: G by number, then M by number, then names by text.
     pub codes: &'a [Code],
@@ -29,7 +29,7 @@ pub struct DialectFacts<'a> {
 impl Dialect {
     /// What a run depends on.
     pub fn facts(&self) -> DialectFacts<'_> {
-        // without `..`: whoever adds a field decides here whether a run depends on it
+        // without `..`: a new field must be classified here: does a run depend on it?
         let Self {
             name,
             title: _,
@@ -47,7 +47,7 @@ impl Dialect {
             roles: _,
             named,
             quirks,
-            // what a check says, which changes no run
+            // what a check knows, which changes no run
             advice: _,
         } = self;
         DialectFacts {

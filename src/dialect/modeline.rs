@@ -1,9 +1,9 @@
 //! The modeline: a comment near the top that says which dialect and machine a program is for.
 
-/// How many lines are looked at.
+/// How many lines are searched.
 const LINES: usize = 10;
 
-/// What the modeline says.
+/// The contents of the modeline.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Modeline {
     /// `(trunnion: dialect NAME)`.
@@ -15,7 +15,7 @@ pub struct Modeline {
 }
 
 /// Reads `trunnion: dialect NAME` and `trunnion: machine NAME` from comments in the first ten lines. The dialect is not known
-/// yet, so any comment mark will do: what counts is the word `trunnion:` followed by a key and a name.
+/// yet, so any comment mark is accepted: what matters is the word `trunnion:` followed by a key and a name.
 pub fn modeline(source: &[u8]) -> Modeline {
     let mut found = Modeline::default();
     let end = if source.contains(&b'\n') { b'\n' } else { b'\r' };

@@ -1,7 +1,7 @@
-//! A user's own table: one TOML file that extends a built-in dialect by what the builder of the machine has added.
+//! A user's own table: one TOML file that extends a built-in dialect by what the machine builder has added.
 use crate::{Dialect, load};
 
-/// Why a table of one's own could not be read, with its place.
+/// Why a user's own table could not be read, with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableError {
     /// The file, as it was named.

@@ -1,4 +1,4 @@
-//! `[quirks]` of a table: what it does not say stays as in the table that it extends.
+//! `[quirks]` of a table: missing keys stay as in the table that it extends.
 use crate::{Action, Language, Macros, Quirks, ToolWord, WholeNumbers};
 use serde::Deserialize;
 
@@ -33,7 +33,7 @@ pub(crate) struct QuirksRow {
 }
 
 impl QuirksRow {
-    /// Lays what the table says over `base`.
+    /// Applies the table to `base`.
     pub(crate) fn over(self, base: &Quirks) -> Quirks {
         Quirks {
             language: self.language.unwrap_or(base.language),

@@ -30,7 +30,7 @@ pub enum Owner {
     /// The control.
     #[default]
     Control,
-    /// The builder of the machine: another machine may use it for something else.
+    /// The machine builder: another machine may use it for something else.
     MachineBuilder,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct Table {
     /// Codes of the extended table that this control does not have.
     #[serde(default)]
     pub(crate) remove: Vec<Spanned<String>>,
-    /// Codes that the builder of the machine may give a meaning.
+    /// Codes that the machine builder may give a meaning.
     #[serde(default)]
     pub(crate) builder_codes: Vec<Spanned<String>>,
     pub(crate) lex: Option<Lex>,

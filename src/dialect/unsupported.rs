@@ -3,7 +3,7 @@
 /// A control whose programs are recognised and not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unsupported {
-    /// `heidenhain-klartext`, beside the names of the dialects that are built in.
+    /// `heidenhain-klartext`, a name like those of the built-in dialects.
     pub name: &'static str,
     /// For people.
     pub title: &'static str,
@@ -45,7 +45,7 @@ pub const UNSUPPORTED: &[Unsupported] = &[
     },
 ];
 
-/// The one of a name.
+/// The one with this name.
 pub fn unsupported(name: &str) -> Option<&'static Unsupported> {
     UNSUPPORTED.iter().find(|control| control.name == name)
 }

@@ -4,7 +4,7 @@
 /// More differences than these are not aligned: time grows with their product with the length, memory with their square.
 const MOST: usize = 2000;
 
-/// A stretch of both programs.
+/// A range of both programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stretch {
     /// The same: first index in each, and how many.

@@ -1,5 +1,5 @@
 //! From two runs to the list of differences. First pass: a key per motion, 16 bytes each, which are aligned. Second pass: the
-//! motions of the stretches that differ are made again and compared in numbers, so that the first pass may be coarse.
+//! motions of the stretches that differ are produced again and compared in numbers, so that the first pass may be coarse.
 use crate::align::{Stretch, align};
 use crate::event::{Body, Event};
 use crate::keys::{Keys, Techs, keys, place_unknown};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, HashMap};
 use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, run_alike};
 use trunnion_syntax::BlockId;
 
-/// So many motions are compared in detail; more are only counted.
+/// This many motions are compared in detail; more are only counted.
 const MOST_DETAILS: usize = 50_000;
 /// So many different changes of feed, speed and the like are kept.
 const MOST_TECHS: usize = 10_000;
@@ -18,13 +18,13 @@ const MOST_TECHS: usize = 10_000;
 /// One difference.
 #[derive(Clone, Debug)]
 pub enum Change {
-    /// A motion leads elsewhere.
+    /// A motion ends at another position.
     Moved(Box<(BlockId, Point)>, Box<(BlockId, Point)>),
     /// Only in the first (`false`) or second (`true`) program.
     Only(bool, BlockId, Box<Body>),
 }
 
-/// A change of what is in force, with all motions that have it.
+/// A change of the modal state, with all motions that have it.
 #[derive(Clone, Debug)]
 pub struct TechChange {
     /// Name, before, after.
@@ -43,15 +43,15 @@ pub struct Found {
     pub verdict: Verdict,
     /// Motions of each program.
     pub motions: [u64; 2],
-    /// Motions that lead elsewhere, and what only one of them has.
+    /// Motions that end at another position, and what only one of them has.
     pub changes: Vec<Change>,
     /// Other feeds, speeds and the like.
     pub techs: Vec<TechChange>,
     /// Motions and statements that differ and were not compared in detail.
     pub not_compared: u64,
-    /// Motions whose other feed and the like are not listed.
+    /// Motions whose changes of feed and the like are not listed.
     pub techs_not_listed: u64,
-    /// Motions whose end is not known in numbers: they are the same only as far as their words are.
+    /// Motions whose end is unknown in numbers: they are the same only as far as their words are.
     pub unknown: u64,
     /// The two have too little in common to be aligned.
     pub too_different: bool,
@@ -95,7 +95,7 @@ pub struct Pair<'a> {
     pub before: Input<'a>,
     /// After; with the machine of the first one.
     pub after: Input<'a>,
-    /// They have the same settings, so that a certificate may be asked.
+    /// They have the same settings, so that the comparison of `certify` may be used.
     pub one_setup: bool,
 }
 
@@ -170,7 +170,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     found
 }
 
-/// Where ends and shapes do not decide, the bounds between the ends may: a tool vector beside rotary words.
+/// Where ends and shapes do not decide, the bounds between the ends may: a tool vector against rotary words.
 fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     let Some(machine) = pair.before.machine.filter(|_| pair.one_setup) else {
         return false;
@@ -200,7 +200,7 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     matches!(outcome, trunnion_certify::Outcome::Proved(_))
 }
 
-/// What is in force in motions that lead to the same place.
+/// The modal state of motions that end at the same position.
 fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], found: &mut Found) {
     let mut groups: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for stretch in stretches {
@@ -234,7 +234,7 @@ impl TechChange {
 }
 
 impl Found {
-    /// Notes that a motion has another feed or the like; where it stands in the list.
+    /// Records that a motion has another feed or the like; its place in the list.
     fn note(&mut self, parts: Parts, blocks: (BlockId, BlockId)) -> Option<usize> {
         if parts.is_empty() {
             return None;
@@ -258,7 +258,7 @@ impl Found {
         Some(self.techs.len() - 1)
     }
 
-    /// Compares two events that stand at the same place.
+    /// Compares two events at the same place.
     fn pair(&mut self, a: Event, b: Event, tolerance: Tolerance) {
         match (a.body, b.body) {
             (Body::Motion(from, tech), Body::Motion(to, other)) => {

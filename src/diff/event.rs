@@ -1,11 +1,11 @@
-//! What a program does, in order: motions with what is in force, and everything else by its words.
+//! What a program does, in order: motions with their modal state, and everything else by its words.
 use crate::point::Point;
 use std::sync::Arc;
 use trunnion_interp::{Feed, LengthOf, Motion};
 use trunnion_same::Step;
 use trunnion_syntax::BlockId;
 
-/// One thing that happens.
+/// One event.
 #[derive(Clone, Debug)]
 pub(crate) struct Event {
     pub(crate) block: BlockId,
@@ -19,13 +19,13 @@ pub(crate) struct Event {
     reason = "nearly all events are motions, and a box for each would cost more"
 )]
 pub enum Body {
-    /// A motion, and what is in force in it.
+    /// A motion and its modal state.
     Motion(Point, Tech),
     /// Words: stops, ends, outputs, what is recognised and not modelled.
     Statement(String),
 }
 
-/// What is in force in a motion. Numbers as bits, so that it can be looked up.
+/// The modal state of a motion. Numbers as bits, so that it can be looked up.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Tech {
     feed: (&'static str, u64),
@@ -83,7 +83,7 @@ impl Tech {
         let mm = |bits| format!("{} mm", f64::from_bits(bits));
         pair("tool length", mm(self.length), mm(other.length));
         pair(
-            "tool length in force",
+            "active tool length",
             self.length_of.to_string(),
             other.length_of.to_string(),
         );

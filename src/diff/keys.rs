@@ -12,12 +12,12 @@ use trunnion_same::{Input, Item, Step};
 #[derive(Default)]
 pub(crate) struct Keys {
     pub(crate) hashes: Vec<u64>,
-    /// Index into the common list of what is in force; `u32::MAX` for statements.
+    /// Index into the common list of what is in effect; `u32::MAX` for statements.
     pub(crate) techs: Vec<u32>,
     pub(crate) blocks: Vec<u32>,
 }
 
-/// What was in force in any motion, each once.
+/// What was in effect in any motion, each once.
 #[derive(Default)]
 pub(crate) struct Techs {
     pub(crate) list: Vec<Tech>,

@@ -6,7 +6,7 @@ use crate::point::Point;
 /// Larger tables are not filled: the events are then taken in order.
 const MOST_CELLS: usize = 4_000_000;
 
-/// What an event without a partner costs. A pair costs less than two of them, so that a motion that leads elsewhere is one change.
+/// The cost of an event without a partner. A pair costs less than two of them, so that a motion to another position is one change.
 const ALONE: f32 = 1.0;
 
 /// A distance at which half the cost of a pair is reached: mm and degrees, added up.
@@ -21,7 +21,7 @@ pub(crate) fn match_up(a: &[Event], b: &[Event]) -> Vec<(Option<usize>, Option<u
             .collect();
     }
     let width = b.len() + 1;
-    // the least cost of all that follows from each pair of places, filled from the end
+    // the lowest cost of everything after each pair of places, filled from the end
     let mut least = vec![0.0_f32; (a.len() + 1) * width];
     for x in (0..=a.len()).rev() {
         for y in (0..=b.len()).rev() {
@@ -67,7 +67,7 @@ fn steps(a: &[Event], b: &[Event], (x, y): (usize, usize), least: &[f32], width:
     ]
 }
 
-/// How unlike two events are: 0 to 2 for those that may be one that was changed, else infinite.
+/// How different two events are: 0 to 2 for those that may be one that was changed, else infinite.
 fn cost(a: &Body, b: &Body) -> f32 {
     match (a, b) {
         (Body::Statement(a), Body::Statement(b)) if a == b => 0.0,

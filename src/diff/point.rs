@@ -1,4 +1,4 @@
-//! Where a motion leads, and whether two lead to the same place.
+//! Where a motion ends, and whether two end at the same position.
 use std::hash::{Hash, Hasher};
 use trunnion_geometry::deg;
 use trunnion_geometry::math::angle_between;
@@ -14,7 +14,7 @@ pub struct Tolerance {
     pub deg: f64,
 }
 
-/// The sort of a motion, with what its path needs beside its end.
+/// The kind of a motion, with what its path needs in addition to its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
     /// A rapid motion.
@@ -23,7 +23,7 @@ pub enum Way {
     Linear,
     /// Centre (mm) and signed sweep (deg) with the axis it turns about; `None` where the centre is not known.
     Arc(Option<([f64; 3], [f64; 3], f64)>),
-    /// Seconds; `None`: not known.
+    /// Seconds; `None`: unknown.
     Dwell(Option<f64>),
     /// It is not modelled.
     Unknown,
@@ -47,12 +47,12 @@ impl Way {
     }
 }
 
-/// Where a motion leads: programmed coordinates, or with a machine its joints. mm and degrees, in the order of the letters.
+/// The end of a motion: programmed coordinates, or with a machine its joints. mm and degrees, in the order of the letters.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
     /// How.
     pub way: Way,
-    /// mm or deg; 0 where it is not known.
+    /// mm or deg; 0 where it is unknown.
     pub values: [f64; 9],
     /// Bit mask of those that are known.
     pub known: u16,
@@ -60,9 +60,9 @@ pub struct Point {
     pub axis: Option<[f64; 3]>,
     /// Tip in the workpiece frame; without a machine X Y Z as programmed.
     pub tip: Option<[f64; 3]>,
-    /// Length of the way along X Y Z, mm.
+    /// Length of the path along X Y Z, mm.
     pub length_mm: Option<f64>,
-    /// Words are the tip's, and of the machine: bits 0 and 1.
+    /// Words are coordinates of the tip, or of the machine: bits 0 and 1.
     frame: u8,
 }
 
@@ -110,7 +110,7 @@ impl Point {
                 self.tip = Some(stance.tip.into());
                 (stance.joints, u16::MAX)
             }
-            // joints that are not known say nothing; the words still do
+            // joints that are unknown say nothing; the words still do
             Err(_) => return,
         };
         (self.values, self.known, self.frame) = ([0.0; 9], 0, 0);
@@ -156,12 +156,12 @@ impl Point {
         }
     }
 
-    /// Whether both lead to the same place in the same way.
+    /// Whether both end at the same position along the same path.
     pub fn same(&self, other: &Self, tolerance: Tolerance) -> bool {
         let ways = match (self.way, other.way) {
             (Way::Arc(Some(a)), Way::Arc(Some(b))) => {
                 let near = |a: [f64; 3], b: [f64; 3], limit: f64| (0..3).all(|i| (a[i] - b[i]).abs() <= limit);
-                // a bow that is off by the tolerance in its middle turns farther than the tolerance's angle
+                // an arc that is off by the tolerance in its middle turns farther than the tolerance's angle
                 near(a.0, b.0, tolerance.mm) && near(a.1, b.1, 1e-6) && (a.2 - b.2).abs() <= tolerance.deg.max(0.1)
             }
             (a, b) => a == b,
@@ -175,7 +175,7 @@ impl Point {
             && self.axis.is_some() == other.axis.is_some()
     }
 
-    /// The axes known to both that differ at all: axis, from, to.
+    /// The axes known in both that differ: axis, from, to.
     pub fn moved(&self, other: &Self) -> Vec<(usize, f64, f64)> {
         let both = self.known & other.known;
         let axes = (0..AXIS_LETTERS.len()).filter(|axis| both & (1 << axis) != 0);

@@ -9,7 +9,7 @@ use trunnion_same::{Input, Item, Process, Step, Steps, shown};
 pub(crate) struct Events<'a> {
     steps: Steps<'a>,
     machine: Option<&'a Machine>,
-    /// What was in force last, and how people read it: it changes seldom.
+    /// What was in effect last, and how people read it: it changes seldom.
     last: Option<(Arc<Process>, Settings)>,
 }
 
@@ -27,7 +27,7 @@ impl<'a> Events<'a> {
         self.steps.next()
     }
 
-    /// Where a motion leads, and what is in force in it.
+    /// Where a motion leads, and what is in effect in it.
     pub(crate) fn motion(&mut self, step: &Step) -> (Point, Tech) {
         let point = Point::new(&step.motion, self.machine.zip(step.leg.as_ref()));
         let settings = match &self.last {
@@ -41,7 +41,7 @@ impl<'a> Events<'a> {
         (point, Tech::new(step, settings))
     }
 
-    /// Where the run stopped before the end of its program; asked when there are no more events.
+    /// Where the run stopped before the end of its program; called when there are no more events.
     pub(crate) fn stop(&self) -> Option<&trunnion_same::Stop> {
         self.steps.stop()
     }

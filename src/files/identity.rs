@@ -1,7 +1,7 @@
-//! Which file a path leads to, and in which state it is.
+//! Which file a path points to, and in which state it is.
 use std::{fs::Metadata, path::Path};
 
-/// Two paths with the same identity lead to the same file.
+/// Two paths with the same identity point to the same file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Identity {
     /// Device and inode.
@@ -13,7 +13,7 @@ pub(crate) enum Identity {
 }
 
 impl Identity {
-    /// Of the file that `path` leads to.
+    /// Of the file that `path` points to.
     pub(crate) fn of(path: &Path, metadata: &Metadata) -> Self {
         #[cfg(unix)]
         {
@@ -29,7 +29,7 @@ impl Identity {
     }
 }
 
-/// What kind of file this is, where it is no regular one; `None` for a regular one.
+/// What kind of file this is, if it is not a regular one; `None` for a regular one.
 pub(crate) fn special(metadata: &Metadata) -> Option<&'static str> {
     let kind = metadata.file_type();
     if kind.is_file() {
@@ -51,5 +51,5 @@ pub(crate) fn special(metadata: &Metadata) -> Option<&'static str> {
             return Some("a device");
         }
     }
-    Some("no regular file")
+    Some("not a regular file")
 }

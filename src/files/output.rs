@@ -67,7 +67,7 @@ impl Outputs {
         });
     }
 
-    /// An output named by `option` (`-o`, `--certificate`); `-` is standard output. What killed runs left beside it is removed.
+    /// An output named by `option` (`-o`, `--certificate`); `-` is standard output. Files that killed runs left next to it are removed.
     ///
     /// # Errors
     /// It is an input, or the file of another output; it is a folder; its folder does not exist; it cannot be replaced (read-only,
@@ -113,7 +113,7 @@ impl Outputs {
 /// The path after links are followed, also where the file does not exist yet.
 fn resolved(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
-    // a link that leads nowhere: its target will be made
+    // a broken link: its target will be created
     for _ in 0..40 {
         let Ok(to) = fs::read_link(&path) else { break };
         path = folder_of(&path).join(to);
@@ -132,7 +132,7 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 impl Target {
-    /// Looks at what `path` leads to.
+    /// Examines what `path` points to.
     fn new(path: &Path) -> Result<Self, FileError> {
         let path = path.to_owned();
         if path == Path::new("-") {
@@ -239,7 +239,7 @@ impl Target {
                 .map_err(|error| failed(&error))?;
         }
         file.as_file().sync_all().map_err(|error| failed(&error))?;
-        // the last look before the rename; docs/files.md describes the moment that remains
+        // the last check before the rename; docs/files.md describes the gap that remains
         self.unchanged(read)?;
         file.persist(place).map_err(|error| failed(&error.error))?;
         if let Ok(folder) = File::open(folder) {
@@ -249,7 +249,7 @@ impl Target {
         Ok(())
     }
 
-    /// An error where the file is no longer as it was, or no longer holds the bytes `read`.
+    /// An error if the file changed, or no longer contains the bytes `read`.
     fn unchanged(&self, read_before: Option<&[u8]>) -> Result<(), FileError> {
         let Kind::Regular { place, before } = &self.kind else {
             return Ok(());
@@ -279,7 +279,7 @@ impl Target {
     }
 }
 
-/// An error where a regular file must not be replaced.
+/// An error if a regular file must not be replaced.
 fn replaceable(path: &Path, place: &Path, metadata: &Metadata) -> Result<(), FileError> {
     if metadata.permissions().readonly() {
         return Err(FileError::new(

@@ -8,7 +8,7 @@ use std::{
     time::SystemTime,
 };
 
-/// The state in which a file was read: as long as it holds, the bytes that were read are still the file's.
+/// The state in which a file was read: while it does not change, the bytes that were read are still those of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Seen {
     pub(crate) identity: Identity,
@@ -26,7 +26,7 @@ impl Seen {
     }
 }
 
-/// A file as it was read.
+/// The contents of a file as read.
 #[derive(Debug)]
 pub struct Input {
     /// All of its bytes.

@@ -1,4 +1,4 @@
-//! Temporary files beside the files that they will replace, and what a killed run left of them.
+//! Temporary files next to the files that they will replace, and those that a killed run left.
 //!
 //! A run holds a lock on each of its temporary files. The lock ends with the process, however it ends: a temporary file without a lock
 //! is left over, and the next run that writes to the folder removes it.
@@ -16,7 +16,7 @@ use tempfile::{Builder, NamedTempFile};
 pub(crate) const ENDING: &str = ".trunnion-tmp";
 /// Where locks are not supported, a temporary file of this age is left over.
 const OLD: Duration = Duration::from_hours(24);
-/// A new temporary file may be taken for a left one, in the moment before it is locked; then another is made.
+/// A new temporary file may be mistaken for a leftover before it is locked; then another is made.
 const ATTEMPTS: usize = 16;
 
 /// A locked temporary file in `folder`, named after `target`. `shared`: with the permissions that new files have.
@@ -31,14 +31,14 @@ pub(crate) fn create(folder: &Path, target: &Path, shared: bool) -> io::Result<N
     #[cfg(unix)]
     if shared {
         use std::os::unix::fs::PermissionsExt;
-        // the process's mask takes away what the user does not want
+        // the umask of the process removes what the user does not want
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     #[cfg(not(unix))]
     let _ = shared;
     for _ in 0..ATTEMPTS {
         let file = builder.tempfile_in(folder)?;
-        // where locks are not supported, only the age of a file tells that it is left over
+        // where locks are not supported, only the age of a file shows that it is left over
         let _ = file.as_file().try_lock();
         if file.path().exists() {
             return Ok(file);
@@ -47,7 +47,7 @@ pub(crate) fn create(folder: &Path, target: &Path, shared: bool) -> io::Result<N
     Err(io::Error::other("another process keeps removing the temporary file"))
 }
 
-/// Removes what killed runs left in the folder of the file that `path` leads to, whether or not this run writes there.
+/// Removes what killed runs left in the folder of the file that `path` points to, whether or not this run writes there.
 pub fn sweep_beside(path: &Path) {
     let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if let Some(folder) = place.parent() {

@@ -1,4 +1,4 @@
-//! The calls that lead to a motion, kept once each.
+//! The chains of calls of motions, each stored once.
 use std::collections::HashMap;
 use trunnion_vocabulary::{ChainId, Frame};
 
@@ -30,7 +30,7 @@ impl Chains {
 
     /// The chain of the block `block` of the called file `file`, whose calls are those of `parent`.
     pub fn stand(&mut self, parent: ChainId, file: u16, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
-        // no file has that many blocks: the place is no call at the same block
+        // no file has that many blocks: the place is not a call at the same block
         self.enter(parent, file, block | 1 << 31, frame)
     }
 

@@ -1,4 +1,4 @@
-//! Where a run is: the calls that led there, the loops it goes round, and the bounds of both.
+//! Where a run is: the open calls and loops, and the bounds of both.
 use crate::{ChainId, Chains, Frame, Ran};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ pub struct Place {
     pub file: u16,
     /// Blocks of the program that runs, among those of its file: first, one past the last. Not known before the first jump.
     pub section: Option<(u32, u32)>,
-    /// The block of the main program's file that runs, or whose call led here.
+    /// The block of the main program's file that runs, or whose call is running.
     pub main: BlockId,
     /// Its text.
     pub main_range: TextRange,
@@ -29,7 +29,7 @@ pub enum Ends {
     },
 }
 
-/// A call that is made. `L`: what the language keeps for the caller.
+/// A call that is about to run. `L`: what the language keeps for the caller.
 #[derive(Clone, Debug)]
 pub struct Going<L> {
     /// The block that calls.
@@ -40,7 +40,7 @@ pub struct Going<L> {
     pub file: u16,
     /// First block of what is called.
     pub start: u32,
-    /// The blocks of the program in which that stands, if they are known.
+    /// The blocks of the program that contains it, if they are known.
     pub section: Option<(u32, u32)>,
     /// How often it runs; at least once.
     pub times: u32,
@@ -74,14 +74,14 @@ struct Turns {
     changes: u64,
 }
 
-/// Whether a run may go on.
+/// Whether a run may continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fuel {
     /// It may.
     Left,
-    /// A loop goes on for ever, or the bound of executed blocks is reached.
+    /// A loop runs forever, or the bound of executed blocks is reached.
     Out {
-        /// The loop that is proved endless, or began anew most often: file, opening block.
+        /// The loop that is proved endless, or was repeated most often: file, opening block.
         most: Option<(u16, u32)>,
         /// It is proved.
         proved: bool,
@@ -93,8 +93,8 @@ pub enum Fuel {
 /// Loops that are counted; others are named by the block that ran last.
 const LOOPS: usize = 1 << 16;
 
-/// See the module. The language hands over, as `changes`, a number that grows with whatever may make a decision come out otherwise
-/// than before (assignments, values of the control): a loop that begins anew without any change never ends.
+/// See the module. The language hands over, as `changes`, a number that grows with everything that may change the outcome of a
+/// decision (assignments, values of the control): a loop that starts again without any change never ends.
 #[derive(Clone, Debug)]
 pub struct Course<L> {
     calls: Vec<Call<L>>,
@@ -104,7 +104,7 @@ pub struct Course<L> {
     executed: u64,
     /// The opening block to which the end of a loop has just gone back.
     again: Option<u32>,
-    /// How often each loop, by file and opening block, began anew since it was entered.
+    /// How often each loop, by file and opening block, began again since it was entered.
     turns: HashMap<(u16, u32), Turns>,
     endless: Option<(u16, u32)>,
 }
@@ -135,7 +135,7 @@ impl<L> Course<L> {
         *self.place.section.get_or_insert_with(section)
     }
 
-    /// Whether a program that another one calls runs.
+    /// Whether a called program runs.
     pub fn is_called(&self) -> bool {
         self.programs().next().is_some()
     }
@@ -151,7 +151,7 @@ impl<L> Course<L> {
         self.calls.len()
     }
 
-    /// Whether a block of the main program's file ran before the stretch that runs now.
+    /// Whether a block of the main program's file ran before the current range.
     pub fn has_run(&self, block: u32) -> bool {
         self.ran.has(block)
     }
@@ -182,7 +182,7 @@ impl<L> Course<L> {
         }
     }
 
-    /// The run goes on at `to`, which comes back; `end`: one past the last block that has run.
+    /// The run continues at `to`, which is returned; `end`: one past the last block that has run.
     pub fn jump(&mut self, end: u32, to: u32) -> u32 {
         if self.place.file == 0 {
             self.ran.jump(end, to);
@@ -190,13 +190,13 @@ impl<L> Course<L> {
         to
     }
 
-    /// The same to a block in front of the jump, which may go on for ever.
+    /// The same to a block before the jump, which may run forever.
     pub fn jump_back(&mut self, end: u32, to: u32, changes: u64) -> u32 {
         let key = (self.place.file, to);
         if self.turns.len() < LOOPS || self.turns.contains_key(&key) {
             let turns = self.turns.entry(key).or_default();
             if turns.count > 0 && turns.changes == changes {
-                // nothing that decides anything has changed: every further turn is the same
+                // nothing that a decision depends on has changed: every further turn is the same
                 self.endless = Some(key);
             }
             turns.count += 1;
@@ -205,7 +205,7 @@ impl<L> Course<L> {
         self.jump(end, to)
     }
 
-    /// A block opens a loop. Unless its own end led there the loop begins to count.
+    /// A block opens a loop. Unless the run comes from its own end, counting starts.
     pub fn open_loop(&mut self, open: u32) {
         if self.again.take() != Some(open) {
             self.turns.remove(&(self.place.file, open));
@@ -224,7 +224,7 @@ impl<L> Course<L> {
         to
     }
 
-    /// Begins a call in the chain `chain`; `range` is the text of the calling block. The chain of the call comes back.
+    /// Begins a call in the chain `chain`; `range` is the text of the calling block. Returns the chain of the call.
     pub fn enter(
         &mut self,
         going: Going<L>,
@@ -263,14 +263,14 @@ impl<L> Course<L> {
         inner
     }
 
-    /// What is called begins anew, if it is to: its first block, and what the language keeps of the call.
+    /// Starts the called program again, if it is repeated: its first block, and what the language keeps of the call.
     pub fn once_more(&mut self) -> Option<(u32, &mut L)> {
         let call = self.calls.last_mut().filter(|call| call.times > 0)?;
         call.times -= 1;
         Some((call.start, &mut call.level))
     }
 
-    /// The last call ends; `end`: one past the last block that has run. The run goes on at [`Call::back`].
+    /// The last call ends; `end`: one past the last block that has run. The run continues at [`Call::back`].
     pub fn leave(&mut self, end: u32) -> Option<Call<L>> {
         let call = self.calls.pop()?;
         if self.place.file == 0 {

@@ -1,4 +1,4 @@
-//! Where jumps of a file may lead: labels, programs in the file, loops. Built once, when the first jump needs it.
+//! Targets of the jumps of a file: labels, programs in the file, loops. Built once, when the first jump needs it.
 use crate::Loops;
 
 /// What a label or program is called by.
@@ -13,11 +13,11 @@ pub enum Key {
 /// How a control looks for a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Search {
-    /// Forward from the block behind the jump to the end of the program (GOTOF).
+    /// Forward from the block after the jump to the end of the program (GOTOF).
     Forward,
     /// Backward from the jump's own block to the start of the program (GOTOB).
     Backward,
-    /// Forward, then backward from the jump (Sinumerik's GOTO): the nearest one in front of it.
+    /// Forward, then backward from the jump (Sinumerik's GOTO): the nearest one before it.
     ForwardThenBackward,
     /// Forward, then from the start of the program (Macro B's GOTO): the first one of it.
     ForwardThenStart,
@@ -25,7 +25,7 @@ pub enum Search {
     FromStart,
 }
 
-/// See the module. `B`: a mistake in the structure of the file, as the language tells it.
+/// See the module. `B`: a mistake in the structure of the file, in the form of the language.
 #[derive(Clone, Debug)]
 pub struct Index<B> {
     /// Label and block, sorted.
@@ -58,11 +58,11 @@ impl<B> Index<B> {
         }
     }
 
-    /// The blocks of the program, among those of the file, in which a block stands: first, and one past the last.
+    /// The blocks of the program, among those of the file, that contain a block: first, and one past the last.
     pub fn section(&self, block: u32) -> (u32, u32) {
         let behind = self.programs.partition_point(|program| program.0 <= block);
         let end = match behind {
-            // what stands before the first program number belongs to the first program
+            // what is before the first program number belongs to the first program
             0 => self.programs.get(1).map_or(self.blocks, |program| program.0),
             _ => self.programs.get(behind).map_or(self.blocks, |program| program.0),
         };

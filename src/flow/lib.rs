@@ -1,8 +1,8 @@
 //! Floor 2: the order in which a control runs the blocks of a program: jumps, loops, calls, repeated sections, bounds.
 //!
-//! It is a library, not a framework. A language reads its statements, decides its conditions and says what a block asks for
-//! ([`Transfer`]); this floor keeps where the run is ([`Course`]), where jumps may lead ([`Index`]), which other files are called
-//! ([`Library`]), and proves that a loop never ends. *It does not know a word of any language, nor what a motion is.*
+//! It is a library, not a framework. A language reads its statements, decides its conditions and says what a block requests
+//! ([`Transfer`]); this floor keeps where the run is ([`Course`]), where jumps may go ([`Index`]), which other files are called
+//! ([`Library`]), and proves that a loop never ends. *It knows no words of any language, and no motions.*
 mod chains;
 mod course;
 mod index;

@@ -10,7 +10,7 @@ use trunnion_vocabulary::Searched;
 pub struct Called {
     /// The name it was called by.
     pub name: Key,
-    /// Where it was found, as people are shown it.
+    /// Where it was found, for messages.
     pub path: String,
     /// Its text.
     pub program: Program,

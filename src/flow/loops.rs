@@ -11,7 +11,7 @@ pub struct Loop {
     pub other: Option<u32>,
 }
 
-/// All loops and branches of a file that are whole.
+/// All complete loops and branches of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Loops {
     /// Sorted by the opening block.

@@ -4,18 +4,18 @@
 #[derive(Clone, Debug, Default)]
 pub struct Ran {
     bits: Vec<u64>,
-    /// First block of the stretch that runs now, which is not in `bits` yet.
+    /// First block of the current range, which is not in `bits` yet.
     from: u32,
 }
 
 impl Ran {
-    /// The stretch up to `end` (not included) has run; another begins at `next`.
+    /// The range up to `end` (not included) has run; another begins at `next`.
     pub fn jump(&mut self, end: u32, next: u32) {
         self.add(self.from, end);
         self.from = next;
     }
 
-    /// A stretch begins at `next`, after blocks of another file.
+    /// A range begins at `next`, after blocks of another file.
     pub fn begin(&mut self, next: u32) {
         self.from = next;
     }
@@ -35,7 +35,7 @@ impl Ran {
         }
     }
 
-    /// Whether a block has run before the stretch that runs now.
+    /// Whether a block ran before the current range.
     pub fn has(&self, block: u32) -> bool {
         let bits = self.bits.get(block as usize / 64).copied().unwrap_or(0);
         bits & (1 << (block % 64)) != 0

@@ -1,7 +1,7 @@
-//! What a block asks for beside its motion.
+//! What a block requests apart from its motion.
 use crate::Search;
 
-/// What a block asks for. `L`: a label of the language with the place of the jump; `C`: a call with what is handed over; `R`: what a
+/// What a block requests. `L`: a label of the language with the place of the jump; `C`: a call with what is handed over; `R`: what a
 /// return carries.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transfer<L, C, R> {
@@ -11,7 +11,7 @@ pub enum Transfer<L, C, R> {
     Jump(L, Search),
     /// The block opens a loop or branch: whether its body runs.
     Open(bool),
-    /// The body of a branch ends at its `ELSE`: behind the whole.
+    /// The body of a branch ends at its `ELSE`: continue after the whole branch.
     Leave,
     /// The end of a loop: back to the block that opens it.
     Close,
@@ -19,7 +19,7 @@ pub enum Transfer<L, C, R> {
     Call(C),
     /// Back to the caller.
     Return(R),
-    /// The section from one block to another runs so many times, then the run goes on here.
+    /// The section from one block to another runs this many times, then the run continues here.
     Repeat {
         /// First block of the section.
         first: u32,

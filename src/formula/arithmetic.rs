@@ -1,4 +1,4 @@
-//! What the operations compute. NaN is a number that is not known; `<vacant>` is a NaN of its own.
+//! What the operations compute. NaN is an unknown number; `<vacant>` is a separate NaN.
 use crate::FormulaErrorKind as Kind;
 use crate::code::{Binary, Unary};
 use crate::{degrees, sinumerik};
@@ -7,10 +7,10 @@ use trunnion_geometry::math;
 /// Within this two numbers are equal in RS274/NGC (observed: `[3 EQ 3.00009]` is 1, `[3 EQ 3.0001]` is 0), and a number is whole.
 const TOLERANCE: f64 = 1e-4;
 
-/// The bits of `<vacant>`: a NaN no computation makes and no variable gives.
+/// The bits of `<vacant>`: a NaN that no computation and no variable yields.
 const VACANT: u64 = 0x7ff8_0000_7661_6361;
 
-/// The bits of a result that does not exist (`0 MOD 0`): a NaN, too, but not a number that is only not known.
+/// The bits of a result that does not exist (`0 MOD 0`): also a NaN, but different from an unknown number.
 const UNDEFINED: u64 = 0x7ff8_0000_756e_6465;
 
 /// Macro B's `<vacant>`.
@@ -42,7 +42,7 @@ pub(crate) fn checked(value: f64) -> Result<f64, Kind> {
     }
 }
 
-/// A NaN that came out of `a` and `b`: not known if one of them is not, else without result.
+/// A NaN that resulted from `a` and `b`: unknown if one of them is unknown, else without result.
 #[cold]
 fn without_number(a: f64, b: f64) -> f64 {
     let unknown = |value: f64| value.is_nan() && !is_undefined(value);
@@ -73,7 +73,7 @@ fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
 
-/// The result of a comparison; not known where an operand is not, false where one has no result (observed for all six).
+/// The result of a comparison; unknown where an operand is not, false where one has no result (observed for all six).
 #[inline]
 fn compared(a: f64, b: f64, holds: bool) -> f64 {
     if a.is_nan() || b.is_nan() {
@@ -86,7 +86,7 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
     truth(holds)
 }
 
-/// Whether `value` counts as true; `None` where it is not known. What has no result is not zero (observed).
+/// Whether `value` is taken as true; `None` if it is unknown. A value without result is not zero (observed).
 #[inline]
 fn holds(value: f64) -> Option<bool> {
     if value.is_nan() && !is_undefined(value) {
@@ -96,7 +96,7 @@ fn holds(value: f64) -> Option<bool> {
     }
 }
 
-/// AND, OR and XOR of RS274/NGC; the result is known where one operand settles it.
+/// AND, OR and XOR of RS274/NGC; the result is known if one operand decides it.
 fn logic(operation: Binary, a: f64, b: f64) -> f64 {
     match (operation, holds(a), holds(b)) {
         (Binary::LogicalAnd, Some(false), _) | (Binary::LogicalAnd, _, Some(false)) => 0.0,
@@ -137,7 +137,7 @@ pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -
         Unary::FromBcd => from_bcd(x)?,
         Unary::ToBcd => to_bcd(x)?,
         Unary::Square | Unary::Not | Unary::BitNot | Unary::CutOff | Unary::RoundHalf | Unary::RoundUp => {
-            // what is not documented is not known
+            // what is not documented is unknown
             return checked(if x.is_nan() { x } else { sinumerik::unary(operation, x) });
         }
         Unary::Check | Unary::AddPoint | Unary::Abs => x,
@@ -231,7 +231,7 @@ fn modulo(a: f64, b: f64) -> f64 {
     if rest < 0.0 { rest + b.abs() } else { rest }
 }
 
-/// Bit by bit on whole numbers; of others the part before the point counts (Haas says so, Fanuc's manuals do not: trade knowledge).
+/// Bit by bit on whole numbers; of others the part before the decimal point is used (Haas says so, Fanuc's manuals do not: trade knowledge).
 fn bits(operation: Binary, a: f64, b: f64) -> Result<f64, Kind> {
     if a.is_nan() || b.is_nan() {
         let settled = operation == Binary::BitAnd && (a.trunc() == 0.0 || b.trunc() == 0.0);

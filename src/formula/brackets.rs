@@ -1,4 +1,4 @@
-//! What waits while an expression is read: open brackets, operators, signs.
+//! What is pending while an expression is read: open brackets, operators, signs.
 use crate::code::{Binary, Op, Step, Unary};
 use crate::words::{Operator, take_operator};
 use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Name};
@@ -22,9 +22,9 @@ pub(crate) enum Bracket {
     PowBase,
     /// The index of a named variable (Macro B).
     Index(Name),
-    /// The named parameter EXISTS asks for: the answer is on the stack already.
+    /// The named parameter that EXISTS tests: the answer is on the stack already.
     ExistsNamed,
-    /// The number of the parameter EXISTS asks for.
+    /// The number of the parameter that EXISTS tests.
     ExistsNumbered,
 }
 
@@ -35,7 +35,7 @@ pub(crate) struct Open {
     pub(crate) start: u32,
     /// Where the bracket itself is.
     pub(crate) sign: u32,
-    /// How many operators wait outside.
+    /// How many operators are pending outside.
     pub(crate) outside: usize,
 }
 
@@ -61,7 +61,7 @@ pub(crate) struct Compiler<'c, 's> {
     pub(crate) depth: usize,
     /// One past the last byte of the operand that was read last.
     pub(crate) end: u32,
-    /// The number that is all there is so far, with its digits where they can be held exactly.
+    /// The number if nothing else was read so far, with its digits if they can be held exactly.
     pub(crate) plain: Option<(f64, Option<Decimal>)>,
 }
 

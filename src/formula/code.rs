@@ -37,7 +37,7 @@ pub(crate) enum Unary {
     FromBcd,
     /// Macro B's `BCD`: a number to decimal digits in groups of four bits.
     ToBcd,
-    /// Macro B's `ADP`: the value itself; it adds the point to an argument of a macro call.
+    /// Macro B's `ADP`: the value itself; it adds the decimal point to an argument of a macro call.
     AddPoint,
     /// Sinumerik: POT.
     Square,
@@ -45,11 +45,11 @@ pub(crate) enum Unary {
     Not,
     /// Sinumerik: B_NOT.
     BitNot,
-    /// Sinumerik: TRUNC, not known near a whole number.
+    /// Sinumerik: TRUNC, unknown near a whole number.
     CutOff,
-    /// Sinumerik: ROUND, not known for a negative half.
+    /// Sinumerik: ROUND, unknown for a negative half.
     RoundHalf,
-    /// Sinumerik: ROUNDUP, not known below zero.
+    /// Sinumerik: ROUNDUP, unknown below zero.
     RoundUp,
 }
 
@@ -96,7 +96,7 @@ pub(crate) enum Binary {
     Atan2,
     /// The same, 0 to 360 where the control says so (Macro B).
     MacroAtan2,
-    /// Sinumerik: not known where the numbers are nearly equal.
+    /// Sinumerik: unknown if the numbers are nearly equal.
     Compared(Comparison),
     /// Sinumerik: DIV, MOD and bits, known of whole numbers.
     WholeDivide,
@@ -107,7 +107,7 @@ pub(crate) enum Binary {
     /// Sinumerik: MINVAL, MAXVAL.
     Minimum,
     Maximum,
-    /// Sinumerik: `<<` joins texts, whose values are not followed.
+    /// Sinumerik: `<<` joins strings, whose values are not followed.
     Join,
 }
 
@@ -136,8 +136,8 @@ pub(crate) enum Op {
     Fail(Box<FormulaErrorKind>),
 }
 
-/// One operation with the part of the text it comes from, counted from the start of the formula (wrapping): a formula that is found
-/// again elsewhere is moved without a look at its steps.
+/// One operation with the part of the text it comes from, counted from the start of the formula (wrapping): a formula that occurs
+/// again in another place is moved without changing its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Step {
     pub(crate) op: Op,
@@ -145,7 +145,7 @@ pub(crate) struct Step {
 }
 
 impl Step {
-    /// Appends an operation on the two values in front; a second value that is a plain number becomes part of the step.
+    /// Appends an operation on the two values before it; a second value that is a plain number becomes part of the step.
     #[inline]
     pub(crate) fn push_binary(steps: &mut Vec<Self>, binary: Binary, range: TextRange) {
         match steps.last_mut() {
@@ -189,7 +189,7 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// A number that is not written anywhere, for a place that needs a formula.
+    /// A number without text, for a place that needs a formula.
     pub fn constant(value: f64) -> Self {
         Self {
             range: TextRange::default(),

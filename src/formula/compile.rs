@@ -1,4 +1,4 @@
-//! From text to postfix code, without recursion: open brackets and waiting operators stand on stacks.
+//! From text to postfix code, without recursion: open brackets and pending operators are on stacks.
 use crate::brackets::{Bracket, Compiler, Waiting};
 use crate::code::{Code, Formula, Op, Step};
 use crate::cursor::is_blank;
@@ -17,8 +17,8 @@ pub fn value(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Formula, Formu
     }
 }
 
-/// Like [`value`], but the formula is there in any case: evaluated, it gives the first error a control meets that computes while it
-/// reads (LinuxCNC): `[1/0 + ]` is a division by zero before it is a missing value.
+/// Like [`value`], but always returns a formula: evaluated, it gives the first error of a control that computes while it reads
+/// (LinuxCNC): `[1/0 + ]` is a division by zero before it is a missing value.
 pub fn value_or_error(cursor: &mut Cursor<'_>, grammar: Grammar) -> (Formula, Option<FormulaError>) {
     value_with(cursor, grammar, &mut Vec::new())
 }
@@ -79,7 +79,7 @@ pub fn target(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Target, Formu
     }
 }
 
-/// The name of a variable at the cursor, if the grammar has named ones and one stands there.
+/// The name of a variable at the cursor, if the grammar has named ones and there is one.
 fn take_variable_name(cursor: &mut Cursor<'_>, grammar: Grammar, hash: u32) -> Result<Option<Name>, FormulaError> {
     match (grammar, cursor.peek()) {
         (Grammar::Rs274, Some(b'<')) => match take_angled(cursor) {

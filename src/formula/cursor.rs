@@ -1,4 +1,4 @@
-//! A cursor over the bytes of one line to which blanks, tabs and carriage returns do not exist.
+//! A cursor over the bytes of one line that skips blanks, tabs and carriage returns.
 use trunnion_syntax::TextRange;
 
 /// Reads a piece of a program byte by byte, skips blanks (tabs and carriage returns, too), gives letters in lower case, and knows where it is.
@@ -8,7 +8,7 @@ use trunnion_syntax::TextRange;
 #[derive(Clone, Copy, Debug)]
 pub struct Cursor<'s> {
     source: &'s [u8],
-    /// Offset of the next byte that is no blank, or `end`.
+    /// Offset of the next byte that is not a blank, or `end`.
     at: u32,
     /// One past the last byte that was read.
     behind: u32,
@@ -42,7 +42,7 @@ impl<'s> Cursor<'s> {
         self.at += blanks as u32;
     }
 
-    /// The next byte that is no blank, letters in lower case; `None` at the end.
+    /// The next byte that is not a blank, letters in lower case; `None` at the end.
     #[inline]
     pub fn peek(&self) -> Option<u8> {
         self.rest().first().map(u8::to_ascii_lowercase)
@@ -76,7 +76,7 @@ impl<'s> Cursor<'s> {
         there
     }
 
-    /// Offset in the file of the next byte that is no blank, or the end of the range.
+    /// Offset in the file of the next byte that is not a blank, or the end of the range.
     pub fn at(&self) -> u32 {
         self.at
     }
@@ -96,7 +96,7 @@ impl<'s> Cursor<'s> {
         TextRange::new(self.at, (self.at + 1).min(self.end))
     }
 
-    /// What is not read yet, as it is in the file.
+    /// The rest that is not read yet, as it is in the file.
     #[inline]
     pub fn rest(&self) -> &'s [u8] {
         &self.source[self.at as usize..self.end as usize]
@@ -107,7 +107,7 @@ impl<'s> Cursor<'s> {
         self.at >= self.end
     }
 
-    /// Goes on to the byte at `offset` of the file, at most to the end of the range; never back.
+    /// Advances to the byte at `offset` of the file, at most to the end of the range; never back.
     #[inline]
     pub fn skip_to(&mut self, offset: u32) {
         if offset > self.at {

@@ -10,7 +10,7 @@ const PI_BITS: u64 = 0xc90f_daa2_2168_c235;
 const PI_HIGH: f64 = core::f64::consts::PI;
 const PI_LOW: f64 = 1.225_148_454_908_62e-16;
 
-/// Above this the angle is no angle any more; the double is all there is.
+/// Above this only the double is used: it has no more precision as an angle.
 const LARGE: f64 = 1e15;
 
 /// A number of 64 bits: `bits * 2^exponent`, the highest bit set.
@@ -84,7 +84,7 @@ fn sin_cos_sum((high, low): (f64, f64)) -> (f64, f64) {
 }
 
 std::thread_local! {
-    /// The bits of the last angle, its sine and its cosine: `X[5*COS[#1]] Y[5*SIN[#1]]` asks for both of one angle.
+    /// The bits of the last angle, its sine and its cosine: `X[5*COS[#1]] Y[5*SIN[#1]]` needs both of one angle.
     static LAST: Cell<(u64, f64, f64)> = const { Cell::new((0, 0.0, 1.0)) };
 }
 

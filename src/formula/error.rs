@@ -17,7 +17,7 @@ pub struct FormulaError {
 pub enum FormulaErrorKind {
     /// The line ends where a value is expected.
     MissingValue,
-    /// Something that is not a number where a value is expected; `text` is what there is of a number (`""`, `-`, `.`).
+    /// Something that is not a number where a value is expected; `text` is what was read of a number (`""`, `-`, `.`).
     NotANumber {
         /// Sign, digits and points as far as they reach.
         text: Box<str>,
@@ -29,7 +29,7 @@ pub enum FormulaErrorKind {
     },
     /// `[` without `]` on the line.
     UnclosedBracket,
-    /// Letters that are no function; the first one in lower case.
+    /// Letters that are not a function; the first one in lower case.
     UnknownFunction(char),
     /// A function name without `[`.
     MissingBracket,

@@ -7,7 +7,7 @@ use crate::{FormulaError, FormulaErrorKind, Name, ValueError, Variables};
 const SHALLOW: usize = 8;
 
 impl Formula {
-    /// The value; NaN if it depends on something that is not known. A `<vacant>` variable of Macro B counts as zero.
+    /// The value; NaN if it depends on something unknown. A `<vacant>` variable of Macro B is taken as zero.
     #[inline]
     pub fn eval(&self, variables: &(impl Variables + ?Sized)) -> Result<f64, FormulaError> {
         let value = self.run(variables)?;
@@ -36,7 +36,7 @@ impl Formula {
     }
 }
 
-/// Room for values that wait.
+/// Room for pending values.
 trait Room {
     fn of(depth: usize) -> Self;
     fn at(&mut self, height: usize) -> &mut f64;
@@ -64,7 +64,7 @@ impl Room for Vec<f64> {
     }
 }
 
-/// The stack of values; the last one is at hand, what was in its place before the first one waits below all.
+/// The stack of values; the last one is kept in a variable, and what that held before the first one is at the bottom.
 struct Stack<R> {
     waiting: R,
     height: usize,
@@ -87,7 +87,7 @@ impl<R: Room> Stack<R> {
 }
 
 /// Runs the code; `depth`: how many values the compiler counted. Errors are placed from the start of the formula, and are rare: they are
-/// held elsewhere, so that a value is handed back in a register.
+/// stored separately, so that a value is returned in a register.
 fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: usize) -> Result<f64, Box<FormulaError>> {
     let mut stack = Stack {
         waiting: R::of(depth),
@@ -136,7 +136,7 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
                 continue;
             }
         };
-        // only Macro B's angles ask the control
+        // only Macro B's angles depend on the control
         stack.last = binary(operation, first, second, &|| variables.positive_angles()).map_err(failed)?;
     }
     let Some(last) = steps.last() else {
@@ -154,7 +154,7 @@ fn failure(step: &Step, kind: FormulaErrorKind) -> Box<FormulaError> {
     Box::new(FormulaError { range, kind })
 }
 
-/// A value of a variable; a NaN of any kind is "not known".
+/// A value of a variable; a NaN of any kind means "unknown".
 #[inline]
 fn known(value: f64) -> f64 {
     if value.is_nan() { f64::NAN } else { value }
@@ -197,7 +197,7 @@ fn no_value(name: &Name, error: ValueError) -> FormulaErrorKind {
     }
 }
 
-/// The steps that take the number of a variable from the stack. Of a number that is not known the variable is not known either.
+/// The steps that take the number of a variable from the stack. If the number is unknown, so is the variable.
 #[inline(never)]
 fn at_index(op: &Op, variables: &(impl Variables + ?Sized), index: f64) -> Result<f64, FormulaErrorKind> {
     let index = if is_vacant(index) { 0.0 } else { index };

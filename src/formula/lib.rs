@@ -1,7 +1,7 @@
 //! Floor 0: expressions of RS274/NGC, of Fanuc's Macro B and of Sinumerik: compiled once, evaluated many times.
 //!
-//! Reading never recurses: a hundred thousand nested brackets need memory in proportion, and no stack. Evaluation needs no memory
-//! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.
+//! Reading never recurses: a hundred thousand nested brackets need proportional memory, and no stack. Evaluation needs no memory
+//! for formulas that keep at most eight values at once. A value that is unknown is NaN and stays so through arithmetic.
 //! *It does not know what a word, a block or a variable means.*
 mod arithmetic;
 mod brackets;
@@ -33,8 +33,8 @@ pub enum Grammar {
     /// Fanuc's custom macro B.
     ///
     /// Documented (operator's manuals, chapter custom macro): five levels of brackets, those of functions counted (16/18-C, alarm 118);
-    /// numbers are doubles and EQ compares exactly (15i-MA, B-63324EN/03); `<vacant>` is zero but for EQ and NE (the same table stands in
-    /// Mitsubishi's M700V manual); AND, OR and XOR take the part before the point (Haas 96-8000). Trade knowledge, not read in a manual:
+    /// numbers are doubles and EQ compares exactly (15i-MA, B-63324EN/03); `<vacant>` is zero but for EQ and NE (the same table is in
+    /// Mitsubishi's M700V manual); AND, OR and XOR take the part before the decimal point (Haas 96-8000). Trade knowledge, not read in a manual:
     /// the ranks of the operators, MOD of rounded operands with the sign of the first, FIX towards zero and FUP away from it, variable
     /// numbers rounded, angles of 0 to 360 degrees ([`Variables::positive_angles`]), BIN and BCD of eight digits, ADP as the value itself.
     MacroB,
@@ -54,13 +54,13 @@ pub enum Target {
 pub enum Variable<'f> {
     /// `#5`.
     Numbered(i64),
-    /// `#<name>`, as it is asked for by [`Variables::named`].
+    /// `#<name>`, as passed to [`Variables::named`].
     Named(&'f str),
     /// `##2`, `#[1+2]`: the number is only known when it is evaluated. The range of its text.
     Computed(TextRange),
 }
 
-/// Why a variable has no value to give.
+/// Why a variable has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueError {
     /// There is no variable of that number.
@@ -99,7 +99,7 @@ pub trait Variables {
         self.numbered(index).is_ok()
     }
 
-    /// Whether variable `#index` is `<vacant>` (Macro B). `#0` always is and is not asked for.
+    /// Whether variable `#index` is `<vacant>` (Macro B). `#0` always is, and is not queried.
     fn null(&self, index: i64) -> bool {
         let _ = index;
         false

@@ -2,10 +2,10 @@
 use core::fmt;
 use core::ops::Deref;
 
-/// Bytes of a name that is held in place; the last byte is its length.
+/// Bytes of a name that is stored inline; the last byte is its length.
 const SHORT: usize = 23;
 
-/// The name of a variable as formulas ask for it: without its signs, blanks removed, in lower case.
+/// The name of a variable as formulas use it: without its signs, blanks removed, in lower case.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Name {
     short: [u8; SHORT + 1],
@@ -62,7 +62,7 @@ impl Name {
         None
     }
 
-    /// Whether it is the other one; most that are not differ in their first bytes.
+    /// Whether both are equal; most that are not differ in their first bytes.
     #[inline]
     pub fn is(&self, other: &Self) -> bool {
         let words = |name: &Self| {
@@ -100,7 +100,7 @@ impl Deref for Name {
     fn deref(&self) -> &str {
         match &self.long {
             Some(long) => long,
-            // what is held in place is ASCII
+            // what is stored inline is ASCII
             None => core::str::from_utf8(self.as_bytes()).unwrap_or_default(),
         }
     }

@@ -1,8 +1,8 @@
-//! Storage of formulas that are not needed any more, for the next ones: reading a line need not ask for memory.
+//! Storage of formulas that are not needed any more, for the next ones: reading a line needs no new memory.
 use crate::code::{Code, Formula, Step};
 use crate::{Cursor, FormulaError, Grammar, compile};
 
-/// So many pieces are kept at most.
+/// This many pieces are kept at most.
 const KEPT: usize = 16;
 
 /// Kept storage.
@@ -28,7 +28,7 @@ impl Pool {
     }
 }
 
-/// A copy has nothing in it.
+/// A copy is empty.
 impl Clone for Pool {
     fn clone(&self) -> Self {
         Self::default()

@@ -16,7 +16,7 @@ mod values;
 
 pub(crate) use values::{binary, unary};
 
-/// What is open or waits for its second operand.
+/// What is open or needs its second operand.
 enum Waiting {
     Binary(Binary, u8),
     Unary(Unary),
@@ -28,8 +28,8 @@ enum Waiting {
     Two(Binary, bool),
 }
 
-/// Reads the expression that begins at the start of `range`, as far as it goes: the formula, and one past its last byte. Variables are
-/// asked for by number (`R5`) or by name in lower case; elements of fields by the name with `[`, unknown functions with `(`, texts as `"`.
+/// Reads the expression that begins at the start of `range`, as far as it extends: the formula, and one past its last byte. Variables are
+/// queried by number (`R5`) or by name in lower case; elements of fields by the name with `[`, unknown functions with `(`, texts as `"`.
 ///
 /// # Errors
 /// The text is no expression.
@@ -174,7 +174,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// What stands behind a whole operand.
+    /// What follows a whole operand.
     fn operator(&mut self) -> Result<Behind, Kind> {
         match self.peek() {
             Some(b')') => return self.close(b')'),
@@ -229,7 +229,7 @@ impl<'s> Reader<'s> {
     fn close(&mut self, sign: u8) -> Result<Behind, Kind> {
         self.reduce(0);
         let step = match (self.waiting.last(), sign) {
-            // the bracket belongs to what stands around the expression
+            // the bracket belongs to the text around the expression
             (None, _) => return Ok(Behind::End),
             (Some(Waiting::Group), b')') => None,
             (Some(Waiting::Index), b']') => Some(Op::ReadAt),
@@ -249,7 +249,7 @@ impl<'s> Reader<'s> {
         Ok(Behind::Closed)
     }
 
-    /// The operator at hand, its rank and its length.
+    /// The operator at the cursor, its rank and its length.
     fn binary(&self) -> Option<(Binary, u8, usize)> {
         let rest = self.rest();
         let sign = |binary, rank| Some((binary, rank, 1));
@@ -284,7 +284,7 @@ impl<'s> Reader<'s> {
     }
 }
 
-/// What stands behind an operand.
+/// What follows an operand.
 enum Behind {
     /// An operator: an operand must follow.
     Operand,

@@ -2,7 +2,7 @@
 use crate::code::{Binary, Unary};
 use crate::{Cursor, Grammar, Name};
 
-/// What a function name stands for; those with more than one argument have a shape of their own.
+/// What a function name means; those with more than one argument have their own shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Function {
     /// One argument in brackets.

@@ -1,4 +1,4 @@
-//! The only door to transcendental functions: libm's, so that a verdict is the same on every machine.
+//! The only access to transcendental functions: libm's, so that a verdict is the same on every machine.
 
 /// Sine of an angle in rad.
 pub fn sin(x: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! What a control reads into words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
+//! How a control interprets words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
 use crate::codes::{BlockCodes, Found, dwell_reads, not_modelled};
 use crate::core::LINEAR;
 use crate::core::Report;
@@ -35,7 +35,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Puts the words of the block as they are meant.
+    /// Replaces the words of the block by their meaning.
     #[cold]
     pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words) {
         let has = |action: Action| codes.iter().any(|found| found.code.action == action);
@@ -58,6 +58,7 @@ impl Iso<'_> {
         if diameter && !has(Action::Dwell) && !has(Action::DiameterSwitch) {
             words.axes.values[0] *= 0.5;
         }
+        self.core.drawing_words(codes, words);
     }
 
     /// U, V, W, H are distances of X, Y, Z, C.
@@ -81,7 +82,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Coordinates without a point count 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
+    /// Coordinates without a decimal point are in units of 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
     /// (Fanuc Series 30i operator's manual, least input increment IS-B).
     fn least_increments(&self, codes: &[Found<'_>], words: &mut Words, inch: bool) {
         let divisor = if inch { 10_000.0 } else { 1000.0 };

@@ -1,5 +1,8 @@
 //! APT / CL records to motions.
 mod args;
+pub(crate) mod cycle;
+mod drill;
+mod frame;
 
 pub(crate) use args::{Args, is};
 
@@ -11,7 +14,7 @@ use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{Block, BlockId, Program, Record, TextRange};
 
-/// What APT keeps between records beside the modal state.
+/// What APT keeps between records in addition to the modal state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AptState {
     /// RAPID: the next motion is a rapid.
@@ -20,10 +23,14 @@ pub(crate) struct AptState {
     pub(crate) circle: Option<Circle>,
     /// TLAXIS: the orientation of the next motion.
     pub(crate) axis: Option<Orientation>,
-    /// The last vector could not be read, so no orientation is in force.
+    /// The last vector could not be read, so no orientation is in effect.
     pub(crate) axis_lost: bool,
-    /// CSYS is not the identity.
-    pub(crate) csys: bool,
+    /// Where the coordinates of the records are in the part.
+    pub(crate) frame: frame::Frame,
+    /// The last cycle that was described; `None`: there is none, or what it does is not known.
+    pub(crate) hole: Option<cycle::Hole>,
+    /// What is not known of this cycle was reported.
+    pub(crate) cycle_said: bool,
 }
 
 /// An arc that waits for its end.
@@ -54,6 +61,10 @@ fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &
 pub(crate) struct Apt<'d> {
     pub(crate) core: Core<'d>,
     pub(crate) kept: AptState,
+    /// Motions of a cycle, before the one that its record returns.
+    pub(crate) more: Vec<Motion>,
+    /// The orientation of the first of them.
+    pub(crate) first_vector: Option<Orientation>,
     /// The record that runs next.
     next: u32,
     finished: bool,
@@ -93,6 +104,8 @@ impl<'d> Apt<'d> {
         Self {
             core,
             kept: AptState::default(),
+            more: Vec::new(),
+            first_vector: None,
             next: 0,
             finished: false,
         }
@@ -128,10 +141,11 @@ impl Apt<'_> {
             self.record(&record, &mut report)
         };
         if self.core.effects.wanted() {
+            let motion = motion.or(self.more.last().copied());
             self.late_record_effects(&record, block, motion.as_ref(), does_more);
             self.core.hand_on_effects(sink);
         }
-        if let Some(motion) = motion {
+        for motion in self.more.drain(..).chain(motion) {
             sink.motion(&motion, &self.core.state);
         }
     }
@@ -140,8 +154,8 @@ impl Apt<'_> {
         let args = Args::new(record);
         let program = report.program;
         match upper(program, record.major, &mut [0; 12]) {
-            b"GOTO" => return Some(self.goto(&args, report)),
-            b"GODLTA" => return Some(self.godlta(&args, report)),
+            b"GOTO" => return self.goto(&args, report),
+            b"GODLTA" => return self.godlta(&args, report),
             b"FROM" => self.from(&args, report),
             b"RAPID" => self.rapid(report),
             b"CIRCLE" => self.circle(&args, report),
@@ -155,8 +169,7 @@ impl Apt<'_> {
             b"LOADTL" => self.load_tool(&args, report),
             b"LOAD" | b"TOOLNO" if args.has(program, "TOOL") || record.is("TOOLNO") => self.load_tool(&args, report),
             b"CUTCOM" => self.cutcom(&args, report),
-            b"CYCLE" => self.cycle(&args, report),
-            b"CSYS" => self.csys(record, &args, report),
+            b"CYCLE" => self.cycle(record, report),
             b"END" | b"FINI" => {
                 self.core.state.ended = true;
                 self.core.proper_end = true;
@@ -176,6 +189,7 @@ impl Apt<'_> {
         let args = Args::new(record);
         let program = report.program;
         match code.action {
+            _ if self.frame_record(record, &args, report) => {}
             _ if record.is("INSERT") => {
                 let what = "INSERT: the text that it passes to the machine is not read".to_owned();
                 report.fault(record.range, FaultKind::NotModelled { what });
@@ -196,10 +210,13 @@ impl Apt<'_> {
             }
             _ => {}
         }
-        self.core.state.zero.lose(self.core.unknown.any() || self.kept.csys);
+        self.core
+            .state
+            .zero
+            .lose(self.core.unknown.any() || self.kept.frame.unread);
     }
 
-    /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
+    /// An unknown record may move the tool or the coordinates: neither is known until the end of the program.
     fn unknown_record(&mut self, what: String, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what });
         self.lose_place();
@@ -336,44 +353,22 @@ impl Apt<'_> {
         }
     }
 
-    /// CYCLE/...: each GOTO until CYCLE/OFF runs it.
-    fn cycle(&mut self, args: &Args, report: &mut Report<'_>) {
-        if args.has(report.program, "OFF") {
-            self.core.state.motion = Some(Action::Linear);
-            return;
-        }
-        if !args.has(report.program, "ON") || args.words().len() > 1 {
-            let kind = args
-                .words()
-                .first()
-                .map(|&word| report.program.text(word).into_owned())
-                .unwrap_or_default();
-            report.fault(
-                TextRange::default(),
-                FaultKind::NotModelled {
-                    what: format!("CYCLE/{kind}"),
-                },
-            );
-        }
-        self.core.state.motion = Some(Action::CannedCycle);
-    }
-
-    /// CSYS/ with the identity changes nothing; any other system is not modelled.
-    fn csys(&mut self, record: &Record<'_>, args: &Args, report: &mut Report<'_>) {
-        const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        let identity = !args.odd && args.numbers() == IDENTITY;
-        if !identity {
-            report.fault(
-                record.range,
-                FaultKind::NotModelled {
-                    what: "CSYS".to_owned(),
-                },
-            );
-        }
-        if identity == self.kept.csys {
-            self.kept.csys = !identity;
-            self.core.state.zero.lose(self.core.unknown.any() || self.kept.csys);
-            self.core.forget_position();
+    /// CYCLE/...: each GOTO until CYCLE/OFF runs it; CYCLE/ON resumes the last one, CYCLE/INIT announces one.
+    fn cycle(&mut self, record: &Record<'_>, report: &mut Report<'_>) {
+        match cycle::describes_none(record, report.program) {
+            Some("OFF" | "NOMORE") => self.core.state.motion = Some(Action::Linear),
+            Some("INIT") => {}
+            Some(_) => self.core.state.motion = Some(Action::CannedCycle),
+            None => {
+                self.core.state.motion = Some(Action::CannedCycle);
+                self.kept.cycle_said = false;
+                let hole = cycle::hole(record, self.core.state.coordinates.unit_mm());
+                if let Err(why) = &hole {
+                    let what = format!("CYCLE/{why}");
+                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                }
+                self.kept.hole = hole.ok();
+            }
         }
     }
 }

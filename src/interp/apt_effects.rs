@@ -8,7 +8,7 @@ use crate::{Argument, Effect};
 use crate::{Motion, MotionKind};
 use trunnion_syntax::{Block, Record};
 
-/// Records that say nothing to the machine.
+/// Records that have no effect on the machine.
 const NEUTRAL: [&str; 8] = [
     "PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "TOOLNO", "MULTAX",
 ];

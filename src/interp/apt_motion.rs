@@ -12,31 +12,36 @@ use trunnion_syntax::TextRange;
 
 impl Apt<'_> {
     /// GOTO/x,y,z[,i,j,k[,feed]].
-    pub(crate) fn goto(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
+    pub(crate) fn goto(&mut self, args: &Args, report: &mut Report<'_>) -> Option<Motion> {
         let numbers = args.numbers();
         let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 3 | 6 | 7);
         if !readable {
-            return self.unreadable_goto(report);
+            return Some(self.unreadable_goto(report));
         }
         if let Some(&feed) = numbers.get(6) {
             self.core.state.feed.set(Some(feed * self.core.state.feed.unit_mm()));
             self.core.feed_unread = false;
         }
         let unit = self.core.state.coordinates.unit_mm();
-        let target = Vec3::new(numbers[0], numbers[1], numbers[2]) * unit;
-        let vector = (numbers.len() >= 6).then(|| Vec3::new(numbers[3], numbers[4], numbers[5]));
+        let frame = self.kept.frame;
+        let target = frame.point(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit);
+        let vector = (numbers.len() >= 6).then(|| frame.vector(Vec3::new(numbers[3], numbers[4], numbers[5])));
         self.go(target, vector, args.range, report)
     }
 
     /// GODLTA/dx,dy,dz from where the tool is; GODLTA/d along the tool axis.
-    pub(crate) fn godlta(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
+    pub(crate) fn godlta(&mut self, args: &Args, report: &mut Report<'_>) -> Option<Motion> {
         let numbers = args.numbers();
         let unit = self.core.state.coordinates.unit_mm();
         let delta = match (numbers.len(), self.core.held_orientation()) {
             _ if args.odd || !args.words().is_empty() => None,
-            (3, _) => Some(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit),
+            (3, _) => Some(
+                self.kept
+                    .frame
+                    .vector(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit),
+            ),
             (1, Orientation::Vector(_, axis)) => Some(axis * (numbers[0] * unit)),
-            (1, Orientation::Words) => Some(Vec3::new(0.0, 0.0, numbers[0] * unit)),
+            (1, Orientation::Words) => Some(self.kept.frame.vector(Vec3::new(0.0, 0.0, numbers[0] * unit))),
             _ => None,
         };
         match (delta, self.core.state.position.xyz()) {
@@ -45,13 +50,13 @@ impl Apt<'_> {
             (Some(_), None) => {
                 let what = "GODLTA from an unknown position".to_owned();
                 report.fault(report.whole(), FaultKind::NotModelled { what });
-                self.unknown_goto(self.core.held_orientation(), report)
+                Some(self.unknown_goto(self.core.held_orientation(), report))
             }
-            (None, _) => self.unreadable_goto(report),
+            (None, _) => Some(self.unreadable_goto(report)),
         }
     }
 
-    /// FROM: where the tool is, without a motion.
+    /// FROM: the position of the tool, without a motion.
     pub(crate) fn from(&mut self, args: &Args, report: &mut Report<'_>) {
         let numbers = args.numbers();
         if args.odd || !matches!(numbers.len(), 3 | 6) {
@@ -60,10 +65,10 @@ impl Apt<'_> {
             self.core.forget_position();
             return;
         }
-        self.core.state.position =
-            self.at(Vec3::new(numbers[0], numbers[1], numbers[2]) * self.core.state.coordinates.unit_mm());
+        let point = Vec3::new(numbers[0], numbers[1], numbers[2]) * self.core.state.coordinates.unit_mm();
+        self.core.state.position = self.at(self.kept.frame.point(point));
         if numbers.len() == 6 {
-            let vector = Vec3::new(numbers[3], numbers[4], numbers[5]);
+            let vector = self.kept.frame.vector(Vec3::new(numbers[3], numbers[4], numbers[5]));
             self.core.state.orientation = self.core.unit_vector(vector, true, args.range, report);
             self.kept.axis_lost = self.core.state.orientation == Orientation::Words;
         } else if self.core.state.orientation == Orientation::Words
@@ -71,7 +76,7 @@ impl Apt<'_> {
             && !self.kept.axis_lost
         {
             // as for GOTO: straight along Z while MULTAX is off
-            self.core.state.orientation = Orientation::Vector(None, Vec3::z());
+            self.core.state.orientation = Orientation::Vector(None, self.kept.frame.vector(Vec3::z()));
         }
     }
 
@@ -79,7 +84,8 @@ impl Apt<'_> {
     pub(crate) fn tool_axis(&mut self, args: &Args, report: &mut Report<'_>) {
         match args.numbers() {
             &[i, j, k] if !args.odd => {
-                let orientation = self.core.unit_vector(Vec3::new(i, j, k), true, args.range, report);
+                let vector = self.kept.frame.vector(Vec3::new(i, j, k));
+                let orientation = self.core.unit_vector(vector, true, args.range, report);
                 // set without motion: the tool turns with the next one
                 self.kept.axis = Some(orientation);
             }
@@ -102,10 +108,10 @@ impl Apt<'_> {
         } else {
             Vec3::zeros()
         };
-        let shape = axis
-            .try_normalize(f64::MIN_POSITIVE)
-            .filter(|_| readable)
-            .map(|axis| (Vec3::new(numbers[0], numbers[1], numbers[2]) * unit, axis));
+        let shape = axis.try_normalize(f64::MIN_POSITIVE).filter(|_| readable).map(|axis| {
+            let centre = Vec3::new(numbers[0], numbers[1], numbers[2]) * unit;
+            (self.kept.frame.point(centre), self.kept.frame.vector(axis))
+        });
         if shape.is_none() {
             let what = report.program.text(report.whole()).into_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
@@ -140,7 +146,7 @@ impl Apt<'_> {
         )
     }
 
-    fn at(&self, point: Vec3) -> Position {
+    pub(crate) fn at(&self, point: Vec3) -> Position {
         let mut position = self.core.state.position;
         for axis in 0..3 {
             position.set(axis, point[axis]);
@@ -157,7 +163,7 @@ impl Apt<'_> {
         self.unknown_goto(Orientation::Words, report)
     }
 
-    fn unknown_goto(&mut self, orientation: Orientation, report: &mut Report<'_>) -> Motion {
+    pub(crate) fn unknown_goto(&mut self, orientation: Orientation, report: &mut Report<'_>) -> Motion {
         let start = self.core.state.position;
         self.core.forget_position();
         self.core.state.orientation = orientation;
@@ -166,7 +172,7 @@ impl Apt<'_> {
             .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report)
     }
 
-    /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
+    /// The orientation of a GOTO: its vector, else the one in effect, else straight along Z.
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
         let set = self.kept.axis.take();
         if let Some(vector) = vector {
@@ -179,12 +185,12 @@ impl Apt<'_> {
             (Some(orientation), _) => orientation,
             (None, Orientation::Vector(_, vector)) => Orientation::Vector(Some(vector), vector),
             (None, Orientation::Words) if self.kept.axis_lost => Orientation::Words,
-            (None, Orientation::Words) => Orientation::Vector(None, Vec3::z()),
+            (None, Orientation::Words) => Orientation::Vector(None, self.kept.frame.vector(Vec3::z())),
         }
     }
 
     /// The motion to a point.
-    fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Motion {
+    fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Option<Motion> {
         let rapid = std::mem::take(&mut self.kept.rapid);
         let circle = self.kept.circle.take();
         let start = self.core.state.position;
@@ -193,7 +199,11 @@ impl Apt<'_> {
         let cycle = self.core.state.motion == Some(Action::CannedCycle);
         self.core.tools.use_cutter();
         if cycle {
-            return self.unknown_goto(orientation, report);
+            let Some(hole) = self.kept.hole else {
+                return Some(self.unknown_goto(orientation, report));
+            };
+            self.drill(&hole, target, orientation, report);
+            return None;
         }
         let mut end = self.at(target);
         if let Orientation::Vector(..) = orientation {
@@ -208,7 +218,7 @@ impl Apt<'_> {
         };
         self.core.state.motion = Some(if rapid { Action::Rapid } else { Action::Linear });
         let feed = self.core.feed(kind, || range, report);
-        self.core.motion_in_frame(kind, [start, end], orientation, feed, report)
+        Some(self.core.motion_in_frame(kind, [start, end], orientation, feed, report))
     }
 
     fn arc_to(&self, circle: &Circle, start: Position, end: Position, report: &mut Report<'_>) -> Option<Arc> {

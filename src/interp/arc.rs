@@ -1,4 +1,4 @@
-//! Arcs from what a block says: centre form and radius form, in the three planes.
+//! Arcs of a block: centre form and radius form, in the three planes.
 use crate::{FaultKind, Position, words::Words};
 use trunnion_dialect::{Dialect, Plane};
 use trunnion_geometry::Vec3;
@@ -14,7 +14,7 @@ pub(crate) fn plane_axes(plane: Plane) -> [usize; 3] {
     }
 }
 
-/// What an arc block is given beside its words.
+/// What defines an arc in addition to the words of its block.
 pub(crate) struct ArcSetting<'a> {
     pub(crate) dialect: &'a Dialect,
     pub(crate) plane: Plane,
@@ -24,7 +24,7 @@ pub(crate) struct ArcSetting<'a> {
     pub(crate) length_unit_mm: f64,
     pub(crate) start: Position,
     pub(crate) end: Position,
-    /// Further full turns; `None`: not known.
+    /// Further full turns; `None`: unknown.
     pub(crate) turns: Option<u32>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn arc(setting: &ArcSetting<'_>, words: &Words) -> Outcome {
     }
 }
 
-/// Start and end in space. A height that is not known is taken as 0, and then the flag is false: the arc is true only in its plane.
+/// Start and end in space. A height that is unknown is taken as 0, and then the flag is false: the arc is valid only in its plane.
 fn ends(setting: &ArcSetting<'_>, axes: [usize; 3]) -> Option<(Vec3, Vec3, bool)> {
     let plane = (1u16 << axes[0]) | (1 << axes[1]);
     if setting.start.known & setting.end.known & plane != plane {

@@ -19,7 +19,7 @@ pub(crate) struct Found<'d> {
     pub(crate) with_arguments: bool,
 }
 
-/// What the codes of a block say about this block alone.
+/// What the codes of a block mean for this block alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BlockCodes {
     /// Number of codes.
@@ -73,7 +73,7 @@ fn rank(action: Action) -> u8 {
 const FIRST_AFTER_WORDS: u8 = 4;
 
 impl<'d> Iso<'d> {
-    /// Applies all codes and the words F S T D; what concerns the block's motion comes back.
+    /// Applies all codes and the words F S T D; returns what concerns the block's motion.
     pub(crate) fn apply(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> BlockCodes {
         if codes.len() > 1 {
             conflicts(codes, report);
@@ -155,6 +155,9 @@ impl<'d> Iso<'d> {
             Action::OrientationAxes => state.tool_axis.set_great_circle(false),
             Action::OrientationVector => state.tool_axis.set_great_circle(true),
             Action::ProgramEnd => block.end = true,
+            Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
+                self.memory.thread_chamfer_off = found.code.id == "M24";
+            }
             Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
@@ -289,10 +292,19 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.core
-                .state
-                .spindle
-                .set_rpm(words.speed.number().map(|number| number.value));
+            let value = words.speed.number().map(|number| number.value);
+            let state = &mut self.core.state;
+            if state.spindle.surface_speed() {
+                // S is in feet per minute where lengths are in inches
+                let unit = if state.coordinates.unit_mm() == 1.0 {
+                    1.0
+                } else {
+                    0.3048
+                };
+                state.spindle.set_cutting_speed(value.map(|value| value * unit));
+            } else {
+                state.spindle.set_rpm(value);
+            }
         }
     }
 }

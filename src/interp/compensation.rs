@@ -1,4 +1,4 @@
-//! Cutter radius compensation in the plane (G41, G42 of a Fanuc or Haas mill): the tool's centre runs beside the programmed path. A motion
+//! Cutter radius compensation in the plane (G41, G42 of a Fanuc or Haas mill): the tool's centre runs next to the programmed path. A motion
 //! waits until the next one in the plane is known, since the corner between them depends on both.
 //!
 //! Start-up and cancel are of type A (parameter 5003: bits SUP and SUV 0): the first motion ends beside the start of the next, the last
@@ -15,7 +15,7 @@ use corner::{Join, Link, Trouble, join};
 use element::{Element, Point};
 use trunnion_dialect::Plane;
 
-/// A motion and what was in force after its block.
+/// A motion and the modal state after its block.
 pub(crate) type Told = (Motion, ModalState);
 
 /// The state of the compensation.
@@ -24,11 +24,11 @@ pub(crate) enum Stage {
     /// Off.
     #[default]
     Off,
-    /// G41 or G42 is there, the next motion in the plane leads to the contour.
+    /// G41 or G42 is active, the next motion in the plane moves to the contour.
     Start,
     /// Along the contour.
     On,
-    /// Given up: motions are the programmed ones until G40.
+    /// Stopped: motions are the programmed ones until G40.
     Lost,
 }
 
@@ -39,7 +39,7 @@ struct Held {
     element: Element,
     /// Where its compensated path begins.
     from: Point,
-    /// It leads to the contour and is not compensated itself.
+    /// It moves to the contour and is not compensated itself.
     leads: bool,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Compensation {
     pub(crate) side: f64,
     /// mm.
     pub(crate) radius: f64,
-    /// D in force.
+    /// D in effect.
     pub(crate) d: Option<u32>,
     /// The coordinates are mirrored, so that left and right change places.
     pub(crate) mirrored: bool,
@@ -64,7 +64,7 @@ pub(crate) struct Compensation {
 }
 
 impl Compensation {
-    /// Whether motions must come by here.
+    /// Whether motions must pass through here.
     pub(crate) fn is_busy(&self) -> bool {
         self.held.is_some() || matches!(self.stage, Stage::Start | Stage::On)
     }
@@ -134,7 +134,7 @@ impl Iso<'_> {
         }
     }
 
-    /// A motion that does not move in the plane, or whose path is not known.
+    /// A motion that does not move in the plane, or whose path is unknown.
     fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
         let still = Element::rests(
@@ -291,7 +291,7 @@ impl Iso<'_> {
         Some(end)
     }
 
-    /// The first motion in the plane after G40 leads from the contour.
+    /// The first motion in the plane after G40 leaves the contour.
     fn cancel(&mut self, told: Told, element: &Element, report: &mut Report<'_>) {
         let from = self.settle(report);
         self.memory.compensation.stage = Stage::Off;
@@ -311,7 +311,7 @@ impl Iso<'_> {
         self.memory.compensation.ready.push(ready.unwrap_or(told));
     }
 
-    /// Gives the path up until G40: motions are the programmed ones.
+    /// Stops compensating until G40: motions are the programmed ones.
     pub(crate) fn lose(&mut self, why: &str, report: &mut Report<'_>) {
         if matches!(self.memory.compensation.stage, Stage::Off | Stage::Lost) {
             return;
@@ -323,7 +323,7 @@ impl Iso<'_> {
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 
-    /// Everything that waits is emitted: the program ends.
+    /// Everything pending is emitted: the program ends.
     pub(crate) fn end_compensation(&mut self, report: &mut Report<'_>) {
         self.settle(report);
         let between = std::mem::take(&mut self.memory.compensation.between);

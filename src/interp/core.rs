@@ -1,6 +1,7 @@
-//! What every engine has: the setting of the run, what is in force, tools, unknown coordinates, effects.
+//! What every engine has: the settings of the run, the modal state, tools, unknown coordinates, effects.
 use crate::effects::Effects;
 use crate::reported::Reported;
+use crate::spin::spin;
 use crate::tools::Tools;
 use crate::unknown::Unknown;
 use crate::{
@@ -16,7 +17,7 @@ use trunnion_syntax::{BlockId, Program, TextRange};
 pub(crate) const LINEAR: u16 = 0b1_1100_0111;
 /// A, B, C.
 pub(crate) const ROTARY: u16 = 0b0_0011_1000;
-/// A norm that differs from 1 by less than this is what six decimals can do.
+/// A norm may differ from 1 by this because of six written decimals.
 const UNIT_NORM: f64 = 1e-5;
 
 /// See the module.
@@ -24,16 +25,16 @@ const UNIT_NORM: f64 = 1e-5;
 pub(crate) struct Core<'d> {
     pub(crate) dialect: &'d Dialect,
     pub(crate) setup: Arc<Setup>,
-    /// What is in force.
+    /// What is in effect.
     pub(crate) state: ModalState,
-    /// The calls in which the block in hand runs.
+    /// The calls in which the current block runs.
     pub(crate) chain: ChainId,
     /// The block of the main program whose call led to the other file that runs.
     pub(crate) called_at: Option<BlockId>,
     pub(crate) tools: Tools,
     /// Codes that made coordinates unknown.
     pub(crate) unknown: Unknown<'d>,
-    /// What the program does beside its motions.
+    /// What the program does apart from its motions.
     pub(crate) effects: Effects,
     /// How often everything may have changed: missing programs, words that are not understood.
     pub(crate) losses: u64,
@@ -47,9 +48,13 @@ pub(crate) struct Core<'d> {
     pub(crate) last_content: Option<BlockId>,
     /// A code or character that ends the program was seen.
     pub(crate) proper_end: bool,
+    /// Axes that are always at 0.
+    pub(crate) standing: crate::standing::Standing,
+    /// What A and C of a lathe mean.
+    pub(crate) drawing: crate::drawing::Drawing,
 }
 
-/// Where facts about the block in hand go.
+/// Where facts about the current block are sent.
 pub(crate) struct Report<'a> {
     pub(crate) program: &'a Program,
     pub(crate) block: BlockId,
@@ -59,7 +64,7 @@ pub(crate) struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// Bytes of the record or block in hand.
+    /// Bytes of the current record or block.
     #[cold]
     pub(crate) fn whole(&self) -> TextRange {
         self.record.unwrap_or_else(|| self.program.block(self.block).range())
@@ -88,6 +93,8 @@ impl<'d> Core<'d> {
             let mm = unit.mm();
             state.units(mm, mm);
         }
+        let standing = crate::standing::Standing::new(dialect, setup);
+        standing.hold(&mut state.position);
         Self {
             dialect,
             setup: Arc::new(setup.clone()),
@@ -103,6 +110,8 @@ impl<'d> Core<'d> {
             offsets_reported: Reported::default(),
             last_content: None,
             proper_end: false,
+            standing,
+            drawing: crate::drawing::Drawing::new(dialect, setup),
         }
     }
 
@@ -112,8 +121,8 @@ impl<'d> Core<'d> {
         self.called_at.unwrap_or(block)
     }
 
-    /// A zero point is set from where the machine stands. Where that depends on what is not declared, the order counts: the same words
-    /// after another offset, another length, or a motion in machine coordinates mean another place.
+    /// A zero point is set at the current position of the machine. If that depends on undeclared values, the order matters: the same words
+    /// after another offset, another length, or a motion in machine coordinates mean another position.
     #[cold]
     pub(crate) fn set_from_here(&mut self, block: BlockId) {
         if self.effects.wanted() && self.state.undeclared().any() {
@@ -127,24 +136,27 @@ impl<'d> Core<'d> {
         }
     }
 
-    /// Nothing is known of the position any more.
+    /// The position is unknown from now on.
     pub(crate) fn forget_position(&mut self) {
         self.state.position.known = 0;
+        self.standing.hold(&mut self.state.position);
         self.state.orientation = Orientation::Words;
     }
-    /// Coordinates have changed their meaning, if so.
+    /// Makes coordinates unknown if they have changed their meaning.
     pub(crate) fn forget_if(&mut self, changed: bool) {
         if changed {
             self.forget_position();
         }
     }
-    /// X Y Z U V W are not known any more.
+    /// X Y Z U V W are unknown from now on.
     pub(crate) fn forget_linear(&mut self) {
         self.state.position.known &= !LINEAR;
+        self.standing.hold(&mut self.state.position);
     }
     /// A subprogram may have changed anything.
     pub(crate) fn forget_everything(&mut self) {
         self.losses += 1;
+        self.standing.end_unnamed();
         self.forget_position();
         self.state.clamps.lose();
         self.state.spindle.forget();
@@ -159,11 +171,14 @@ impl<'d> Core<'d> {
             .declare(self.tools.data(self.state.tool.number(), &self.setup));
     }
 
-    /// The program's own declarations of tools count for the whole program, wherever they are.
+    /// The program's own declarations of tools apply to the whole program, wherever they are.
     pub(crate) fn declare(&mut self, program: &Program) {
         if self.tools.read_directives(program) {
             self.merge_tool();
         }
+        self.standing.read(program, self.dialect);
+        self.drawing.read(program);
+        self.standing.hold(&mut self.state.position);
     }
 
     /// The feed of a motion; reports at `range` when there is none.
@@ -186,7 +201,7 @@ impl<'d> Core<'d> {
         }
     }
 
-    /// The orientation that is in force with nothing programmed.
+    /// The orientation that is in effect with nothing programmed.
     pub(crate) fn held_orientation(&self) -> Orientation {
         match self.state.orientation {
             Orientation::Words => Orientation::Words,
@@ -222,18 +237,20 @@ impl<'d> Core<'d> {
         Orientation::Vector(before, vector / norm)
     }
 
-    /// A motion with what is in force.
+    /// A motion with the modal state.
     #[inline]
     pub(crate) fn new_motion(
         &self,
         kind: MotionKind,
-        start: Position,
-        end: Position,
+        mut start: Position,
+        mut end: Position,
         orientation: Orientation,
         feed: Feed,
         report: &Report<'_>,
     ) -> Motion {
         let state = &self.state;
+        self.standing.hold(&mut start);
+        self.standing.hold(&mut end);
         Motion {
             block: self.main_block(report.block),
             chain: self.chain,
@@ -247,6 +264,7 @@ impl<'d> Core<'d> {
             feed,
             spindle_on: state.spindle.on(),
             spindle_rpm: state.spindle.rpm(),
+            spin: spin(state, self.dialect.quirks.diameter, kind, [&start, &end]),
             zero: state.zero.values(),
             tool_length_mm: state.length.mm().unwrap_or(0.0),
             undeclared: state.undeclared(),
@@ -256,6 +274,12 @@ impl<'d> Core<'d> {
             tilt: Tilt::default(),
             effects: self.effects.count(),
         }
+    }
+
+    /// Gives a motion the spindle's state in effect.
+    pub(crate) fn spindle_of(&self, motion: &mut Motion) {
+        (motion.spindle_on, motion.spindle_rpm) = (self.state.spindle.on(), self.state.spindle.rpm());
+        motion.spin = spin(&self.state, motion.radii, motion.kind, [&motion.start, &motion.end]);
     }
 
     /// The same, its coordinates unknown where a frame is not modelled.
@@ -274,7 +298,7 @@ impl<'d> Core<'d> {
         motion
     }
 
-    /// Under a frame that is not modelled X Y Z and vectors say nothing about the machine; rotary axes neither where it moves them.
+    /// Under a frame that is not modelled X Y Z and vectors say nothing about the machine; nor do rotary axes if it moves them.
     pub(crate) fn hide(&self, motion: &mut Motion) {
         let hidden = if self.unknown.hides_rotary() {
             LINEAR | ROTARY
@@ -291,7 +315,7 @@ impl<'d> Core<'d> {
         }
     }
 
-    /// Hands on the effects that were collected.
+    /// Emits the effects that were collected.
     pub(crate) fn hand_on_effects(&mut self, sink: &mut impl Sink) {
         for effect in self.effects.take() {
             sink.effect(effect);

@@ -13,7 +13,7 @@ use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::{atan2, tan};
 use trunnion_syntax::{TextRange, Value, Word};
 
-/// A corner that waits for the motion after it.
+/// A corner that needs the motion after it.
 #[derive(Clone, Debug)]
 struct Waiting {
     told: Told,
@@ -26,7 +26,7 @@ struct Waiting {
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Corners {
-    /// What the block in hand says: letter and mm.
+    /// The corner word of the current block: letter and mm.
     pub(crate) word: Option<(u8, f64)>,
     waiting: Option<Box<Waiting>>,
 }
@@ -46,7 +46,7 @@ struct Cut {
     by: f64,
 }
 
-/// A place in the plane; a height that is not known counts as 0, as Y of a lathe that has none.
+/// A position in the plane; an unknown height is taken as 0, like Y of a lathe that has none.
 fn point(position: &Position, axes: [usize; 3]) -> Option<Vec3> {
     let mut point = Vec3::zeros();
     for axis in &axes[..2] {
@@ -92,7 +92,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 }
 
 impl Iso<'_> {
-    /// R, I or K beside a straight cut of a lathe along one axis: a rounded or chamfered corner (Fanuc Series 30i operator's manual, lathe
+    /// R, I or K with a straight cut of a lathe along one axis: a rounded or chamfered corner (Fanuc Series 30i operator's manual, lathe
     /// system, chamfering and corner R; with parameter 3405.4 CCR, C instead of I and K). The sign gives the direction of the next block, which
     /// is known from that block.
     pub(crate) fn turned_corner(&self, words: &Words) -> Option<(u8, Number)> {
@@ -113,7 +113,7 @@ impl Iso<'_> {
         round.or_else(|| cut().map(|value| sized(b'C', value)))
     }
 
-    /// Takes a motion of the block; what can go on is pushed to `on`.
+    /// Takes a motion of the block; what can be emitted is pushed to `on`.
     pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<Told>, report: &mut Report<'_>) {
         let mut told = (*motion, self.core.state.clone());
         if let Some(waiting) = self.memory.corners.waiting.take() {
@@ -229,7 +229,7 @@ impl Cut {
             normal[self.axes[2]] = 1.0;
             let radius = self.by / tan(0.5 * self.turn.abs());
             let inward = normal.cross(&self.first) * self.turn.signum();
-            // without its height the arc is true in its plane only
+            // without its height the arc is valid only in its plane
             MotionKind::Arc(whole.then_some(Arc {
                 start: from,
                 end: to,

@@ -36,7 +36,7 @@ pub(crate) struct Cycle {
     pub(crate) reads: [bool; 3],
     /// G99: back to the R level, else to the level before the cycle.
     pub(crate) to_r: bool,
-    /// The place of the hole while the tool is off it by an unknown distance.
+    /// The position of the hole while the tool is off it by an unknown distance.
     pub(crate) hole_place: [Option<f64>; 2],
     /// Data of drilling cycles.
     pub(crate) hole: Hole,
@@ -91,7 +91,7 @@ impl<'d> Iso<'d> {
         self.core.state.motion = Some(Action::CannedCycle);
     }
 
-    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in force then, else the one before.
+    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in effect then, else the one before.
     pub(crate) fn cycle_off(&mut self, code: &Code) {
         self.memory.cycle.call = None;
         let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();

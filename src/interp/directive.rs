@@ -15,15 +15,15 @@ use trunnion_syntax::{Program, TextRange};
 pub enum Directive {
     /// Declares a tool.
     Tool(Tool),
-    /// `allow RULE because REASON` (reason may be empty: the check floor says so). On a line of its own it holds for the
-    /// whole program, beside words for its block.
+    /// `allow RULE because REASON` (reason may be empty: the check floor says so). On a line of its own it applies to the
+    /// whole program, next to words to its block.
     Allow {
         /// Rule's name.
         rule: String,
         /// Text after `because`.
         reason: String,
     },
-    /// `dialect NAME` or `machine NAME`: read before parsing; here only so that it is no error.
+    /// `dialect NAME` or `machine NAME`: read before parsing; here only so that it is not an error.
     Mode {
         /// `dialect` or `machine`.
         key: String,
@@ -39,7 +39,7 @@ const MARK: &[u8] = b"trunnion:";
 
 /// All directives of a program with the range of their comment.
 pub fn directives(program: &Program) -> Vec<(TextRange, Directive)> {
-    // most programs have none: look for the mark before looking at comments
+    // most programs have none: search for the mark before reading comments
     let source = program.source();
     let mut found = Vec::new();
     for at in memchr::memchr_iter(b':', source) {

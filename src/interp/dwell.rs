@@ -16,7 +16,7 @@ impl Iso<'_> {
             .motion_in_frame(kind, [position, position], self.core.held_orientation(), feed, report)
     }
 
-    /// Axes that are named in a dwell's block and are not its time.
+    /// Axes in the block of a dwell that are not its time.
     pub(crate) fn axes_beside_dwell(codes: &[Found<'_>], words: &Words) -> u16 {
         let named = words.axes.given | words.axes.unread;
         if named == 0 {

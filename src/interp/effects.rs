@@ -1,4 +1,4 @@
-//! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
+//! The effects of an ISO block: those of its codes and words that are neither in its motions nor in the modal state.
 mod assignments;
 mod collected;
 mod lengths;
@@ -26,7 +26,7 @@ use sort::{
 use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
 
-/// Whether a fault means that its block does more than its motions and the modal state hold.
+/// Whether a fault means that its block does more than its motions and the modal state contain.
 pub(crate) fn does_more(kind: &FaultKind) -> bool {
     !matches!(
         kind,
@@ -129,7 +129,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
+    /// Several codes that are compared by their words, or one that happens once: the codes in a fixed order, with all words that
     /// nothing else reads.
     fn several(&mut self, opaque: &[&Found<'_>], rest: Vec<Argument>, words: &Words, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
@@ -232,7 +232,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Letters of parameters in the block that no cycle in force reads.
+    /// Letters of parameters in the block that no active cycle reads.
     fn free_letters(&self, words: &Words) -> u32 {
         let parameters = (b'A'..=b'Z')
             .filter(|letter| self.core.dialect.role(*letter) == Some(Role::Parameter))
@@ -348,7 +348,7 @@ impl Iso<'_> {
                     if READ_COMMENTS.contains(&found.code.id.as_str()) {
                         event.extend(comments(view));
                     }
-                    // the operator may do anything at a stop; the control goes on from where it was
+                    // the operator may do anything at a stop; the control continues from where it was
                     self.core.effects.add_with(block, Effect::Event(event), Reach::Itself);
                 }
                 Sort::Group => {
@@ -366,7 +366,7 @@ impl Iso<'_> {
     }
 }
 
-/// Whether a word of the block has a value that is not known.
+/// Whether a word of the block has a value that is unknown.
 fn has_unread(words: &Words) -> bool {
     let values = [
         words.feed,

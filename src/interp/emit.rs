@@ -1,4 +1,4 @@
-//! The motion of an ISO block, from its words and what is in force.
+//! The motion of an ISO block, from its words and the modal state.
 use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
 use crate::core::Report;
@@ -12,7 +12,7 @@ use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::Turning;
 
-/// A coordinate that differs by no more than this has not moved, mm: sums of offsets round.
+/// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
 const STANDS_MM: f64 = 1e-9;
 
 impl Iso<'_> {
@@ -92,7 +92,7 @@ impl Iso<'_> {
     }
 
     /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along the tool at home, its length. Under tool
-    /// centre point control the linear axes of one are not known from the other.
+    /// centre point control the linear axes of one do not give those of the other.
     pub(crate) fn to_machine(&self, position: &mut Position, sign: f64) {
         for (value, zero) in position.values.iter_mut().zip(self.core.state.zero.values()) {
             *value += sign * zero;
@@ -123,7 +123,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Where the coordinates of the block lead: what is not given stays, what cannot be computed is forgotten.
+    /// The end of the block: coordinates that are not given stay, those that cannot be computed become unknown.
     pub(crate) fn targets(&self, axes: &Places<9>, machine: bool, end: &mut Position) {
         let mut rest = axes.given;
         while rest != 0 {
@@ -158,7 +158,7 @@ impl Iso<'_> {
         end.known &= !axes.unread;
     }
 
-    /// In a tilted plane, without the tip being led, rotary words alone turn the tool away from where it was in the plane.
+    /// In a tilted plane, without the tip being guided, rotary words alone turn the tool away from where it was in the plane.
     fn turned_by_hand(&self, words: &Words, end: &mut Position, machine: bool) {
         let named = words.axes.given | words.axes.unread;
         if self.memory.frames.tilt.is_some()
@@ -171,7 +171,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Letters whose words are no plain places: [`Motion::says_way`].
+    /// Letters whose words are not plain positions: [`Motion::says_way`].
     fn says_way(&self, axes: &Places<9>, machine: bool) -> u16 {
         let directed = axes.shortest | axes.positive | axes.negative;
         let modal = if self.core.state.coordinates.incremental() && !machine {
@@ -240,8 +240,8 @@ impl Iso<'_> {
         self.core.feed(kind, range, report)
     }
 
-    /// F counts degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
-    /// not move. A full circle names none of them and runs all the same.
+    /// F is in degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
+    /// not move. A full circle names none of them and still moves.
     fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
         let named = words.axes.given | words.axes.unread;
         let inch = self.core.state.feed.unit_mm();

@@ -3,7 +3,7 @@ use crate::core::Core;
 use crate::{Argument, ChainId, Frame, Sink};
 use trunnion_syntax::{BlockId, Program};
 
-/// A language engine between two blocks. Cloning it makes a check-point to go on from.
+/// A language engine between two blocks. Cloning it makes a check-point to continue from.
 pub(crate) trait Engine<'d>: Clone {
     /// What every engine has.
     fn core(&self) -> &Core<'d>;
@@ -25,7 +25,7 @@ pub(crate) trait Engine<'d>: Clone {
         let _ = text;
         None
     }
-    /// Variables that outlive the program and whose value is known.
+    /// Variables that keep their values after the program ends and whose value is known.
     fn outliving(&self) -> Vec<(String, f64)> {
         Vec::new()
     }
@@ -33,7 +33,7 @@ pub(crate) trait Engine<'d>: Clone {
     fn returns_to_r(&self) -> bool {
         false
     }
-    /// All variables that are known, or were when something that is not followed ran, by name.
+    /// All variables that are known, or were known before something ran that is not followed, by name.
     fn known_variables(&self) -> Vec<Argument> {
         let known = self.outliving().into_iter();
         known.map(|(name, value)| Argument::number(name, value)).collect()

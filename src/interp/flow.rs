@@ -37,12 +37,12 @@ pub(crate) struct Flow {
 pub(crate) struct Trail {
     pub(crate) course: Course<Level>,
     pub(crate) library: Library,
-    /// Where jumps may lead, by file.
+    /// Targets of jumps, by file.
     indexes: Vec<Option<Arc<Index>>>,
     told: Told,
 }
 
-/// What a language keeps of a call.
+/// What a language stores for a call.
 #[derive(Clone, Debug)]
 pub(crate) enum Level {
     /// A section of the program that is repeated: nothing.
@@ -51,10 +51,10 @@ pub(crate) enum Level {
     Sinumerik(Box<sinumerik::Level>),
 }
 
-/// Where jumps of a file may lead.
+/// Targets of the jumps of a file.
 pub(crate) type Index = trunnion_flow::Index<Broken>;
 
-/// What a block asks for.
+/// What a block requests.
 pub(crate) type Transfer = trunnion_flow::Transfer<Label, Calling, Back>;
 
 /// A mistake in the structure of a file, with its place.
@@ -71,7 +71,7 @@ pub(crate) struct Broken {
 pub(crate) struct Label {
     pub(crate) key: Key,
     pub(crate) range: TextRange,
-    /// A target that is missing is no mistake: the run goes on (GOTOC).
+    /// A missing target is not a mistake: the run continues (GOTOC).
     pub(crate) may_miss: bool,
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct Back {
     pub(crate) range: TextRange,
 }
 
-/// A call that a block asks for.
+/// A call that a block requests.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Calling {
     pub(crate) program: Key,
@@ -99,7 +99,7 @@ pub(crate) enum With {
 }
 
 impl Trail {
-    /// Where jumps of a file may lead.
+    /// Targets of the jumps of a file.
     pub(crate) fn index(&mut self, file: u16, read: impl FnOnce() -> Index) -> Arc<Index> {
         let place = usize::from(file);
         if self.indexes.len() <= place {

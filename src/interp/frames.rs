@@ -1,4 +1,4 @@
-//! Coordinates that the program shifts, turns, scales, mirrors or gives as radius and angle. Shifts are part of the zero point; the
+//! Coordinates that the program shifts, rotates, scales, mirrors or gives as radius and angle. Shifts are part of the zero point; the
 //! rest is a [`Shape`] between the words and the work coordinates in which motions are expressed.
 mod data_entry;
 mod polar;
@@ -37,7 +37,7 @@ pub(crate) struct Frames {
     pub(crate) polar: Option<Polar>,
     /// The tilted working plane in whose coordinates everything is expressed until motions are emitted.
     pub(crate) tilt: Option<Tilted>,
-    /// The position as the words have it, while a shape is in force; good as long as the work position is `synced`.
+    /// The position in the coordinates of the words, while a shape is active; valid as long as the work position is `synced`.
     programmed: Position,
     synced: Position,
     /// Axes of a plane that was turned and that no word has given since.
@@ -76,7 +76,7 @@ impl Frames {
     fn is_needed(&self) -> bool {
         !self.shape.is_identity() || self.polar.is_some() || self.fresh != 0 || self.must_be_absolute != 0
     }
-    /// The position as the words have it.
+    /// The position in the coordinates of the words.
     pub(crate) fn programmed(&mut self, work: &Position) -> Position {
         if !self.active {
             return *work;
@@ -87,7 +87,7 @@ impl Frames {
         }
         self.programmed
     }
-    /// The work position of a position as the words have it, which the tool then has.
+    /// The work position of a position in the coordinates of the words, which the tool then has.
     pub(crate) fn arrive(&mut self, programmed: Position) -> Position {
         if !self.active {
             return programmed;
@@ -98,14 +98,14 @@ impl Frames {
         self.active = self.is_needed();
         work
     }
-    /// What is left of a motion's kind in work coordinates.
+    /// The kind of a motion in work coordinates.
     pub(crate) fn kind_to_work(&self, kind: MotionKind) -> MotionKind {
         match kind {
             MotionKind::Arc(Some(arc)) if self.active => MotionKind::Arc(self.shape.arc_to_work(&arc)),
             kind => kind,
         }
     }
-    /// All that is added to the selected zero point.
+    /// Everything that is added to the selected zero point.
     pub(crate) fn added(&self, axis: usize) -> f64 {
         self.external[axis] + self.shift[axis] + self.local[axis]
     }

@@ -68,7 +68,7 @@ impl<'d> Iso<'d> {
         self.codes = codes;
     }
 
-    /// Hands the effects of a block on.
+    /// Emits the effects of a block.
     #[cold]
     fn collect(
         &mut self,
@@ -97,7 +97,7 @@ impl<'d> Iso<'d> {
         over
     }
 
-    /// Hands the motions of a block on.
+    /// Emits the motions of a block.
     #[inline]
     fn put_out(&mut self, motion: Option<&Motion>, block: &Block<'_>, sink: &mut impl Sink) {
         let memory = &self.memory;
@@ -148,7 +148,7 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// What waits at the end of a program without an end.
+    /// What is pending at the end of a program without an end code.
     pub(crate) fn put_out_rest(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
             self.core.state.ended = true;
@@ -317,7 +317,7 @@ impl<'d> Iso<'d> {
         None
     }
 
-    /// Motions of codes that hold for one block.
+    /// Motions of codes that apply to one block.
     fn special_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Option<Motion> {
         if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_numbers(words, report);
@@ -334,7 +334,7 @@ impl<'d> Iso<'d> {
         None
     }
 
-    /// Tells the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
+    /// Reports the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
     fn whole_numbers(&mut self, words: &Words, report: &mut Report<'_>) {
         if self.core.setup.control.implicit_decimals.is_some() {
             return;

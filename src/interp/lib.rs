@@ -14,6 +14,7 @@ mod core;
 mod corner;
 mod cycles;
 mod directive;
+mod drawing;
 mod dwell;
 mod effects;
 mod emit;
@@ -31,11 +32,14 @@ mod reported;
 mod rs274;
 mod run;
 mod sinumerik;
+mod spin;
+mod standing;
 mod start;
 mod system;
 mod tcp;
 mod tools;
 mod travel;
+
 mod unknown;
 mod unmodelled;
 mod unused;
@@ -50,7 +54,7 @@ pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
     FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library, Limits, Loaded,
     ModalState, Motion, MotionKind, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Reach, Refusal,
-    RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolShape,
+    RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolShape,
     Undeclared, Value, WorkOffset, same_number,
 };
 pub use written::canonical_text;

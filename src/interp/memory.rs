@@ -1,4 +1,4 @@
-//! What the engine of ISO programs remembers beside the modal state.
+//! What the engine of ISO programs remembers in addition to the modal state.
 use trunnion_dialect::Action;
 
 /// See the module.
@@ -14,7 +14,7 @@ pub(crate) struct Memory<'d> {
     pub(crate) tcp_group: Option<&'d str>,
     /// How the axes run between positions under a transformation.
     pub(crate) travel: crate::travel::Travel,
-    /// STAT in force.
+    /// STAT in effect.
     pub(crate) status: Option<u16>,
     /// A turning cycle's block and the last of its contour, which the cycle has run.
     pub(crate) passed_over: Option<(u32, u32)>,
@@ -22,20 +22,20 @@ pub(crate) struct Memory<'d> {
     pub(crate) in_contour: bool,
     /// First blocks of contours whose faults were reported.
     pub(crate) contours_told: Vec<u32>,
-    /// What G10.9 says of X: a diameter, or a radius.
+    /// X by G10.9: a diameter, or a radius.
     pub(crate) diameter: Option<bool>,
     /// A tool vector has turned the rotary axes.
     pub(crate) led_by_vector: bool,
     /// It was reported that no code loads the tool that T selected.
     pub(crate) tool_never_changed: bool,
-    /// Cutting edge in force (D); `None` before the first.
+    /// Active cutting edge (D); `None` before the first.
     pub(crate) edge: Option<u32>,
     /// Last H.
     pub(crate) length_offset: Option<u32>,
     pub(crate) before_cycle: Option<Action>,
     /// Coordinates that the program shifts and turns.
     pub(crate) frames: crate::frames::Frames,
-    /// The drilling or turning cycle in force.
+    /// The active drilling or turning cycle.
     pub(crate) cycle: crate::cycles::Cycle,
     /// Rounded and cut off corners.
     pub(crate) corners: crate::corner::Corners,
@@ -43,7 +43,9 @@ pub(crate) struct Memory<'d> {
     pub(crate) compensation: crate::compensation::Compensation,
     /// Variables of a Sinumerik program.
     pub(crate) own: crate::own::Own,
-    /// Motions of the block in hand beside its last.
+    /// Motions of the current block except its last.
     pub(crate) out: Vec<crate::Motion>,
     pub(crate) percent_seen: bool,
+    /// M24 of a Haas lathe: threads are left at their end.
+    pub(crate) thread_chamfer_off: bool,
 }

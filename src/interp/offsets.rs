@@ -1,4 +1,4 @@
-//! Work offsets, tool lengths and cutting edges, and what they do to the programmed position.
+//! Work offsets, tool lengths and cutting edges, and their effect on the programmed position.
 use crate::codes::Found;
 use crate::core::Report;
 use crate::frames::OffsetValues;
@@ -38,7 +38,7 @@ impl Iso<'_> {
         self.refresh_zero();
     }
 
-    /// Selects no work offset (G500): what is left of the zero point is its base, which may be declared under that name.
+    /// Selects no work offset (G500): the rest of the zero point is its base, which may be declared under that name.
     pub(crate) fn no_work_offset(&mut self, name: &str) {
         let base = self.offset_values(name).unwrap_or_default();
         self.set_zero(None, base);
@@ -121,7 +121,7 @@ impl Iso<'_> {
         Some(offset.length.or_else(declared)? + offset.length_wear)
     }
 
-    /// D: the cutting edge in force. Edge 1 has the tool's declared length, 0 none.
+    /// D: the active cutting edge. Edge 1 has the tool's declared length, 0 none.
     pub(crate) fn edge_word(&mut self, edge: Said, report: &mut Report<'_>) {
         let range = edge.number().map_or(TextRange::default(), |number| number.range);
         self.memory.edge = edge.index();
@@ -133,8 +133,8 @@ impl Iso<'_> {
         }
     }
 
-    /// A feed motion while T has chosen the first tool and nothing has brought it: where T alone changes tools the length of the tool is in
-    /// force, elsewhere it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
+    /// A feed motion while T has selected the first tool and no code has loaded it: if T alone changes tools the length of the tool is active,
+    /// otherwise it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
     pub(crate) fn tool_never_changed(&mut self, words: &Words, report: &mut Report<'_>) {
         let waits = *self.core.tools.in_spindle() == Chosen::Nothing
             && self.core.dialect.quirks.edge_at_tool_change
@@ -165,7 +165,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, reported once.
+    /// Makes a tool's length active, with its name and its tool; if it is not declared it is zero, reported once.
     fn take_length(
         &mut self,
         tool: Option<Tool>,

@@ -1,4 +1,4 @@
-//! Variables of a Sinumerik program's own: R parameters, DEF, and names that are declared elsewhere.
+//! User variables of a Sinumerik program: R parameters, DEF, and names that are declared elsewhere.
 //!
 //! Sinumerik 840D sl Programming Manual, Job Planning (variables; arithmetic operations and functions): INT variables are rounded when
 //! they are written, a variable of DEF is zero before that and local to its program, R parameters are not. Expressions:
@@ -12,13 +12,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::{FormulaErrorKind, ValueError};
 use trunnion_syntax::{Call, TextRange};
 
-/// What DEF says of a variable.
+/// The type of a variable in DEF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sort {
     Real,
     Int,
     Bool,
-    /// A text, frame, axis or field: its value is not followed.
+    /// A string, frame, axis or array: its value is not followed.
     Other,
 }
 
@@ -39,7 +39,7 @@ impl Sort {
         Some(found.1)
     }
 
-    /// What a variable holds when a value is written to it; `None`: not known.
+    /// What a variable holds when a value is written to it; `None`: unknown.
     fn takes(self, value: f64) -> Option<f64> {
         match self {
             Self::Real => Some(value),
@@ -64,37 +64,37 @@ pub(crate) struct Own {
     /// Names that the program does not declare.
     others: BTreeMap<Box<str>, f64>,
     scope: Scope,
-    /// What was last written, word for word, to names whose values are not followed: texts, axes, fields, expressions that are unknown.
+    /// What was last written, word for word, to names whose values are not followed: strings, axes, arrays, unknown expressions.
     texts: BTreeMap<Box<str>, Box<str>>,
-    /// What was known when it was lost.
+    /// The values that were known before they were lost.
     before_loss: BTreeMap<Box<str>, f64>,
-    /// Written in the block in hand: when the control writes is not documented, so they are not read in the same block.
+    /// Written in the current block: when the control writes is not documented, so they are not read in the same block.
     fresh: Vec<Box<str>>,
-    /// Grows with whatever may make a decision come out otherwise than before.
+    /// Grows with everything that may change the outcome of a decision.
     pub(crate) changes: u64,
     /// Jumps and calls are followed.
     pub(crate) follows: bool,
     /// A subprogram runs, so that M17, M2 and M30 return.
     pub(crate) is_called: bool,
-    /// Where a statement of the flow begins in the block in hand.
+    /// Where a statement of the flow begins in the current block.
     pub(crate) statement: Option<TextRange>,
-    /// A name in the block in hand that no code has: a subprogram, it may be.
+    /// A name in the current block that is not a code: perhaps a subprogram.
     pub(crate) called: Option<Call>,
-    /// `L20` in the block in hand.
+    /// `L20` in the current block.
     pub(crate) called_by_number: Option<TextRange>,
-    /// What the block in hand asks for, done when it has run.
+    /// What the current block requests, done when it has run.
     pub(crate) pending: Option<Transfer>,
     /// The last values of FOR loops, by file and block.
     pub(crate) counted_to: HashMap<(u16, u32), f64>,
-    /// Names that are no programs of the library.
+    /// Names that are not programs of the library.
     pub(crate) missing: BTreeSet<Box<str>>,
-    /// Whether a file has heads of programs (`%_N_`), by its number.
+    /// Whether a file has program headers (`%_N_`), by its number.
     pub(crate) headed: HashMap<u16, bool>,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
 }
 
-/// What formulas read from, and the first name whose value was not known.
+/// The source of variables for formulas, and the first name whose value was not known.
 struct View<'a> {
     own: &'a Own,
     unknown: RefCell<Option<String>>,
@@ -121,7 +121,7 @@ impl trunnion_formula::Variables for View<'_> {
         let reason = if fresh {
             "written in the same block"
         } else {
-            "its value is not known here"
+            "its value is unknown here"
         };
         Ok(self.give(value, || format!("R{index}: {reason}")))
     }
@@ -130,11 +130,11 @@ impl trunnion_formula::Variables for View<'_> {
         let value = self.own.read(name);
         Ok(self.give(value, || match name.as_bytes() {
             [b'$', ..] => format!("{}: a variable of the control", shown()),
-            [.., b'['] => format!("{}[]: elements of fields are not followed", shown()),
+            [.., b'['] => format!("{}[]: array elements are not followed", shown()),
             [.., b'('] => format!("{}(): the function is not modelled", shown()),
-            [b'"'] => "texts are not followed".to_owned(),
+            [b'"'] => "strings are not followed".to_owned(),
             _ if self.own.is_fresh(name) => format!("{}: written in the same block", shown()),
-            _ if self.own.is_declared(name) => format!("{}: its value is not known here", shown()),
+            _ if self.own.is_declared(name) => format!("{}: its value is unknown here", shown()),
             _ => format!("{}: not declared in this program", shown()),
         }))
     }
@@ -148,7 +148,7 @@ impl Own {
     pub(crate) fn begin_block(&mut self) {
         self.fresh.clear();
     }
-    /// No variable has a value that is known.
+    /// All variables have unknown values.
     pub(crate) fn lose(&mut self) {
         self.changes += 1;
         let known = self.known();
@@ -164,19 +164,19 @@ impl Own {
         let named = (self.others.iter().chain(&self.scope.values)).map(|(name, value)| (name.clone(), *value));
         parameters.chain(named).collect()
     }
-    /// R parameters with the values that are known: they outlive the program.
+    /// R parameters with known values: they keep their values after the program ends.
     pub(crate) fn parameters(&self) -> impl Iterator<Item = (String, f64)> {
         self.parameters
             .iter()
             .map(|(number, value)| (format!("R{number}"), *value))
     }
-    /// Notes what is written to a name whose value is not followed.
+    /// Records what is written to a name whose value is not followed.
     pub(crate) fn note_text(&mut self, name: &str, text: &str) {
         let name: Box<str> = crate::written::packed(name).to_ascii_lowercase().into();
         let text = crate::written::packed(text);
         self.texts.insert(name, text.into());
     }
-    /// All that is known of the variables: values, those from before they were lost, and what was written where the value is not known.
+    /// All that is known of the variables: values, those from before they were lost, and what was written where the value is unknown.
     pub(crate) fn all(&self) -> Vec<Argument> {
         let mut values = self.before_loss.clone();
         values.extend(self.known());
@@ -189,7 +189,7 @@ impl Own {
             .map(|(name, text)| Argument::text(name.to_string(), text));
         values.chain(texts).collect()
     }
-    /// What is known of the variables that a text names.
+    /// The known values of the variables that a text names.
     pub(crate) fn named_in(&self, text: &str) -> Vec<Argument> {
         let lower = text.to_ascii_lowercase();
         let words: Vec<&str> = lower
@@ -206,12 +206,12 @@ impl Own {
         all.retain(|argument| words.contains(&stem(&argument.name).as_str()));
         all
     }
-    /// A subprogram begins with variables of its own; those of the caller come back.
+    /// A subprogram begins with its own variables; returns those of the caller.
     pub(crate) fn begin_scope(&mut self) -> Scope {
         self.changes += 1;
         std::mem::take(&mut self.scope)
     }
-    /// The caller goes on with its variables; those of the subprogram come back.
+    /// The caller continues with its variables; returns those of the subprogram.
     pub(crate) fn end_scope(&mut self, caller: Scope) -> Scope {
         self.changes += 1;
         std::mem::replace(&mut self.scope, caller)
@@ -232,7 +232,7 @@ impl Own {
                 };
                 Some(number)
             }
-            // elements of fields are not kept
+            // array elements are not kept
             Some(_) => return,
         };
         if let Some(number) = parameter {
@@ -261,7 +261,7 @@ impl Own {
         self.scope.sorts.insert(name.as_str().into(), sort);
         self.assign(&name, value);
     }
-    /// `DEF REAL A, B=3`: all behind DEF.
+    /// `DEF REAL A, B=3`: everything after DEF.
     pub(crate) fn define(&mut self, text: &str) {
         let Some((kind, names)) = text.trim().split_once(char::is_whitespace) else {
             return;
@@ -285,7 +285,7 @@ impl Own {
             }
         }
     }
-    /// `EXTERN GROOVE(REAL)`: all behind EXTERN.
+    /// `EXTERN GROOVE(REAL)`: everything after EXTERN.
     pub(crate) fn declare_subprogram(&mut self, text: &str) {
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let name = text.trim().split(|c| !is_name(c)).next().unwrap_or_default();
@@ -298,7 +298,7 @@ impl Own {
         let whole = text.get(end..).is_some_and(|rest| rest.trim().is_empty());
         value.filter(|value| whole && value.is_finite())
     }
-    /// The expression that begins at `from`, as far as it goes: its value or why that is not known, and where it ends.
+    /// The expression that begins at `from`, as far as it extends: its value or why that is unknown, and where it ends.
     pub(crate) fn evaluate(
         &self,
         text: &[u8],
@@ -345,7 +345,7 @@ impl Scope {
     }
 }
 
-/// The parts between commas outside of brackets and texts.
+/// The parts between commas outside of brackets and strings.
 pub(crate) fn arguments(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut deep, mut quoted, mut from) = (0i32, false, 0);

@@ -9,7 +9,7 @@ use crate::{AXIS_LETTERS, AllClampCodes, Clamps, FaultKind};
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
 use trunnion_syntax::{Address, BlockId, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
 
-/// No coordinate, feed or number of a tool is larger; squares and sums stay finite.
+/// No coordinate, feed or tool number may be larger; squares and sums stay finite.
 pub(crate) const LARGEST: f64 = 1e12;
 
 /// Index in [`AXIS_LETTERS`] of each letter from A; `NO_AXIS` where it is none.
@@ -65,7 +65,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         self.take_other(item);
     }
 
-    /// The word that programs are full of, an axis with a number, without detours; false where it is another.
+    /// The most frequent word, an axis with a number, on a short path; false for other words.
     #[inline]
     fn plain_axis(&mut self, letter: u8, decimal: Decimal, word: &Word) -> bool {
         let Some(axis) = axis_index(letter) else { return false };
@@ -177,7 +177,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
     }
 
-    /// `A3=`, `S2=`, `R1=`: first as a name of its own, then a further spindle, tool or function, else a variable.
+    /// `A3=`, `S2=`, `R1=`: first as a name, then as a further spindle, tool or function, else as a variable.
     fn indexed_word(&mut self, letter: u8, index: u16, word: &Word) {
         let mut name = [0u8; 6];
         name[0] = letter;
@@ -372,7 +372,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         self.dialect.name(name)
     }
 
-    /// Text that is neither word nor name: an assignment or condition, unless the syntax has called it wrong already.
+    /// Text that is neither word nor name: an assignment or condition, unless the syntax has reported it already.
     fn other(&mut self, range: TextRange) {
         let overlaps = |error: &SyntaxError| error.range.start < range.end && range.start < error.range.end;
         let errors = self.program.errors();

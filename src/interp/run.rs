@@ -8,7 +8,7 @@ use crate::{ChainId, Frame, ModalState, ProgramRun, Setup, Sink, Tool};
 use trunnion_dialect::{Dialect, Language};
 use trunnion_syntax::{BlockId, Format, Program};
 
-/// An interpreter between two blocks. Cloning it makes a check-point to go on from.
+/// An interpreter between two blocks. Cloning it makes a check-point to continue from.
 #[derive(Clone)]
 pub struct Interpreter<'d> {
     engine: Engines<'d>,
@@ -21,7 +21,7 @@ enum Engines<'d> {
     Ngc(Box<Ngc<'d>>),
 }
 
-/// Does the same with whichever engine runs.
+/// Does the same for every engine.
 macro_rules! with_engine {
     ($interpreter:expr, $engine:ident => $do:expr) => {
         match $interpreter {
@@ -50,8 +50,8 @@ impl<'d> Interpreter<'d> {
         Self { engine }
     }
 
-    /// Runs one block, for callers that choose the blocks themselves: jumps, loops and calls are never followed, so that nothing is
-    /// known of variables after the first of them. The first step also reads the program's own declarations of tools; the step of
+    /// Runs one block, for callers that choose the blocks themselves: jumps, loops and calls are never followed, so all variables
+    /// are unknown after the first of them. The first step also reads the program's own declarations of tools; the step of
     /// the last block reports a missing program end. Blocks after the program's end are not run. LinuxCNC's own engine chooses its lines
     /// itself: the first step replaces it by the engine of the other controls.
     pub fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
@@ -87,15 +87,20 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => engine.advance(program, sink))
     }
 
-    /// What is in force.
+    /// What is in effect.
     #[inline]
     pub fn state(&self) -> &ModalState {
         with_engine!(&self.engine, engine => &engine.core().state)
     }
 
-    /// The same, to assume something before the first block.
+    /// The same, mutable, to assume something before the first block.
     pub fn state_mut(&mut self) -> &mut ModalState {
         with_engine!(&mut self.engine, engine => &mut engine.core_mut().state)
+    }
+
+    /// Axes that stand at 0 because the machine lacks them or the program never names them: bits as in [`crate::Position::known`].
+    pub fn standing(&self) -> u16 {
+        with_engine!(&self.engine, engine => engine.core().standing.axes())
     }
 
     /// Asks for effects: without, [`Sink::effect`] is never called.
@@ -103,7 +108,7 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => engine.core_mut().effects.watch());
     }
 
-    /// What is in force now, for something that is not modelled.
+    /// The modal state, for something that is not modelled.
     pub fn situation(&self) -> crate::Situation {
         with_engine!(&self.engine, engine => crate::Situation::new(&engine.core().state, engine.returns_to_r()))
     }
@@ -113,7 +118,7 @@ impl<'d> Interpreter<'d> {
         with_engine!(&self.engine, engine => engine.core().losses)
     }
 
-    /// All variables that are known, or were when something that is not followed ran, by name.
+    /// All variables that are known, or were known before something ran that is not followed, by name.
     pub fn known_variables(&self) -> Vec<crate::Argument> {
         with_engine!(&self.engine, engine => engine.known_variables())
     }
@@ -137,7 +142,7 @@ impl<'d> Interpreter<'d> {
         with_engine!(&self.engine, engine => engine.resolved_text(text))
     }
 
-    /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is not known.
+    /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is unknown.
     pub fn tool(&self) -> Option<Tool> {
         self.state().tool.data()
     }

@@ -26,7 +26,7 @@ pub(crate) fn no_label(message: String) -> FaultKind {
     }
 }
 
-/// Why the outcome of a jump is not known: it leads into a structure from outside, or out of a section that is repeated.
+/// Why the outcome of a jump is unknown: it goes into a structure from outside, or out of a section that is repeated.
 pub(crate) fn wrong_target(index: &Index, repeated: Option<(u32, u32)>, (from, to): (u32, u32)) -> Option<FaultKind> {
     let enters = index.loops.entered(from, to, |_| true).is_some();
     let leaves = repeated.is_some_and(|(first, last)| !(first..=last).contains(&to));

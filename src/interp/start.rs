@@ -1,10 +1,10 @@
-//! What is in force before the first block.
+//! The modal state before the first block.
 use crate::{FeedMode, ModalState, Orientation, Position};
 use trunnion_dialect::{Dialect, Plane};
 use trunnion_syntax::Format;
 use trunnion_vocabulary::{Coordinates, FeedWord, Spindle, ToolAxis, ToolInUse, ToolLength, Zero};
 
-/// What is in force before the first block: nothing is known of the position, lengths are mm, F is per minute, of a lathe per turn.
+/// The modal state before the first block: the position is unknown, lengths are mm, F is per minute, on a lathe per revolution.
 pub(crate) fn at_start(dialect: &Dialect) -> ModalState {
     let mut tool_axis = ToolAxis::default();
     // CL data say where the tool's tip is

@@ -6,7 +6,7 @@ use trunnion_dialect::Dialect;
 /// What an assignment to a variable of the control may change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum SystemWrite {
-    /// Nothing that positions depend on, or the variable is the program's own.
+    /// Nothing that positions depend on, or a variable of the program itself.
     #[default]
     Nothing,
     /// It is not followed, but moves neither zero points nor tools (counters, outputs).
@@ -44,7 +44,7 @@ pub(crate) fn system_write(dialect: &Dialect, name: &[u8]) -> SystemWrite {
             match digits.parse::<u32>() {
                 Ok(number) if number <= dialect.quirks.own_parameters_to => SystemWrite::Nothing,
                 Ok(number) if without_position(number) => SystemWrite::Harmless,
-                // a number that is reckoned may be any
+                // a computed number may be any
                 _ => SystemWrite::Meaning,
             }
         }

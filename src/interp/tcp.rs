@@ -38,7 +38,7 @@ impl<'d> Iso<'d> {
 }
 
 impl Iso<'_> {
-    /// What is wrong with tool centre point control in a motion by words of a block.
+    /// Mistakes of tool centre point control in a motion with words of a block.
     pub(crate) fn tcp_mistakes(&mut self, motion: &Motion, words: &Words, report: &mut Report<'_>) {
         let range = words.first.unwrap_or_default();
         if let Some(mistake) = self.tcp_mistake(motion) {
@@ -88,7 +88,7 @@ fn turned(start: &Position, end: &Position) -> bool {
         .any(|(axis, value)| start.get(axis) != Some(value))
 }
 
-/// What of a code for tool centre point control is not modelled: TRAORI of another transformation than the first, or with further
+/// Forms of a code for tool centre point control that are not modelled: TRAORI of another transformation than the first, or with further
 /// arguments; G43.4 with P, Q or L, which choose modes.
 pub(crate) fn tcp_variant(found: &Found<'_>, words: &Words, report: &Report<'_>) -> Option<String> {
     let code = &found.code.id;

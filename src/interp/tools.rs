@@ -7,7 +7,7 @@ use crate::{LengthOf, Setup, Tool};
 use std::sync::Arc;
 use trunnion_syntax::Program;
 
-/// The tool that T has chosen and M6 will bring.
+/// The tool that T has selected and M6 will load.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Chosen {
     /// No T yet.
@@ -34,7 +34,7 @@ pub(crate) struct Tools {
     lengths_reported: Reported,
 }
 
-/// Lays `over` on `under`: what it declares counts.
+/// Merges `over` into `under`: what `over` declares wins.
 fn lay(over: Option<&Tool>, under: Tool) -> Tool {
     let Some(over) = over else { return under };
     // a shape and its diameter belong together
@@ -55,7 +55,7 @@ fn numbered(tools: &[Tool], number: u32) -> Option<&Tool> {
 }
 
 impl Tools {
-    /// T has chosen a tool.
+    /// T has selected a tool.
     pub(crate) fn prepare(&mut self, chosen: Chosen) {
         self.prepared = chosen;
     }
@@ -65,11 +65,11 @@ impl Tools {
     pub(crate) fn in_spindle(&self) -> &Chosen {
         &self.in_spindle
     }
-    /// A tool comes into the spindle.
+    /// A tool is loaded into the spindle.
     pub(crate) fn load(&mut self, chosen: Chosen) {
         self.in_spindle = chosen;
     }
-    /// The prepared tool comes into the spindle; whether there is one.
+    /// The prepared tool is loaded into the spindle; returns whether there is one.
     pub(crate) fn load_prepared(&mut self) -> bool {
         let any = self.prepared != Chosen::Nothing;
         if any {
@@ -77,7 +77,7 @@ impl Tools {
         }
         any
     }
-    /// A tool is chosen that is not the one in the spindle.
+    /// A tool is selected that is not the one in the spindle.
     pub(crate) fn waits_for_change(&self) -> bool {
         self.prepared != Chosen::Nothing && self.prepared != self.in_spindle
     }
@@ -95,7 +95,7 @@ impl Tools {
             self.cutter = None;
         }
     }
-    /// Reads the tools that the program's comments declare, once; whether this was the time.
+    /// Reads the tools that the program's comments declare, once; returns whether this was the first time.
     pub(crate) fn read_directives(&mut self, program: &Program) -> bool {
         if std::mem::replace(&mut self.directives_read, true) {
             return false;
@@ -117,7 +117,7 @@ impl Tools {
         self.lengths_reported.first(tool)
     }
     /// What is declared about the tool of a number, or the one in use, merged; `None` when nothing is declared and its number is unknown. In
-    /// order of weight: number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup. A
+    /// order of precedence: number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup. A
     /// program that names no tool uses the only one that its comments declare.
     pub(crate) fn data(&self, number: Option<u32>, setup: &Setup) -> Option<Tool> {
         let declared = &self.declared;

@@ -1,6 +1,6 @@
-//! Point-to-point travel of a Sinumerik under TRAORI (PTP, PTPG0, CP) and its words STAT and TU: the position is programmed as ever, the
-//! axes run there synchronously, each straight (840D sl Programming Manual, Job Planning, 03/2013, section 6.9). STAT is modal, TU holds
-//! for its block; with continuous-path travel the posture stays what it is, and neither is followed.
+//! Point-to-point travel of a Sinumerik under TRAORI (PTP, PTPG0, CP) and its words STAT and TU: the position is programmed as usual, the
+//! axes move there synchronously and linearly (840D sl Programming Manual, Job Planning, 03/2013, section 6.9). STAT is modal, TU applies
+//! to its block; with continuous-path travel the posture does not change, and neither is followed.
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::reader::Reader;
@@ -13,12 +13,12 @@ use trunnion_syntax::{TextRange, Value, Word};
 /// How the axes run between two positions under a transformation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Travel {
-    /// CP: the tip is led.
+    /// CP: the tip is guided.
     #[default]
     Continuous,
     /// PTP.
     PointToPoint,
-    /// PTPG0: point to point in rapid motions, else the tip is led.
+    /// PTPG0: point to point in rapid motions, else the tip is guided.
     PointToPointRapid,
 }
 
@@ -33,7 +33,7 @@ impl Travel {
     }
 }
 
-/// What STAT and TU of a block say, and where.
+/// STAT and TU of a block, with their places.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PostureWords {
     pub(crate) status: Option<(Option<u16>, TextRange)>,
@@ -67,7 +67,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 }
 
 impl Iso<'_> {
-    /// Makes a motion point to point where that is active, and reports STAT and TU where they are followed or not.
+    /// Makes a motion point to point if that is active, and reports STAT and TU where they are followed or not.
     pub(crate) fn travel(&mut self, motion: &mut Motion, words: &Words, report: &mut Report<'_>) {
         let said = words.posture;
         let straight = matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear);

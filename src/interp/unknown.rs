@@ -12,7 +12,7 @@ struct Frame<'d> {
     rotary: bool,
 }
 
-/// No group has a name with a blank in it.
+/// No group name contains a blank.
 const FOR_GOOD: &str = "for good";
 
 /// See the module.

@@ -1,4 +1,4 @@
-//! Words that no code of their block, and no code in force, reads: they were meant for something, and do nothing.
+//! Words that no code of their block, and no code in effect, reads: they were meant for something, and do nothing.
 //!
 //! Sources: grbl 1.1 documentation, error 36 (unused value words); Fanuc Series 30i operator's manual, G code list (which addresses each
 //! code has); RS274/NGC Interpreter, version 3 (NIST), section 3.5.
@@ -117,7 +117,7 @@ impl Iso<'_> {
         letters(code)
     }
 
-    /// Letters that what is in force reads: arcs, cycles, tool vectors, offsets that are modal.
+    /// Letters that what is in effect reads: arcs, cycles, tool vectors, offsets that are modal.
     pub(crate) fn read_in_force(&self, words: &Words, block: &BlockCodes) -> u32 {
         let mut read = 0;
         let role = |letter| self.core.dialect.role(letter);
@@ -148,7 +148,7 @@ impl Iso<'_> {
         }
     }
 
-    /// A further full circle: I, J, K alone while G2 or G3 is in force, and nothing else in the block reads them (Fanuc Series 30i operator's
+    /// A further full circle: I, J, K alone while G2 or G3 is in effect, and nothing else in the block reads them (Fanuc Series 30i operator's
     /// manual, circular interpolation: without an end point, I, J, K give an arc of 360 deg). grbl refuses such words.
     pub(crate) fn circle_goes_on(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes) -> bool {
         let is_arc = || {

@@ -42,7 +42,7 @@ pub(crate) struct Places<const N: usize> {
     pub(crate) values: [f64; N],
     /// A number is there.
     pub(crate) given: u16,
-    /// A word is there, its value is not known.
+    /// A word is there, its value is unknown.
     pub(crate) unread: u16,
     /// AC(): absolute whatever is modal.
     pub(crate) absolute: u16,
@@ -99,7 +99,7 @@ pub(crate) struct Letters {
     ranges: [TextRange; 26],
     /// A number is there (A is bit 0).
     given: u32,
-    /// A word is there, its value is not known.
+    /// A word is there, its value is unknown.
     unread: u32,
     /// Written with a decimal point.
     point: u32,

@@ -1,4 +1,4 @@
-//! The layout of one APT statement: blanks at line ends and double blanks go, all else stays. Texts, comments, case and continuations
+//! The layout of one APT statement: blanks at line ends and double blanks are removed, everything else stays. Texts, comments, case and continuations
 //! (`$` with what follows it) are kept byte for byte, since post processors read columns, names and texts.
 use crate::blanks::is_plain_blank;
 use trunnion_syntax::{Block, Program, TextRange, TokenKind};
@@ -37,7 +37,7 @@ pub(crate) fn write(program: &Program, block: &Block<'_>, out: &mut Vec<u8>) {
             _ => {}
         }
         if let Some(blank) = blank.take() {
-            // before a statement or of the rest of one, and before a comment or text, blanks are indentation
+            // before a statement or the rest of one, and before a comment or text, blanks are indentation
             let kept = matches!(left, None | Some(TokenKind::Continuation))
                 || matches!(kind, TokenKind::Comment | TokenKind::FreeText | TokenKind::Continuation);
             match kind {

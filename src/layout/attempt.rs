@@ -8,21 +8,21 @@ use trunnion_interp::Setup;
 use trunnion_same::Difference;
 use trunnion_syntax::{Program, TextRange, parse};
 
-/// What came of a layout.
+/// The outcome of a layout.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Layout {
     /// The text has this layout already.
     Unchanged,
-    /// The new text, proved to say the same words and to make the same motions.
+    /// The new text, proved to contain the same words and to make the same motions.
     Changed(Vec<u8>),
     /// It could not be proved: the text must stay as it is.
     Refused(Refusal),
 }
 
-/// Why a new layout was not taken.
+/// Why a new layout was rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// The new text would not be the same words; the place in it.
+    /// The new text would not contain the same words; the place in it.
     Words(TextRange),
     /// The run of the new text differs.
     Motions(Difference),

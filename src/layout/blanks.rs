@@ -2,7 +2,7 @@
 use trunnion_syntax::{Block, Program, TokenKind};
 
 /// Whether a token's bytes are nothing but spaces and tabs. Other bytes that carry no meaning (NUL, form feed, a byte order mark,
-/// the end-of-block mark of a listing) are no layout: lines that hold them stay as they are.
+/// the end-of-block mark of a listing) are not layout: lines that contain them stay as they are.
 pub(crate) fn is_plain_blank(bytes: &[u8]) -> bool {
     bytes.iter().all(|byte| matches!(byte, b' ' | b'\t'))
 }
@@ -28,8 +28,8 @@ pub(crate) fn line_end<'p>(block: &Block<'p>) -> &'p [u8] {
     }
 }
 
-/// The one line end that the whole text shall have; `None` where lone carriage returns stand beside other line ends, so that no
-/// one can say what is a line.
+/// The line end for the whole text; `None` if lone carriage returns are mixed with other line ends, so that it is unclear what
+/// a line is.
 pub(crate) fn common_line_end(program: &Program) -> Option<&'static [u8]> {
     let (mut lf, mut crlf, mut cr) = (0u32, 0u32, 0u32);
     for block in program.blocks() {
@@ -49,7 +49,7 @@ pub(crate) fn common_line_end(program: &Program) -> Option<&'static [u8]> {
 }
 
 /// Columns that a text takes on a screen, after column `from` (from 0): characters, tabs to the next multiple of 8. Bytes that are
-/// no UTF-8 count one each.
+/// not UTF-8 count one each.
 pub(crate) fn columns(from: usize, text: &[u8]) -> usize {
     let mut at = from;
     for chunk in text.utf8_chunks() {

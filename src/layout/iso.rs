@@ -6,7 +6,7 @@ use crate::words::{Letters, write};
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, Block, Format, Item, Program, TextRange, TokenId, TokenKind, parse};
 
-/// Names whose brackets hold text for a printer: nothing in such a block is touched.
+/// Names whose brackets contain text for a printer: nothing in such a block is touched.
 const PRINTS: [&[u8]; 5] = [b"DPRNT", b"BPRNT", b"POPEN", b"PCLOS", b"SETVN"];
 
 /// Lines that a control refuses when they are longer: characters of a line of RS274/NGC, and of a Sinumerik block. A line within
@@ -14,7 +14,7 @@ const PRINTS: [&[u8]; 5] = [b"DPRNT", b"BPRNT", b"POPEN", b"PCLOS", b"SETVN"];
 const LONGEST_NGC: usize = 250;
 const LONGEST: usize = 500;
 
-/// A longer block is no line of a program, bytes: it stays as it is, so that memory does not grow with it.
+/// A longer block is not a line of a program, bytes: it stays as it is, so that memory does not grow with it.
 const LAID_OUT: usize = 1 << 16;
 
 /// Lays out blocks of one program.
@@ -24,14 +24,14 @@ pub(crate) struct Blocks<'p> {
     pub(crate) style: &'p Style,
 }
 
-/// Whether blanks stand between two digits.
+/// Whether there are blanks between two digits.
 fn parts_number(text: &[u8]) -> bool {
     let digit = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
     let blank = |byte: &u8| matches!(byte, b' ' | b'\t');
     text.windows(2).any(|pair| digit(&pair[0]) && blank(&pair[1])) && text.last().is_some_and(digit)
 }
 
-/// What stands left of a token.
+/// What is to the left of a token.
 struct Left {
     kind: TokenKind,
     item: Option<Item>,
@@ -40,8 +40,8 @@ struct Left {
 }
 
 impl Blocks<'_> {
-    /// Appends the block without its line end. A block whose new layout would not be read as the same words, and one that is not
-    /// whole, stays byte for byte.
+    /// Appends the block without its line end. A block whose new layout would not be read as the same words, or that is incomplete,
+    /// stays byte for byte.
     pub(crate) fn write(&self, block: &Block<'_>, depth: usize, out: &mut Vec<u8>) {
         let from = out.len();
         let written = self.program.bytes(block.range());
@@ -67,8 +67,8 @@ impl Blocks<'_> {
         }
     }
 
-    /// Whether a block is words in one piece and comments alone: with blanks between, they cannot be read in another way. The proof of
-    /// the whole text looks at them once more.
+    /// Whether a block consists only of unbroken words and comments: with blanks between, they cannot be read in another way. The proof
+    /// of the whole text checks them again.
     fn is_simple(&self, block: &Block<'_>) -> bool {
         use TokenKind::{Blank, Comment, Newline, Word};
         let table = self.program.tokens();
@@ -76,7 +76,7 @@ impl Blocks<'_> {
         self.style.spacing == Spacing::One && block.tokens().all(simple)
     }
 
-    /// Whether nothing of a block may be touched: too long, problems, program names behind `%`, texts for a printer, bytes without meaning.
+    /// Whether nothing of a block may be touched: too long, problems, program names after `%`, texts for a printer, bytes without meaning.
     pub(crate) fn stays(&self, block: &Block<'_>) -> bool {
         let table = self.program.tokens();
         let range = block.range();
@@ -156,7 +156,7 @@ impl Blocks<'_> {
         }
     }
 
-    /// Whether a blank stands before a token.
+    /// Whether there is a blank before a token.
     fn gap(&self, left: &Left, kind: TokenKind, item: Option<Item>, starts: bool) -> bool {
         if !starts {
             return match (left.kind, kind) {
@@ -171,14 +171,14 @@ impl Blocks<'_> {
             (Some(Item::Other(_) | Item::Percent(_)), _) | (_, Some(Item::Other(_))) => left.gap,
             _ if kind == TokenKind::Comma => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
-                // an E behind digits reads as an exponent to some
+                // some controls read an E after digits as an exponent
                 !(left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E'))
             }
             _ => true,
         }
     }
 
-    /// The blanks before a comment behind words.
+    /// The blanks before a comment after words.
     fn comment_gap(&self, block: &Block<'_>, comment: TextRange, now: usize, out: &mut Vec<u8>) {
         let wanted = match self.style.comment_column {
             Some(column) => usize::from(column).saturating_sub(1),
@@ -187,7 +187,7 @@ impl Blocks<'_> {
         out.extend(std::iter::repeat_n(b' ', wanted.saturating_sub(now).max(1)));
     }
 
-    /// The column from 0 at which a comment that is set apart stands; 0 for others.
+    /// The column from 0 of a comment that is set apart; 0 for others.
     fn written_column(&self, block: &Block<'_>, comment: TextRange) -> usize {
         let before = self.program.bytes(TextRange::new(block.range().start, comment.start));
         let text = before.trim_ascii_end();
@@ -198,7 +198,7 @@ impl Blocks<'_> {
         width(before)
     }
 
-    /// Whether the letters of a token are the style's. Names are, where the control knows no names of the program's own (Macro B).
+    /// Whether the letters of a token are the style's. Names are, if programs of the control cannot define names (Macro B).
     fn letters(&self, item: Option<Item>, starts: bool, control: bool) -> Letters {
         let own = self.dialect.quirks.numbers_follow_names && !self.dialect.quirks.user_names();
         let styled = match item {
@@ -245,7 +245,7 @@ fn is_number(item: Option<Item>) -> bool {
     matches!(item, Some(Item::Word(word)) if word.address == Address::Letter(b'N'))
 }
 
-/// Whether nothing but a block number or block delete stands on the left, so that a comment there is the content of its line.
+/// Whether there is only a block number or block delete on the left, so that a comment there is the content of its line.
 fn numbers_only(item: Option<Item>) -> bool {
     is_number(item) || matches!(item, Some(Item::Skip(..)))
 }

@@ -1,4 +1,4 @@
-//! Floor 6, beside rewrite: the layout of a text and the numbers of its blocks. Motions stay, and that is proved for each text:
+//! Floor 6, below rewrite: the layout of a text and the numbers of its blocks. Motions stay, and that is proved for each text:
 //! the words are compared here, and `trunnion_same` runs both texts and compares motions, effects, faults and modal states exactly.
 //!
 //! It does no I/O. It does not know machines or rules.

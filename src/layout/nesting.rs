@@ -1,5 +1,5 @@
 //! How deeply a block is nested in subprograms, loops and conditions, by their words: RS274/NGC `o100 while`, Macro B `WHILE [..] DO1`,
-//! Sinumerik `IF`, `FOR`, `LOOP`. What does not fit together changes nothing: this is layout, not judgement.
+//! Sinumerik `IF`, `FOR`, `LOOP`. Structures that do not fit together change nothing: this is layout, not a verdict.
 use trunnion_syntax::{Address, Block, Item, Program, TextRange};
 
 /// Deeper bodies are indented no further.
@@ -24,9 +24,9 @@ enum Step {
     /// `else`: belongs to the line that opened, and its body continues.
     Middle(Kind),
     Close(Kind),
-    /// `o1 while` closes `o1 do`, and opens a loop where none is open.
+    /// `o1 while` closes `o1 do`, and opens a loop if none is open.
     While,
-    /// A new program: nothing of the last one is open any more.
+    /// A new program: nothing of the last one is still open.
     Restart,
 }
 
@@ -37,7 +37,7 @@ pub(crate) struct Nesting {
 }
 
 impl Nesting {
-    /// The depth of a block; what it opens counts for the next one.
+    /// The depth of a block; what it opens applies from the next one.
     pub(crate) fn depth(&mut self, block: &Block<'_>) -> usize {
         let Some((step, label)) = step(block) else {
             return self.now();

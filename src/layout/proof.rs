@@ -18,7 +18,7 @@ pub(crate) fn first_difference(
     let mut setup = setup.clone();
     let most_blocks = setup.limits.blocks.min(MOST_REPEATED) + before.block_count() as u64;
     setup.limits.blocks = most_blocks.saturating_mul(2);
-    // this proof has a bound of its own, which includes the blocks of the text
+    // this proof has its own bound, which includes the blocks of the text
     setup.limits.steps = u64::MAX;
     let input = |program| Input {
         program,

@@ -3,7 +3,7 @@
 use trunnion_dialect::{Action, Dialect};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, TokenKind, Value};
 
-/// A block number that is named somewhere else than at its block.
+/// A reference to a block number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Reference {
     /// The block that names it.
@@ -21,11 +21,11 @@ pub(crate) struct Reference {
 pub struct Obstacle {
     /// The place that prevents it.
     pub range: TextRange,
-    /// What it is, and why numbers stay, for people.
+    /// What it is, and why the numbers stay, as a message.
     pub why: String,
 }
 
-/// What the blocks of a program say about block numbers.
+/// The references to block numbers in a program.
 #[derive(Default)]
 pub(crate) struct Found {
     pub(crate) references: Vec<Reference>,
@@ -72,7 +72,7 @@ impl Reader<'_, '_> {
         });
     }
 
-    /// Jumps of Macro B and words beside M97, M98, M99 and turning cycles.
+    /// Jumps of Macro B and words next to M97, M98, M99 and turning cycles.
     fn items(&mut self) {
         let mut codes = Vec::new();
         let mut words = Vec::new();
@@ -117,7 +117,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Whether P and Q beside the code are blocks of a contour. On a Fanuc lathe the table says it: in system C G72 to G75 are what G70 to G73
+    /// Whether P and Q next to the code are blocks of a contour. On a Fanuc lathe the table decides: in system C G72 to G75 are what G70 to G73
     /// are in systems A and B.
     fn names_contour(&self, (letter, number): (u8, i64)) -> bool {
         if letter != b'G' {
@@ -189,7 +189,7 @@ impl Reader<'_, '_> {
             {
                 let range = table.range(id).cover(table.range(next));
                 let why = format!(
-                    "`{}` reads a block number, and it is not known what the program does with it",
+                    "`{}` reads a block number, and it is unknown what the program does with it",
                     self.text(range)
                 );
                 self.obstacle(range, why);

@@ -1,5 +1,5 @@
-//! New block numbers, with every jump, return and contour that names one changed along. Refused where a target is not known for
-//! certain. Proved by running both texts, and by finding that each reference leads to the same block as before.
+//! New block numbers, with every jump, return and contour that names one changed too. Refused where a target is not known for
+//! certain. Proved by running both texts, and by checking that each reference points to the same block as before.
 use crate::proof::first_difference;
 use crate::references::{Found, Obstacle, Reference, begins_program, own_number, read};
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ pub struct Numbers {
     pub step: u32,
 }
 
-/// What came of new block numbers.
+/// The outcome of new block numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Renumbered {
     /// No block has a number.
@@ -34,7 +34,7 @@ pub enum Renumbered {
         blocks: usize,
         /// How many references were followed.
         references: usize,
-        /// Programs that are called and are not in this file: where they return to a block by its number, that is not followed.
+        /// Programs that are called and are not in this file: if they return to a block by its number, that is not followed.
         called_outside: Vec<i64>,
     },
     /// Numbers must stay.
@@ -96,7 +96,7 @@ pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Nu
     if again.resolve(&after).ok().as_ref() != Some(&targets) {
         return refused(
             TextRange::default(),
-            "the new numbers would not lead to the same blocks".to_owned(),
+            "the new numbers would not refer to the same blocks".to_owned(),
         );
     }
     if let Some(difference) = first_difference(program, &after, dialect, setup, true) {
@@ -132,7 +132,7 @@ fn new_numbers(
         .blocks()
         .filter_map(|block| Some((block.id(), own_number(&block)?.0)))
         .collect();
-    // numbers with zeros in front stay as wide as they are
+    // numbers with leading zeros keep their width
     let padded = own.iter().find(|(_, range)| program.bytes(*range).starts_with(b"0"));
     let width = padded.map_or(0, |(_, range)| (range.end - range.start) as usize);
     let (mut next, mut part) = (i64::from(numbers.start), None);
@@ -186,7 +186,7 @@ impl Survey {
         survey
     }
 
-    /// The block that each reference means.
+    /// The block that each reference points to.
     fn resolve(&self, program: &Program) -> Result<Vec<BlockId>, Obstacle> {
         if let Some(obstacle) = self.found.obstacles.first() {
             return Err(obstacle.clone());

@@ -1,4 +1,4 @@
-//! Whether two texts say the same words: token by token, with nothing ignored but what a layout may change. That is blanks between
+//! Whether two texts contain the same words: token by token, ignoring only what a layout may change. That is blanks between
 //! tokens and inside words, empty lines, the kind of line end, case where it has no meaning, and zeros before a code's number.
 use crate::blanks::is_plain_blank;
 use trunnion_syntax::{Address, Item, Program, TextRange, TokenId, TokenKind, Value};
@@ -15,7 +15,7 @@ pub(crate) fn same_block(a: &Program, b: &Program) -> bool {
     }
 }
 
-/// The first place (in `b`) at which two texts do not say the same; `None` where they say the same throughout.
+/// The first place (in `b`) where two texts differ in words; `None` if they do not.
 pub(crate) fn same_text(a: &Program, b: &Program) -> Option<TextRange> {
     let (mut left, mut right) = (Tokens::new(a), Tokens::new(b));
     loop {
@@ -30,7 +30,7 @@ pub(crate) fn same_text(a: &Program, b: &Program) -> Option<TextRange> {
     }
 }
 
-/// Whether two tokens of one kind say the same.
+/// Whether two tokens of one kind mean the same.
 fn says(kind: TokenKind, a: &[u8], b: &[u8]) -> bool {
     if a == b {
         return true;
@@ -67,17 +67,17 @@ fn core_of(text: &[u8]) -> impl Iterator<Item = u8> {
         .map(|(_, byte)| byte)
 }
 
-/// A token, or the end of a line that holds something.
+/// A token, or the end of a line with content.
 enum Token {
     Text(TokenKind, TextRange),
     LineEnd,
 }
 
-/// The tokens that say something.
+/// The tokens with meaning.
 struct Tokens<'p> {
     program: &'p Program,
     next: TokenId,
-    /// The line in hand holds something.
+    /// The current line has content.
     content: bool,
 }
 
@@ -121,7 +121,7 @@ impl Iterator for Tokens<'_> {
                 }
             }
         }
-        // a last line without a line end ends all the same
+        // a last line without a line end still ends
         std::mem::take(&mut self.content).then_some(Token::LineEnd)
     }
 }

@@ -1,4 +1,4 @@
-//! How a program shall look: the choices of `[format]` in `trunnion.toml`.
+//! The style of a program: the choices of `[format]` in `trunnion.toml`.
 
 /// Case of the letters of words (`g1 x5`). Names that a program may define, texts and comments are never touched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub enum Zeros {
     Two,
 }
 
-/// How a program shall look.
+/// The style of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
     /// Case of letters.

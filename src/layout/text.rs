@@ -7,9 +7,9 @@ use crate::style::Style;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Block, Format, Item, Program};
 
-/// The text in the given style. A text in which lone carriage returns stand beside other line ends stays as it is, and for LinuxCNC
-/// each one with a lone carriage return, which ends no line there. What follows the closing `%` is no program and stays byte for
-/// byte.
+/// The text in the given style. A text in which lone carriage returns are mixed with other line ends stays as it is, and for LinuxCNC
+/// each one with a lone carriage return, which does not end a line there. What follows the closing `%` is not part of the program
+/// and stays byte for byte.
 pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Vec<u8> {
     let ending = common_line_end(program).filter(|ending| !(dialect.quirks.rs274() && *ending == b"\r"));
     let Some(ending) = ending else {
@@ -33,7 +33,7 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             blank_lines += u32::from(any);
             continue;
         }
-        // a byte order mark would become one that counts
+        // a byte order mark would become significant
         let bom = !any && program.source()[block.range().as_usize()].starts_with(b"\xEF\xBB\xBF");
         if bom {
             out.extend_from_slice(&program.source()[..block.range().start as usize]);

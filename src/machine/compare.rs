@@ -1,8 +1,8 @@
-//! Two machines that should be one: where the tip is if a control believes the first and the second is the truth.
+//! Two machines that should be the same: where the tip is if a control believes the first and the second is true.
 //!
 //! A control solves the joints for a programmed tip with the machine it believes in; the true machine carries the tool to its own forward
-//! kinematics of these joints. With a rotary axis that passes 0.05 mm beside the believed place, a fixed tip under tool centre point
-//! control wanders by up to 0.1 mm: the sweep that calibrates pivots on real machines.
+//! kinematics of these joints. With a rotary axis 0.05 mm away from the believed position, a fixed tip under tool centre point control
+//! moves by up to 0.1 mm: the sweep that calibrates pivots on real machines.
 use crate::file::text::{number, triple};
 use crate::kinematics::selftest::SplitMix;
 use crate::{Axis, AxisKind, Joints, Leg, Limits, MAX_AXES, Machine, forward, inverse};
@@ -19,7 +19,7 @@ pub use proof::AlongBlock;
 /// What the second machine does with joints that are right for the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipDifference {
-    /// How far the tip is from where the first machine has it, mm.
+    /// How far the tip is from its position on the first machine, mm.
     pub tip_mm: f64,
     /// How far the tool axis is turned, rad.
     pub axis: f64,
@@ -33,7 +33,7 @@ pub struct TipDifference {
 pub struct Comparison<'m> {
     believed: &'m Machine,
     truth: &'m Machine,
-    /// For each joint of the truth, that of the believed machine.
+    /// For each joint of the true machine, that of the believed machine.
     order: Vec<usize>,
 }
 
@@ -53,7 +53,7 @@ impl<'m> Comparison<'m> {
                 let [a, b]: [String; 2] = [only(&first, &second), only(&second, &first)];
                 let name = |text: String| if text.is_empty() { "no others".to_owned() } else { text };
                 Err(format!(
-                    "the machines have different axes: besides the common ones {} has {}, and {} has {}",
+                    "the machines have different axes: in addition to the common ones {} has {}, and {} has {}",
                     believed.id,
                     name(a),
                     truth.id,
@@ -175,7 +175,7 @@ impl<'m> Comparison<'m> {
     }
 }
 
-/// Directions nearer than this are one: what sine and cosine of an angle round away.
+/// Directions nearer than this are the same: rounding of sine and cosine.
 const SAME_DIRECTION: f64 = 1e-12;
 
 /// What differs between two axes of the same letter.

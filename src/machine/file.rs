@@ -1,4 +1,5 @@
 //! The machine file: read, checked, written out in words; the machines that are built in.
+pub(crate) mod absent;
 pub(crate) mod builtin;
 pub(crate) mod check_rows;
 pub(crate) mod control;

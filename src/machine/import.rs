@@ -1,5 +1,5 @@
-//! Machine files from the files of others: what those say becomes a machine file with its sources, what they do not say is listed and
-//! never guessed. An axis with something unknown gets the key `unknown`, and the file does not load until it is filled in.
+//! Machine files from files of other programs: what those contain becomes a machine file with its sources, what they do not contain is
+//! listed and never guessed. An axis with something unknown gets the key `unknown`, and the file does not load until it is filled in.
 mod draft;
 mod freecad;
 mod hal;
@@ -15,7 +15,7 @@ pub use linuxcnc::import_linuxcnc;
 pub struct Imported {
     /// The text of the machine file.
     pub toml: String,
-    /// What the source does not say or what was assumed, one sentence each.
+    /// What the source does not contain or what was assumed, one sentence each.
     pub open: Vec<String>,
 }
 

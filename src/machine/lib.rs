@@ -1,7 +1,7 @@
 //! Floor 4: joints. A chain of linear and rotary axes of any order: forward and inverse kinematics, postures, limits, and
 //! what happens between two blocks. Formulas: docs/kinematics.md; each function names its source.
 //!
-//! It does not know rules or severities; its only words for people are the description of a machine and what is wrong with its file.
+//! It does not know rules or severities; its only texts for people are the description of a machine and the errors of its file.
 mod compare;
 mod file;
 mod follow;

@@ -1,4 +1,4 @@
-//! The values of one line, in fixed places: what the line says, evaluated, without effect yet.
+//! The values of one line, in fixed places: its words, evaluated, without effect yet.
 use trunnion_syntax::TextRange;
 
 /// Modal groups of G codes; a block holds at most one code of each.
@@ -9,7 +9,7 @@ pub const M_GROUPS: usize = 11;
 /// No code of a group.
 const NONE: i16 = -1;
 
-/// A code of the machine's own (a remap): the control of `rs274` does not know it, the machine does.
+/// One of the machine's own codes (a remap): `rs274` does not know it, the machine does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OwnCode {
     /// `G` or `M`.
@@ -50,7 +50,7 @@ pub struct Block {
     m_ranges: [TextRange; M_GROUPS],
     /// How many M codes.
     pub m_count: u8,
-    /// The motion code that applies to the block: the one given, or the modal one where axis words ask for it; -1 for none.
+    /// The motion code that applies to the block: the one given, or the modal one if there are axis words; -1 for none.
     pub motion: i16,
     /// Values of the words A-Z without G, M, N, O; index = letter - A.
     pub words: [f64; 26],
@@ -66,7 +66,7 @@ pub struct Block {
     pub spindle: Option<i32>,
     /// The sequence number N, if there is one.
     pub number: Option<f64>,
-    /// Codes of the machine's own as written in the text; the words of the block are their arguments.
+    /// The machine's own codes as written in the text; the words of the block are their arguments.
     pub own: Vec<OwnCode>,
 }
 
@@ -92,7 +92,7 @@ impl Block {
             own: Vec::new(),
         }
     }
-    /// Makes it empty again; values of words stay where they are and count no more.
+    /// Makes it empty again; values of words stay in memory but are no longer valid.
     pub fn clear(&mut self, range: TextRange) {
         self.range = range;
         self.g = [NONE; G_GROUPS];
@@ -170,14 +170,14 @@ impl Block {
         self.m[group] = code;
         self.m_ranges[group] = range;
     }
-    /// Whether nothing but a motion code, axis words and words that belong to it are there: no other code, no S, no T.
+    /// Whether there are only a motion code, axis words and words that belong to it: no other code, no S, no T.
     #[inline]
     pub(crate) fn is_motion_only(&self) -> bool {
         let codes = self.g_groups & !MOTION == 0 && self.m_count == 0;
         let words = 1 << (b'S' - b'A') | 1 << (b'T' - b'A');
         codes && self.given & words == 0 && self.spindle.is_none() && self.own.is_empty()
     }
-    /// Whether nothing but a motion code, axis words and F are there, no polar words.
+    /// Whether there are only a motion code, axis words and F, no polar words.
     #[inline]
     pub(crate) fn is_line_only(&self) -> bool {
         let words = AXES | 1 << (b'F' - b'A');

@@ -6,7 +6,7 @@ use std::sync::Arc;
 /// X Y Z A B C U V W.
 pub type Pose = [f64; 9];
 
-/// Which way the spindle turns.
+/// Direction of the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpindleTurn {
     /// M3.
@@ -150,7 +150,7 @@ pub enum Canon {
     },
     /// Straight probing toward a pose: kind 2-5 of G38.n.
     Probe(u8, Pose),
-    /// The probe is to be read: the point where it touched is known to the machine only.
+    /// The probe is to be read: only the machine knows the point where it touched.
     ProbeResult,
     /// Rigid tapping to X Y Z and back, with the speed ratio of the retract.
     RigidTap([f64; 3], f64),
@@ -168,7 +168,7 @@ pub enum Canon {
     Spindle(i32, SpindleTurn),
     /// Spindle number, angle deg, direction 0-2.
     OrientSpindle(i32, f64, i32),
-    /// Waits for the orientation, at most so many seconds.
+    /// Waits for the orientation, at most this many seconds.
     WaitOrient(i32, f64),
     /// Coolant.
     Coolant(Coolant),
@@ -176,7 +176,7 @@ pub enum Canon {
     SelectTool(i32),
     /// M6 begins: the spindle may be off from here on.
     StartChange,
-    /// M6: the tool that is changed in, and its row of the tool table (0: no tool, -1: none was selected).
+    /// M6: the tool that is loaded, and its row of the tool table (0: no tool, -1: none was selected).
     ChangeTool {
         /// T.
         tool: i32,
@@ -190,7 +190,7 @@ pub enum Canon {
         /// From 1; what `rs274` prints.
         row: i32,
     },
-    /// Tool offset in force.
+    /// Tool offset in effect.
     ToolOffset(Pose),
     /// A row of the tool table is written (G10 L1, L10, L11): row (0: the spindle) and what it holds now.
     SetToolEntry(i32, crate::ToolEntry),
@@ -216,7 +216,7 @@ pub enum Canon {
         /// With the next motion.
         with_motion: bool,
     },
-    /// M66: waits for an input; what it reads is known to the machine only.
+    /// M66: waits for an input; only the machine knows what it reads.
     WaitInput {
         /// P or E.
         index: i32,
@@ -227,7 +227,7 @@ pub enum Canon {
         /// Q, s.
         timeout: f64,
     },
-    /// The codes of the machine's own of one block were run, in which order is not known; what they do is not known here.
+    /// The machine's own codes of one block were run in an unknown order; what they do is unknown here.
     OwnCodes(Vec<crate::OwnCode>),
     /// M100-M199 with P and Q.
     UserCode(i32, f64, f64),

@@ -20,20 +20,20 @@ pub struct Frame {
     pub what: String,
 }
 
-/// Where a call comes from.
+/// The origin of a call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct At {
     /// File.
     pub file: FileId,
     /// Line, from 0.
     pub line: u32,
-    /// Calls that led there.
+    /// Calls before it.
     pub chain: ChainId,
 }
 
 /// Receives what a run does, in order.
 pub trait Sink {
-    /// A canonical call; `state` is what is in force after the part of the line that made it.
+    /// A canonical call; `state` is what is in effect after the part of the line that made it.
     fn call(&mut self, call: &Canon, at: At, state: &State);
     /// [`Canon::Traverse`] (`rapid`) or [`Canon::Feed`] to a pose, which [`Self::call`] emits differently.
     fn straight(&mut self, rapid: bool, end: &crate::Pose, at: At, state: &State) {
@@ -50,21 +50,21 @@ pub trait Sink {
     fn cut(&mut self, _range: TextRange, _at: At) {}
 }
 
-/// What a step did.
+/// The result of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// One line was run.
     Line,
     /// The program has ended (M2, M30, `%`), or the file has: then an error was reported before.
     Ended,
-    /// The line was refused; `Engine::step` may be called to go on with the next line as if it had not been there.
+    /// The line was refused; `Engine::step` may be called to continue with the next line as if it had not been there.
     Refused,
     /// A condition, call or jump depends on something unknown: what runs next is not known.
     Undecided(String),
     /// The bounds are used up; line that opens the innermost loop or call.
     OutOfFuel(At),
-    /// The loop that this line opens never ends: it sends nothing to the machine, and all values are as they were before. Beside
-    /// it how many lines ran a second time or more often until then.
+    /// The loop that this line opens never ends: it sends nothing to the machine, and all values are as they were before. With it
+    /// how many lines ran a second time or more often until then.
     Endless(At, u64),
 }
 
@@ -73,7 +73,7 @@ pub enum Step {
 pub struct Engine {
     pub(crate) setup: Arc<Setup>,
     pub(crate) files: Vec<Arc<Source>>,
-    /// What is in force.
+    /// What is in effect.
     pub state: State,
     /// The order of execution.
     pub(crate) flow: Flow,
@@ -81,7 +81,7 @@ pub struct Engine {
     pub(crate) block: Option<Box<Block>>,
     /// Parameters.
     pub(crate) store: crate::parameters::Store,
-    /// Moves that cutter compensation holds back, and what waits after them.
+    /// Moves that cutter compensation holds back, and calls queued after them.
     pub(crate) queue: crate::comp::Queue,
     /// The spline that is being described.
     pub(crate) spline: crate::cycles::Spline,
@@ -104,7 +104,7 @@ impl Engine {
             turning: None,
         }
     }
-    /// Whether the run passes over the definition of a subroutine.
+    /// Whether the run skips the definition of a subroutine.
     pub fn is_defining(&self) -> bool {
         self.flow.is_defining()
     }
@@ -112,11 +112,11 @@ impl Engine {
     pub fn file_count(&self) -> usize {
         self.files.len()
     }
-    /// A file as people are shown it; empty for the main program.
+    /// The name of a file for messages; empty for the main program.
     pub fn path(&self, file: FileId) -> &str {
         self.files.get(file.0 as usize).map_or("", |source| &source.path)
     }
-    /// The value of a parameter as it is written, `#1` or `#<name>`, between two lines; NaN where it is not known, `None` where there is none.
+    /// The value of a parameter as it is written, `#1` or `#<name>`, between two lines; NaN where it is unknown, `None` where there is none.
     pub fn variable(&self, text: &str) -> Option<f64> {
         let name = text.trim().strip_prefix('#')?;
         let values = crate::parameters::Values::new(self);
@@ -128,7 +128,7 @@ impl Engine {
             None => values.told(name.trim().parse().ok()?),
         }
     }
-    /// Parameters that outlive the program and are known: `#31` to `#5000`, those of the parameter file (`#5161` to `#5390`: home
+    /// Parameters that are kept after the program ends and are known: `#31` to `#5000`, those of the parameter file (`#5161` to `#5390`: home
     /// positions, G92, coordinate systems), and global names (LinuxCNC user manual, G-code overview, parameters).
     pub fn outliving(&self) -> Vec<(String, f64)> {
         let numbers = (31..=5000).chain(5161..=5390);
@@ -153,7 +153,7 @@ impl Engine {
         let block = self.block.as_deref()?;
         (line.start <= block.range.start && block.range.end <= line.end).then_some(block)
     }
-    /// Emits a canonical call. While cutter compensation holds moves back, calls wait after them in order.
+    /// Emits a canonical call. While cutter compensation holds moves back, calls are queued after them in order.
     #[inline]
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {
         if !self.queue.is_empty() && crate::comp::waits(&call) {

@@ -4,14 +4,14 @@ use std::sync::Arc;
 use trunnion_syntax::TextRange;
 use trunnion_vocabulary::Refusal as Class;
 
-/// One cause of refusal. Each module declares its own as constants, so that a cause is written down where it is found.
+/// One cause of refusal. Each module declares its own as constants, next to the code that finds it.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Sort.
     pub class: Class,
     /// The control's own message, as `rs274` prints it; `{}` is replaced by a detail.
     pub message: &'static str,
-    /// What a person should do, one sentence; may be empty.
+    /// What to do, one sentence; may be empty.
     pub help: &'static str,
 }
 
@@ -20,7 +20,7 @@ pub struct Problem {
 pub struct Error {
     /// Cause.
     pub problem: &'static Problem,
-    /// The message where it has details (numbers, names); else the problem's own is meant.
+    /// The message where it has details (numbers, names); else that of the problem is used.
     pub detail: Option<String>,
     /// File.
     pub file: FileId,
@@ -28,16 +28,16 @@ pub struct Error {
     pub range: TextRange,
     /// The line that the control had read last, where that is not the line that is wrong: it is the one that `rs274` quotes.
     pub read_last: Option<(FileId, TextRange)>,
-    /// The file as people are shown it; empty for the main program. Filled in by the engine.
+    /// The file name for messages; empty for the main program. Filled in by the engine.
     pub path: Arc<str>,
-    /// A subprogram that is not there.
+    /// A missing subprogram.
     pub missing: Option<Box<Missing>>,
 }
 
-/// A subprogram that was looked for in vain.
+/// A subprogram that was not found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Missing {
-    /// As it is called.
+    /// Its name in the call.
     pub name: String,
     /// Folders that were searched, after the rest of the program.
     pub searched: Vec<crate::Searched>,

@@ -1,6 +1,6 @@
-//! Floor 2: what a LinuxCNC program does, to the letter: bytes to canonical calls, or to the error the control gives.
+//! Floor 2: what a LinuxCNC program does, exactly: bytes to canonical calls, or to the error the control gives.
 //!
-//! It knows neither dialect tables nor machines. A value that is not known (the start position in a check, a probed point)
+//! It knows neither dialect tables nor machines. A value that is unknown (the start position in a check, a probed point)
 //! is NaN and stays so through all arithmetic.
 mod block;
 mod canon;

@@ -1,4 +1,4 @@
-//! Parameters: numbered ones, 1-5601, and named ones, with what a call of a subprogram keeps for itself.
+//! Parameters: numbered ones, 1-5601, and named ones, and those that are local to a call.
 mod names;
 mod system;
 
@@ -10,7 +10,7 @@ use trunnion_formula::{Name, ValueError, Variables};
 const LAST: usize = 5601;
 /// Why the control does not give the position (5420-5428) to a program under compensation.
 const HELD_BACK: &str = "Cannot read current position with cutter radius compensation on";
-/// Numbers a call has for itself: its arguments.
+/// Numbers local to a call: its arguments.
 const LOCAL: usize = 30;
 
 /// Number of a parameter that a program may set.
@@ -18,7 +18,7 @@ const LOCAL: usize = 30;
 pub(crate) struct Slot(usize);
 
 impl Slot {
-    /// The slot of a number; `Err(true)` where programs may only read, `Err(false)` where there is none.
+    /// The slot of a number; `Err(true)` if programs may only read it, `Err(false)` if it does not exist.
     pub(crate) fn writable(index: i64) -> Result<Self, bool> {
         match usize::try_from(index) {
             // observed: these and no others
@@ -29,22 +29,22 @@ impl Slot {
     }
 }
 
-/// What a call puts aside of its caller.
+/// What a call saves of its caller.
 #[derive(Clone, Debug)]
 struct Aside {
-    /// `#1` to `#30`, too, which are the last ones put aside; a call with M98 shares them.
+    /// `#1` to `#30`, too, which are the last ones saved; a call with M98 shares them.
     numbers: bool,
     names: Names,
 }
 
-/// All parameters a program can read and set.
+/// All parameters that a program can read and set.
 #[derive(Clone, Debug)]
 pub(crate) struct Store {
     /// Index = number; 0 is not used.
     numbers: Vec<f64>,
-    /// Names that begin with `_`: of all programs.
+    /// Names that begin with `_`: global.
     globals: Names,
-    /// Other names: of the call in progress.
+    /// Other names: local to the current call.
     locals: Names,
     /// Callers, outermost first.
     aside: Vec<Aside>,
@@ -56,13 +56,13 @@ pub(crate) struct Store {
     value: f64,
     /// `#<_value_returned>`.
     returned: bool,
-    /// Axis letters that are no words here: bit per letter from A.
+    /// Axis letters that are not words here: bit per letter from A.
     missing_axes: u32,
 }
 
 impl Store {
-    /// As a run starts: what the parameter file declares, else zero. In a check nothing is known of numbers that no file declares,
-    /// but for the coordinate system (G54) and G92 (off).
+    /// As a run starts: what the parameter file declares, else zero. In a check numbers that no file declares are unknown, except
+    /// the coordinate system (G54) and G92 (off).
     pub(crate) fn new(setup: &Setup) -> Self {
         let mut numbers = vec![0.0; LAST + 1];
         if setup.start == Start::Unknown {
@@ -89,7 +89,7 @@ impl Store {
             missing_axes: missing_axes(setup),
         }
     }
-    /// Whether nothing differs, bit for bit; what callers keep aside is not looked at.
+    /// Whether nothing differs, bit for bit; values saved for callers are not compared.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let numbers = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
         numbers(&self.numbers, &other.numbers)
@@ -130,7 +130,7 @@ impl Store {
     pub(crate) fn set(&mut self, slot: Slot, value: f64) {
         self.numbers[slot.0] = value;
     }
-    /// A parameter was set whose number is not known: none is known any more that a program may set.
+    /// A parameter with an unknown number was set: all that a program may set become unknown.
     pub(crate) fn forget(&mut self) {
         for index in 1..=LAST {
             if let Ok(slot) = Slot::writable(index as i64) {
@@ -138,7 +138,7 @@ impl Store {
             }
         }
     }
-    /// Sets a named parameter: of all programs where it begins with `_`, else of the call in progress.
+    /// Sets a named parameter: global if it begins with `_`, else local to the current call.
     pub(crate) fn set_named(&mut self, name: &Name, value: f64) {
         let names = if is_global(name) {
             &mut self.globals
@@ -147,7 +147,7 @@ impl Store {
         };
         names.set(name, value);
     }
-    /// A subprogram is called: `#1` to `#30` become its arguments and zeros, its names are its own.
+    /// A subprogram is called: `#1` to `#30` become its arguments and zeros, its names are local.
     pub(crate) fn enter(&mut self, arguments: &[f64]) {
         let own = &mut self.numbers[1..=LOCAL];
         self.numbers_aside.extend_from_slice(own);
@@ -168,7 +168,7 @@ impl Store {
         let fresh = self.spare.pop().unwrap_or_default();
         core::mem::replace(&mut self.locals, fresh)
     }
-    /// A subprogram is left: `#1` to `#30` and the names of the caller come back.
+    /// A subprogram is left: `#1` to `#30` and the names of the caller are restored.
     pub(crate) fn leave(&mut self) {
         if let Some(aside) = self.aside.pop() {
             if aside.numbers {
@@ -181,7 +181,7 @@ impl Store {
             self.spare.push(left);
         }
     }
-    /// Which axis letters are no words: those of the machine, without `extra`.
+    /// Which axis letters are not words: those of the machine, without `extra`.
     pub(crate) fn allow_axes(&mut self, setup: &Setup, extra: &str) {
         self.missing_axes = missing_axes(setup) & !axis_bits(extra);
     }
@@ -192,7 +192,7 @@ impl Store {
     }
 }
 
-/// `rs274` has the axes X Y Z A B C whatever the INI file says (observed); on a machine it is `[TRAJ] COORDINATES` that says it.
+/// `rs274` has the axes X Y Z A B C whatever the INI file says (observed); on a machine `[TRAJ] COORDINATES` decides.
 fn missing_axes(setup: &Setup) -> u32 {
     let key = ("TRAJ".to_owned(), "COORDINATES".to_owned());
     let there = match setup.ini.values.get(&key) {
@@ -210,7 +210,7 @@ fn axis_bits(letters: &str) -> u32 {
         .fold(0, |bits, letter| bits | 1 << (letter.to_ascii_uppercase() - b'A'))
 }
 
-/// What formulas read from at one line.
+/// The source of variables for formulas at one line.
 #[derive(Clone, Copy)]
 pub(crate) struct Values<'a> {
     store: &'a Store,
@@ -240,15 +240,15 @@ impl<'a> Values<'a> {
     pub(crate) fn missing_axes(&self) -> u32 {
         self.store.missing_axes
     }
-    /// Whether a name is one of the control's own, which programs only read.
+    /// Whether a name belongs to the control, so that programs can only read it.
     pub(crate) fn is_system(name: &Name) -> bool {
         is_global(name) && system::NAMES.binary_search_by(|(own, _)| (**own).cmp(&**name)).is_ok()
     }
-    /// Values that only the machine knows are not known in a check.
+    /// Values that only the machine knows are unknown in a check.
     fn is_check(&self) -> bool {
         self.setup.start == Start::Unknown
     }
-    /// `#<_ini[section]name>`; section and name count in upper case.
+    /// `#<_ini[section]name>`; section and name are compared in upper case.
     fn ini(&self, inside: &str) -> Result<f64, ValueError> {
         let Some((section, key)) = inside.split_once(']') else {
             return Err(ValueError::NotDefined);
@@ -266,7 +266,7 @@ impl<'a> Values<'a> {
 }
 
 impl Values<'_> {
-    /// A numbered parameter as comments tell it: the position of compensation, too.
+    /// A numbered parameter as comments print it: the position of compensation, too.
     pub(crate) fn told(&self, index: i64) -> Option<f64> {
         let place = usize::try_from(index).ok().filter(|place| (1..=LAST).contains(place))?;
         Some(self.store.numbers[place])
@@ -302,14 +302,14 @@ impl Variables for Values<'_> {
     }
 }
 
-/// Whether a name is of all programs.
+/// Whether a name is global.
 #[inline]
 fn is_global(name: &Name) -> bool {
     name.begins_with(b'_')
 }
 
 impl Values<'_> {
-    /// What the control itself knows by a name.
+    /// The control's own value of a name.
     #[cold]
     #[inline(never)]
     fn own(&self, name: &str) -> Result<f64, ValueError> {

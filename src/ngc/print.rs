@@ -15,7 +15,7 @@ pub struct Listing {
 }
 
 impl Listing {
-    /// Writes one call: as a rule one numbered line, sometimes none or several. `number`: digits of the sequence number of the line
+    /// Writes one call: usually one numbered line, sometimes none or several. `number`: digits of the sequence number of the line
     /// that made the call, `.....` where it has none.
     ///
     /// # Errors
@@ -188,7 +188,7 @@ fn machine_text(call: &Canon, more: usize) -> String {
         Canon::PalletShuttle => "PALLET_SHUTTLE()".to_owned(),
         Canon::ReloadTools => "RELOAD_TOOLDATA()".to_owned(),
         Canon::Finish => "FINISH()".to_owned(),
-        // calls that [`Listing::write`] treats itself have no line of their own
+        // calls that [`Listing::write`] handles itself have no separate line
         other => format!("{other:?}"),
     }
 }

@@ -13,14 +13,14 @@ pub enum Start {
     /// Everything is zero, as `rs274` starts.
     #[default]
     Zero,
-    /// Nothing is known of the position; parameters that outlive a program are unknown where no parameter file declares them.
+    /// The position is unknown; parameters that are kept between programs are unknown if no parameter file declares them.
     Unknown,
 }
 
 /// Values of an INI file: section, key.
 #[derive(Clone, Debug, Default)]
 pub struct Ini {
-    /// Upper case is kept as written; the last of equal keys of a section is not used: the first counts.
+    /// Upper case is kept as written; of equal keys in a section the first is used.
     pub values: BTreeMap<(String, String), String>,
 }
 
@@ -44,7 +44,7 @@ pub struct ToolEntry {
 }
 
 impl ToolEntry {
-    /// A row that no tool has; it is never found by its number.
+    /// A row without a tool; it is never found by its number.
     pub(crate) const NOBODY: Self = Self {
         number: i32::MIN,
         pocket: -1,
@@ -61,7 +61,7 @@ impl ToolEntry {
 pub struct ToolTable {
     /// Rows in file order after row 0.
     pub rows: Vec<ToolEntry>,
-    /// What row 0 holds as a run starts: the last row without P.
+    /// Row 0 at the start of a run: the last row without P.
     pub spindle: Option<ToolEntry>,
 }
 
@@ -91,9 +91,9 @@ pub struct Setup {
     pub limits: Limits,
     /// M100 to M199 exist; `rs274` by itself knows none.
     pub user_codes: bool,
-    /// Codes of the machine's own (remaps) beside those of the control: letter and ten times the number, ascending.
+    /// The machine's own codes (remaps) in addition to those of the control: letter and ten times the number, ascending.
     pub own_codes: Arc<[(u8, u32)]>,
-    /// Which G codes among them are motions, so that they stay in force: ten times the number, ascending.
+    /// Which G codes among them are motions, so that they stay in effect: ten times the number, ascending.
     pub own_motions: Arc<[u32]>,
     /// The tool table may lack tools that the machine has: any number exists, with offset and diameter zero.
     pub any_tool: bool,
@@ -130,13 +130,17 @@ impl Setup {
             .whole("TRAJ", "SPINDLES")
             .map_or(1, |count| count.clamp(1, 8) as usize)
     }
+    /// What M19 adds to its angle, degrees: `[RS274NGC]ORIENT_OFFSET`.
+    pub fn orient_offset(&self) -> f64 {
+        self.ini.number("RS274NGC", "ORIENT_OFFSET").unwrap_or(0.0)
+    }
     /// Whether the changer swaps tools: `[EMCIO]RANDOM_TOOLCHANGER`.
     pub fn random_tool_changer(&self) -> bool {
         self.ini
             .whole("EMCIO", "RANDOM_TOOLCHANGER")
             .is_some_and(|value| value != 0)
     }
-    /// Whether G92 outlives a program: unless `[RS274NGC]DISABLE_G92_PERSISTENCE`.
+    /// Whether G92 is kept after a program: unless `[RS274NGC]DISABLE_G92_PERSISTENCE`.
     pub fn g92_persists(&self) -> bool {
         self.ini
             .whole("RS274NGC", "DISABLE_G92_PERSISTENCE")
@@ -172,5 +176,10 @@ impl Ini {
             .trim()
             .parse()
             .ok()
+    }
+    /// A value as a number; section and key in upper case. `None`: it is not there, or is none.
+    pub fn number(&self, section: &str, key: &str) -> Option<f64> {
+        let text = self.values.get(&(section.to_owned(), key.to_owned()))?;
+        text.trim().parse().ok().filter(|value: &f64| value.is_finite())
     }
 }

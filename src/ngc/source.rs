@@ -12,13 +12,13 @@ impl FileId {
     pub const MAIN: Self = Self(0);
 }
 
-/// So many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
+/// This many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
 pub(crate) const STRIDE: u32 = 64;
 
-/// This many bytes are looked at together while the index is made.
+/// This many bytes are scanned together while the index is built.
 const BLOCK: usize = 512;
 
-/// Bytes that others may hold, too.
+/// Shared bytes.
 #[derive(Debug)]
 enum Bytes {
     Slice(Arc<[u8]>),
@@ -51,7 +51,7 @@ impl Source {
     pub fn new(path: String, bytes: Arc<[u8]>) -> Self {
         Self::of(path, Bytes::Slice(bytes))
     }
-    /// The same of bytes that are held as a vector: they are not copied.
+    /// The same for bytes in a vector, which are not copied.
     pub fn shared(path: String, bytes: Arc<Vec<u8>>) -> Self {
         Self::of(path, Bytes::Vector(bytes))
     }
@@ -61,7 +61,7 @@ impl Source {
         let mut lines = 0u32;
         for (block, from) in bytes.chunks(BLOCK).zip((0..).step_by(BLOCK)) {
             let count = memchr_iter(b'\n', block).count() as u32;
-            // most blocks begin no entry of the index: counting is much faster than looking where each line ends
+            // most blocks begin no entry of the index: counting is much faster than finding each line end
             if lines % STRIDE + count >= STRIDE {
                 let ends = memchr_iter(b'\n', block).zip(lines + 1..);
                 let entries = ends.filter(|(_, line)| line % STRIDE == 0);

@@ -1,4 +1,4 @@
-//! What is in force between lines.
+//! What is in effect between lines.
 use crate::{Canon, FeedMode, MotionMode, Pose, Side};
 
 /// Length units.
@@ -37,7 +37,7 @@ pub enum Plane {
     Vw,
 }
 
-/// How coordinates are meant.
+/// The meaning of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DistanceMode {
     /// G90, G90.1.
@@ -55,7 +55,7 @@ pub enum RetractMode {
     RPlane,
 }
 
-/// How S is meant.
+/// The meaning of S.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpindleMode {
     /// G97.
@@ -81,28 +81,28 @@ pub struct State {
     pub feed_rate: f64,
     /// F of the last motion under G93, 1/min.
     pub inverse_time: f64,
-    /// Motion code in force, ten times its number; -1 before the first, 800 for G80.
+    /// Motion code in effect, ten times its number; -1 before the first, 800 for G80.
     pub motion: i16,
     /// Ten times the number of a G code that is not modelled (`u32::MAX`: one that was refused) and may be the motion
-    /// code in force; never set while only canonical calls are listed, since the run ends there.
+    /// code in effect; never set while only canonical calls are listed, since the run ends there.
     pub unmodelled: Option<u32>,
-    /// Last motion code, for canned cycles that lean on it.
+    /// Last motion code, for canned cycles that depend on it.
     pub last_motion: i16,
-    /// Where the program is: program coordinates X Y Z A B C U V W, without compensation of the cutter radius.
+    /// The position of the program: program coordinates X Y Z A B C U V W, without compensation of the cutter radius.
     pub current: Pose,
-    /// Where the tool is under cutter compensation: program coordinates of the centre (first, second of the plane are what counts).
+    /// The position of the tool under cutter compensation: program coordinates of the centre (only first and second of the plane matter).
     pub compensated: Pose,
     /// G92 / G52 offset.
     pub axis_offset: Pose,
-    /// Offset of the coordinate system in force.
+    /// Offset of the coordinate system in effect.
     pub origin_offset: Pose,
     /// 1-9.
     pub origin_index: i32,
-    /// Rotation of the coordinate system in force, deg.
+    /// Rotation of the coordinate system in effect, deg.
     pub rotation_xy: f64,
-    /// Tool offset in force.
+    /// Tool offset in effect.
     pub tool_offset: Pose,
-    /// Whose it is: H of G43, 0 for the tool in the spindle; -1: not one tool's alone (G43.1, G43.2); `None`: G49.
+    /// Its tool: H of G43, 0 for the tool in the spindle; -1: not that of one tool (G43.1, G43.2); `None`: G49.
     pub length_of: Option<i32>,
     /// G98 / G99.
     pub retract: RetractMode,
@@ -114,7 +114,7 @@ pub struct State {
     pub radius: f64,
     /// The tool's edge orientation under lathe compensation, 0-9.
     pub orientation: i32,
-    /// The program itself says the radius (G41.1, G42.1): it does not come from the tool table.
+    /// The program itself gives the radius (G41.1, G42.1): it does not come from the tool table.
     pub radius_given: bool,
     /// No compensated move was made yet since G41/G42.
     pub first_compensated: bool,
@@ -144,7 +144,7 @@ pub struct State {
     pub tool: i32,
     /// Rows of the tool table as they are now; row 0 is the spindle.
     pub tools: std::sync::Arc<Vec<crate::ToolEntry>>,
-    /// Pocket of the row that was changed in last, which each change writes into row 0; -1 before the first.
+    /// Pocket of the row that was loaded last, which each change writes into row 0; -1 before the first.
     pub(crate) spindle_pocket: i32,
     /// Row of the selected tool, 0 for none.
     pub selected_row: i32,
@@ -152,7 +152,7 @@ pub struct State {
     pub current_row: i32,
     /// Whether A, B, C are wrapped rotary axes: absolute words are 0 to below 360 deg, their sign gives the direction.
     pub wrapped: [bool; 3],
-    /// What the receiver of the calls takes for the position.
+    /// The position assumed by the receiver of the calls.
     pub told: Told,
     /// Override switches (M48-M53).
     pub feed_override: bool,
@@ -162,15 +162,15 @@ pub struct State {
     pub adaptive_feed: bool,
     /// See above.
     pub feed_hold: bool,
-    /// Axes with words in the block in hand: bit i is axis i of a [`Pose`].
+    /// Axes with words in the current block: bit i is axis i of a [`Pose`].
     pub named_axes: u16,
-    /// The line that runs while compensation emits what it has held back: the listing numbers calls by it.
+    /// The line that runs while compensation emits what it has held back: the listing uses its number for calls.
     pub told_by: Option<crate::At>,
     /// The spindle's row of the tool table before the last change.
     pub(crate) spindle_row_before: Option<crate::ToolEntry>,
-    /// The motions of the present block lead to points that are given in the machine's own frame (G53, G28, G30).
+    /// The motions of the current block end at points given in machine coordinates (G53, G28, G30).
     pub machine_frame: bool,
-    /// The present block is one straight motion and nothing else, compensation is off: nothing changes after its motion's call.
+    /// The current block is only one straight motion, compensation is off: nothing changes after its motion's call.
     pub motion_only: bool,
     /// The last probing has touched.
     pub probed: bool,
@@ -201,8 +201,8 @@ pub struct CycleWords {
     pub old: f64,
 }
 
-/// Where the receiver of the canonical calls takes the tool to be: it knows the calls only. `rs274` asks it after a tool change, and it
-/// does not know that rotation and tool offset move the program's coordinates.
+/// The tool position assumed by the receiver of the canonical calls, which knows only the calls. `rs274` queries it after a tool change,
+/// and it does not know that rotation and tool offset move the program's coordinates.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Told {
     /// Program coordinates.
@@ -240,7 +240,7 @@ impl Told {
         } else {
             &mut self.origin
         };
-        // of U V W the listing's machine takes no offset over
+        // the listing's machine does not use offsets of U V W
         for axis in 0..6 {
             self.position[axis] += old[axis] - new[axis];
         }
@@ -258,7 +258,7 @@ impl Told {
             }
         }
     }
-    /// A motion whose call does not hold the whole pose has ended.
+    /// A motion whose call does not contain the whole pose has ended.
     #[inline]
     pub(crate) fn reach(&mut self, end: &Pose) {
         // the listing's machine has no U V W
@@ -271,7 +271,7 @@ impl State {
     pub fn position(&self) -> Pose {
         *self.place()
     }
-    /// The same where it is kept.
+    /// The same, mutable.
     #[inline]
     pub(crate) fn place(&self) -> &Pose {
         if self.side == Side::Off || self.first_compensated {

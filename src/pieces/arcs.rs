@@ -1,4 +1,4 @@
-//! Circle, diamond, square and a square turned by 3 deg: the classic contour of a machining centre's test piece, sizes our own.
+//! Circle, diamond, square and a square turned by 3 deg: the classic contour of a machining centre's test piece, in our own sizes.
 use crate::piece::{Kind, Move, Piece, PieceError, Tool, within};
 use core::f64::consts::SQRT_2;
 use trunnion_geometry::math::rotate;
@@ -30,7 +30,7 @@ pub fn circle_diamond_square(sizes: &CircleDiamondSquare) -> Result<Piece, Piece
     };
     path.square(0.6 * side + off, rad(3.0), 0.0);
     path.square(0.5 * side + off, 0.0, level);
-    // the diamond's corners lie on the middles of the square's sides
+    // the corners of the diamond are at the middles of the square's sides
     path.square(0.25 * side * SQRT_2 + off, rad(45.0), 2.0 * level);
     // the circle lies inside the diamond
     path.circle(0.25 * side * SQRT_2 + off, 3.0 * level);
@@ -60,7 +60,7 @@ impl Path {
         });
     }
 
-    /// Down beside the contour's first point, round it, up again.
+    /// Down next to the contour's first point, around it, up again.
     fn contour(&mut self, first: Vec3, outwards: Vec3, round: impl FnOnce(&mut Self)) {
         let lift = Vec3::new(0.0, 0.0, self.above - first.z);
         let beside = first + outwards * 20.0;

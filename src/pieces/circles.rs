@@ -1,13 +1,13 @@
-//! Circles and sweeps with one or two rotary axes turning: the tip runs a known circle, or does not move.
+//! Circles and sweeps with one or two rotary axes turning: the tip moves on a known circle, or not at all.
 use crate::piece::{Piece, PieceError, Tool, count, within};
 use core::f64::consts::TAU;
 use trunnion_geometry::math::{rotate, sin};
 use trunnion_geometry::{Vec3, rad};
 
-/// Which rotary axes turn while the tip runs its circle (names for a machine that turns about Z and tilts about X).
+/// Which rotary axes turn while the tip moves on its circle (names for a machine that turns about Z and tilts about X).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnedAxes {
-    /// The turning axis once round, the tilt constant: a circle in XY, the tool leaning outwards.
+    /// The turning axis one full turn, the tilt constant: a circle in XY, the tool leaning outwards.
     Turn,
     /// The tilting axis from minus to plus, through the pole: an arc in YZ, the tool along its radius.
     Tilt,
@@ -57,8 +57,8 @@ pub fn circle(turned: TurnedAxes, radius: f64, tilt_deg: f64, segments: usize, f
     Ok(Piece::along(name, title, feed, BALL, &points))
 }
 
-/// The tip is held at one point, `radius` mm along X from the part's zero, while the turning axis turns once round at `tilt` deg and
-/// then the tilting axis back to half of it. Its true deviation is zero: what a control or a machine file makes of it is an error.
+/// The tip is held at one point, `radius` mm along X from the part's zero, while the turning axis turns one full turn at `tilt` deg and
+/// then the tilting axis back to half of it. Its true deviation is zero: any deviation is an error of the control or the machine file.
 ///
 /// # Errors
 /// Sizes out of range.

@@ -21,7 +21,7 @@ pub struct Cone {
     pub feed_mm_min: f64,
 }
 
-/// What a machine with one rotary axis along Z and one that tilts at right angles to it (tilt A or B, turn C) does on a cone frustum.
+/// The motion of a machine with one rotary axis along Z and one that tilts at right angles to it (tilt A or B, turn C) on a cone frustum.
 /// th = half angle, ph = tilt, psi = angle along the tip circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConeAnswers {
@@ -33,11 +33,11 @@ pub struct ConeAnswers {
     /// Largest |dC/dpsi|: sin th / |sin(th - ph)|; infinite for th = ph.
     pub rate_max: f64,
     /// Smallest |dC/dpsi|: 0 for th < ph, where C turns back twice; else where cos A = (cos ph - sqrt(cos2 ph - cos2 th)) / cos th, if the
-    /// tilt comes there, else at the largest tilt.
+    /// tilt reaches it, else at the largest tilt.
     pub rate_min: f64,
     /// |dC/dpsi| where the tilt is largest: sin th / sin(th + ph).
     pub rate_far: f64,
-    /// Whether C turns once round with each turn of the path.
+    /// Whether C turns one full turn with each turn of the path.
     pub winds: bool,
     /// Radius of the tip circle, mm.
     pub tip_radius: f64,
@@ -102,7 +102,7 @@ impl Cone {
     }
 }
 
-/// One turn round the frustum in equal blocks.
+/// One turn around the frustum in equal blocks.
 ///
 /// # Errors
 /// Angles or counts that give no cone.

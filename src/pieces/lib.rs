@@ -1,4 +1,4 @@
-//! Floor 1: test pieces. Cutter locations of parts whose right answers are known in closed form, for any machine.
+//! Floor 1: test pieces. Cutter locations of parts with answers in closed form, for any machine.
 //!
 //! It does not know machines, dialects or text: a piece is a list of tool tips and tool axes in the frame of the part, +Z up. The
 //! sizes are our own; no piece claims conformity with a standard.

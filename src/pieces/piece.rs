@@ -1,7 +1,7 @@
 //! What a test piece is: moves of the tool tip with the tool axis, in the frame of the part.
 use trunnion_geometry::Vec3;
 
-/// How the tip gets to a place.
+/// How the tip moves to a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Rapid.
@@ -52,7 +52,7 @@ pub struct Piece {
     pub moves: Vec<Move>,
 }
 
-/// Why there is no such piece: what is wrong with its sizes and what is right.
+/// Why there is no such piece: what is wrong with its sizes and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PieceError(pub String);
 

@@ -26,11 +26,11 @@ pub struct SWall {
     pub height: f64,
     /// Diameter of the tool, mm.
     pub tool_diameter: f64,
-    /// How far the tip's path may lie from its chords, mm.
+    /// How far the path of the tip may be from its chords, mm.
     pub chord: f64,
     /// The whole part turned about X, deg: 0 puts every change of sign on the pole.
     pub tilt_deg: f64,
-    /// The face to the right of the edge instead of the left one. It is run from the other end, so that both are milled in the same direction.
+    /// The face to the right of the edge instead of the left one. It is milled from the other end, so that both are milled in the same direction.
     pub right: bool,
     /// mm/min.
     pub feed_mm_min: f64,
@@ -44,7 +44,7 @@ impl SWall {
 
     /// Lower edge, unit ruling (also the tool axis) and the direction off the face at the arc length `s` of the left edge, 0..=length; not
     /// tilted. Ruling: cos b z + sin b n with the lean b = b0 sin(2 pi k s / L) and n to the left of the edge. The right face has the same
-    /// rulings, its edge is beside the left one.
+    /// rulings, its edge is next to the left one.
     fn upright(&self, edge: &Edge, s: f64) -> (Vec3, Vec3, Vec3) {
         let (point, heading) = edge.at(s);
         let lean = rad(self.lean_deg) * sin(TAU * self.waves as f64 * s / LENGTH);
@@ -144,7 +144,7 @@ fn heading(s: f64) -> f64 {
     turned - 0.5 * (2.0 * rise(JOIN) + ARC / ARC_RADIUS)
 }
 
-/// The way from arc length `from` to `to` (at most 1 mm): five-point Gauss-Legendre, exact beyond double precision here.
+/// The displacement from arc length `from` to `to` (at most 1 mm): five-point Gauss-Legendre, exact beyond double precision here.
 fn stretch(from: f64, to: f64) -> Vec3 {
     const NODES: [(f64, f64); 5] = [
         (0.0, 0.568_888_888_888_888_9),
@@ -163,7 +163,7 @@ fn stretch(from: f64, to: f64) -> Vec3 {
         .sum()
 }
 
-/// One pass along one side of the wall with points as near together as the chord error asks.
+/// One pass along one side of the wall with points as close together as the chord error requires.
 ///
 /// # Errors
 /// Sizes out of range.

@@ -20,7 +20,7 @@ const RAY: RGBColor = RGBColor(150, 185, 215);
 /// Draws it. `after`: a second run of the same machine, drawn over the first. `within`: only what is within this many degrees of the pole.
 ///
 /// # Errors
-/// The machine has not two rotary axes, or no tool axis is known.
+/// The machine does not have two rotary axes, or no tool axis is known.
 pub fn axis_plane(
     header: &Header,
     machine: &Machine,
@@ -61,7 +61,7 @@ pub fn axis_plane(
                 let radius = trunnion_geometry::math::sin(rad(angle));
                 ([-radius, radius], [-radius, radius])
             }
-            // the pole belongs to the picture
+            // the pole is part of the picture
             None => (
                 range(seen.iter().map(|p| p.0).chain([0.0]), 1e-4),
                 range(seen.iter().map(|p| p.1).chain([0.0]), 1e-4),
@@ -170,7 +170,7 @@ impl<'m> Plane<'m> {
         let across = (across - pole * pole.dot(&across)).normalize();
         let mut upwards = pole.cross(&across);
         if pole.sum() < 0.0 {
-            // i and j (or k) both count upwards whatever the direction of the axis
+            // i and j (or k) both increase whatever the direction of the axis
             upwards = -upwards;
         }
         let at_pole = match orientations(machine, &pole) {
@@ -246,7 +246,7 @@ impl<'m> Plane<'m> {
         let (dx, dy) = (0.045 * (x[1] - x[0]), 0.035 * (y[1] - y[0]));
         let inside = |p: (f64, f64)| p.0 > x[0] + dx && p.0 < x[1] - dx && p.1 > y[0] + dy && p.1 < y[1] - dy;
         let mut labelled: Vec<(f64, f64)> = Vec::new();
-        // the main directions first, so that they keep their labels where rays crowd
+        // the main directions first, so that they keep their labels where rays are dense
         for ray in (0..360)
             .step_by(90)
             .chain((0..360).step_by(15).filter(|ray| ray % 90 != 0))
@@ -264,7 +264,7 @@ impl<'m> Plane<'m> {
             let text = format!("{}{shown}\u{b0}", self.letter(0)).replace('-', "\u{2212}");
             panel.text(last, &text, RGBColor(50, 105, 155), (HPos::Center, VPos::Center))?;
         }
-        // the values of the circles on the ray with the most room, off the rays' own labels
+        // the values of the circles on the ray with the most room, away from the rays' labels
         let room = |ray: i32| {
             let tilts = (1..=circles).filter(|c| inside(self.joints(rad(f64::from(ray)), rad(step * f64::from(*c)))));
             tilts.count()

@@ -1,4 +1,4 @@
-//! The sheet of paper: header, legend, colours, and the steps from data to text.
+//! The sheet: header, legend, colours, and the conversion to text.
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -16,7 +16,7 @@ const LEGEND_ROW: f64 = 22.0;
 /// The sheet.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Colours that people with any colour vision tell apart (Okabe and Ito, 2008).
+/// Colours that people with any colour vision can distinguish (Okabe and Ito, 2008).
 pub(crate) const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub(crate) const VERMILION: RGBColor = RGBColor(213, 94, 0);
 pub(crate) const GREEN: RGBColor = RGBColor(0, 158, 115);
@@ -54,7 +54,7 @@ impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PlotE
     }
 }
 
-/// A sign in the legend.
+/// A symbol in the legend.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Swatch {
     Line(RGBColor),

@@ -1,4 +1,4 @@
-//! How far the tip strays from the programmed segments along the path, with the tolerance.
+//! How far the tip deviates from the programmed segments along the path, with the tolerance.
 use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};

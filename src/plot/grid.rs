@@ -15,7 +15,7 @@ pub(crate) struct Frame<'t> {
     pub(crate) x_name: Option<&'t str>,
     /// Name and unit upwards.
     pub(crate) y_name: &'t str,
-    /// Number of labels across and upwards, about.
+    /// Approximate number of labels across and upwards.
     pub(crate) labels: [usize; 2],
     /// The values upwards are exponents of ten.
     pub(crate) decades: bool,
@@ -26,7 +26,7 @@ pub(crate) struct Frame<'t> {
 /// A framed field.
 pub(crate) struct Panel<'a> {
     area: Area<'a>,
-    /// The area that the frame was drawn on: what is beside the field is drawn there.
+    /// The area that the frame was drawn on: what is outside the field is drawn there.
     around: Area<'a>,
     x: [f64; 2],
     y: [f64; 2],
@@ -306,14 +306,14 @@ impl<'a> Panel<'a> {
         (p.0 + own.0 - around.0, p.1 + own.1 - around.1)
     }
 
-    /// A filled polygon that may lie beside the field.
+    /// A filled polygon that may be outside the field.
     pub(crate) fn fill_outside(&self, points: &[(f64, f64)], colour: RGBColor) -> Result<(), PlotError> {
         let points: Vec<(i32, i32)> = points.iter().map(|p| self.beside(*p)).collect();
         self.around.draw(&Polygon::new(points, colour.filled()))?;
         Ok(())
     }
 
-    /// A text that may lie beside the field.
+    /// A text that may be outside the field.
     pub(crate) fn write_outside(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
         let style = anchored(13.0, h, v).color(&INK);
         self.around
@@ -321,7 +321,7 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
-    /// A text in a style of its own.
+    /// A text in its own style.
     pub(crate) fn write(&self, (x, y): (f64, f64), text: &str, style: TextStyle<'static>) -> Result<(), PlotError> {
         let p = self.at(x, y);
         if self.holds(p) {
@@ -330,7 +330,7 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
-    /// A text beside a place; nothing outside of the field.
+    /// A text next to a position; nothing outside of the field.
     pub(crate) fn text(
         &self,
         (x, y): (f64, f64),
@@ -341,7 +341,7 @@ impl<'a> Panel<'a> {
         let p = self.at(x, y);
         if self.holds(p) {
             let style = anchored(13.0, h, v).color(&colour);
-            // beside a sign, not on it
+            // next to a symbol, not on it
             let off = match h {
                 HPos::Left => px(12.0),
                 HPos::Right => -px(12.0),

@@ -1,4 +1,4 @@
-//! The error of a trajectory surface as a map: how far the tool strays over the required surface, with the real path on top.
+//! The error of a trajectory surface as a map: how far the tool deviates over the required surface, with the real path on top.
 use crate::canvas::{Entry, Header, INK, PlotError, SCALE, Swatch, sheet};
 use crate::grid::{Frame, Panel, equal};
 use crate::scale::{range, short};

@@ -1,4 +1,4 @@
-//! Axis positions of the machine over the path or the time, one field per axis, with limits and blocks to look at.
+//! Axis positions of the machine over the path or the time, one field per axis, with limits and notable blocks.
 use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Mark, Record, Sample};
@@ -7,10 +7,10 @@ use plotters::prelude::RGBColor;
 use trunnion_geometry::deg;
 use trunnion_machine::{Axis, AxisKind, Limits, Machine};
 
-/// What a picture runs along.
+/// The horizontal axis of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Way of the tip, mm.
+    /// Travel of the tip, mm.
     Way,
     /// Time, s.
     Time,
@@ -59,7 +59,7 @@ pub(crate) fn entries(rules: &[(String, RGBColor, usize)]) -> Vec<Entry> {
 /// Draws them.
 ///
 /// # Errors
-/// Nothing is known of any motion.
+/// Nothing is known about any motion.
 pub fn joints(
     header: &Header,
     machine: &Machine,
@@ -90,12 +90,12 @@ pub fn joints(
     }
     legend.extend(entries(&rules));
     sheet(header, &legend, |body| {
-        let count = machine.axes.len();
+        let count = machine.own_axes().count();
         let (width, height) = body.dim_in_pixel();
         // the last field has the labels below it
         let labels = 500;
         let each = (height as i32 - labels) / count as i32;
-        for (joint, axis) in machine.axes.iter().enumerate() {
+        for (joint, axis) in machine.own_axes() {
             let last = joint + 1 == count;
             let top = each * joint as i32;
             let bottom = if last { height as i32 } else { top + each };

@@ -10,7 +10,7 @@ use trunnion_geometry::Vec3;
 /// Colour of the box.
 const FLOOR: RGBColor = RGBColor(170, 170, 170);
 
-/// Draws it. `tolerance`: blocks whose tip strays farther are drawn in a colour of their own, mm.
+/// Draws it. `tolerance`: blocks whose tip deviates farther are drawn in another colour, mm.
 ///
 /// # Errors
 /// No path is known.

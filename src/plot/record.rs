@@ -1,4 +1,4 @@
-//! What is kept of a run for pictures: samples along the real path, block by block.
+//! The record of a run for pictures: samples along the real path, block by block.
 use core::ops::Range;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
@@ -7,7 +7,7 @@ use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration
 /// The machine at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// BlockPath of the tip in the workpiece frame since the first known position, mm.
+    /// Path length of the tip in the workpiece frame since the first known position, mm.
     pub way: f64,
     /// Time since then, s; not a number after a block whose time is not known.
     pub time: f64,
@@ -36,7 +36,7 @@ pub struct Block {
     pub pole_angle: f64,
 }
 
-/// A block to look at.
+/// A notable block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mark {
     /// Line of the block, from 1.
@@ -52,7 +52,7 @@ pub struct Record {
     pub samples: Vec<Sample>,
     /// Blocks in the order of the run.
     pub blocks: Vec<Block>,
-    /// Motions whose path is not known.
+    /// Motions whose path is unknown.
     pub unknown: usize,
     /// The first line whose block is drawn by its ends alone, because the record holds as many samples as are kept.
     pub coarse_from: Option<u32>,
@@ -110,7 +110,7 @@ impl<'m> Recorder<'m> {
             return;
         }
         let Some(way) = BlockPath::new(self.machine, leg) else {
-            // the first motion starts from nowhere: nothing is missing of it
+            // the first motion has no known start: nothing of it is missing
             self.record.unknown += usize::from(leg.start.is_some() || leg.end.is_err());
             self.broken = true;
             return;

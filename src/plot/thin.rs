@@ -1,6 +1,6 @@
-//! Fewer points for the same line: what no eye sees is left out, so that a picture of a million blocks stays small.
+//! Fewer points for the same line: invisible points are left out, so that a picture of a million blocks stays small.
 
-/// How far a point that is left out may lie from the line, in tenths of a pixel.
+/// How far a point that is left out may be from the line, in tenths of a pixel.
 const UNSEEN: f64 = 2.5;
 
 /// How often a point is looked at, on average, before the line is cut into [`PIECE`]s. A line that is halved each time needs no more than

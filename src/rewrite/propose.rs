@@ -1,4 +1,4 @@
-//! Rewrites, proposals, and what becomes of them.
+//! Rewrites, proposals and their outcome.
 use trunnion_certify::{Certificate, Claim, Outcome, certify, recheck};
 use trunnion_check::{Diagnostic, Report, Settings, Severity, Status, check};
 use trunnion_syntax::{Program, TextEdit, apply_edits, parse};
@@ -39,13 +39,13 @@ pub struct Rewrite {
     pub name: &'static str,
     /// Header of its file.
     pub docs: &'static str,
-    /// Rules whose findings it may cure.
+    /// Rules whose findings it may fix.
     pub cures: &'static [&'static str],
     /// Proposes; `Err` says why not (for people); `Ok(None)`: nothing to do.
     pub propose: fn(&Program, &Settings<'_>, &Options) -> Result<Option<Proposal>, String>,
 }
 
-/// What became of a rewrite.
+/// The outcome of a rewrite.
 #[derive(Clone, Debug)]
 pub enum Attempt {
     /// Nothing to do.
@@ -67,7 +67,7 @@ pub enum Attempt {
 
 /// Proposes, has it certified, and re-checks the certificate as it will be stored. Refused too when a rotary axis would turn
 /// farther or in larger steps than before, or when a rule that it does not
-/// claim to cure would report more errors than before (those it cures may spread: less in one block, a little more in the next).
+/// claim to fix would report more errors than before (findings that it fixes may spread: less in one block, a little more in the next).
 pub fn attempt(rewrite: &Rewrite, program: &Program, settings: &Settings<'_>, options: &Options) -> Attempt {
     if let Err(reason) = crate::survey::runs_straight(program, settings) {
         return Attempt::Refused(reason);
@@ -140,7 +140,7 @@ fn no_worse_turns(certificate: &Certificate) -> Result<(), String> {
     Ok(())
 }
 
-/// No rule reports more errors than before, but for those that the rewrite cures.
+/// No rule reports more errors than before, except those that the rewrite fixes.
 fn no_new_errors(rewrite: &Rewrite, program: &Program, after: &[u8], settings: &Settings<'_>) -> Result<(), String> {
     let was = check(program, settings);
     let is = check(&parse(after.to_vec(), program.options()), settings);

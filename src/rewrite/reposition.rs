@@ -28,7 +28,7 @@ pub(crate) struct Writer<'a> {
     pub tolerance_mm: f64,
 }
 
-/// A coordinate's new number: its text and what that text says.
+/// A coordinate's new number: its text and the value of that text.
 #[derive(Clone)]
 struct Number {
     text: String,
@@ -37,7 +37,7 @@ struct Number {
 
 /// An orientation as it will be written.
 struct Orientation {
-    /// The tool axis the numbers say.
+    /// The tool axis of these numbers.
     axis: Vec3,
     /// The rotary joint that gives it, rad.
     q: f64,
@@ -58,7 +58,7 @@ impl Writer<'_> {
     }
 
     /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
-    /// in force before the block in the program after, and those after it on return. Gives the rotary joint that is
+    /// in effect before the block in the program after, and those after it on return. Gives the rotary joint that is
     /// written, rad: `q` but for rounding.
     pub(crate) fn turn(
         &self,
@@ -90,7 +90,7 @@ impl Writer<'_> {
         Ok(q)
     }
 
-    /// Makes the block say the pose of `stance` as it is, whatever was in force before.
+    /// Makes the block contain the pose of `stance`, whatever was in effect before.
     pub(crate) fn restore(
         &self,
         block: BlockId,
@@ -176,7 +176,7 @@ impl Writer<'_> {
         })
     }
 
-    /// By how much the rotary joint turns from one tool axis to another beside it, rad.
+    /// By how much the rotary joint turns from one tool axis to a neighbouring one, rad.
     fn azimuth_between(&self, from: &Vec3, to: &Vec3) -> f64 {
         let axis = &self.machine.axes[self.machine.rotary[0]];
         let e = axis.direction;
@@ -240,7 +240,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Edits that make the block say `numbers`: a number that differs is replaced, a missing word is inserted if another value is in force.
+    /// Edits that make the block contain `numbers`: a number that differs is replaced, a missing word is inserted if another value is in effect.
     fn edit(
         &self,
         block: &Block<'_>,

@@ -9,7 +9,7 @@ use trunnion_syntax::Program;
 /// What a rewrite file says about itself; name and documentation come from the file.
 #[derive(Clone, Copy)]
 pub(crate) struct Body {
-    /// Rules whose findings it may cure.
+    /// Rules whose findings it may fix.
     pub(crate) cures: &'static [&'static str],
     /// Proposes; see [`Rewrite::propose`].
     pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Result<Option<Proposal>, String>,

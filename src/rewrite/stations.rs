@@ -22,7 +22,7 @@ pub(crate) struct Station {
     pub pole_angle: f64,
 }
 
-/// The unbroken chain of straight feed motions round the motion `flip`, as stations: a motion that does not turn the tool joins
+/// The unbroken chain of straight feed motions around the motion `flip`, as stations: a motion that does not turn the tool joins
 /// its ends in one station, and so does a motion onto the pole where vectors are programmed (the rotary axis then rests).
 pub(crate) fn chain(machine: &Machine, points: &[Point], flip: usize) -> Vec<Station> {
     let joint = machine.rotary[0];
@@ -73,7 +73,7 @@ fn linked(a: &Point, b: &Point) -> bool {
         && a.block != b.block
 }
 
-/// The stations that may turn, round the motion `flip`: those inside the cone about the pole, and one fixed station at each end.
+/// The stations that may turn, around the motion `flip`: those inside the cone around the pole, and one fixed station at each end.
 /// `None` if there is nothing between the ends.
 pub(crate) fn window(stations: &[Station], flip: usize, cone: f64) -> Option<(usize, usize)> {
     let at = stations

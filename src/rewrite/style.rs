@@ -5,7 +5,7 @@
 pub(crate) struct NumberStyle {
     /// The largest number of digits after the point that the program uses.
     pub decimals: usize,
-    /// Zeros at the end are left out: `-0.79` beside `2.042`.
+    /// Trailing zeros are left out: `-0.79` next to `2.042`.
     pub trims: bool,
     /// A whole number keeps its point: `10.`.
     pub whole_point: bool,
@@ -73,7 +73,7 @@ impl NumberStyle {
     }
 }
 
-/// Signs and leading zero as the style wants them; never a minus before nothing but zeros.
+/// Signs and leading zero in this style; never a minus before only zeros.
 fn finish(mut text: String, plus: bool, leading_zero: bool) -> String {
     if text.starts_with('-') && !text.bytes().any(|b| (b'1'..=b'9').contains(&b)) {
         text.remove(0);
@@ -91,7 +91,7 @@ fn finish(mut text: String, plus: bool, leading_zero: bool) -> String {
 }
 
 /// The decimal number `text` plus the whole number `add`, exactly, with as many digits after the point as before.
-/// `None` when `text` is no plain decimal or has too many digits.
+/// `None` when `text` is not a plain decimal or has too many digits.
 pub(crate) fn add_whole(text: &str, add: i64) -> Option<String> {
     let digits = text.trim_start_matches(['+', '-']);
     let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));

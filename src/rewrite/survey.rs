@@ -148,7 +148,7 @@ pub(crate) fn programmed(program: &Program, dialect: &trunnion_dialect::Dialect,
     programmed
 }
 
-/// Notes whether motions come from inside a call.
+/// Records whether motions come from inside a call.
 #[derive(Default)]
 struct Calls(bool);
 
@@ -159,7 +159,7 @@ impl Sink for Calls {
     fn fault(&mut self, _: Fault) {}
 }
 
-/// Whether the program runs straight through, each block once and in the text's order; else why an edit of one block is not the
+/// Whether the program runs linearly, each block once and in the order of the text; else why an edit of one block is not the
 /// edit of one motion.
 pub(crate) fn runs_straight(program: &Program, settings: &Settings<'_>) -> Result<(), String> {
     let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);

@@ -24,32 +24,32 @@ pub struct Claim {
     pub frees_feed: bool,
     /// Everything but the geometry may differ: the claim is the path alone.
     pub path_only: bool,
-    /// The programs are in two languages (APT and G code): what one of them cannot say does not count. Set by [`compare`].
+    /// The programs are in two languages (APT and G code): what one of them cannot express is ignored. Set by [`compare`].
     pub across: bool,
-    /// Rapids of both controls run on straight lines. Set by [`compare`].
+    /// Rapids of both controls move in straight lines. Set by [`compare`].
     pub straight_rapids: bool,
-    /// The working plane counts along straight lines too, as the length of the tool lies across it. Set by [`compare`].
+    /// The working plane matters for straight lines too, as the length of the tool is perpendicular to it. Set by [`compare`].
     pub plane_counts: bool,
     /// Neither program is for a machine with rotary axes, as far as is known. Set by [`compare`].
     pub no_rotary: bool,
     /// Motions may be cut: a line in two is the line. Off, both programs must have the same motions one by one.
     pub cuts: bool,
-    /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, and no tolerance counts.
+    /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, without any tolerance.
     pub exact: Option<Exact>,
 }
 
-/// Decides whether two motions lead the same way.
+/// Decides whether two motions follow the same path.
 pub trait Judge {
     /// A pair of motions; `Err` ends the comparison with that verdict.
     fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict>;
-    /// A motion whose other program makes it in pieces: the point at which it is cut lies so far from it, mm or deg.
+    /// A motion that the other program makes in pieces: the distance of the cut point from it, mm or deg.
     fn cut(&mut self, off: f64) {
         let _ = off;
     }
 }
 
-/// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same whatever is
-/// unknown in them.
+/// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same even if values
+/// are unknown in them.
 pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {
     if let Some(exact) = claim.exact {
         return exact::walk(before, after, exact).err().unwrap_or(Verdict::Same);
@@ -113,15 +113,15 @@ fn walk(
     Ok(())
 }
 
-/// Where one program repeats the place of the motion before, after something that may have moved the machine, that may be no motion at all:
-/// what else is found there is not decided.
+/// If one program repeats the position of the motion before, after something that may have moved the machine, it may not move at all: other
+/// differences found there are undecided.
 fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
     let repeats = |item: &Item| matches!(item, Item::Motion(step) if repeats_place(step));
     match verdict {
         Verdict::Differs(mut found) if repeats(was) != repeats(is) => {
-            let which = if repeats(was) { "before" } else { "after" };
+            let which = if repeats(was) { "original" } else { "changed" };
             found.what = format!(
-                "{}; the program {which} repeats its last place here, and whether that moves the machine is not known",
+                "{}; the {which} program repeats its last position here, and it is unknown whether that moves the machine",
                 found.what
             );
             Verdict::Unknown(found)
@@ -130,7 +130,7 @@ fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
     }
 }
 
-/// How far a comparison of two things got.
+/// The result of comparing two items.
 enum Paired {
     /// Both are done.
     Both,
@@ -162,7 +162,7 @@ fn pair(was: &mut Item, is: &mut Item, claim: &Claim, judge: &mut dyn Judge) -> 
     Ok(Paired::Both)
 }
 
-/// The next item that counts.
+/// The next item that matters.
 fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
     steps.find(|item| match item {
         Item::Motion(step) => !(claim.cuts && is_idle(step)),
@@ -178,7 +178,7 @@ fn at(was: Option<&Item>, is: Option<&Item>, what: String) -> Difference {
     }
 }
 
-/// What must be the same at two motions before their paths are looked at.
+/// What must be the same at two motions before their paths are compared.
 fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     let (a, b) = (&was.motion, &is.motion);
     let place = |what: String| Difference {
@@ -229,7 +229,9 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         return unknown("only one of them programs the tool's direction by vectors".to_owned());
     }
     if a.tcp != b.tcp && claim.no_rotary && !claim.across {
-        return unknown("only one of them is under tool centre point control, and no rotary axes are known".to_owned());
+        return unknown(
+            "only one of them is under tool centre point control, and the rotary axes are unknown".to_owned(),
+        );
     }
     Ok(())
 }
@@ -245,7 +247,7 @@ fn kind(kind: &MotionKind) -> &'static str {
     }
 }
 
-/// Whether two motions end at one place, so that neither need be cut.
+/// Whether two motions end at the same position, so that neither need be cut.
 fn ends_together(was: &Step, is: &Step, claim: &Claim) -> bool {
     let (a, b) = (&was.motion, &is.motion);
     let sweeps = match (&a.kind, &b.kind) {
@@ -282,7 +284,7 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     };
     let place = |what: String| at(Some(was), Some(is), what);
     if sort != other_sort || words != other_words {
-        // two languages end their programs each in its own words
+        // each language ends its programs with its own words
         if *sort == Sort::End && *other_sort == Sort::End && claim.across {
             return Ok(());
         }
@@ -326,7 +328,7 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     }
     if stops(words) && process.message() != other_process.message() {
         return Err(Verdict::Unknown(place(format!(
-            "the operator reads another message at the stop: {} and {}",
+            "the operator message at the stop differs: {} and {}",
             shown(process.message()),
             shown(other_process.message())
         ))));
@@ -334,11 +336,11 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     Ok(())
 }
 
-/// One program does something where the other does something else, or nothing more.
+/// One program does something where the other does something else, or has ended.
 fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     let name = |item: Option<&Item>| match item {
         None => "ends".to_owned(),
-        Some(Item::Motion(step)) if step.is_part => format!("goes on with {}", kind(&step.motion.kind)),
+        Some(Item::Motion(step)) if step.is_part => format!("continues with {}", kind(&step.motion.kind)),
         Some(Item::Motion(step)) => format!("makes {}", kind(&step.motion.kind)),
         Some(Item::Happens { words, .. }) => format!("does `{}`", shown(words)),
     };
@@ -353,10 +355,10 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     };
     let part = |item: Option<&Item>| matches!(item, Some(Item::Motion(step)) if step.is_part);
     let what = match (part(was), part(is)) {
-        (true, false) | (false, true) => "a motion ends elsewhere: ",
+        (true, false) | (false, true) => "a motion ends at another position: ",
         _ => "",
     };
-    let what = format!("{what}the program before {}, the one after {}", name(was), name(is));
+    let what = format!("{what}the original program {}, the changed one {}", name(was), name(is));
     let place = at(was, is, what);
     let from_here = |item: Option<&Item>| matches!(item, Some(Item::Happens { words, .. }) if sets_from_here(words));
     let ends_elsewhere = part(was) != part(is) && (from_here(was) || from_here(is));

@@ -4,15 +4,15 @@ use crate::item::Step;
 use trunnion_geometry::arc::Arc;
 use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};
 
-/// A coordinate that differs by no more has not moved, mm or deg: sums of offsets round.
+/// A coordinate that differs by no more has not moved, mm or deg: sums of offsets are rounded.
 const STANDS: f64 = 1e-9;
 
-/// Whether a motion moves nothing and takes no time of its own: a block that repeats the place before it.
+/// Whether a motion moves nothing and takes no time: a block that repeats the position before it.
 pub(crate) fn is_idle(step: &Step) -> bool {
     step.may_repeat && stays(step)
 }
 
-/// Whether a motion repeats the place before it, after something that may have moved the machine.
+/// Whether a motion repeats the position before it, after something that may have moved the machine.
 pub(crate) fn repeats_place(step: &Step) -> bool {
     !step.may_repeat && stays(step)
 }
@@ -42,14 +42,14 @@ fn stays(step: &Step) -> bool {
         && !is_coupled(step)
 }
 
-/// Whether a cycle or the spindle goes along with the motion.
+/// Whether a cycle or the spindle is coupled to the motion.
 fn is_coupled(step: &Step) -> bool {
     let is_set = |key| !step.process.get(key).is_empty();
     is_set("cycle") || is_set("synchronised")
 }
 
-/// Whether a motion may be made in several pieces without a difference: not where each piece ends with a stop, takes a time of its own, or
-/// is coupled to the spindle.
+/// Whether a motion may be made in several pieces without a difference: not if each piece ends with a stop, has its own time, or is coupled
+/// to the spindle.
 fn may_be_cut(step: &Step) -> bool {
     let stops = step.process.get("path-control").first();
     let stops = stops.is_some_and(|code| matches!(code.name.as_ref(), "G60" | "G61" | "G61.1"));
@@ -59,7 +59,7 @@ fn may_be_cut(step: &Step) -> bool {
         && step.motion.tilt.swivel == Swivel::No
 }
 
-/// Cuts `long` where `short` ends, if that lies on it within `mm` and `deg`: then `long` becomes what is left of it, and the largest
+/// Cuts `long` where `short` ends, if that is on it within `mm` and `deg`: then `long` becomes the rest of it, and the largest
 /// distance of the point from it is returned (mm or deg).
 pub(crate) fn cut(long: &mut Step, short: &Step, claim: &Claim) -> Option<f64> {
     let (mm, deg) = (claim.mm, claim.deg);
@@ -78,7 +78,7 @@ pub(crate) fn cut(long: &mut Step, short: &Step, claim: &Claim) -> Option<f64> {
     let share = match (&motion.kind, &short.motion.kind) {
         (MotionKind::Linear, MotionKind::Linear) => straight_share(motion.start, motion.end, point),
         (MotionKind::Rapid, MotionKind::Rapid) => {
-            // axes of a rapid may run each for itself: then its path is straight only where one axis moves
+            // the axes of a rapid may move independently: then its path is straight only where one axis moves
             let moving = (0..9).filter(|axis| (motion.end.values[*axis] - motion.start.values[*axis]).abs() > STANDS);
             if !claim.straight_rapids && moving.count() != 1 {
                 return None;
@@ -90,7 +90,7 @@ pub(crate) fn cut(long: &mut Step, short: &Step, claim: &Claim) -> Option<f64> {
     }?;
     let turns = (3..6).any(|axis| (motion.end.values[axis] - motion.start.values[axis]).abs() > STANDS);
     match motion.orientation {
-        // rotary words may be made to run on a great circle, which is not even in them
+        // rotary words may be interpolated on a great circle, which is not linear in them
         Orientation::Words if turns && motion.tcp && motion.great_circle != Some(false) => return None,
         Orientation::Words => {}
         Orientation::Vector(Some(start), to) if (start - to).norm() <= STANDS => {}
@@ -152,7 +152,7 @@ fn arc_share(arc: &Arc, piece: &Arc, (mm, _): (f64, f64)) -> Option<f64> {
     (along && centred && share > 0.0 && share < 1.0).then_some(share)
 }
 
-/// What is left of an arc after a share of it.
+/// The rest of an arc after a share of it.
 fn rest(arc: &Arc, share: f64) -> Arc {
     let start = arc.point_at(share);
     Arc {

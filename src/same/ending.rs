@@ -1,4 +1,4 @@
-//! What two programs leave behind when they end.
+//! The state that two programs leave when they end.
 use crate::process::unlike;
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
@@ -6,20 +6,20 @@ use trunnion_interp::same_number;
 
 /// Both were followed to their ends.
 pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    for (which, steps) in [("before", before), ("after", after)] {
+    for (which, steps) in [("original", before), ("changed", after)] {
         if let Some(stop) = steps.stop() {
             let block = Some(stop.block);
             return Err(Verdict::Unknown(Difference {
-                before: block.filter(|_| which == "before"),
-                after: block.filter(|_| which == "after"),
-                what: format!("the program {which} was not followed to its end: {}", stop.why),
+                before: block.filter(|_| which == "original"),
+                after: block.filter(|_| which == "changed"),
+                what: format!("the {which} program was not followed to its end: {}", stop.why),
             }));
         }
     }
     Ok(())
 }
 
-/// What both leave behind.
+/// The state that both leave.
 pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     let nowhere = |what: String| {
         Err(Verdict::Differs(Difference {
@@ -67,7 +67,9 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
     let (zero, other) = (before.state().zero.values(), after.state().zero.values());
     let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();
     if !zero.iter().zip(&other).all(same) {
-        return unknown("the zero point at the end differs, and whether the control resets it is not known".to_owned());
+        return unknown(
+            "the zero point at the end differs, and it is unknown whether the control resets it".to_owned(),
+        );
     }
     Ok(())
 }

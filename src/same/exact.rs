@@ -1,7 +1,7 @@
 //! Two texts that must do exactly the same, to the last bit: only their layout, or the numbers of their blocks, may differ.
 //!
-//! Both run block by block. After each block that holds something, every motion, effect and fault, and the whole modal state, must be
-//! equal. A number that is unknown equals another unknown number: both texts have the same words, so both are unknown for one reason.
+//! Both run block by block. After each block with content, every motion, effect and fault, and the whole modal state, must be
+//! equal. A number that is unknown equals another unknown number: both texts have the same words, so both are unknown for the same reason.
 use crate::item::Item;
 use crate::process::{Process, stops, unlike};
 use crate::steps::Steps;
@@ -16,18 +16,18 @@ use trunnion_syntax::{BlockId, Program, TokenKind};
 pub struct Exact {
     /// The numbers of blocks may differ, and what names them: texts in faults, and the words of blocks that are not modelled.
     pub frees_block_numbers: bool,
-    /// So many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
+    /// This many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
     /// larger: empty blocks of one side would make its interpreter stop before the other.
     pub most_blocks: u64,
 }
 
-/// Replaces an unknown number where equality is decided; the interpreters take no number above 1e12.
+/// Replaces an unknown number in comparisons; the interpreters accept no number above 1e12.
 const UNKNOWN: f64 = f64::MAX;
 
 /// One program of the comparison.
 struct Side<'r, 'a> {
     steps: &'r mut Steps<'a>,
-    /// How many blocks that hold something come before each block.
+    /// How many blocks with content come before each block.
     ordinals: Vec<u32>,
     /// Blocks that it has run, empty ones too.
     blocks: u64,
@@ -73,15 +73,15 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
         }
         match (left, right) {
             (None, None) if a.is_compared() && b.is_compared() => return Ok(()),
-            (None, None) => return at("one program does more at its end"),
+            (None, None) => return at("one program does more than the other at its end"),
             (Some(x), Some(y)) if a.ordinal(x) == b.ordinal(y) => {}
             _ => return at("the order in which blocks run differs"),
         }
         if !ModalState::is_alike(a.steps.state(), b.steps.state()) {
-            // what the end of the text brings comes with the last block, or with an empty one after it
+            // effects of the end of the text come with the last block, or with an empty one after it
             let more = a.advance().is_some() || b.advance().is_some();
             if more || !ModalState::is_alike(a.steps.state(), b.steps.state()) {
-                return at("what is in force after the block differs");
+                return at("what is in effect after the block differs");
             }
         }
     }
@@ -115,7 +115,7 @@ impl<'r, 'a> Side<'r, 'a> {
         self.items.is_empty() && self.faults.is_empty()
     }
 
-    /// Runs on to the end of the next block that holds something; `None` at the end.
+    /// Runs to the end of the next block with content; `None` at the end.
     fn advance(&mut self) -> Option<BlockId> {
         loop {
             let block = self.steps.advance();
@@ -131,8 +131,8 @@ impl<'r, 'a> Side<'r, 'a> {
         }
     }
 
-    /// Of a line only the first mistake counts: what else is found after it depends on the blanks, because reading goes on at what looks
-    /// like a word. The control stops at the first. LinuxCNC's reader does not look at blanks.
+    /// Only the first mistake of a line is compared: what is found after it depends on the blanks, because reading continues at the next
+    /// apparent word. The control stops at the first. LinuxCNC's reader does not look at blanks.
     fn fault(&mut self, fault: Fault) {
         let ordinal = self.ordinal(fault.block);
         if !self.steps.input().dialect.quirks.rs274() && is_refusal(&fault.kind) && !self.refused.insert(ordinal) {
@@ -185,9 +185,9 @@ fn item_difference(
             };
             let same = |(a, b): (&Argument, &Argument)| same_word(a, b) || free(a) && a.name == b.name;
             if sort != other_sort || words.len() != others.len() || !words.iter().zip(others).all(same) {
-                return Some("what a block does beside motions differs");
+                return Some("what a block does apart from motions differs");
             }
-            // elsewhere a message only passes over the screen, and the number of its line may be in it
+            // elsewhere a message only appears on the screen, and may contain the number of its line
             if stops(words) && process.message() != other.message() {
                 return Some("the message at a stop differs");
             }
@@ -224,7 +224,7 @@ fn known_place(position: &mut Position) {
     position.values.iter_mut().for_each(known);
 }
 
-/// Whether two motions are the same but for their blocks.
+/// Whether two motions are the same apart from their blocks.
 pub(crate) fn same_motion(a: &Motion, b: &Motion) -> bool {
     let comparable = |motion: &Motion| {
         let mut motion = *motion;
@@ -258,7 +258,7 @@ fn is_refusal(kind: &FaultKind) -> bool {
     )
 }
 
-/// Whether two faults are the same but for places and the spelling of texts that they quote.
+/// Whether two faults are the same apart from places and the spelling of texts that they quote.
 fn same_fault(a: &FaultKind, b: &FaultKind, exact: Exact) -> bool {
     let free = exact.frees_block_numbers;
     let alike = |a: &str, b: &str| free || folded(a).eq(folded(b));

@@ -5,18 +5,18 @@ use trunnion_interp::{Argument, Effect, Motion, Reach, Situation};
 use trunnion_machine::Leg;
 use trunnion_syntax::BlockId;
 
-/// A motion with everything that is in force.
+/// A motion with everything that is in effect.
 #[derive(Clone, Debug)]
 pub struct Step {
     /// As programmed.
     pub motion: Motion,
     /// What the machine does; `None` without a machine.
     pub leg: Option<Leg>,
-    /// What the modal state holds.
+    /// The fields of the modal state.
     pub held: Held,
-    /// What else is in force.
+    /// What else is in effect.
     pub process: Arc<Process>,
-    /// Since the motion before, nothing may have changed where its coordinates lie: a block that repeats the place does not move.
+    /// Since the motion before, nothing can have changed its coordinates: a block that repeats the position does not move.
     pub may_repeat: bool,
     /// It is a part of a motion of the program, up to a point at which the other program has one.
     pub is_part: bool,
@@ -46,9 +46,9 @@ pub enum Item {
         sort: Sort,
         /// Its words.
         words: Vec<Argument>,
-        /// What is in force.
+        /// What is in effect.
         process: Arc<Process>,
-        /// What something that is not modelled may read: before and after its block.
+        /// The state that something unmodelled may read: before and after its block.
         around: Option<Arc<Around>>,
     },
 }
@@ -72,7 +72,7 @@ pub struct Stop {
     pub why: String,
 }
 
-/// What is in force before and after the block of an effect, where something that is not modelled may read it.
+/// The state before and after the block of an effect, for something unmodelled that may read it.
 #[derive(Clone, Debug)]
 pub struct Around {
     /// Before and after.
@@ -81,9 +81,9 @@ pub struct Around {
     pub(crate) process: Arc<Process>,
 }
 
-/// Something that waits until the motions before it are known.
+/// Something pending until the motions before it are known.
 pub(crate) struct Waiting {
-    /// It comes before motions that were made after so many effects.
+    /// It comes before motions that were made after this many effects.
     pub(crate) before: u32,
     pub(crate) block: BlockId,
     pub(crate) what: Waits,
@@ -93,14 +93,14 @@ pub(crate) struct Waiting {
 /// See [`Waiting`].
 pub(crate) enum Waits {
     Effect(Effect, Reach),
-    /// A word of a group was said after something ran that may have changed everything: see [`Process::restate`].
+    /// A word of a group was programmed after something ran that may have changed everything: see [`Process::restate`].
     Restated(String, Vec<Argument>),
     /// Such a thing ran.
     Lost,
 }
 
 impl Waiting {
-    /// Whether it may read and change whatever is modal.
+    /// Whether it may read and change the modal state.
     pub(crate) fn is_own_code(&self) -> bool {
         matches!(self.what, Waits::Effect(_, Reach::Everything))
     }

@@ -1,7 +1,7 @@
 //! Floor 5: whether two programs do the same, motion for motion.
 //!
-//! [`Steps`] runs a program and yields what it does, in order: motions with everything that is in force, and whatever else happens.
-//! [`compare`] holds two such streams against each other and names the first difference. It is the one place that decides what "the same"
+//! [`Steps`] runs a program and yields what it does, in order: motions with everything that is in effect, and all other events.
+//! [`compare`] compares two such streams and names the first difference. It is the one place that decides what "the same"
 //! means; whoever compares programs (proofs, `diff`, layout) asks it.
 //!
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].

@@ -1,4 +1,4 @@
-//! Two motions that lead the same way within tolerances, by what is programmed and, with a machine, by what the machine does.
+//! Two motions along the same path within tolerances, by what is programmed and, with a machine, by what the machine does.
 use crate::compare::Judge;
 use crate::item::Step;
 use crate::verdict::{Difference, Verdict};
@@ -16,7 +16,7 @@ pub struct Near {
     pub deg: f64,
 }
 
-/// At so many places two arcs are compared; between them a bound holds.
+/// Two arcs are compared at this many points; between them a bound holds.
 const SAMPLES: u32 = 256;
 
 impl Judge for Near {
@@ -110,12 +110,12 @@ impl Near {
     }
 }
 
-/// Programmed with the same sort of words.
+/// Programmed with the same kind of words.
 fn same_sort(a: &Motion, b: &Motion) -> bool {
     core::mem::discriminant(&a.orientation) == core::mem::discriminant(&b.orientation) && a.tilt == b.tilt
 }
 
-/// A coordinate with the zero point in force.
+/// A coordinate with the zero point in effect.
 fn placed(motion: &Motion, axis: usize, value: f64) -> f64 {
     if motion.machine_coordinates {
         value
@@ -129,7 +129,7 @@ fn zero(motion: &Motion) -> Vec3 {
     Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2])
 }
 
-/// How far the zero point of `b` lies from that of `a`, mm; zero where it is unknown.
+/// How far the zero point of `b` is from that of `a`, mm; zero where it is unknown.
 fn shift(a: &Motion, b: &Motion) -> Vec3 {
     (zero(b) - zero(a)).map(|value| if value.is_nan() { 0.0 } else { value })
 }

@@ -1,4 +1,4 @@
-//! What is noted at a block beside its effects: what something that is not modelled could read, and words that restate what may be lost.
+//! What is recorded at a block apart from its effects: what something unmodelled could read, and words that restate what may be lost.
 use crate::item::{Around, Waits};
 use crate::process::Process;
 use crate::since::{keeps_place, only_steers, writes_control};
@@ -9,8 +9,8 @@ use trunnion_interp::{Argument, Effect, Reach, Situation};
 use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as SyntaxValue};
 
 impl Steps<'_> {
-    /// Gives the effects of a block that something else may decide what that may read. `before`: what was in force and set before the
-    /// block; `effects`: how many effects there were; `own_locals`: what runs there begins with local variables of its own.
+    /// Gives those effects of a block that depend on other state what they may read. `before`: what was in effect and set before the
+    /// block; `effects`: how many effects there were; `own_locals`: what runs there begins with its own local variables.
     pub(super) fn note_situation(
         &mut self,
         before: (Situation, Arc<Process>),
@@ -62,8 +62,8 @@ impl Steps<'_> {
         }
     }
 
-    /// LinuxCNC's G10 L20 sets a zero point from where the machine stands, and is compared by the values that it stores: where these
-    /// depend on what is not declared, its place among the motions and offsets counts, too.
+    /// LinuxCNC's G10 L20 sets a zero point at the position of the machine, and is compared by the values that it stores: if these
+    /// depend on undeclared values, its place among the motions and offsets matters too.
     fn note_data_entry(&mut self, block: BlockId, effects: u32) {
         let text = trunnion_interp::canonical_text(&self.input.program.text(self.input.program.block(block).range()));
         if !text.contains("L20") || !self.state().undeclared().any() {
@@ -79,7 +79,7 @@ impl Steps<'_> {
         self.run.wait(effects, block, what);
     }
 
-    /// Words of a block of the main program: what they restate counts where everything was unknown, and what they change may move the
+    /// Words of a block of the main program: what they restate matters if everything was unknown, and what they change may move the
     /// coordinates.
     pub(super) fn note_block(&mut self, block: BlockId, effects: u32, lost: bool) {
         let (program, dialect) = (self.input.program, self.input.dialect);
@@ -173,7 +173,7 @@ pub(super) fn with_values(text: &str, known: &[Argument]) -> String {
     out + rest
 }
 
-/// The words of a macro call in one order. I, J and K keep theirs, which says to which variables they go (Series 30i operator's manual,
+/// The words of a macro call in one order. I, J and K keep their order, which decides to which variables they go (Series 30i operator's manual,
 /// custom macro, argument specification II).
 pub(super) fn arguments_in_order(text: &str) -> String {
     let mut words: Vec<String> = Vec::new();
@@ -185,7 +185,7 @@ pub(super) fn arguments_in_order(text: &str) -> String {
         }
         deep += i32::from(sign == '[') - i32::from(sign == ']');
     }
-    // the code and its program come first, as people write a call
+    // the code and its program come first, as in a usual call
     let key = |word: &String| match word.as_bytes().first() {
         Some(b'G') => 0,
         Some(b'P') => 1,

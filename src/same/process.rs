@@ -1,20 +1,20 @@
-//! What is in force at a moment of a run, beside where the tool is.
+//! The state at a moment of a run, apart from the position of the tool.
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_dialect::Plane;
 use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, same_number};
 
-/// Settings by their key; a key that is absent was never set, or is back at what it was before anything set it.
+/// Settings by their key; a key that is absent was never set, or has its initial value again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Process {
     settings: BTreeMap<Cow<'static, str>, Vec<Argument>>,
-    /// Words by their group that were said after something ran that may have changed everything modal: with or without them, something
-    /// else may be in force.
+    /// Words by their group that were programmed after something ran that may have changed everything modal: with and without them the state
+    /// may differ.
     restated: BTreeMap<String, Vec<Argument>>,
 }
 
-/// The text on the screen: it counts where the program stops with it.
+/// The text on the screen: it matters if the program stops with it.
 const MESSAGE: &str = "message";
 
 /// A setting that differs.
@@ -22,7 +22,7 @@ pub(crate) struct Unlike {
     pub(crate) key: String,
     pub(crate) from: String,
     pub(crate) to: String,
-    /// What is in force is not known: the words were said after something ran that may have changed it.
+    /// The state is unknown: the words were programmed after something ran that may have changed it.
     pub(crate) is_restated: bool,
 }
 
@@ -41,14 +41,14 @@ impl Process {
         true
     }
 
-    /// A word of a group was said again; see [`Self::restated`].
+    /// A word of a group was programmed again; see [`Self::restated`].
     pub(crate) fn restate(this: &mut Arc<Self>, group: String, to: Vec<Argument>) {
         if this.restated.get(&group) != Some(&to) {
             Arc::make_mut(this).restated.insert(group, to);
         }
     }
 
-    /// Everything modal is unknown from here on.
+    /// The whole modal state is unknown from here on.
     pub(crate) fn lose_restated(this: &mut Arc<Self>) {
         if !this.restated.is_empty() {
             Arc::make_mut(this).restated.clear();
@@ -60,18 +60,18 @@ impl Process {
         self.get(MESSAGE)
     }
 
-    /// What a key is set to; empty where it is not set.
+    /// The value of a key; empty if it is not set.
     pub fn get(&self, key: &str) -> &[Argument] {
         self.settings.get(key).map_or(&[], Vec::as_slice)
     }
 
-    /// All settings as people read them, in the order of their keys.
+    /// All settings for messages, in the order of their keys.
     pub fn settings(&self) -> Vec<(String, String)> {
         let settings = self.settings.iter().filter(|(key, _)| *key != MESSAGE);
         settings.map(|(key, to)| (key.to_string(), shown(to))).collect()
     }
 
-    /// Whether the spindle is known to stand still: then its speed does nothing.
+    /// Whether the spindle is known to be stopped: then its speed does not matter.
     fn spindle_stands(&self) -> bool {
         matches!(self.get("spindle"), [only] if only.name == "M5")
     }
@@ -102,7 +102,7 @@ impl Process {
     }
 }
 
-/// The first setting that differs and counts; `shared`: only those that APT and G code share do.
+/// The first setting that differs and matters; `shared`: only those that APT and G code share.
 pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike> {
     let found = if shared {
         was.shared_differences(is)
@@ -122,7 +122,7 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     let group = groups.next().filter(|_| !shared)?;
     let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
     Some(Unlike {
-        key: format!("{group} after a program that is not known"),
+        key: format!("{group} after a called program that could not be read"),
         from: said(was),
         to: said(is),
         is_restated: true,
@@ -136,7 +136,7 @@ pub(crate) fn stops(words: &[Argument]) -> bool {
         .is_some_and(|word| matches!(word.name.as_ref(), "M0" | "M1"))
 }
 
-/// Words as people read them.
+/// Words for messages.
 pub fn shown(words: &[Argument]) -> String {
     if words.is_empty() {
         return "not programmed".to_owned();
@@ -144,14 +144,14 @@ pub fn shown(words: &[Argument]) -> String {
     words.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
-/// What the modal state holds for a motion that the motion itself does not.
+/// What the modal state contains for a motion that the motion itself does not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Held {
     /// Name of the active work offset.
     pub work_offset: Option<Arc<str>>,
     /// Side of the cutter radius compensation: 0 off, 41, 42.
     pub compensation: u8,
-    /// Whose length is in force.
+    /// Which tool's length is active.
     pub length_of: LengthOf,
     /// Working plane: arcs, cycles and compensation lie in it.
     pub plane: Plane,
@@ -186,7 +186,7 @@ impl Held {
         }
     }
 
-    /// The first field that differs: name, before, after. `plane`: whether the working plane counts.
+    /// The first field that differs: name, before, after. `plane`: whether the working plane matters.
     pub(crate) fn difference(&self, other: &Self, plane: bool) -> Option<(&'static str, String, String)> {
         let offset = |held: &Self| held.work_offset.as_deref().unwrap_or("none").to_owned();
         let side = |held: &Self| match held.compensation {
@@ -209,7 +209,7 @@ impl Held {
                 name(other.plane).to_owned(),
             ))
         } else if self.length_of != other.length_of {
-            let name = "whose tool length is in force";
+            let name = "which tool's length is active";
             Some((name, self.length_of.to_string(), other.length_of.to_string()))
         } else {
             None
@@ -239,7 +239,7 @@ pub(crate) fn same_feed(a: Feed, b: Feed) -> bool {
     }
 }
 
-/// What the motions themselves hold of the process and must agree on: name, before, after.
+/// The parts of the process in the motions themselves that must be the same: name, before, after.
 pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Option<(&'static str, String, String)> {
     let yes = |on: bool| if on { "on" } else { "off" }.to_owned();
     let tool = |motion: &Motion| motion.tool.map_or("unknown".to_owned(), |number| format!("T{number}"));
@@ -255,7 +255,7 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
         Some(("the tool", tool(a), tool(b)))
     } else if !same_number(a.tool_length_mm, b.tool_length_mm) {
         let mm = |motion: &Motion| format!("{} mm", motion.tool_length_mm);
-        Some(("the tool length in force", mm(a), mm(b)))
+        Some(("the active tool length", mm(a), mm(b)))
     } else if a.machine_coordinates != b.machine_coordinates {
         Some((
             "machine coordinates",
@@ -275,7 +275,7 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
                     .to_owned()
             }
         };
-        Some(("the posture or turn that is asked for", asked(a), asked(b)))
+        Some(("the requested posture or turn", asked(a), asked(b)))
     } else if a.tcp && b.tcp && a.great_circle != b.great_circle {
         Some(("the interpolation of the tool axis", circle(a), circle(b)))
     } else if feed_counts && a.is_feed() && !same_feed(a.feed, b.feed) {

@@ -8,7 +8,7 @@ use trunnion_interp::{Argument, Motion};
 pub(crate) struct Since {
     /// Something may have moved the coordinates, or the machine, since the last motion.
     pub(crate) disturbed: bool,
-    /// Something ran that may have changed everything modal: what is restated from then on counts.
+    /// Something ran that may have changed everything modal: what is restated from then on matters.
     pub(crate) lost: bool,
     /// Some motion was made in machine coordinates, or with another offset or length than the one after it: an axis may still be where
     /// that motion put it.
@@ -18,7 +18,7 @@ pub(crate) struct Since {
 }
 
 impl Since {
-    /// A motion is made: whether it lies in the frame of the motion before, with nothing between that may have changed it.
+    /// A motion is made: whether it is in the frame of the motion before, with nothing between that may have changed it.
     pub(crate) fn motion(&mut self, motion: &Motion, held: &Held) -> bool {
         let same = self.last.as_ref().is_some_and(|(last, was)| {
             let zero = last
@@ -34,20 +34,20 @@ impl Since {
                 && last.radii == motion.radii
                 && last.tilt == motion.tilt
         });
-        // a new length counts along Z: a motion that goes there leaves nothing of the one before
+        // a new length acts along Z: after a motion along Z nothing is left of the old one
         let to_new_height = motion.start.get(2) != motion.end.get(2);
         let other_frame = |(_, was): &(Motion, Held)| {
             was.work_offset != held.work_offset || was.length_of != held.length_of && !to_new_height
         };
-        // LinuxCNC's motions in machine coordinates rest on nothing undeclared, and do not say more
+        // LinuxCNC's motions in machine coordinates depend on nothing undeclared
         self.strayed |=
             motion.machine_coordinates || !motion.undeclared.any() || self.last.as_ref().is_some_and(other_frame);
         self.last = Some((*motion, held.clone()));
         !std::mem::take(&mut self.disturbed) && same
     }
 
-    /// Whether an event only says that a zero point is set from here, with the offset and the length of all motions so far: then nothing
-    /// that is not declared comes into it.
+    /// Whether an event only says that a zero point is set from here, with the offset and the length of all motions so far: then no
+    /// undeclared value matters.
     pub(crate) fn is_set_plainly(&self, words: &[Argument]) -> bool {
         let [name, offset, length] = words else { return false };
         name.name == FROM_HERE
@@ -60,7 +60,7 @@ impl Since {
     }
 }
 
-/// The event of a zero point that is set from where the machine stands (G92).
+/// The event of a zero point that is set at the position of the machine (G92).
 const FROM_HERE: &str = "zero point set from here";
 
 /// Whether an event is that one.
@@ -129,7 +129,7 @@ fn assigns_control(text: &str) -> bool {
     }
 }
 
-/// Whether a code surely leaves the machine where it is, and its coordinates where they lie, but for what a motion itself says of them.
+/// Whether a code certainly leaves the machine and its coordinates where they are, apart from what the motion itself does.
 pub(crate) fn keeps_place(code: &Code, dialect: &Dialect) -> bool {
     // LinuxCNC's engine runs its cycles itself
     let runs_cycles = dialect.quirks.rs274() && code.action == Action::CannedCycle;

@@ -1,4 +1,4 @@
-//! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
+//! A program as a stream of what it does: only the steps of the current block are kept.
 use crate::counted::Counted;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
@@ -35,16 +35,16 @@ pub(crate) struct Run<'a> {
     pub(crate) process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
-    /// So many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
-    /// force at each.
+    /// This many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
+    /// effect at each.
     most_in_block: usize,
     /// A block does more than is kept: the run ends with it.
     given_up: bool,
     /// Blocks of the main program whose called program is missing.
     pub(crate) missing: Vec<BlockId>,
-    /// What is wrong, where somebody asks for it.
+    /// Faults, if they are requested.
     faults: Option<Vec<Fault>>,
-    /// Effects with their numbers in the run, where somebody asks for them.
+    /// Effects with their numbers in the run, if they are requested.
     log: Option<Vec<(u32, Placed)>>,
 }
 
@@ -97,7 +97,7 @@ impl Run<'_> {
             },
         );
     }
-    /// The block makes more motions than are kept: the run ends with it, and those who watch faults get one.
+    /// The block makes more motions than are kept: the run ends with it, and a fault is reported.
     #[cold]
     fn give_up(&mut self, block: BlockId) {
         if !std::mem::replace(&mut self.given_up, true) {
@@ -117,7 +117,7 @@ impl Run<'_> {
 /// Why a run is not followed to the end of its program, where a fault means that.
 fn ends(kind: &FaultKind) -> Option<String> {
     Some(match kind {
-        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop comes back to the same values".to_owned(),
+        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop returns to the same values".to_owned(),
         FaultKind::EndlessLoop { blocks, .. } => format!(
             "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
              trunnion.toml"
@@ -172,7 +172,7 @@ impl<'a> Steps<'a> {
         word.is_some_and(|word| word >> (block.0 % 64) & 1 == 1)
     }
 
-    /// Where and why the run stopped before the end of its program; asked when there are no more items.
+    /// Where and why the run stopped before the end of its program; called when there are no more items.
     pub fn stop(&self) -> Option<&Stop> {
         self.run.stop.as_ref()
     }
@@ -187,12 +187,12 @@ impl<'a> Steps<'a> {
         Held::new(self.state())
     }
 
-    /// What is in force now.
+    /// What is in effect now.
     pub fn process(&self) -> &Arc<Process> {
         &self.run.process
     }
 
-    /// Variables that outlive the program, with their values as far as they are known; asked when there are no more items.
+    /// Variables that keep their values after the program ends, as far as these are known; called when there are no more items.
     pub fn stored(&self) -> BTreeMap<String, Value> {
         let mut stores = self.run.stores.clone();
         let kept = self.interpreter.outliving().into_iter();
@@ -211,7 +211,7 @@ impl<'a> Steps<'a> {
         self.run.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// An excerpt: what is in force before its first block. `feed` in mm/min.
+    /// An excerpt: what is in effect before its first block. `feed` in mm/min.
     pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
         let state = self.interpreter.state_mut();
         state.tool_axis.set_tcp(state.tool_axis.tcp() || tcp);
@@ -257,7 +257,7 @@ impl<'a> Steps<'a> {
             let block = self.ready.back().map_or(BlockId(0), Item::block);
             let most = self.run.most_in_block;
             let why =
-                format!("it does more than {most} things without a motion: raise `held` of [limits] in trunnion.toml");
+                format!("it does more than {most} actions without a motion: raise `held` of [limits] in trunnion.toml");
             self.run.stop.get_or_insert(Stop { block, why });
             self.over = true;
             return None;

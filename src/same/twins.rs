@@ -1,4 +1,4 @@
-//! Two programs with the same text: what is unknown in both is unknown for one reason, and is no difference between them.
+//! Two programs with the same text: what is unknown in both is unknown for the same reason, and is not a difference between them.
 use crate::exact::same_motion;
 use crate::input::Input;
 use crate::item::Item;
@@ -46,19 +46,19 @@ impl Twins {
         let what = if setup != *new.setup {
             "tools, work offsets, variables or control parameters differ"
         } else if old.setup.library != new.setup.library && may_call(old) {
-            "the programs that it may call lie in two places"
+            "the programs that it may call come from different folders"
         } else {
             return Ok(true);
         };
         Err(Verdict::Unknown(Difference {
             before: Some(stop.block),
             after: Some(stop.block),
-            what: format!("the run is not followed from here on ({}), and {what}", stop.why),
+            what: format!("the run cannot be followed from here on ({}), and {what}", stop.why),
         }))
     }
 }
 
-/// Whether two things are exactly the same but for what is unknown in both.
+/// Whether two items are exactly the same except for values that are unknown in both.
 fn alike(was: &Item, is: &Item) -> bool {
     match (was, is) {
         (Item::Motion(was), Item::Motion(is)) => {

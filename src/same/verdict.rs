@@ -2,12 +2,12 @@
 use core::fmt;
 use trunnion_syntax::BlockId;
 
-/// The first place at which two programs part, or at which nothing can be said.
+/// The first place where two programs differ, or where nothing can be decided.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// Block of the program before, if it has one there.
+    /// Block of the original program, if it has one there.
     pub before: Option<BlockId>,
-    /// Block of the program after, if it has one there.
+    /// Block of the changed program, if it has one there.
     pub after: Option<BlockId>,
     /// What differs or is missing, with numbers and units; one sentence.
     pub what: String,
@@ -22,7 +22,7 @@ impl fmt::Display for Difference {
 /// The outcome of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// The same, as far as the claim asks.
+    /// The same, as far as the claim requires.
     Same,
     /// Not the same.
     Differs(Difference),

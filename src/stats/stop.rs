@@ -12,7 +12,7 @@ pub(crate) struct Stop {
     pub(crate) why: String,
     /// Blocks that ran since; a refused block stops the run only if none did.
     since: u8,
-    /// The run stops here whatever follows.
+    /// The run stops here in any case.
     sure: bool,
 }
 

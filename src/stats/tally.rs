@@ -1,9 +1,11 @@
-//! Counts what a run says.
+//! Counts what a run reports.
 use crate::calls::{Call, calls};
 use crate::stop::Stops;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, ModalState, Motion, MotionKind, ProgramRun, Sink};
+use trunnion_interp::{
+    AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink,
+};
 use trunnion_machine::{AxisKind, Follower};
 use trunnion_same::Input;
 use trunnion_syntax::{BlockId, Item, LineIndex};
@@ -43,7 +45,7 @@ pub struct ToolUse {
 /// Everything counted. Lengths mm along the programmed X Y Z path, times s.
 #[derive(Default)]
 pub struct Tally {
-    /// Blocks that hold something.
+    /// Blocks with content.
     pub blocks: u64,
     /// Blocks that ran, repeated ones each time.
     pub run: u64,
@@ -55,7 +57,7 @@ pub struct Tally {
     pub feed_mm: f64,
     /// Of `feed_mm`, with the spindle off.
     pub spindle_off_mm: f64,
-    /// Motions whose length is not known.
+    /// Motions whose length is unknown.
     pub unmeasured: u64,
     /// Time of feed motions at the programmed feed.
     pub feed_s: f64,
@@ -104,9 +106,9 @@ impl Tally {
             ..Self::default()
         };
         if let Some(machine) = input.machine {
-            let axes = machine.axes.iter();
+            let axes = machine.own_axes();
             tally.joints = axes
-                .map(|axis| (char::from(axis.letter), axis.kind == AxisKind::Rotary, None))
+                .map(|(_, axis)| (char::from(axis.letter), axis.kind == AxisKind::Rotary, None))
                 .collect();
         }
         let mut counting = Counting {
@@ -117,11 +119,22 @@ impl Tally {
             tool: None,
             stops: Stops::default(),
         };
-        trunnion_interp::run(program, input.dialect, input.setup, &mut counting);
+        let mut setup = input.setup.clone();
+        setup.unnamed_stand = input.machine.is_none();
+        let mut interpreter = Interpreter::new(input.dialect, &setup);
+        let mut standing = interpreter.standing();
+        while let Some(block) = interpreter.advance(program, &mut counting) {
+            standing |= interpreter.standing();
+            counting.block_done(block, &interpreter);
+        }
         let stop = counting.stops.last();
         let stop = stop.map(|stop| (counting.line(stop.block), stop.why.clone()));
         let mut tally = counting.tally;
         tally.stop = stop;
+        // what always stands is no extent
+        for (axis, range) in tally.axes.iter_mut().enumerate() {
+            *range = range.take_if(|_| standing & (1 << axis) == 0);
+        }
         tally
     }
 
@@ -222,7 +235,7 @@ impl Counting<'_> {
                 length.filter(|_| known > 0.0 && feed > 0.0).map(|length| length / feed),
             ),
             Feed::PerRevolution(feed) => {
-                let rate = motion.spindle_rpm.map(|rpm| rpm * feed).filter(|rate| *rate > 0.0);
+                let rate = motion.mean_rpm().map(|rpm| rpm * feed).filter(|rate| *rate > 0.0);
                 (1, feed, length.zip(rate).map(|(length, rate)| length / rate))
             }
             Feed::InverseTime(rate) => (2, rate, (rate > 0.0).then(|| 1.0 / rate)),

@@ -33,7 +33,7 @@ fn wrong(message: impl Into<String>) -> SurfaceError {
     }
 }
 
-/// The name that a file must carry.
+/// The schema name that a file must have.
 const SCHEMA: &str = "trunnion-surface/1";
 
 #[derive(Deserialize)]
@@ -143,7 +143,7 @@ fn points(rows: Rows, name: &str, most: usize) -> Result<Vec<Vec<Vec3>>, Surface
 /// What is wrong.
 pub fn required_stl(bytes: &[u8]) -> Result<Required, SurfaceError> {
     let broken = |why: String| wrong(format!("cannot be read as STL: {why}"));
-    // a binary file announces its size: more than it holds is refused before room is made for it
+    // a binary file announces its size: a larger one than the file is refused before memory is reserved
     if let Some(count) = bytes.get(80..84).filter(|_| !bytes.starts_with(b"solid")) {
         let count = count.iter().rev().fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte));
         let holds = (bytes.len() as u64 - 84) / 50;

@@ -1,4 +1,4 @@
-//! The error of the trajectory surface: how far the real path strays from the required surface, in three senses.
+//! The error of the trajectory surface: how far the real path deviates from the required surface, in three senses.
 use crate::mesh::{Required, Uv};
 use crate::search::{Climb, SAMPLES, Top, top};
 use crate::sheet::Sheet;
@@ -62,7 +62,7 @@ pub struct Errors {
     pub from_segment: Option<Found>,
     /// Feed blocks that were judged.
     pub judged: u32,
-    /// Feed blocks whose path is not known.
+    /// Feed blocks whose path is unknown.
     pub not_judged: u32,
     /// Feed blocks that start or end farther from the surface than [`Options::reach`].
     pub apart: u32,
@@ -103,7 +103,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Judges a leg; rapids and dwells cut nothing and are passed over. `is_tip`: the point that the control leads is the tool's tip.
+    /// Judges a leg; rapids and dwells cut nothing and are skipped. `is_tip`: the point that the control guides is the tool's tip.
     pub fn leg(&mut self, leg: &Leg, is_tip: bool) {
         if !leg.motion.is_feed() {
             return;
@@ -273,7 +273,7 @@ struct SamePlace<'a> {
     slope: f64,
 }
 
-/// Ends this near count as on the surface, mm (beside the error of the triangles).
+/// Ends this near are taken as on the surface, mm (in addition to the error of the triangles).
 const ON: f64 = 0.01;
 
 impl<'a> SamePlace<'a> {

@@ -1,4 +1,4 @@
-//! Floor 5: the surface that a part should have, and how far the path of the tool strays from it.
+//! Floor 5: the surface that a part should have, and how far the path of the tool deviates from it.
 //!
 //! A required surface is a grid of points, Bezier patches, or an STL. It is compared with the real path between the blocks (the surface
 //! that the trajectories span), not with the programmed points alone. It does not know rules, terminals or pictures.

@@ -1,4 +1,4 @@
-//! A required surface, ready to be asked for its nearest point.
+//! A required surface, prepared for nearest-point queries.
 use crate::sheet::Sheet;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;

@@ -13,7 +13,7 @@ pub(crate) trait Climb {
     fn way(&self, from: &Self::Sample, to: &Self::Sample, h: f64) -> (f64, f64);
 }
 
-/// What is known of the largest value on a block.
+/// What is known about the largest value on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Top {
     /// Largest value at a sample.
@@ -64,7 +64,7 @@ fn piece<C: Climb>(climb: &C, from: (f64, C::Sample, f64), to: (f64, C::Sample, 
 }
 
 /// Halves the piece with the largest bound until no bound is above `reached` (or the largest sample) by more than `close`. Between two
-/// samples a value is at most where the two slopes of 1 that fall from them meet. `most`: no more samples, beside those of the first pieces.
+/// samples a value is at most where the two slopes of 1 that fall from them meet. `most`: the largest number of samples, apart from those of the first pieces.
 pub(crate) fn top<C: Climb>(climb: &C, first_pieces: usize, most: usize, reached: f64, close: f64) -> Top {
     let at = |t: f64| {
         let (sample, value) = climb.sample(t);
@@ -132,7 +132,7 @@ mod tests {
             "{found:?}"
         );
         assert!((found.at - 1.0 / 3.0).abs() < 1e-5);
-        // what is reached elsewhere need not be looked for here
+        // a value that is reached elsewhere need not be searched here
         let found = top(&Hill, 1, SAMPLES, 5.0, 1e-6);
         assert!(found.bound < 5.0 && found.bound >= 2.0);
     }

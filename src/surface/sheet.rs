@@ -77,7 +77,7 @@ fn cell(parameter: f64, count: usize) -> (usize, f64) {
 fn cut_patch(sheet: &Sheet, patch: &Patch, tolerance: f64, most: usize) -> Cut {
     let (uu, uv, vv) = patch.bends();
     let off = |nu: f64, nv: f64| (uu / (nu * nu) + 2.0 * uv / (nu * nv) + vv / (nv * nv)) / 8.0;
-    // as many along each parameter as its own bend asks for, then both alike until it is fine enough
+    // as many along each parameter as its own curvature requires, then both alike until it is fine enough
     let (wu, wv) = ((uu + uv).sqrt().max(1e-9), (vv + uv).sqrt().max(1e-9));
     let shape = (wu / wv).clamp(1.0 / 64.0, 64.0);
     let along = (most as f64 / 2.0 * shape).sqrt().floor().max(1.0);

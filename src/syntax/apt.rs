@@ -210,7 +210,7 @@ impl Special<'_> {
         self.end
     }
 
-    /// `$$` to the end of the line. The records of a Pro/CLfile that hide behind `$$->` may be continued by `$`.
+    /// `$$` to the end of the line. Records of a Pro/CLfile after `$$->` may be continued by `$`.
     fn comment(&mut self) -> usize {
         self.push(TokenKind::Comment);
         let mut end = self.line_end(self.end);

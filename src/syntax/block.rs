@@ -15,11 +15,11 @@ pub struct Block<'p> {
 pub enum Address {
     /// One letter, upper case: `X`; also `@` and `^` (polar words) and `$` (number of a spindle).
     Letter(u8),
-    /// A letter with a number of its own before `=`: `A3=`, `S2=`, `R1=` (letter upper case, number).
+    /// A letter with its own number before `=`: `A3=`, `S2=`, `R1=` (letter upper case, number).
     Indexed(u8, u16),
     /// Anything longer, with the range of its text: several letters before `=`, digits and index included (`CR=`, `MX1=`,
     /// `VAR5[R2]=`, `SPOS[1]=`), a parameter that is assigned (`#1=`, `#<name>=`, `#[#1+2]=`), and letters after a comma
-    /// (`,R5` has the address `,R`: it is no R word).
+    /// (`,R5` has the address `,R`: it is not an R word).
     Named(TextRange),
 }
 

@@ -21,22 +21,22 @@ impl Default for Held {
     }
 }
 
-/// Tokens and blocks as they grow. A block is checked as soon as it is complete.
+/// Tokens and blocks that are being built. A block is checked as soon as it is complete.
 #[derive(Default)]
 pub(crate) struct Builder {
     pub(crate) table: TokenTable,
     /// First token of each block.
     pub(crate) blocks: Vec<u32>,
     pub(crate) errors: Vec<SyntaxError>,
-    /// First token of the block at work.
+    /// First token of the current block.
     pub(crate) first: u32,
-    /// Whether the block at work must be read once by the grammar, for problems.
+    /// Whether the current block must be read once by the grammar, for problems.
     pub(crate) course: Course,
     held: Held,
 }
 
 impl Builder {
-    /// Room for so many tokens and blocks.
+    /// Room for this many tokens and blocks.
     pub(crate) fn with_room(tokens: usize, blocks: usize) -> Self {
         Self {
             table: TokenTable::with_room(tokens),
@@ -71,14 +71,14 @@ impl Builder {
         self.table.starts.extend(&self.held.starts[..count]);
     }
 
-    /// Whether the block at work has nothing but blanks so far.
+    /// Whether the current block has only blanks so far.
     pub(crate) fn block_is_empty(&self) -> bool {
         self.table.kinds[self.first as usize..]
             .iter()
             .all(|&kind| kind == TokenKind::Blank)
     }
 
-    /// Ends the block at work after the last token, which ends at byte `end`.
+    /// Ends the current block after the last token, which ends at byte `end`.
     #[inline]
     pub(crate) fn end_block(&mut self, source: &[u8], options: LexOptions, end: u32) {
         if !self.course.end() {
@@ -102,7 +102,7 @@ impl Builder {
         self.errors.sort_by_key(|error| (error.range.start, error.range.end));
     }
 
-    /// Reads the block at work once with the grammar, for its problems. It ends at byte `end`.
+    /// Reads the current block once with the grammar, for its problems. It ends at byte `end`.
     #[cold]
     pub(crate) fn check(&mut self, source: &[u8], options: LexOptions, end: u32) {
         self.table.end = end;

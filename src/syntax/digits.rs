@@ -19,7 +19,7 @@ pub(crate) const fn as_digit(byte: u8) -> u64 {
     byte as u64 ^ 0x30
 }
 
-/// The highest bit of each byte of [`digits`] that is none. What it says of bytes after one above `z` may be wrong.
+/// The highest bit of each byte of [`digits`] that is none. The bits of bytes after one above `z` may be wrong.
 #[inline]
 #[must_use]
 pub(crate) const fn not_digits(digits: u64) -> u64 {
@@ -41,7 +41,7 @@ mod tests {
                 let expected = if byte.is_ascii_digit() { 8 } else { place };
                 assert_eq!(other.trailing_zeros() as usize / 8, expected, "{byte} {place}");
                 assert_eq!(digits(bytes) >> (8 * place) & 0xff, as_digit(byte));
-                // up to a letter it says nothing wrong of what follows it
+                // for bytes up to a letter, the result for the following ones is correct
                 let behind = other & other.wrapping_sub(1);
                 assert!(byte > b'z' || behind == 0, "{byte} {place}");
             }

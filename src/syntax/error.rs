@@ -1,4 +1,4 @@
-//! Problems of the text as facts; words for people are made by the check floor.
+//! Problems of the text as facts; the check floor writes the messages.
 use crate::TextRange;
 
 /// What is wrong with a piece of text.
@@ -16,7 +16,7 @@ pub enum SyntaxErrorKind {
     NumberWithoutLetter,
     /// Not a number: two points, a sign without digits, more digits than can be held exactly. Range: the number's text.
     BadNumber,
-    /// A comma where a decimal point is meant (`X1,5`). Range: the number with its comma.
+    /// A comma in place of a decimal point (`X1,5`). Range: the number with its comma.
     DecimalComma,
     /// Blanks inside a number in a dialect that does not allow them. Range: the number.
     BlankInNumber,
@@ -28,8 +28,8 @@ pub enum SyntaxErrorKind {
     UnclosedText,
     /// APT: a statement is continued by `$` at the end of the file. Range: the `$`.
     DanglingContinuation,
-    /// APT: a statement does not begin with a major word, a comma or slash is not allowed there (range: that place), or GOTO has
-    /// not the 3, 6 or 7 numbers of a point, a tool axis and a feed (range: the statement).
+    /// APT: a statement does not begin with a major word, a comma or slash is not allowed there (range: that place), or GOTO does
+    /// not have the 3, 6 or 7 numbers of a point, a tool axis and a feed (range: the statement).
     BadRecord,
     /// The file is larger than 4 GiB: only the part before is parsed. Range: its last byte.
     TooLarge,

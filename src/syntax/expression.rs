@@ -1,4 +1,4 @@
-//! How far an expression reaches. It is not evaluated here: the range of its text is all the floor above needs.
+//! The extent of an expression. It is not evaluated here: the floor above needs only the range of its text.
 use crate::error::SyntaxErrorKind;
 use crate::scan::Scan;
 use crate::sink::Sink;

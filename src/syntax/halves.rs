@@ -9,7 +9,7 @@ use crate::{LexOptions, Program, SyntaxError, TokenKind, parse};
 /// Shorter texts are not worth a second thread, bytes.
 const WORTH: usize = 1 << 20;
 
-/// Parses any bytes on at most so many threads (no more than two are used). The program is that of [`parse`], however many there are.
+/// Parses any bytes on at most this many threads (no more than two are used). The program is that of [`parse`], whatever the number.
 pub fn parse_on(source: Vec<u8>, options: LexOptions, threads: usize) -> Program {
     let middle = source.len() / 2;
     let line_end = memchr::memchr(b'\n', &source[middle..]);
@@ -19,7 +19,7 @@ pub fn parse_on(source: Vec<u8>, options: LexOptions, threads: usize) -> Program
     }
 }
 
-/// Parses what is before the byte `cut`, after a line feed, and what is behind it side by side.
+/// Parses what is before the byte `cut`, after a line feed, and what is after it in parallel.
 fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
     if source.len() >= u32::MAX as usize {
         return parse(source, options);
@@ -31,7 +31,7 @@ fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
             lex(back, options, false, &mut out);
             out
         });
-        // the second half will stand in the same table
+        // the second half is added to the same table
         let mut out = room(&source, options);
         lex(front, options, true, &mut out);
         match behind.join() {
@@ -47,8 +47,8 @@ fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
     Program::of(source, options, out)
 }
 
-/// Adds blocks that were lexed as a text of their own, which begins at byte `cut`. Fresh memory costs more than what is written there, so both
-/// threads have their share of it.
+/// Adds blocks that were lexed as a separate text, which begins at byte `cut`. Touching fresh memory costs more than writing to it, so both
+/// threads share that work.
 fn join(out: &mut Builder, behind: &Builder, cut: u32) {
     let first = out.table.kinds.len() as u32;
     let (kinds, starts) = (&mut out.table.kinds, &mut out.table.starts);

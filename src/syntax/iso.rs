@@ -144,7 +144,7 @@ fn lex_with(
     out.finish(source, options, source.len() as u32);
 }
 
-/// The kinds that need no second look.
+/// The kinds that need no further check.
 fn settled(raw: Raw) -> Option<TokenKind> {
     Some(match raw {
         Raw::Blank => TokenKind::Blank,

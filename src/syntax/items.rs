@@ -5,7 +5,7 @@ use crate::scan::Scan;
 use crate::sink::{Quiet, Sink};
 use crate::{Address, Comment, Decimal, Item, SyntaxError, TextRange, TokenId, TokenKind, Value, Word};
 
-/// How far into a block the reader is: some marks have their meaning only in front.
+/// How far into a block the reader is: some marks have a meaning only at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Stage {
     /// Nothing but block delete so far.
@@ -21,7 +21,7 @@ pub(crate) enum Stage {
 pub struct Items<'p> {
     pub(crate) scan: Scan<'p>,
     pub(crate) at: TokenId,
-    /// The item last read that is no plain word.
+    /// The last item that is not a plain word.
     found: Option<Item>,
     stage: Stage,
 }
@@ -81,7 +81,7 @@ impl<'p> Items<'p> {
             {
                 return Some(Item::Word(word));
             }
-            // By way of a field: so the words above never leave the registers.
+            // Through a field: so the words above never leave the registers.
             self.seek(at, sink);
             return self.found;
         }
@@ -98,7 +98,10 @@ impl<'p> Items<'p> {
         } else {
             next
         };
-        if behind == TokenKind::Equals || next == TokenKind::Comma {
+        if behind == TokenKind::Equals
+            || matches!(next, TokenKind::Comma | TokenKind::ParenOpen)
+            || behind == TokenKind::ParenOpen
+        {
             return None;
         }
         let range = scan.range(at);
@@ -119,7 +122,7 @@ impl<'p> Items<'p> {
         })
     }
 
-    /// Notes that a word of `letter` was read.
+    /// Records that a word of `letter` was read.
     #[inline]
     fn pass(&mut self, letter: u8) {
         let numbers = letter == b'N' && self.stage == Stage::Start;
@@ -148,7 +151,9 @@ impl<'p> Items<'p> {
         let [b'L' | b'l', number @ ..] = scan.text(at) else {
             return false;
         };
-        scan.kind(at + 1) == TokenKind::ParenOpen && !number.is_empty() && number.iter().all(u8::is_ascii_digit)
+        scan.kind(scan.skip_blank(at + 1)) == TokenKind::ParenOpen
+            && !number.is_empty()
+            && number.iter().all(u8::is_ascii_digit)
     }
 
     /// A word with `=` or a comma after it, or with an odd number.
@@ -365,7 +370,7 @@ impl<'p> Items<'p> {
         Some(end)
     }
 
-    /// After one sign and its operand that is no number: `-#1`, `-[1+2]`, `-SIN[30]`.
+    /// After one sign and its operand that is not a number: `-#1`, `-[1+2]`, `-SIN[30]`.
     fn signed(&self, at: TokenId, sink: &mut impl Sink) -> Option<TokenId> {
         let next = self.scan.skip_blank(at + 1);
         match self.scan.kind(next) {

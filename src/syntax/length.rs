@@ -1,7 +1,7 @@
-//! How long a number is, eight bytes at a time.
+//! The length of a number, eight bytes at a time.
 use crate::digits::{as_digit, digits, not_digits};
 
-/// After the number at `first`, digits with perhaps a point and digits after it, where all of it shows in eight bytes; `None` elsewhere.
+/// After the number at `first`, digits with perhaps a point and digits after it, if it fits into eight bytes; otherwise `None`.
 #[inline]
 pub(crate) fn short(source: &[u8], first: usize) -> Option<usize> {
     let bytes = digits(*source.get(first..)?.first_chunk()?);
@@ -42,7 +42,7 @@ mod tests {
             let expected = one_by_one(text.as_bytes());
             match short(text.as_bytes(), 0) {
                 Some(length) => prop_assert_eq!(Some(length), expected, "{}", text),
-                // what shows in eight bytes is found
+                // what fits into eight bytes is found
                 None => prop_assert!(expected.is_none_or(|length| length > 7), "{}", text),
             }
         }

@@ -1,7 +1,7 @@
 //! Floor 0: text without meaning. Bytes become tokens, blocks and words, losslessly and for every input.
 //!
-//! It does not know what a letter means: dialects live one floor up. Parsing is total: it returns a [`Program`] and,
-//! beside it, the problems as facts ([`SyntaxError`]); it never fails. The tokens concatenate to the source.
+//! It does not know what a letter means: dialects are one floor up. Parsing is total: it returns a [`Program`] and
+//! the problems as facts ([`SyntaxError`]); it never fails. The tokens concatenate to the source.
 mod apt;
 mod block;
 mod builder;

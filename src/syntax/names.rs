@@ -4,16 +4,16 @@ use crate::items::{Items, Stage};
 use crate::sink::Sink;
 use crate::{Address, Call, Item, TextRange, TokenId, TokenKind, Value, Word};
 
-/// Names that own one operand without parentheses, even one that is glued on: `GOTO100`, `GOTOF LABEL`.
+/// Names that take one operand without parentheses, even one that follows directly: `GOTO100`, `GOTOF LABEL`.
 const JUMPS: [&str; 4] = ["GOTO", "GOTOF", "GOTOB", "GOTOC"];
 
-/// Names that own a number, even one that is glued on: `DO1`.
+/// Names that take a number, even one that follows directly: `DO1`.
 pub(crate) const NUMBERED: [&str; 3] = ["DO", "END", "LBL"];
 
-/// Names that own one expression: `IF R1>5`, `WHILE [#1 LT 2]`.
+/// Names that take one expression: `IF R1>5`, `WHILE [#1 LT 2]`.
 pub(crate) const CONDITIONS: [&str; 7] = ["IF", "ELSEIF", "WHILE", "UNTIL", "EVERY", "WHEN", "WHENEVER"];
 
-/// Names that own the rest of the block: declarations, and loops with a syntax of their own.
+/// Names that take the rest of the block: declarations, and loops with their own syntax.
 const DECLARATIONS: [&str; 7] = ["DEF", "PROC", "EXTERN", "CASE", "FOR", "DEFINE", "REDEF"];
 
 impl Items<'_> {
@@ -58,7 +58,7 @@ impl Items<'_> {
         }
     }
 
-    /// A jump or a condition: names that end where their letters end, whatever is glued on.
+    /// A jump or a condition: names that end where their letters end, whatever follows directly.
     fn keyword(&mut self, at: TokenId, text: &[u8], sink: &mut impl Sink) -> Option<Item> {
         let scan = self.scan;
         let next = scan.skip_blank(at + 1);
@@ -103,7 +103,7 @@ impl Items<'_> {
         })
     }
 
-    /// A name with brackets: an element that is assigned (`A[1]=5`), a letter with a function glued on (`XSIN[30]`),
+    /// A name with brackets: an element that is assigned (`A[1]=5`), a letter with a function directly after it (`XSIN[30]`),
     /// or a name with arguments (`call [1] [2]`).
     fn bracketed(&mut self, at: TokenId, end: TokenId, open: TokenId, sink: &mut impl Sink) -> Item {
         let scan = self.scan;

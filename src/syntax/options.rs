@@ -1,4 +1,4 @@
-//! What the lexer must know before it can cut a text into tokens: the few lexical facts that differ per dialect.
+//! What the lexer must know before it can split a text into tokens: the few lexical facts that differ per dialect.
 
 /// The family of notations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

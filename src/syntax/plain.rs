@@ -17,7 +17,7 @@ enum Class {
     Blank,
     LineFeed,
     Return,
-    /// A token of one byte, whatever its neighbours: what it is, is in [`SIGNS`].
+    /// A token of one byte, whatever its neighbours: its kind is in [`SIGNS`].
     Sign,
     /// What follows it decides.
     Mark,
@@ -92,7 +92,7 @@ fn digits(source: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// The word at `at`, whose digits begin at `first`: pushed, and what is behind it; `None` if there is no number.
+/// The word at `at`, whose digits begin at `first`: pushed; returns the position after it; `None` if there is no number.
 #[inline]
 fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> {
     if let Some(end) = short(source, first) {
@@ -117,8 +117,8 @@ fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> 
     Some(end)
 }
 
-/// The tokens that are cut and not in the table yet. It goes from hand to hand by value, so that it stays in registers: each token's step of
-/// the course waits for the one before.
+/// The tokens that are cut and not in the table yet. It is passed by value, so that it stays in registers: each token's step of the course
+/// depends on the one before.
 struct Cut<'o> {
     out: &'o mut Builder,
     /// So many are held.

@@ -41,7 +41,7 @@ fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
     Program::of(source, options, out)
 }
 
-/// This many bytes of a longer file say how much room its tokens need.
+/// This many bytes of a longer file are used to estimate how much room its tokens need.
 const SAMPLE: usize = 1 << 14;
 
 /// Tables with room for the tokens of `source`, as many per byte as in a piece from its middle: growing them would copy them, and
@@ -68,7 +68,7 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
 }
 
 impl Program {
-    /// A text with what it was lexed into.
+    /// A text with its tokens.
     pub(crate) fn of(source: Vec<u8>, options: LexOptions, lexed: Builder) -> Self {
         Self {
             source: Arc::new(source),
@@ -78,11 +78,11 @@ impl Program {
             errors: lexed.errors,
         }
     }
-    /// The bytes as they lie on disk.
+    /// The bytes as on disk.
     pub fn source(&self) -> &[u8] {
         &self.source
     }
-    /// The same, to be kept without a copy.
+    /// The same, shared without a copy.
     pub fn shared_source(&self) -> Arc<Vec<u8>> {
         Arc::clone(&self.source)
     }
@@ -138,7 +138,7 @@ impl Program {
             .unwrap_or(self.tokens.kinds.len() as u32);
         self.blocks[id.0 as usize]..end
     }
-    /// A look at the tokens before `end`.
+    /// A view of the tokens before `end`.
     #[inline]
     pub(crate) fn scan(&self, end: TokenId) -> Scan<'_> {
         Scan {

@@ -12,7 +12,7 @@ pub enum AptArg {
     /// A minor word or identifier.
     Word(TextRange),
     /// Anything else: a nested definition `(POINT/1,2)`, an operator, a quoted text, the text of a text record, a broken
-    /// number. Who reads coordinates must stop at it.
+    /// number. Code that reads coordinates must stop at it.
     Other(TextRange),
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn check(scan: Scan<'_>, first: TokenId, errors: &mut Vec<SyntaxError
         }
     }
     let major = scan.span(head.major.0, head.major.1);
-    // a point, with a tool axis and a feed at will; what is not a number may stand for several
+    // a point, optionally with a tool axis and a feed; an argument that is not a number may represent several
     if others == 0
         && errors.len() == before
         && !matches!(numbers, 3 | 4 | 6 | 7)

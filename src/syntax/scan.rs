@@ -1,4 +1,4 @@
-//! A look at the tokens of one block, with the small steps every grammar rule takes.
+//! A view of the tokens of one block, with the small steps of every grammar rule.
 use crate::error::SyntaxErrorKind;
 use crate::sink::Sink;
 use crate::{Decimal, LexOptions, TextRange, TokenId, TokenKind, TokenTable, Value};
@@ -62,7 +62,7 @@ impl<'p> Scan<'p> {
         self.bytes(self.range(at))
     }
 
-    /// The next token from `at` on that is no blank.
+    /// The next token from `at` on that is not a blank.
     #[inline]
     pub(crate) fn skip_blank(&self, mut at: TokenId) -> TokenId {
         while self.kind(at) == TokenKind::Blank {
@@ -119,7 +119,7 @@ impl<'p> Scan<'p> {
         self.trim(at + 1, self.end)
     }
 
-    /// Whether token `at` is an operator that wants a value after it.
+    /// Whether token `at` is an operator that needs a value after it.
     fn lacks_operand(&self, at: TokenId) -> bool {
         matches!(
             self.kind(at),
@@ -132,7 +132,7 @@ impl<'p> Scan<'p> {
         ) && self.range(at).end - self.range(at).start == 1
     }
 
-    /// The number written in `range`; anything that is none is reported.
+    /// The number written in `range`; anything else is reported.
     #[inline]
     pub(crate) fn number(&self, range: TextRange, sink: &mut impl Sink) -> Value {
         match Decimal::parse(self.bytes(range)) {

@@ -4,7 +4,7 @@
 //! start in full, that of the first of them, and each keeps how far after it stands. Where that is more than a byte holds (long
 //! comments) the sixteen are kept in full elsewhere. Either way a start is found in a fixed number of steps.
 
-/// So many neighbours share one start in full.
+/// This many neighbours share one full start.
 const GROUP: usize = 16;
 /// What the first token of a group keeps where the group is wide; it keeps 0 otherwise.
 const WIDE: u8 = 1;
@@ -16,12 +16,12 @@ pub(crate) struct Starts {
     behind: Vec<u8>,
     /// Of each group, where its first token starts; of a wide one, its place in `wide`.
     groups: Vec<u32>,
-    /// The starts of groups that reach farther than a byte tells, zeros after the last.
+    /// The starts of groups with distances above a byte, zeros after the last.
     wide: Vec<[u32; GROUP]>,
 }
 
 impl Starts {
-    /// Makes room for so many more.
+    /// Makes room for this many more.
     pub(crate) fn reserve(&mut self, count: usize) {
         self.behind.reserve(count);
         self.groups.reserve(count / GROUP + 1);
@@ -79,7 +79,7 @@ impl Starts {
         }
         self.behind.push(0);
     }
-    /// Changes what is kept of the last group.
+    /// Changes the stored last group.
     fn set_group(&mut self, to: u32) {
         if let Some(group) = self.groups.last_mut() {
             *group = to;
@@ -94,7 +94,7 @@ impl Starts {
         } else if self.behind[first] == WIDE
             && let Some(mut starts) = self.wide.pop()
         {
-            // what is left of the group may be narrow, and is told as if it had never been wide
+            // the rest of the group may be narrow, and is stored as if it had never been wide
             starts[within] = 0;
             self.behind.truncate(first);
             self.groups.pop();
@@ -132,7 +132,7 @@ impl Starts {
         self.behind
             .extend_from_slice(&starts.map(|start| start.wrapping_sub(first) as u8));
     }
-    /// Adds those of another table from number `from` to before `to`, each moved by so many bytes (wrapping).
+    /// Adds those of another table from number `from` to before `to`, each moved by this many bytes (wrapping).
     pub(crate) fn extend_moved(&mut self, other: &Self, from: usize, to: usize, by: u32) {
         let mut at = from;
         while at < to {

@@ -15,7 +15,7 @@ pub(crate) enum Sign {
     Word,
     LongWord,
     Letter,
-    /// A number that surely has no more digits than a decimal holds.
+    /// A number that certainly has no more digits than a decimal holds.
     Number,
     LongNumber,
     /// `#` alone.
@@ -41,7 +41,7 @@ pub(crate) enum Sign {
 
 /// How many signs there are.
 const SIGNS: usize = Sign::OtherName as usize + 1;
-/// How many states there is room for.
+/// The largest number of states.
 const STATES: usize = 256;
 
 /// How far a block is read: a state of the table.
@@ -92,10 +92,10 @@ const CALL_GROUP: u8 = 22;
 const DEEPER: u8 = 8;
 /// After the last of them.
 const TOO_DEEP: u8 = 248;
-/// Something that the grammar must look at.
+/// Something that the grammar must check.
 const ODD: u8 = 255;
 
-/// The state after a token, by its sign and the state in front.
+/// The state after a token, by its class and the state before.
 static NEXT: [[u8; STATES]; SIGNS] = table();
 
 const fn table() -> [[u8; STATES]; SIGNS] {
@@ -124,7 +124,7 @@ const fn behind(state: u8, sign: usize) -> u8 {
         return inside(state, sign);
     }
     if is(sign, Sign::Blank) {
-        // directly after a sign or a function its operand must stand
+        // directly after a sign or a function there must be its operand
         return match state {
             EQUALS_SIGNED | FUNCTION => ODD,
             _ => state,
@@ -192,7 +192,7 @@ const fn operand(sign: usize, hash: u8, group: u8, end: u8) -> u8 {
     }
 }
 
-/// After a token inside brackets: anything may stand there, but before each closing one a value must.
+/// After a token inside brackets: anything may be there, but there must be a value before each closing one.
 const fn inside(state: u8, sign: usize) -> u8 {
     if state >= TOO_DEEP {
         return ODD;
@@ -221,13 +221,13 @@ const fn inside(state: u8, sign: usize) -> u8 {
     }
 }
 
-/// The longest number, its sign counted, that surely has no more digits than a decimal holds.
+/// The longest number, including its sign, that certainly has no more digits than a decimal holds.
 const SHORT_NUMBER: usize = 18;
-/// Words longer than this may have more digits than a decimal holds, and are looked at again.
+/// Words longer than this may have more digits than a decimal holds, and are checked again.
 const SHORT_WORD: usize = 19;
 
 impl Sign {
-    /// A word of so many bytes.
+    /// A word of this many bytes.
     #[inline]
     pub(crate) fn word(length: usize) -> Self {
         if length > SHORT_WORD {
@@ -237,7 +237,7 @@ impl Sign {
         }
     }
 
-    /// A number of so many bytes.
+    /// A number of this many bytes.
     #[inline]
     pub(crate) fn number(length: usize) -> Self {
         if length < SHORT_NUMBER {
@@ -266,13 +266,13 @@ impl Course {
         self.pass(sign);
     }
 
-    /// After a token that the grammar must look at.
+    /// After a token that the grammar must check.
     #[inline]
     pub(crate) fn odd(&mut self) {
         self.0 = ODD;
     }
 
-    /// Ends the block: whether it surely has no problem.
+    /// Ends the block: whether it certainly has no problem.
     #[inline]
     pub(crate) fn end(&mut self) -> bool {
         self.pass(Sign::Newline);
@@ -282,7 +282,7 @@ impl Course {
     }
 }
 
-/// What a name between two items is.
+/// The kind of a name between two items.
 fn first_name(text: &[u8]) -> Sign {
     match (text.len(), text[0].to_ascii_lowercase()) {
         (2, b'i') | (4 | 5 | 8, b'w') | (5, b'u') | (5 | 6, b'e') if is_one_of(text, &CONDITIONS) => Sign::Condition,

@@ -5,7 +5,7 @@ use crate::sink::Sink;
 use crate::{Item, TokenId, TokenKind};
 
 impl Items<'_> {
-    /// The text at `at`, which no word and no name owns; reported unless some dialect knows it.
+    /// The text at `at`, which belongs to no word and no name; reported unless some dialect knows it.
     pub(crate) fn stray(&mut self, at: TokenId, sink: &mut impl Sink) -> Item {
         let scan = self.scan;
         match scan.kind(at) {
@@ -55,7 +55,7 @@ impl Items<'_> {
         }
     }
 
-    /// After `<NAME>` at `at`: nothing but letters, digits and `-+_.` between.
+    /// After `<NAME>` at `at`: only letters, digits and `-+_.` between.
     fn bracketed_name(&self, at: TokenId) -> Option<TokenId> {
         let scan = self.scan;
         let mut end = at + 1;
@@ -89,13 +89,13 @@ impl Items<'_> {
         }
     }
 
-    /// The tokens `from..to`, which are no problem or are reported already.
+    /// The tokens `from..to`, which are correct or are reported already.
     pub(crate) fn silent(&mut self, from: TokenId, to: TokenId) -> Item {
         self.at = to;
         Item::Other(self.scan.span(from, to))
     }
 
-    /// A number that no letter owns, from its sign at `from`.
+    /// A number without a letter, from its sign at `from`.
     fn number(&mut self, from: TokenId, digits: TokenId, sink: &mut impl Sink) -> Item {
         let mut end = digits + 1;
         while self.scan.kind(end) == TokenKind::Comma && self.scan.kind(end + 1) == TokenKind::Number {

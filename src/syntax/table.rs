@@ -28,7 +28,7 @@ impl TextRange {
             end: self.end.max(other.end),
         }
     }
-    /// The range so many bytes further on; wrapping, so that 2^32 less leads back.
+    /// The range this many bytes later; wrapping, so that 2^32 less moves back.
     #[inline]
     #[must_use]
     pub fn shifted(self, by: u32) -> Self {
@@ -37,7 +37,7 @@ impl TextRange {
             end: self.end.wrapping_add(by),
         }
     }
-    /// Whether `offset` lies inside, the end included.
+    /// Whether `offset` is inside, including the end.
     pub fn touches(self, offset: u32) -> bool {
         self.start <= offset && offset <= self.end
     }

@@ -30,7 +30,7 @@ macro_rules! actions {
                 }
             }
 
-            /// The action of a name.
+            /// The action with this name.
             pub fn named(name: &str) -> Option<Self> {
                 match name {
                     $($name => Some(Self::$action),)*
@@ -80,7 +80,7 @@ actions! {
     FeedPerRevolution = "feed-per-revolution",
     /// G40.
     CompensationOff = "compensation-off",
-    /// G41: path not modelled yet, so motions under it are the programmed ones and the run says so.
+    /// G41: path not modelled yet, so motions under it are the programmed ones, which is reported.
     CompensationLeft = "compensation-left",
     /// G42.
     CompensationRight = "compensation-right",
@@ -94,7 +94,7 @@ actions! {
     TcpVectorOn = "tcp-vector-on",
     /// TRAFOOF, M129 ...
     TcpOff = "tcp-off",
-    /// M428 ...: switches the kinematics. The machine file declares which code means tool centre point control; undeclared, X Y Z mean nothing
+    /// M428 ...: switches the kinematics. The machine file declares which code means tool centre point control; if undeclared, X Y Z mean nothing
     /// from here on.
     Kinematics = "kinematics",
     /// G53: this block in machine coordinates.
@@ -133,7 +133,7 @@ actions! {
     FrameLost = "frame-lost",
     /// G10.9 of a lathe: X1 means that X is a diameter from here on, X0 a radius.
     DiameterSwitch = "diameter-switch",
-    /// TRANS, ATRANS of a Sinumerik: shifts the zero point, instead of earlier programmable frames or beside them. TRANS alone ends them.
+    /// TRANS, ATRANS of a Sinumerik: shifts the zero point, instead of earlier programmable frames or in addition to them. TRANS alone ends them.
     ProgrammableShift = "programmable-shift",
     /// Ends every [`Action::FrameChange`] of the same group (G69).
     FrameReset = "frame-reset",
@@ -239,7 +239,7 @@ actions! {
     RoughTurnCycle = "rough-turn-cycle",
     /// Lathe: roughing along X (G72).
     RoughFaceCycle = "rough-face-cycle",
-    /// Lathe: the contour of the blocks P to Q again and again, ever nearer (G73).
+    /// Lathe: the contour of the blocks P to Q repeatedly, each time nearer (G73).
     PatternRepeatCycle = "pattern-repeat-cycle",
     /// Lathe: many passes of a thread (G76).
     ThreadRepeatCycle = "thread-repeat-cycle",
@@ -256,8 +256,8 @@ actions! {
     ConstantSurfaceSpeed = "constant-surface-speed",
     /// G97: S is turns per minute.
     ConstantSpindleSpeed = "constant-spindle-speed",
-    /// A call of a subprogram, a jump, a condition or a loop: which blocks run, and what they change, is not followed, so all that
-    /// comes after is unknown until it is programmed again.
+    /// A call of a subprogram, a jump, a condition or a loop: which blocks run, and what they change, is not followed, so everything
+    /// after it is unknown until it is programmed again.
     SubprogramCall = "subprogram-call",
     /// Sinumerik ORIAXES / ORIVECT and the like: orientation interpolated joint-linear.
     OrientationAxes = "orientation-axes",

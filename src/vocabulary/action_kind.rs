@@ -1,4 +1,4 @@
-//! What the actions of codes leave alone: who compares programs, or writes them for another control, asks here.
+//! What the actions of codes do not change: used to compare programs, or to write them for another control.
 use crate::Action;
 
 impl Action {
@@ -99,7 +99,7 @@ impl Action {
             )
     }
 
-    /// Whether the code surely leaves the machine where it is, and its coordinates where they lie, but for what a motion itself says.
+    /// Whether the code certainly leaves the machine and its coordinates where they are, apart from what the motion itself does.
     pub fn keeps_place(self) -> bool {
         self.is_of_motions()
             || self.is_hole_cycle()

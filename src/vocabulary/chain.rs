@@ -9,7 +9,7 @@ impl ChainId {
     pub const MAIN: Self = Self(0);
 }
 
-/// One call in a chain, outermost first; the last may be the block of another file in which a motion stands.
+/// One call in a chain, outermost first; the last may be the block of another file that contains a motion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// The file with the call or block; empty for the main program.
@@ -18,6 +18,6 @@ pub struct Frame {
     pub line: u32,
     /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`; or the block of the motion.
     pub what: String,
-    /// Not a call: the block in which the motion stands, in a file that is called.
+    /// Not a call: the block that contains the motion, in a called file.
     pub is_place: bool,
 }

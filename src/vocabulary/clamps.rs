@@ -1,4 +1,4 @@
-//! Clamps of rotary axes, as the M codes that have run leave them. Which codes they are the machine says ([`ClampCodes`]).
+//! Clamps of rotary axes, as the M codes that have run leave them. The machine names these codes ([`ClampCodes`]).
 use crate::{AXIS_LETTERS, AxisLetter};
 
 /// The M codes of a clamp.
@@ -13,7 +13,7 @@ pub struct ClampCodes {
 /// The codes of the clamps of all axes, in the order of [`AXIS_LETTERS`]; `None`: none are known.
 pub type AllClampCodes = [Option<ClampCodes>; AXIS_LETTERS.len()];
 
-/// What is known of one clamp.
+/// What is known about one clamp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Clamp {
     /// No code has run yet.
@@ -23,7 +23,7 @@ pub enum Clamp {
     Closed,
     /// Released.
     Open,
-    /// It is not known what ran last: a code whose number is unknown, both codes in one block, or a call that is not followed.
+    /// It is unknown which code ran last: a code whose number is unknown, both codes in one block, or a call that is not followed.
     Unknown,
 }
 
@@ -41,8 +41,8 @@ impl Clamps {
         self.clamps.get(usize::from(axis.0)).copied().unwrap_or_default()
     }
 
-    /// Whether a code of the axis's clamp is in the block itself. Whether it acts before the block's motion or after it, is the
-    /// builder's affair.
+    /// Whether a code of the axis's clamp is in the block itself. The machine builder decides whether it acts before or after
+    /// the block's motion.
     pub fn named_here(&self, axis: AxisLetter) -> bool {
         self.here >> axis.0 & 1 == 1
     }
@@ -72,7 +72,7 @@ impl Clamps {
         any
     }
 
-    /// An M code runs whose number is not known.
+    /// An M code runs whose number is unknown.
     pub fn hear_unread(&mut self, codes: &AllClampCodes) {
         for (axis, codes) in codes.iter().enumerate() {
             if codes.is_some() {
@@ -82,7 +82,7 @@ impl Clamps {
         }
     }
 
-    /// What has run is not known.
+    /// What has run is unknown.
     pub fn lose(&mut self) {
         self.clamps = [Clamp::Unknown; AXIS_LETTERS.len()];
     }

@@ -1,7 +1,7 @@
-//! What a program does beside its motions: what it switches, asks for, stores and waits for.
+//! What a program does apart from its motions: what it switches, requests, stores and waits for.
 //!
-//! A [`crate::Motion`] holds geometry, feed, tool and offsets. Everything else that a block asks for is an [`Effect`]. What the interpreter
-//! does not model is an effect too, with its words, so that nothing a program says is lost to whoever compares two programs.
+//! A [`crate::Motion`] holds geometry, feed, tool and offsets. Everything else that a block requests is an [`Effect`]. What the interpreter
+//! does not model is an effect too, with its words, so that a comparison of two programs misses nothing.
 use std::borrow::Cow;
 
 /// The value of an argument.
@@ -15,7 +15,7 @@ pub enum Value {
     Text(Box<str>),
 }
 
-/// Two numbers are the same setting: equal to 1e-9 of their size (the contract for `certify` and `diff`, interface section 8.3).
+/// Two numbers are the same setting: equal to a relative 1e-9 (the contract for `certify` and `diff`, interface section 8.3).
 pub fn same_number(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
 }
@@ -85,19 +85,19 @@ impl core::fmt::Display for Argument {
     }
 }
 
-/// One thing that a program does beside its motions.
+/// One thing that a program does apart from its motions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// From here on a setting has this value. Setting it again to the same value changes nothing.
     Set {
         /// What is set: `spindle`, `speed`, `flood`, or the name of a modal group.
         key: Cow<'static, str>,
-        /// What it is set to; empty: what it is before anything sets it.
+        /// Its value; empty: the initial value.
         to: Vec<Argument>,
     },
     /// Happens once, here: a stop, an output, data written to the control.
     Event(Vec<Argument>),
-    /// A variable that outlives the program receives a value.
+    /// A variable that keeps its value after the program ends receives one.
     Store(Argument),
     /// The program ends: the code that ends it.
     End(Vec<Argument>),
@@ -115,19 +115,19 @@ impl Effect {
     }
 }
 
-/// What an effect may change beside what it says.
+/// What an effect may change in addition to what it names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Nothing.
     Itself,
-    /// Where the machine is, or where its coordinates lie.
+    /// The position of the machine, or its coordinate system.
     Place,
-    /// It runs a program of the user, which may read and change whatever is modal.
+    /// It runs a user's program, which may read and change the modal state.
     Everything,
 }
 
 impl Effect {
-    /// What an effect may change where its code does not say otherwise: a setting and a stored value are only what they say.
+    /// What an effect may change where its code does not say otherwise: a setting and a stored value change nothing else.
     pub fn usual_reach(&self) -> Reach {
         match self {
             Self::Set { .. } | Self::Store(_) | Self::End(_) => Reach::Itself,

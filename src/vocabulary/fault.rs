@@ -1,10 +1,10 @@
-//! Facts about what is wrong with a program's meaning. Words for people are made by the check floor.
+//! Facts about what is wrong with a program's meaning. The check floor writes the messages.
 use trunnion_syntax::{BlockId, TextRange};
 
-/// The sort of mistake for which a control refuses a block; rules of the check floor choose by it.
+/// The kind of mistake for which a control refuses a block; rules of the check floor select by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Refusal {
-    /// The text is no block of the language.
+    /// The text is not a block of the language.
     Syntax,
     /// A number is malformed or out of range for its word.
     Number,
@@ -12,17 +12,17 @@ pub enum Refusal {
     Expression,
     /// A parameter that has no value, does not exist, or may not be written.
     Variable,
-    /// An O-word or sequence number that is not there or there twice.
+    /// An O-word or sequence number that is missing or exists twice.
     Label,
-    /// A subprogram that is not there.
+    /// A missing subprogram.
     Subprogram,
     /// Control structures that do not fit together.
     Structure,
     /// Two codes of one modal group, or codes that exclude each other.
     GroupConflict,
-    /// A word is there twice.
+    /// A word occurs twice.
     RepeatedWord,
-    /// A word that nothing in the block uses, or that may not be there.
+    /// A word that nothing in the block uses, or that is not allowed there.
     UnusedWord,
     /// A word is missing that a code needs.
     MissingWord,
@@ -44,7 +44,7 @@ pub enum Refusal {
     ProgramEnd,
     /// Anything else: offsets, planes, tools, probing.
     Other,
-    /// No mistake: the control runs it, this interpreter does not.
+    /// Not a mistake: the control runs it, this interpreter does not.
     NotModelled,
 }
 
@@ -53,7 +53,7 @@ pub enum Refusal {
 pub enum TcpMistake {
     /// Rotary words in a feed motion with TCP off, after it was on in the same tool's work.
     RotaryWithout,
-    /// A feed motion under TCP while no tool length is in force.
+    /// A feed motion under TCP while no tool length is in effect.
     NoLength,
     /// The tool is changed under TCP.
     ToolChange,
@@ -108,7 +108,7 @@ pub enum FaultKind {
     TcpState(TcpMistake),
     /// The control refuses the block, or would.
     Rejected {
-        /// Why, by sort: rules choose by it.
+        /// Why, by kind: rules select by it.
         refusal: Refusal,
         /// A sentence for people: what is wrong and what to do, with numbers and units.
         message: String,
@@ -117,7 +117,7 @@ pub enum FaultKind {
     },
     /// A loop or chain of calls did not end within the bounds of the run, or never will. Range: the line that opens the loop.
     EndlessLoop {
-        /// Executed blocks when it was given up: more than the bound where nothing is proved.
+        /// Executed blocks when it was stopped: more than the bound where nothing is proved.
         blocks: u64,
         /// It is proved to be endless: a pass changed nothing on which the next one depends.
         proved: bool,
@@ -138,7 +138,7 @@ pub enum FaultKind {
         /// What is unknown, e.g. `#5061 (result of probing)`.
         what: String,
     },
-    /// The program itself says that it stops here with an alarm (`#3000=1(TEXT)`, `(ABORT,TEXT)`, SETAL), where the run proves that
+    /// The program stops itself here with an alarm (`#3000=1(TEXT)`, `(ABORT,TEXT)`, SETAL), where the run proves that
     /// it is reached.
     ProgramAlarm {
         /// Its text.
@@ -164,13 +164,13 @@ pub enum FaultKind {
     },
     /// A word is given twice.
     RepeatedWord,
-    /// No code of the block and none in force reads the word at the range; the control skips it.
+    /// No code of the block and none in effect reads the word at the range; the control skips it.
     UnusedWord,
     /// A feed motion while no feed is known (or F0; or G93 without F in the block).
     MissingFeed {
         /// True under G93, where each block needs its own F.
         inverse_time: bool,
-        /// True where F is there but zero or negative.
+        /// True if F is programmed but zero or negative.
         zero: bool,
     },
     /// Start and end of an arc lie at different distances from the centre.

@@ -1,4 +1,4 @@
-//! Floor 1: the words that all floors above share: motions, what is in force, effects, faults, set-up, and who receives them.
+//! Floor 1: the types that all floors above share: motions, modal state, effects, faults, set-up, and their receivers.
 //!
 //! It knows neither dialects nor machines, and runs nothing.
 mod action;
@@ -23,7 +23,7 @@ pub use modal::{
     Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
 };
 pub use motion::{
-    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
+    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
     ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,

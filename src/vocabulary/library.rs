@@ -4,15 +4,15 @@ use std::sync::Arc;
 /// A program that another one calls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
-    /// Where it was found, as people are shown it.
+    /// Where it was found, for messages.
     pub path: String,
     /// Its bytes.
     pub bytes: Arc<[u8]>,
 }
 
-/// Finds programs that a program calls (`M98 P1000`, `o<name> call`): beside it and in configured folders.
+/// Finds programs that a program calls (`M98 P1000`, `o<name> call`): in its folder and in configured folders.
 pub trait Files: Send + Sync {
-    /// The program of a name (`name`, without folder; the implementor tries extensions), or the folders that were searched.
+    /// The program with this name (`name`, without folder; the implementor tries extensions), or the folders that were searched.
     ///
     /// # Errors
     /// The folders that were searched.
@@ -22,9 +22,9 @@ pub trait Files: Send + Sync {
 /// A folder in which a called program was looked for.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Searched {
-    /// As people are shown it.
+    /// As shown in messages.
     pub folder: String,
-    /// A file of that name is there, and it is not taken: which, and why. The control would take it, so no other place is searched.
+    /// A file of that name exists but is not used: which, and why. The control would use it, so no other place is searched.
     pub refused: Option<String>,
 }
 
@@ -49,16 +49,16 @@ impl core::fmt::Debug for Searched {
     }
 }
 
-/// Bounds of a run: a program that does not end within them is reported, not awaited.
+/// Bounds of a run: a program that does not end within them is stopped and reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Executed lines, and motions of cycles, of a run that keeps nothing (`check`). The blocks that the program itself has are
     /// not counted: a program without loops and calls is followed to its end.
     pub blocks: u64,
-    /// The same for a run whose every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `stats`,
+    /// The same for a run in which every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `stats`,
     /// `plot`, `surface`, the language server): a step takes ten times as long there.
     pub steps: u64,
-    /// Motions that are held in memory at once, with all that is known of them: of a whole program in `convert`; of one block, up to a quarter
+    /// Motions that are held in memory at once, with everything known about them: of a whole program in `convert`; of one block, up to a quarter
     /// of it, in a comparison.
     pub held: u64,
     /// Calls inside calls, where the control sets no lower bound itself: LinuxCNC stops at [`Limits::LINUXCNC_DEPTH`].
@@ -77,7 +77,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// So many levels of calls LinuxCNC has, the main program's among them.
+    /// The number of levels of calls of LinuxCNC, including the main program.
     pub const LINUXCNC_DEPTH: u32 = 10;
 
     /// For a run whose motions are held.
@@ -89,7 +89,7 @@ impl Limits {
         }
     }
 
-    /// For a run whose every step is compared, proved, listed or drawn.
+    /// For a run in which every step is compared, proved, listed or drawn.
     #[must_use]
     pub fn of_steps(self) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! The modal state: what is in force between blocks. Each part changes its own fields only.
+//! The modal state: what is in effect between blocks. Each part changes its own fields only.
 mod coordinates;
 mod feed;
 mod spindle;
@@ -15,10 +15,10 @@ pub use zero::Zero;
 
 use crate::{Action, Orientation, Position, Undeclared};
 
-/// What is in force between blocks.
+/// What is in effect between blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalState {
-    /// Motion code in force (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
+    /// Motion code in effect (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
     pub motion: Option<Action>,
     /// Plane, distance mode, unit of lengths.
     pub coordinates: Coordinates,
@@ -47,7 +47,7 @@ pub struct ModalState {
 }
 
 impl ModalState {
-    /// What a length and a length of F count, mm.
+    /// The size of a unit of length and of a unit of F, mm.
     pub fn units(&mut self, length_mm: f64, feed_mm: f64) {
         self.coordinates.set_unit(length_mm, true);
         self.feed.set_unit(feed_mm);
@@ -58,7 +58,7 @@ impl ModalState {
         self.coordinates.set_unit(length_mm, programmed);
         self.feed.set_unit(feed_mm);
     }
-    /// What of zero and tool length is not declared.
+    /// Which of zero point and tool length is undeclared.
     pub fn undeclared(&self) -> Undeclared {
         Undeclared {
             zero: self.zero.undeclared(),

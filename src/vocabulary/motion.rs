@@ -22,7 +22,7 @@ impl AxisLetter {
     }
 }
 
-/// Lengths of a tool that differ by no more are one, mm: the rounding that changes of the unit leave.
+/// Lengths of a tool that differ by no more are the same, mm: rounding from changes of the unit.
 const SAME_LENGTH_MM: f64 = 1e-6;
 
 /// Programmed coordinates of all axes: X Y Z U V W in mm, A B C in degrees, each known or unknown.
@@ -80,7 +80,7 @@ pub enum Orientation {
     Vector(Option<Vec3>, Vec3),
 }
 
-/// Which of several postures the program asks for.
+/// Which of several postures the program requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Posture {
     /// The control's own rule.
@@ -111,24 +111,24 @@ pub enum Swivel {
     AxesStay,
     /// The tip stays (G53.6).
     TipStays,
-    /// The linear axes go where the program does not say (CYCLE800 with a retract).
+    /// The linear axes move to a position that the program does not give (CYCLE800 with a retract).
     AxesLost,
-    /// No turn: the motion ends where the tip is led, and until then all axes run straight, as if nothing led it (Sinumerik PTP).
+    /// No turn: the motion ends where a guided tip would, and until then all axes move linearly (Sinumerik PTP).
     PointToPoint,
 }
 
-/// What a tilted working plane makes of a motion.
+/// The effect of a tilted working plane on a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Tilt {
     /// Unit normal, workpiece frame, of the tilted plane in which X Y Z are programmed; the tool must be parallel to it. X Y Z of the
-    /// motion are then the tip's in the workpiece frame, as under TCP. `None`: no such plane, or TCP leads the tip anyway.
+    /// motion are then the tip in the workpiece frame, as under TCP. `None`: no such plane, or TCP guides the tip anyway.
     pub normal: Option<Vec3>,
     /// Whether the motion only turns the rotary axes.
     pub swivel: Swivel,
-    /// The posture that is asked for.
+    /// The requested posture.
     pub posture: Posture,
-    /// Coordinates of the plane that the program does not know at the end, bits as in [`Position::known`]: there the tool stays where the
-    /// machine has it. All of X Y Z: a block that names none; the linear axes stay, `normal` is `None`. Z, or X and Y (of the plane): X Y Z
+    /// Coordinates of the plane that the program does not know at the end, bits as in [`Position::known`]: there the tool stays where it
+    /// is on the machine. All of X Y Z: a block that names none; the linear axes stay, `normal` is `None`. Z, or X and Y (of the plane): X Y Z
     /// of `end` hold, unmarked, the point in the workpiece frame that has zero there.
     pub free: u16,
 }
@@ -148,14 +148,14 @@ pub enum MotionKind {
     Unknown,
 }
 
-/// What a motion rests on that neither the settings nor the program declare: it counts as zero there, and is unknown.
+/// Values that a motion depends on and that neither the settings nor the program declare: they are computed as zero, and are unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Undeclared {
     /// Axes whose zero point is not declared, bits as in [`Position::known`].
     pub zero: u16,
-    /// The length of the tool in force is not declared.
+    /// The active tool length is not declared.
     pub length: bool,
-    /// The zero point was set from where the machine stood (G92).
+    /// The zero point was set at the position of the machine (G92).
     pub set_here: bool,
 }
 
@@ -176,6 +176,15 @@ impl Undeclared {
     }
 }
 
+/// Spindle speed during a motion at constant cutting speed (G96): it changes with the radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spin {
+    /// That with which the motion takes as long as it does at F per turn, 1/min.
+    pub mean_rpm: f64,
+    /// The highest, 1/min.
+    pub most_rpm: f64,
+}
+
 /// One motion as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
@@ -190,7 +199,7 @@ pub struct Motion {
     /// Programmed coordinates after, without work offset.
     pub end: Position,
     /// Letters whose words are not plain positions. Incremental ones and those with a direction (`ACP`) define the direction themselves: no control turns
-    /// such a rotary word in another direction. Where such a letter, or one whose value is not known, has no known end, the block moved the
+    /// such a rotary word in another direction. Where such a letter, or one whose value is unknown, has no known end, the block moved the
     /// axis to an unknown position; other letters without a known end were not named. Bits as in [`Position::known`].
     pub says_way: u16,
     /// Words or vector.
@@ -205,27 +214,39 @@ pub struct Motion {
     pub spindle_on: Option<bool>,
     /// Spindle speed, 1/min.
     pub spindle_rpm: Option<f64>,
-    /// Work offset in force, mm / deg, order of [`AXIS_LETTERS`]; to be added unless the words are machine coordinates.
+    /// The same at constant cutting speed (G96), where it is known.
+    pub spin: Option<Spin>,
+    /// Work offset in effect, mm / deg, order of [`AXIS_LETTERS`]; to be added unless the words are machine coordinates.
     pub zero: [f64; 9],
-    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In force also where the words are
+    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In effect also where the words are
     /// machine coordinates, which it does not shift.
     pub tool_length_mm: f64,
-    /// What of the two is not declared; nothing of machine coordinates.
+    /// Which of the two is not declared; neither for machine coordinates.
     pub undeclared: Undeclared,
     /// Programmed under G53: machine coordinates.
     pub machine_coordinates: bool,
-    /// The control takes words of X for diameters itself, or was set not to (turning dialects, G7 of LinuxCNC): coordinates are
-    /// radii, whatever the machine file says of words.
+    /// The control itself reads X words as diameters, or was set not to (turning dialects, G7 of LinuxCNC): coordinates are radii,
+    /// whatever the machine file says about words.
     pub radii: bool,
     /// Number of the tool in use, if known.
     pub tool: Option<u32>,
     /// Tilted working plane.
     pub tilt: Tilt,
-    /// How many effects ([`crate::Effect`]) the run had before the motion; 0 where nobody asks for effects.
+    /// How many effects ([`crate::Effect`]) the run had before the motion; 0 if effects are not requested.
     pub effects: u32,
 }
 
 impl Motion {
+    /// Spindle speed to compute its time with, 1/min.
+    pub fn mean_rpm(&self) -> Option<f64> {
+        self.spindle_rpm.or(self.spin.map(|spin| spin.mean_rpm))
+    }
+
+    /// The highest spindle speed of it, 1/min.
+    pub fn most_rpm(&self) -> Option<f64> {
+        self.spindle_rpm.or(self.spin.map(|spin| spin.most_rpm))
+    }
+
     /// A feed motion in axis words that no program contains: nothing is active with it (no offset, no tool, no tool centre point control;
     /// feed and spindle are not set).
     pub fn line(start: Position, end: Position) -> Self {
@@ -242,6 +263,7 @@ impl Motion {
             feed: Feed::Unknown,
             spindle_on: None,
             spindle_rpm: None,
+            spin: None,
             zero: [0.0; 9],
             tool_length_mm: 0.0,
             undeclared: Undeclared::NOTHING,

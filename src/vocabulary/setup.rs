@@ -35,7 +35,7 @@ pub struct WorkOffset {
     pub values: [f64; 9],
 }
 
-/// Where called programs come from; without it there are no other files.
+/// The source of called programs; without it there are no other files.
 #[derive(Clone, Default)]
 pub struct Library(pub Option<Arc<dyn Files>>);
 
@@ -141,7 +141,7 @@ pub enum RollPitchYaw {
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
-    /// Unit in force before the program says one (G20, G21); `None`: not known, mm is taken.
+    /// Unit in effect before the program says one (G20, G21); `None`: unknown, mm is taken.
     pub units: Option<LengthUnit>,
     /// What X10 means; `None`: it is read as 10 mm and each such word is reported.
     pub implicit_decimals: Option<ImplicitDecimals>,
@@ -150,26 +150,36 @@ pub struct ControlData {
     /// G83: how far above the last depth the rapid back into the hole ends, mm (Fanuc parameter 5115).
     pub peck_clearance_mm: Option<f64>,
     /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and in which direction (1 or -1), Q moves the stopped tool off the wall (Fanuc
-    /// parameter 5148, Haas setting 27); `None`: not declared, X Y are not known while it is off the wall.
+    /// parameter 5148, Haas setting 27); `None`: not declared, X Y are unknown while it is off the wall.
     pub bore_shift: Option<(usize, f64)>,
-    /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short motion is not known.
+    /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short motion is unknown.
     pub roughing_escape: Option<RoughingEscape>,
-    /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: not known.
+    /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: unknown.
     pub thread_pull_out: Option<f64>,
-    /// Way of cutter compensation around outer corners.
+    /// G71 and G72 in one block: how far the tool goes off a cut, mm (Fanuc parameter 5133, Haas setting 73).
+    pub roughing_retract_mm: Option<f64>,
+    /// G76 in one block: the least depth of a cut, mm (Fanuc parameter 5140, Haas setting 99).
+    pub thread_least_cut_mm: Option<f64>,
+    /// G76 in one block: what the last cut is left, mm (Fanuc parameter 5141, Haas setting 86).
+    pub thread_finish_mm: Option<f64>,
+    /// Path of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
-    /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.
+    /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: unknown, they are run.
     pub block_delete: Option<bool>,
-    /// What the angles of G68.2 P1 turn about; `None`: not declared, planes with two or three of them are not known.
+    /// What the angles of G68.2 P1 turn about; `None`: not declared, planes with two or three of them are unknown.
     pub roll_pitch_yaw: Option<RollPitchYaw>,
     /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
     pub tcp_codes: Option<TcpCodes>,
     /// Codes by which a program closes and opens the clamps of rotary axes, as the machine names them.
     pub clamp_codes: crate::AllClampCodes,
-    /// Letters of axes that the machine has beside X Y Z A B C: on a LinuxCNC only they are words (`[TRAJ] COORDINATES`).
+    /// Letters of axes that the machine has in addition to X Y Z A B C: on a LinuxCNC only they are words (`[TRAJ] COORDINATES`).
     pub further_axes: Vec<u8>,
+    /// The axis that a machine with two linear axes lacks, an index into [`crate::AXIS_LETTERS`]: it is always at 0.
+    pub absent_axis: Option<u8>,
+    /// The machine has rotary axes; `false` also where no machine is known.
+    pub has_rotary: bool,
     /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the
-    /// machine says; `None`: Z by 1 mm. LinuxCNC takes it along Z whatever the machine is.
+    /// machine says; `None`: Z by 1 mm. LinuxCNC always takes it along Z.
     pub length_along: Option<[f64; 3]>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
     pub reference_points: Vec<crate::Position>,
@@ -188,6 +198,9 @@ pub struct Setup {
     pub library: Library,
     /// Parameters of the control.
     pub control: ControlData,
+    /// Lets an axis of X, Y, Z that no word of the program names stand at 0: for judging one program, where its place changes nothing. Two
+    /// programs that are compared may differ in what they name.
+    pub unnamed_stand: bool,
     /// Numbered variables that have a value before the program runs, sorted by number, each once; `None` is vacant. In program units.
     pub variables: Vec<(u32, Option<f64>)>,
 }

@@ -1,4 +1,4 @@
-//! What a run hands over, and what can be asked of it between two blocks.
+//! The output of a run, and its state between two blocks.
 use crate::{ChainId, Fault, Frame, ModalState, Motion, Placed};
 use trunnion_syntax::BlockId;
 
@@ -7,13 +7,13 @@ pub trait Sink {
     /// A motion; `state` is the modal state after its block.
     fn motion(&mut self, motion: &Motion, state: &ModalState);
     /// A rapid or linear motion that begins where the motion before it ended and differs from it in block, chain, kind, places and feed
-    /// only: what is in force is the same but for the motion code and F.
+    /// only: what is in effect is the same but for the motion code and F.
     fn next_line(&mut self, motion: &Motion, state: &ModalState) {
         self.motion(motion, state);
     }
-    /// A fact about what is wrong.
+    /// A fault.
     fn fault(&mut self, fault: Fault);
-    /// What the program does beside its motions, in order; only where the run was asked for it. Motions may be held back by cutter
+    /// What the program does apart from its motions, in order; only if requested. Motions may be held back by cutter
     /// compensation and come later: [`Motion::effects`] says which effects come before them.
     fn effect(&mut self, effect: Placed) {
         let _ = effect;
@@ -26,7 +26,7 @@ pub trait Sink {
 
 /// A run of a program between two blocks.
 pub trait ProgramRun {
-    /// What is in force.
+    /// What is in effect.
     fn state(&self) -> &ModalState;
     /// The calls that led to a motion, outermost first; empty in the main program.
     fn chain(&self, chain: ChainId) -> Vec<Frame>;
@@ -35,7 +35,7 @@ pub trait ProgramRun {
     /// The value of a variable as it is written (`#1`, `#<name>`, `#_NAME`); NaN where it is unknown, `None` where there is none or it is
     /// vacant.
     fn variable(&self, text: &str) -> Option<f64>;
-    /// Variables that outlive the program and whose value is known: Fanuc and Haas `#500` to `#999`, LinuxCNC `#31` to `#5000`, its
+    /// Variables that keep their values after the program ends and whose value is known: Fanuc and Haas `#500` to `#999`, LinuxCNC `#31` to `#5000`, its
     /// parameter file and global names. Those of a Sinumerik come as [`crate::Effect::Store`].
     fn outliving(&self) -> Vec<(String, f64)>;
 }

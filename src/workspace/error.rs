@@ -1,4 +1,4 @@
-//! Why settings, machine or dialect could not be taken, with the place.
+//! Why settings, machine or dialect could not be used, with the place.
 use std::{fmt, path::Path};
 use trunnion_syntax::LineIndex;
 

@@ -1,5 +1,5 @@
-//! Floor 7, beside rewrite: finds on disk what a program is checked with. Settings (`trunnion.toml`, looked for upward),
-//! machine (embedded or a file), dialect; and says why each was taken. The command line and the language server share it,
+//! Floor 7, next to rewrite: finds on disk what a program is checked with. Settings (`trunnion.toml`, searched upward),
+//! machine (embedded or a file), dialect; and the reason for each. The command line and the language server share it,
 //! so that both give the same verdict.
 //!
 //! It reads files and never writes. It does not know terminals or LSP.

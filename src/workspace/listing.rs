@@ -71,7 +71,7 @@ impl Listing {
         self.names.entry(lower).or_default().push(name);
     }
 
-    /// The file called like one of `stems`: as written before other cases, without an extension before with one.
+    /// The file named like one of `stems`: as written before other cases, without an extension before with one.
     pub(crate) fn find(&self, stems: &[String], folder: &Path) -> Option<PathBuf> {
         for stem in stems {
             if !self.stems.contains(&stem.to_ascii_lowercase()) {
@@ -97,8 +97,8 @@ impl Listing {
     pub(crate) fn remark(&self) -> String {
         match self.not_utf8 {
             0 => String::new(),
-            1 => " (1 file whose name is not UTF-8 was passed over)".to_owned(),
-            count => format!(" ({count} files whose names are not UTF-8 were passed over)"),
+            1 => " (1 file whose name is not UTF-8 was skipped)".to_owned(),
+            count => format!(" ({count} files whose names are not UTF-8 were skipped)"),
         }
     }
 }
@@ -202,7 +202,7 @@ mod tests {
             use std::os::unix::ffi::OsStrExt;
             fs::write(folder.path().join(std::ffi::OsStr::from_bytes(b"\xfc.nc")), "").expect("written");
             let some = Listing::read(folder.path(), 9).expect("four");
-            assert_eq!(some.remark(), " (1 file whose name is not UTF-8 was passed over)");
+            assert_eq!(some.remark(), " (1 file whose name is not UTF-8 was skipped)");
         }
     }
 }

@@ -8,7 +8,7 @@ use trunnion_dialect::{Detected, Dialect, Foreign, Modeline, Surroundings};
 use trunnion_interp::{ControlData, Library, Setup};
 use trunnion_machine::Machine;
 
-/// What the user says beside the files: it wins over them.
+/// Options of the user: they override the files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
     /// Embedded machine or TOML file.
@@ -21,24 +21,24 @@ pub struct Overrides {
     pub tool: Option<String>,
     /// Rules to silence.
     pub allow: Vec<String>,
-    /// Dialects of the controls that the program is meant to run on too (`--port-to`), beside those of the settings.
+    /// Dialects of the controls that the program is meant to run on too (`--port-to`), in addition to those of the settings.
     pub port_to: Vec<String>,
     /// Whether blocks that begin with `/` are skipped (`--block-delete`).
     pub block_delete: Option<bool>,
-    /// What is taken as zero although it is not declared (`--assume`), beside what the settings name.
+    /// What is taken as zero although it is not declared (`--assume`), in addition to the settings.
     pub assume: Vec<String>,
 }
 
-/// Everything a check needs beside the program.
+/// Everything a check needs in addition to the program.
 #[derive(Clone)]
 pub struct Resolved {
     /// Dialect.
     pub dialect: &'static Dialect,
     /// Why this dialect.
     pub dialect_reason: String,
-    /// The reason leaves little doubt, or somebody named the dialect.
+    /// The reason leaves little doubt, or the dialect was named.
     pub dialect_certain: bool,
-    /// The text is for a control that is not supported, or is no program.
+    /// The text is for an unsupported control, or is not a program.
     pub foreign: Option<Foreign>,
     /// Machine with the settings' tolerances applied.
     pub machine: Option<Machine>,
@@ -46,13 +46,13 @@ pub struct Resolved {
     pub machine_reason: String,
     /// The settings file that was read.
     pub config_path: Option<PathBuf>,
-    /// The files that were read beside the program: settings, machine, dialect table.
+    /// The files that were read in addition to the program: settings, machine, dialect table.
     pub files: Vec<PathBuf>,
     /// Tools and work offsets.
     pub setup: Setup,
     /// Rule levels, last wins.
     pub rules: Vec<(String, RuleLevel)>,
-    /// Dialects that the program is to be carried over to.
+    /// Dialects that the program is to be ported to.
     pub port_to: Vec<String>,
     /// What is taken as zero although it is not declared.
     pub assume: Assume,
@@ -61,7 +61,7 @@ pub struct Resolved {
 }
 
 impl Resolved {
-    /// As the check floor wants it.
+    /// In the form of the check floor.
     pub fn settings(&self) -> Settings<'_> {
         Settings {
             dialect: self.dialect,
@@ -156,18 +156,23 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     })
 }
 
-/// What the machine file declares of its control counts where the settings declare nothing.
+/// What the machine file declares about its control applies where the settings declare nothing.
 fn declared_by(machine: &Machine, control: &mut ControlData) {
     let of = &machine.control;
     control.units = control.units.or(of.units);
     control.peck_clearance_mm = control.peck_clearance_mm.or(of.peck_clearance_mm);
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(of.chip_break_retract_mm);
+    control.roughing_escape = control.roughing_escape.or(of.roughing_escape);
+    control.thread_pull_out = control.thread_pull_out.or(of.thread_pull_out);
+    control.roughing_retract_mm = control.roughing_retract_mm.or(of.roughing_retract_mm);
+    control.thread_least_cut_mm = control.thread_least_cut_mm.or(of.thread_least_cut_mm);
+    control.thread_finish_mm = control.thread_finish_mm.or(of.thread_finish_mm);
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }
 }
 
-/// Where programs that this one calls are looked for: its own folder, then those of the settings, relative to the settings' file.
+/// Where programs that this one calls are searched: its own folder, then those of the settings, relative to the settings' file.
 fn library(
     path: Option<&Path>,
     config: &Config,
@@ -216,8 +221,8 @@ fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Opt
     Ok((config, Some((file, text))))
 }
 
-/// The canonical folder of the program, links followed; of standard input the current folder; of a document that is not saved the folder
-/// that its name says.
+/// The canonical folder of the program, links followed; of standard input the current folder; for a document that is not saved the folder
+/// of its name.
 fn folder_of(path: Option<&Path>) -> Option<PathBuf> {
     let Some(path) = path else {
         return std::env::current_dir().ok();
@@ -316,5 +321,5 @@ fn dialect_for(
 /// Whether the part can turn on a spindle of the machine: an axis is one, X words are diameters, or there is no Y.
 fn turns(machine: &Machine) -> bool {
     let spins = |axis: &trunnion_machine::Axis| axis.extra.spindle || axis.extra.diameter;
-    machine.axes.iter().any(spins) || machine.axes.iter().all(|axis| axis.letter != b'Y')
+    machine.axes.iter().any(spins) || machine.own_axes().all(|(_, axis)| axis.letter != b'Y')
 }

@@ -1,4 +1,4 @@
-//! Programs that a program calls: looked for beside it, then in the folders of `subprogram_path`, and nowhere else.
+//! Programs that a program calls: searched in its folder, then in the folders of `subprogram_path`, and nowhere else.
 use crate::listing::{Listing, Listings};
 use std::{
     fs::{self, File},
@@ -8,7 +8,7 @@ use std::{
 };
 use trunnion_interp::{Files, Loaded, Searched};
 
-/// A larger file is no subprogram, bytes.
+/// A larger file is not a subprogram, bytes.
 const LARGEST: u64 = 64 << 20;
 
 /// The folders that were read last by this process.
@@ -48,7 +48,7 @@ impl Subprograms {
 }
 
 /// The names that a file of a program may have: as called, and for a number with and without `O` and leading zeros (`M98 P50` calls
-/// `O0050`). `None` where the name is no plain file name: it may not lead out of the folders.
+/// `O0050`). `None` if the name is not a plain file name: it must not point outside the folders.
 fn stems(name: &str) -> Option<Vec<String>> {
     let name = name.trim();
     let plain = !name.is_empty()

@@ -1,4 +1,4 @@
-//! A dialect table of one's own (`dialect_table` in `trunnion.toml`): what the builder of the machine has added to a control.
+//! A dialect table of your own (`dialect_table` in `trunnion.toml`): what the machine builder has added to a control.
 use crate::LoadError;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -11,7 +11,7 @@ static TABLES: Mutex<Vec<(String, &'static Dialect)>> = Mutex::new(Vec::new());
 /// The dialect of a table's file.
 ///
 /// # Errors
-/// The file cannot be read, or is no dialect table: with line and column.
+/// The file cannot be read, or is not a dialect table: with line and column.
 pub(crate) fn table(path: &Path) -> Result<&'static Dialect, LoadError> {
     let text = trunnion_files::read_text(path)?;
     let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);

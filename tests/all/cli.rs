@@ -10,6 +10,7 @@ mod findings;
 mod fix;
 mod fmt;
 mod hostile;
+mod lathes;
 mod machines;
 mod pictures;
 mod pieces;

@@ -1,4 +1,4 @@
-//! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test all generated_docs` writes it anew.
+//! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test all generated_docs` writes it again.
 use crate::generated_pages::assert_fresh;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! The TextMate grammars of the editor extension are what the dialect tables make of them.
 //!
-//! `UPDATE=1 cargo test --test all generated_grammar` writes them anew.
+//! `UPDATE=1 cargo test --test all generated_grammar` writes them again.
 use std::path::{Path, PathBuf};
 use trunnion::dialect::{BUILTIN_NAMES, Dialect, builtin, textmate};
 use trunnion::syntax::Format;

@@ -1,4 +1,4 @@
-//! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test all generated_rewrite_docs` writes it anew.
+//! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test all generated_rewrite_docs` writes it again.
 use crate::generated_pages::assert_fresh;
 use std::path::Path;
 use trunnion::rewrite::{Rewrite, rewrites};

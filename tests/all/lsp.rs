@@ -275,9 +275,9 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
         ("o101 while", "**o101**\n* line 7: while\n* line 10: endwhile"),
         (
             "o100 call",
-            "**o100** subprogram, starts in line 2\n* line 2: sub\n* line 5: endsub\n* line 8: call",
+            "**o100** subprogram, starts on line 2\n* line 2: sub\n* line 5: endsub\n* line 8: call",
         ),
-        ("o100 sub", "**o100** subprogram, starts in line 2"),
+        ("o100 sub", "**o100** subprogram, starts on line 2"),
         ("#<n> = [#<n> + 1]", "**#<n>** = 1 before this block, = 2 after it"),
         ("o101 endwhile", "* line 10: endwhile"),
         ("g0 x0", "Rapid"),

@@ -40,7 +40,7 @@ record! {
 /// Decisions are written as the flags that they replace, so that stored certificates stay valid: a tag for each.
 impl Encode for Quirks {
     fn encode(&self, out: &mut CanonicalV1) {
-        // no `..`: a new field does not compile until somebody decides whether it counts
+        // no `..`: a new field does not compile until somebody decides whether it matters
         let Self {
             language,
             macros,

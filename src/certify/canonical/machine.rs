@@ -8,6 +8,7 @@ use trunnion_machine::{
 record! {
     Machine {
         id = 1, axes = 2, tool_axis = 3, gauge_point = 4, home = 5, control = 6, tolerances = 7, gantries = 8,
+        absent = 9,
     } without {
         name, sources, rotary, linear, joint_of_letter, constants, bodies, not_used, warnings, checks, not_judged,
     }
@@ -46,7 +47,8 @@ record! {
     Control {
         family = 1, tcp_great_circle = 2, tcp_declared = 3, rapid = 4, branch = 5, pole_cone = 6, pole_action = 7,
         feed = 8, corner_model = 9, block_time = 10, tcp_codes = 11, posture_words = 12, units = 13,
-        reference_points = 14, peck_clearance_mm = 15, chip_break_retract_mm = 16,
+        reference_points = 14, peck_clearance_mm = 15, chip_break_retract_mm = 16, roughing_escape = 17, thread_pull_out = 18,
+        roughing_retract_mm = 19, thread_least_cut_mm = 20, thread_finish_mm = 21,
     }
 }
 

@@ -7,7 +7,8 @@ record! {
     Setup {
         tools = 1, work_offsets = 2, limits = 3, control = 4, variables = 5,
     } without {
-        library,
+        // no proof asks for the second
+        library, unnamed_stand,
     }
 }
 
@@ -36,6 +37,10 @@ record! {
         units = 1, implicit_decimals = 2, chip_break_retract_mm = 3, peck_clearance_mm = 4, bore_shift = 5,
         roughing_escape = 6, thread_pull_out = 7, outer_corner = 8, block_delete = 9, roll_pitch_yaw = 10,
         tcp_codes = 11, clamp_codes = 12, further_axes = 13, length_along = 14, reference_points = 15,
+        absent_axis = 16, roughing_retract_mm = 17, thread_least_cut_mm = 18, thread_finish_mm = 19,
+    } without {
+        // of the machine, which is encoded as a whole
+        has_rotary,
     }
 }
 
@@ -63,7 +68,7 @@ impl Encode for ToolShape {
     }
 }
 
-/// Each axis, in the order of `AXIS_LETTERS`, or nothing: what the place of an unknown one holds means nothing.
+/// Each axis, in the order of `AXIS_LETTERS`, or nothing: the value stored for an unknown one means nothing.
 impl Encode for Position {
     fn encode(&self, out: &mut CanonicalV1) {
         let Self { values, known: _ } = self;

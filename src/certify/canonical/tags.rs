@@ -1,6 +1,6 @@
 //! Tags of enums without content: each variant's number in the encoding.
 //!
-//! A number stays with its meaning for ever. A new variant takes the next number, a deleted one leaves a gap.
+//! A number stays with its meaning forever. A new variant takes the next number, a deleted one leaves a gap.
 use super::{CanonicalV1, Encode};
 use trunnion_dialect::{Action, CodeKind, Owner, Role};
 use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};

@@ -1,13 +1,13 @@
-//! What two motions that belong together have in common beside their way: kind, spindle, zero point, tool and its length.
+//! What two motions that belong together have in common apart from their path: kind, spindle, zero point, tool and its length.
 use super::Posed;
 use super::proof::{Proof, above};
 use crate::Outcome;
 use trunnion_interp::MotionKind;
 
-/// Shifts of the zero point that differ by less are one, mm or deg.
+/// Shifts of the zero point that differ by less are the same, mm or deg.
 const SHIFT: f64 = 1e-9;
 
-/// Tool lengths that differ by less are one, mm.
+/// Tool lengths that differ by less are the same, mm.
 const LENGTH_MM: f64 = 1e-6;
 
 impl Proof<'_> {
@@ -33,7 +33,7 @@ impl Proof<'_> {
             (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
             (was, is) => was.is_none() && is.is_none(),
         };
-        // where nothing was said of it, it must not be told to turn
+        // if the original does not start it, the output must not start it either
         let same_turning = match old.motion.spindle_on {
             None => new.motion.spindle_on != Some(true),
             on => new.motion.spindle_on == on,
@@ -48,20 +48,20 @@ impl Proof<'_> {
             return self.refute(is, "the tool differs".to_owned());
         }
         self.same_zero(old, new, is)?;
-        // a length that is not in force, or that of another number, puts the tip elsewhere on the machine, whatever X Y Z say
+        // a length that is not active, or that of another number, puts the tip in another position on the machine, whatever X Y Z are
         let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
         if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
             let why = format!(
-                "{:.4} mm of tool length are in force where it was {:.4} mm: switch on the length of the tool that cuts",
+                "{:.4} mm of tool length are active, but the original program has {:.4} mm: activate the length of the tool that cuts",
                 new.tool_length, old.tool_length
             );
             return self.refute(is, why);
         }
-        // of lengths that nobody declared, and of words that no machine places, all that is known is whose they are
+        // for undeclared lengths, and for words without a machine, all that is known is which tool they belong to
         let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
         if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
             let why = format!(
-                "the tool length in force is {} where it was {}: switch on the length of the tool that cuts, or declare the lengths and \
+                "the active tool length is {}, but the original program has {}: activate the length of the tool that cuts, or declare the lengths and \
                  name the machine",
                 new.length_of, old.length_of
             );
@@ -70,7 +70,7 @@ impl Proof<'_> {
         Ok(())
     }
 
-    /// The zero point: its name, and what the program shifts beside it. CL data have none.
+    /// The zero point: its name, and what the program shifts in addition. CL data have none.
     fn same_zero(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
         if old.motion.machine_coordinates || matches!(old.motion.kind, MotionKind::Dwell(_)) {
             return Ok(());
@@ -81,13 +81,15 @@ impl Proof<'_> {
             .zip(&new.shift)
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
-            let why = "the program shifts the zero point (G52, G92, G10, TRANS), and the one after does not";
+            let why =
+                "the original program shifts the zero point (G52, G92, G10, TRANS), but the converted one does not";
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {
-            (Some(was), Some(now)) if was != now => {
-                self.refute(is, format!("the work offset is {now} where it was {was}"))
-            }
+            (Some(was), Some(now)) if was != now => self.refute(
+                is,
+                format!("the work offset is {now}, but the original program has {was}"),
+            ),
             // one of them names none (CL data): then the other may not change it
             (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {
                 self.refute(is, "several work offsets became one".to_owned())

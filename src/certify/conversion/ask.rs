@@ -1,8 +1,8 @@
-//! What a program asks for beside its motions: the part that no pose, feed or spindle speed of a motion holds.
+//! What a program requests apart from its motions: the part that no pose, feed or spindle speed of a motion holds.
 //!
 //! Every code and word of a block that ran is one of three things. Motions hold it (coordinates, feeds, planes, tools, offsets, calls);
 //! or it is one of the requests that have a name here; or it is [`Ask::Own`]: something of this control or machine. What is not
-//! recognised is `Own`, so that a new code is refused until somebody says what it is.
+//! recognised is `Own`, so that a new code is refused until it is classified.
 use super::Ran;
 use super::ask_apt::record_asks;
 use super::ask_iso::Blocks;
@@ -17,11 +17,11 @@ pub enum Coolant {
     Flood,
     /// On, as mist.
     Mist,
-    /// On, through the spindle.
+    /// On, through-spindle.
     Thru,
     /// Air on.
     Air,
-    /// Through the spindle off; the others stay.
+    /// Through-spindle coolant off; the others stay on.
     ThruOff,
     /// All off.
     Off,
@@ -41,7 +41,7 @@ pub enum Ask {
     Clamp(String),
     /// The M code with this number, whatever it means to the control (APT AUXFUN).
     Auxiliary(u32),
-    /// It moves nothing and nobody waits for it: texts that are shown, permissions, switches that end what is never begun. As written.
+    /// It moves nothing and does not stop the program: texts that are shown, permissions, codes that end what never began. As written.
     Idle(String),
     /// Something of this control or machine that motions do not hold.
     Own(Own),
@@ -61,7 +61,7 @@ pub struct Own {
 /// Why a request cannot be carried over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// The motion is coupled to the spindle: as plain feed motions it breaks the tool.
+    /// The motion is coupled to the spindle: plain feed motions would break the tool.
     Synchronised,
     /// The spindle stops at an angle.
     Oriented,
@@ -69,19 +69,19 @@ pub enum Why {
     SurfaceSpeed,
     /// The highest or lowest spindle speed.
     SpindleLimit,
-    /// It is stored in the control and outlives the program.
+    /// It is stored in the control and stays there after the program ends.
     Stored,
     /// How exactly and how fast the control runs along the path.
     PathControl,
     /// The program waits for the operator, or raises an alarm.
     Waits,
-    /// What runs is decided at the machine.
+    /// A switch on the machine decides what runs.
     Switch,
-    /// The program begins again, or goes back to the one that calls it.
+    /// The program starts again, or returns to its caller.
     Repeats,
-    /// The motions of the code are not known well enough.
+    /// The motions of the code are unknown well enough.
     Motion,
-    /// What it does is up to the control or the builder of the machine.
+    /// What it does depends on the control or the machine builder.
     Machine,
 }
 
@@ -97,23 +97,23 @@ impl Why {
     pub fn sentence(self) -> &'static str {
         match self {
             Self::Synchronised => {
-                "couples the motion to the spindle (tapping, threading): as plain feed motions it would break the tool. \
-                 Program it by hand in the words of the other control"
+                "couples the motion to the spindle (tapping, threading): plain feed motions would break the tool. Program \
+                 it by hand for the other control"
             }
             Self::Oriented => "stops the spindle at an angle, which is not carried over",
             Self::SurfaceSpeed => {
                 "is a constant cutting speed, which is not carried over: program a spindle speed (G97)"
             }
             Self::SpindleLimit => "limits the spindle speed, which is not carried over",
-            Self::Stored => "stores data in the control that outlive the program, which is not carried over",
+            Self::Stored => "stores data that stay in the control after the program ends, which is not carried over",
             Self::PathControl => "sets how exactly the control follows the path, and has no counterpart",
             Self::Waits => "waits for the operator or raises an alarm, and has no counterpart",
-            Self::Switch => "depends on a switch of the machine: take the `/` or the block away",
+            Self::Switch => "depends on a switch of the machine: remove the `/` or the block",
             Self::Repeats => {
-                "starts the program again or returns to one that calls it, and what is written ends: write M30"
+                "restarts the program or returns to its caller, but the converted program ends here: write M30"
             }
-            Self::Motion => "is not carried over: what it does on the way is not known well enough",
-            Self::Machine => "has no counterpart: what it does is up to the machine",
+            Self::Motion => "is not carried over: its motion is not known exactly enough",
+            Self::Machine => "has no counterpart: what it does depends on the machine",
         }
     }
 }
@@ -133,7 +133,7 @@ pub struct Asked {
     pub ask: Ask,
 }
 
-/// All requests of a program in the order they ran, and the direction of the spindle after each block (counter-clockwise; `None`: not said).
+/// All requests of a program in the order they ran, and the direction of the spindle after each block (counter-clockwise; `None`: not programmed).
 pub(super) fn asks(
     program: &Program,
     dialect: &Dialect,
@@ -192,7 +192,7 @@ pub(super) fn asks(
     (all, turns)
 }
 
-/// M99 as the last block that runs: the program begins again, or goes back to one that calls it.
+/// M99 as the last block that runs: the program starts again, or returns to its caller.
 fn starts_again(program: &Program, dialect: &Dialect, block: BlockId) -> Option<TextRange> {
     let is_iso = program.options().format == Format::Iso;
     let is = |word: &Word| match (word.address, word.value) {
@@ -203,7 +203,7 @@ fn starts_again(program: &Program, dialect: &Dialect, block: BlockId) -> Option<
     found.filter(|_| dialect.m(990).is_some()).map(|word| word.range)
 }
 
-/// What a text asks for, block by block in the order they are written: for templates.
+/// What a text requests, block by block in the order they are written: for templates.
 pub fn asked_in(text: &[u8], dialect: &Dialect) -> Vec<Ask> {
     let program = trunnion_syntax::parse(text.to_vec(), dialect.lex);
     let clamps = AllClampCodes::default();
@@ -220,7 +220,7 @@ pub fn asked_in(text: &[u8], dialect: &Dialect) -> Vec<Ask> {
 pub(super) struct Found {
     /// Requests and where they are written.
     pub asks: Vec<(TextRange, Ask)>,
-    /// Direction of the spindle, where it is said: counter-clockwise.
+    /// Direction of the spindle, if programmed: counter-clockwise.
     pub counter_clockwise: Option<bool>,
 }
 

@@ -5,7 +5,8 @@ use trunnion_syntax::{AptArg, Block, Record, TextRange};
 /// Records that motions, tools and feeds of the run hold, or that only say how the motions are meant.
 const HELD: &[&str] = &[
     "GOTO", "GODLTA", "FROM", "RAPID", "CIRCLE", "DELAY", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "CUTTER",
-    "TLDATA", "CUTCOM", "CSYS", "MSYS", "END", "FINI", "LOADTL", "LOAD", "TOOLNO", "REWIND",
+    "TLDATA", "CUTCOM", "CSYS", "MSYS", "TRANS", "ORIGIN", "TRACUT", "END", "FINI", "LOADTL", "LOAD", "TOOLNO",
+    "REWIND",
 ];
 
 /// Records for people, for other programs or for the listing: no control reads them. Names of planes and tolerances are used by records
@@ -67,9 +68,15 @@ pub(super) fn record_asks(block: &Block<'_>) -> Found {
             Some(number) => found.asks.push((range, Ask::Auxiliary(number))),
             None => found.own(range, major, text, Why::Machine),
         },
-        "CYCLE" if has(&record, "OFF") => {}
+        "CYCLE" if ["OFF", "ON", "INIT"].iter().any(|word| has(&record, word)) => {}
+        // the run gives the motions of these, or says why it cannot
+        "CYCLE"
+            if ["DRILL", "FACE", "CSINK", "DEEP", "DEEP2", "BRKCHP", "BRKCHP2", "REAM"]
+                .iter()
+                .any(|word| has(&record, word)) => {}
+        "CYCLE" if has(&record, "TAP") => found.own(range, major, text, Why::Synchronised),
         "CYCLE" => found.own(range, major, text, Why::Motion),
-        // said by the user to be a remark, or refused by the run
+        // declared a remark by the user, or refused by the run
         "INSERT" => found.own(range, major, text, Why::Machine),
         held if HELD.contains(&held) => {}
         idle if IDLE.contains(&idle) => found.asks.push((range, Ask::Idle(idle.to_owned()))),

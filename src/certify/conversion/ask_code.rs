@@ -64,11 +64,11 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
             "CYCLE84" => Own(Why::Synchronised),
             _ => Own(Why::Motion),
         },
-        // MCALL: the cycle that it calls stands behind it
+        // MCALL: the cycle that it calls follows it
         Action::CannedCycle if code.id == "MCALL" => Motions,
         Action::NotModelled if taps(code) => Own(Why::Synchronised),
         Action::ConstantSurfaceSpeed => Own(Why::SurfaceSpeed),
-        // of a Sinumerik, G97 and G973 also say that F counts per turn, which is not followed
+        // of a Sinumerik, G97 and G973 also make F a feed per revolution, which is not followed
         Action::ConstantSpindleSpeed if code.group.as_deref() != Some("feed-mode") => Motions,
         Action::ConstantSpindleSpeed if matches!(code.id.as_str(), "G971" | "G972") => Motions,
         Action::NotModelled
@@ -117,7 +117,7 @@ fn quiet(code: &Code, held: Held, text: &str) -> Judged {
     use Judged::{Motions, Named, Own};
     if code.kind == CodeKind::M {
         let coolant = match (head(text), code.group.as_deref()) {
-            // by custom on controls that leave them to the builder of the machine
+            // by convention on controls that leave them to the machine builder
             ("M7", _) => Some(Coolant::Mist),
             ("M8", _) => Some(Coolant::Flood),
             ("M9", _) => Some(Coolant::Off),
@@ -140,9 +140,9 @@ fn quiet(code: &Code, held: Held, text: &str) -> Judged {
         }
     };
     match code.id.as_str() {
-        // alone it lets the control run past corners without a stop, and asks for nothing
+        // alone it lets the control round corners without a stop, and requests nothing
         "G64" if text == "G64" => Named(Ask::Idle(text.to_owned())),
-        // they end what is never begun in the program that is written: what begins it is refused
+        // they end what never begins in the output: the code that begins it is refused
         "COMPOF" | "FFWOF" | "OSOF" | "ORISOF" => Named(Ask::Idle(text.to_owned())),
         "G5.1" if text.ends_with(" Q0") => Named(Ask::Idle(text.to_owned())),
         "G5" | "G8" if text.ends_with(" P0") => Named(Ask::Idle(text.to_owned())),

@@ -6,7 +6,7 @@ use trunnion_dialect::{Action, Code, Dialect, Role};
 use trunnion_interp::AllClampCodes;
 use trunnion_syntax::{Address, Block, Call, Item, Program, TextRange, Value, Word};
 
-/// Names by which a comment speaks to LinuxCNC, and whether it only shows a text.
+/// Keywords of comments that LinuxCNC acts on, and whether they only show a text.
 const ACTIVE: &[(&str, bool)] = &[
     ("MSG", true),
     ("DEBUG", true),
@@ -21,19 +21,19 @@ const ACTIVE: &[(&str, bool)] = &[
     ("PY", false),
 ];
 
-/// Reads block after block: what words mean depends on the codes in force.
+/// Reads block after block: what words mean depends on the codes in effect.
 pub(super) struct Blocks<'a> {
     program: &'a Program,
     dialect: &'a Dialect,
     clamps: &'a AllClampCodes,
-    /// Codes in force of the groups whose words may come in a later block.
+    /// Active codes of the groups whose words may come in a later block.
     motion: Option<&'a Code>,
     cycle: Option<&'a Code>,
     /// Variables that the program declares for itself, upper case.
     local: BTreeSet<String>,
 }
 
-/// A code in a block, and what is written of it.
+/// A code in a block, and how it is written.
 struct Coded<'a> {
     code: &'a Code,
     range: TextRange,
@@ -201,7 +201,7 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// A word that is no code.
+    /// A word that is not a code.
     fn word(&self, word: &Word, codes: &mut [Coded<'a>], (calls, declares): (bool, bool), found: &mut Found) {
         let text = plain(&self.program.text(word.range));
         let role = match word.address {
@@ -282,7 +282,7 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// Whether a `#` variable outlives the program, or does something when it is written. One whose number is computed counts.
+    /// Whether a `#` variable outlives the program, or does something when it is written. One whose number is computed is treated so.
     fn is_kept(&self, name: &str) -> bool {
         let rest = name[1..].trim();
         if let Some(own) = rest.strip_prefix('<') {
@@ -297,7 +297,7 @@ impl<'a> Blocks<'a> {
         number >= 500
     }
 
-    /// Whether a parameter word is read by a code of the block or by one in force. It then belongs to the text of that code.
+    /// Whether a parameter word is read by a code of the block or by an active one. It then belongs to the text of that code.
     fn is_read(&self, letter: u8, text: &str, codes: &mut [Coded<'a>]) -> bool {
         // the offset of the compensation, whose path the motions hold
         belongs(letter, text, codes)
@@ -352,7 +352,7 @@ fn waits(name: &str) -> bool {
     matches!(name[1..].trim(), "3000" | "3006")
 }
 
-/// Names behind DEF, PROC and the like.
+/// Names after DEF, PROC and the like.
 fn declared(program: &Program, dialect: &Dialect, call: &Call, local: &mut BTreeSet<String>) {
     let is = |code: &Code| code.action == Action::Declaration;
     if !dialect.name(&program.text(call.name)).is_some_and(is) {

@@ -1,16 +1,16 @@
 //! What is claimed of a conversion, and what was found.
 
-/// Which motions of the two programs belong together; in order, as who converted them says.
+/// Which motions of the two programs belong together; in order, as the converter says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// The next motion before is made by the next so many after, each an equal share of it.
+    /// The next motion of the original is made by this many motions of the output, each an equal share of it.
     Moves(u32),
     /// The next motion before is a rapid of which only some axes are known; the next one after has the same words.
     Words,
-    /// The next motion before has none after. Only a rapid that ends nowhere known, where no known pose comes before it with the same tool,
-    /// or none after it.
+    /// The next motion of the original has none in the output. Only a rapid with an unknown end, if no known pose with the same tool comes
+    /// before it, or none after it.
     Left,
-    /// The next so many after have none before: positioning rapids, where the pose before is not known.
+    /// This many motions of the output have none in the original: positioning rapids, where the pose before is unknown.
     Added(u32),
 }
 
@@ -23,11 +23,11 @@ pub struct ConversionClaim {
     pub end_deg: f64,
     /// At every moment of a feed motion the tip is where it was within this.
     pub path_mm: f64,
-    /// At every moment of a feed motion the tool axis is where it was within this; `None`: it is told and not judged.
+    /// At every moment of a feed motion the tool axis is where it was within this; `None`: it is reported and not judged.
     pub path_deg: Option<f64>,
     /// Feeds in mm/min agree within this.
     pub feed_mm_min: f64,
-    /// Where one of the programs tells times, these agree within this share.
+    /// Where one of the programs gives times, these agree within this share.
     pub time_share: f64,
 }
 
@@ -56,6 +56,6 @@ pub struct ConversionProof {
     pub feed_mm_min: f64,
     /// Times, largest difference, as a share.
     pub time_share: f64,
-    /// Feed motions whose feed or time could not be compared: no way is made, or the spindle's speed is not known.
+    /// Feed motions whose feed or time could not be compared: the tip does not move, or the spindle speed is unknown.
     pub feeds_not_compared: u64,
 }

@@ -1,4 +1,4 @@
-//! The requests of two programs held against each other: each stands between the same motions, in the same order and state.
+//! Compares the requests of two programs: each must be between the same motions, in the same order and state.
 use super::ask::{Ask, Asked, Coolant, Own, Why};
 use super::{Part, Reading};
 use crate::Outcome;
@@ -6,13 +6,13 @@ use core::fmt;
 use trunnion_interp::AllClampCodes;
 use trunnion_syntax::{Address, BlockId, LineIndex};
 
-/// What a comparison may take for granted beside both texts.
+/// What a comparison may assume in addition to both texts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Terms<'a> {
     /// Requests that the user leaves out, by name (`M64`); only those that [`super::Why::may_be_dropped`].
     pub dropped: &'a [String],
     /// What own codes of the control mean in the program after, as its post says: the text of a request, and the request. `None`: it
-    /// belongs to the frame of every program.
+    /// belongs to the header or footer of every program.
     pub meanings: &'a [(String, Option<Ask>)],
 }
 
@@ -77,13 +77,13 @@ impl fmt::Display for Event {
     }
 }
 
-/// How the spindle turns: counter-clockwise, 1/min. `None`: it stands, or nothing was said.
+/// How the spindle turns: counter-clockwise, 1/min. `None`: it is stopped, or nothing was programmed.
 type Turning = Option<(bool, Option<f64>)>;
 
-/// Events with the block that asks for each.
+/// Events with the block that requests each.
 type Events = Vec<(Event, BlockId)>;
 
-/// One program's requests on the way through its motions.
+/// One program's requests while its motions are compared.
 struct Side<'a> {
     reading: &'a Reading,
     next: usize,
@@ -98,27 +98,27 @@ struct Side<'a> {
 /// Compares the requests of both programs.
 ///
 /// # Errors
-/// Refuted where a request is lost, added or stands elsewhere; unknown where what a program asks for is not all seen.
+/// Refuted where a request is lost, added or in another place; unknown where not all requests of a program are known.
 pub(super) fn same_requests(
     before: &Reading,
     after: &Reading,
     parts: &[Part],
     terms: &Terms<'_>,
 ) -> Result<(), Outcome> {
-    for (reading, which) in [(before, "before"), (after, "after")] {
+    for (reading, which) in [(before, "original"), (after, "converted")] {
         if let Some(block) = reading.elsewhere {
             let line = line(reading, block);
             return Err(Outcome::unknown(format!(
-                "line {line} {which} leads into another file, whose requests beside motions are not compared"
+                "line {line} of the {which} program continues in another file, where only motions are compared"
             )));
         }
     }
-    for (reading, which) in [(before, "before"), (after, "after")] {
+    for (reading, which) in [(before, "original"), (after, "converted")] {
         let switch = |asked: &&Asked| matches!(&asked.ask, Ask::Own(own) if own.why == Why::Switch);
         if let Some(asked) = reading.asks.iter().find(switch) {
             let line = line(reading, asked.block);
             return Err(Outcome::unknown(format!(
-                "line {line} {which}: whether it runs depends on a switch"
+                "line {line} of the {which} program: whether it runs depends on a switch"
             )));
         }
     }
@@ -139,7 +139,7 @@ pub(super) fn same_requests(
                     return Err(Outcome::refuted_at(
                         at_is - 1,
                         line,
-                        "something is asked for in the middle of what was one motion".to_owned(),
+                        "a function runs in the middle of what was one motion".to_owned(),
                     ));
                 }
             }
@@ -169,12 +169,14 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
         let line = line(was.reading, *old_block);
         return refute(
             Some(*new_block),
-            format!("{other} comes where {one} (line {line} before) comes, or in another state of spindle or coolant"),
+            format!(
+                "{other} takes the place of {one} (line {line} of the original), or spindle or coolant are in a different state there"
+            ),
         );
     }
     if let Some((lost, block)) = old.get(new.len()) {
         let line = line(was.reading, *block);
-        return refute(None, format!("{lost} (line {line} before) is lost"));
+        return refute(None, format!("{lost} (line {line} of the original) is lost"));
     }
     if let Some((more, block)) = new.get(old.len()) {
         return refute(Some(*block), format!("{more} is added"));
@@ -184,7 +186,10 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
     if was.coolants != is.coolants && !ended {
         return refute(
             None,
-            format!("the coolant is {} where it was {}", is.coolants, was.coolants),
+            format!(
+                "the coolant is {}, but the original program has {}",
+                is.coolants, was.coolants
+            ),
         );
     }
     Ok(())
@@ -245,7 +250,7 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// Runs all requests in front of the motion with this index.
+    /// Runs all requests before the motion with this index.
     fn until(&mut self, motion: usize) -> Events {
         let mut events = Vec::new();
         while let Some(asked) = self.reading.asks.get(self.next).filter(|asked| asked.at <= motion) {

@@ -14,8 +14,8 @@ impl Posed {
         self.leg.is_none() || words && !motion.machine_coordinates && stays
     }
 
-    /// Whether F counts along the tip's way: as tip words, or where no rotary axis turns and X Y Z run as far as the tip does. Where linear
-    /// axes stand askew, or a rotary axis between them does, they run farther or less far.
+    /// Whether F is the speed along the tip's path: with tip words, or where no rotary axis turns and X Y Z run as far as the tip does. Where linear
+    /// axes, or a rotary axis between them, are skewed, they move farther or less far.
     pub fn feeds_the_tip(&self) -> bool {
         let (false, Some(leg)) = (self.tip_words(), &self.leg) else {
             return true;
@@ -33,8 +33,8 @@ impl Posed {
         }
     }
 
-    /// How long the motion takes at the programmed feed, without regard to what axes can do, s; `None`: not known, or a rapid. Feeds
-    /// count along the tip's path (tip words) or that of X Y Z.
+    /// How long the motion takes at the programmed feed, ignoring what the axes can do, s; `None`: unknown, or a rapid. Feeds
+    /// apply along the path of the tip (tip words) or of X Y Z.
     pub fn duration_s(&self) -> Option<f64> {
         let way = match (&self.leg, &self.motion.kind) {
             (_, MotionKind::Arc(Some(arc))) => arc.length(),

@@ -1,4 +1,4 @@
-//! Two readings held against each other.
+//! Compares two readings.
 use super::axis::axes_apart;
 use super::effects::{Terms, same_requests};
 use super::words::{same_words, words_apart};
@@ -11,7 +11,7 @@ use trunnion_interp::{Fault, Feed, MotionKind};
 use trunnion_machine::{Machine, Pose};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
-/// Most moments at which two ways are compared.
+/// Most moments at which two paths are compared.
 const MOST_SAMPLES: f64 = 4096.0;
 
 pub(super) struct Proof<'a> {
@@ -23,7 +23,7 @@ pub(super) struct Proof<'a> {
     pub(super) offset: Option<Arc<str>>,
 }
 
-/// Proves that `after` is what `before` says. The readings must be fresh: [`super::read`] of the texts.
+/// Proves that `after` does what `before` says. The readings must be fresh: [`super::read`] of the texts.
 ///
 /// # Errors
 /// Refuted with a witness, or unknown with the reason. Lines are those of the program after.
@@ -36,7 +36,7 @@ pub fn converted(
     converted_on(before, after, parts, claim, &Terms::default())
 }
 
-/// As [`converted`], with what the user leaves out and what the post says of its own codes.
+/// As [`converted`], with what the user leaves out and what the post declares about its own codes.
 ///
 /// # Errors
 /// As [`converted`].
@@ -51,7 +51,7 @@ pub fn converted_on(
         let line = line(&after.0.program, fault.block);
         let text = fault_text(&after.0.program, fault);
         return Err(Outcome::unknown(format!(
-            "line {line} after is not understood: `{text}` ({:?})",
+            "line {line} of the converted program is not understood: `{text}` ({:?})",
             fault.kind
         )));
     }
@@ -88,7 +88,7 @@ pub fn converted_on(
     let (all_was, all_is) = (before.0.motions.len(), after.0.motions.len());
     if (was, is) != (all_was, all_is) {
         return Err(Outcome::unknown(format!(
-            "{was} of {all_was} motions before and {is} of {all_is} after were compared"
+            "{was} of {all_was} motions of the original and {is} of {all_is} of the converted program were compared"
         )));
     }
     same_requests(before.0, after.0, parts, terms)?;
@@ -127,10 +127,10 @@ impl Proof<'_> {
         let motions = &self.before.0.motions;
         motions
             .get(was)
-            .ok_or_else(|| Outcome::unknown(format!("there is no motion {was} before")))
+            .ok_or_else(|| Outcome::unknown(format!("the original has no motion {was}")))
     }
 
-    /// A motion that is left out: a rapid to nowhere known, in front of all known poses of its tool or behind the last.
+    /// A motion that is left out: a rapid to an unknown position, before all known poses of its tool or after the last.
     fn left(&mut self, was: usize) -> Result<(), Outcome> {
         let motions = &self.before.0.motions;
         let posed = self.motion(was)?;
@@ -143,7 +143,7 @@ impl Proof<'_> {
         let next = motions[was..].iter().find(|other| known(other));
         let last = next.is_none_or(|next| next.motion.tool != tool);
         if posed.end.is_ok() || !rapid || !(first || last) {
-            return self.refute(usize::MAX, format!("motion {was} before must not be left out"));
+            return self.refute(usize::MAX, format!("motion {was} of the original must not be left out"));
         }
         self.found.left_out += 1;
         Ok(())
@@ -153,17 +153,17 @@ impl Proof<'_> {
     fn words(&mut self, was: usize, is: usize) -> Result<(), Outcome> {
         let (before, after) = (self.before.0, self.after.0);
         let (Some(old), Some(new)) = (before.motions.get(was), after.motions.get(is)) else {
-            return Err(Outcome::unknown("the program after ends too early"));
+            return Err(Outcome::unknown("the converted program ends too early"));
         };
         self.alike(old, new, is)?;
         let apart = words_apart(old, new).filter(|_| same_words(self.before.1, self.after.1));
         match apart {
             Some((mm, degrees)) if !above(mm, self.claim.end_mm) && !above(degrees, self.claim.end_deg) => Ok(()),
-            _ => self.refute(is, "a rapid in some axes is not the one before".to_owned()),
+            _ => self.refute(is, "a rapid in some of the axes differs from the original".to_owned()),
         }
     }
 
-    /// Motions that only position, where nothing is said of where the tool comes from.
+    /// Motions that only position, where the start of the tool is unknown.
     fn added(&mut self, was: usize, is: usize, count: usize) -> Result<(), Outcome> {
         let open = self
             .before
@@ -174,7 +174,7 @@ impl Proof<'_> {
         let motions = self.after.0.motions.get(is..is + count).unwrap_or_default();
         let rapid = |posed: &Posed| matches!(posed.motion.kind, MotionKind::Rapid | MotionKind::Unknown);
         if !open || motions.len() != count || !motions.iter().all(rapid) {
-            return self.refute(is, "a motion is added that is no positioning".to_owned());
+            return self.refute(is, "an added motion is not a positioning move".to_owned());
         }
         self.found.added += count as u64;
         Ok(())
@@ -184,10 +184,10 @@ impl Proof<'_> {
     fn moves(&mut self, was: usize, is: usize, count: usize) -> Result<(), Outcome> {
         let (before, after) = (self.before.0, self.after.0);
         let Some(old) = before.motions.get(was) else {
-            return Err(Outcome::unknown(format!("there is no motion {was} before")));
+            return Err(Outcome::unknown(format!("the original has no motion {was}")));
         };
         let Some(new) = after.motions.get(is..is + count).filter(|new| !new.is_empty()) else {
-            return Err(Outcome::unknown("the program after ends too early"));
+            return Err(Outcome::unknown("the converted program ends too early"));
         };
         for (index, posed) in new.iter().enumerate() {
             self.alike(old, posed, is + index)?;
@@ -197,16 +197,20 @@ impl Proof<'_> {
         }
         let Ok(end) = &old.end else {
             let why = old.end.as_ref().err().cloned().unwrap_or_default();
-            return Err(Outcome::unknown(format!("motion {was} before: {why}")));
+            return Err(Outcome::unknown(format!("motion {was} of the original: {why}")));
         };
         let is_rapid = old.motion.kind == MotionKind::Rapid;
         let track = Track::new(old, self.before.1);
         match (&track, old.start) {
             (None, None) if count == 1 && !matches!(old.motion.kind, MotionKind::Arc(_)) => {
-                // from nowhere: only the end is said
+                // from an unknown start: only the end is compared
                 return self.end(end, &new[0], is);
             }
-            (None, _) => return Err(Outcome::unknown(format!("motion {was} before: its way is not known"))),
+            (None, _) => {
+                return Err(Outcome::unknown(format!(
+                    "motion {was} of the original: its path is unknown"
+                )));
+            }
             (Some(_), _) => {}
         }
         let Some(track) = track else { return Ok(()) };
@@ -233,7 +237,7 @@ impl Proof<'_> {
             return self.refute(
                 is,
                 format!(
-                    "the tip ends {mm:.6} mm and the tool axis {degrees:.6} deg from where it was; allowed are {:.6} mm, {:.6} deg",
+                    "the tip ends {mm:.6} mm and the tool axis {degrees:.6} deg from where it was; the limits are {:.6} mm, {:.6} deg",
                     self.claim.end_mm, self.claim.end_deg
                 ),
             );
@@ -243,7 +247,7 @@ impl Proof<'_> {
         Ok(())
     }
 
-    /// The way of one motion after, against its share of the one before: for the difference of the two points, bent by at most Q, the
+    /// The path of one motion of the output, compared with its share of the original one: for the difference of the two points, bent by at most Q, the
     /// largest sample + Q / (8 m^2) at m equal steps. Gives the bound of the angle between the tool axes, deg; 0 for rapids.
     fn way(
         &mut self,
@@ -257,7 +261,7 @@ impl Proof<'_> {
             if is_rapid {
                 return Ok(0.0);
             }
-            return self.refute(is, "its way is not known".to_owned());
+            return self.refute(is, "its path is unknown".to_owned());
         };
         let h2 = (to - from) * (to - from);
         let bend = track.bend().0 * h2 + made.bend().0;
@@ -282,14 +286,14 @@ impl Proof<'_> {
             let limit = self.claim.path_mm;
             return self.refute(
                 is,
-                format!("inside the block the tip may be {mm:.6} mm from where it was, allowed are {limit:.6} mm"),
+                format!("inside the block the tip may be {mm:.6} mm from where it was; {limit:.6} mm is allowed"),
             );
         }
         if let Some(limit) = self.claim.path_deg.filter(|limit| above(degrees, *limit)) {
             return self.refute(
                 is,
                 format!(
-                    "inside the block the tool axis may be {degrees:.6} deg from where it was, allowed are {limit:.6} deg"
+                    "inside the block the tool axis may be {degrees:.6} deg from where it was; {limit:.6} deg is allowed"
                 ),
             );
         }
@@ -298,7 +302,7 @@ impl Proof<'_> {
         Ok(degrees)
     }
 
-    /// Where the program says how the tool axis runs between the ends (ORIAXES, ORIVECT), it runs so after, or no differently.
+    /// Where the program says how the tool axis runs between the ends (ORIAXES, ORIVECT), it must do the same in the output, or the same by default.
     fn same_orientation(&self, old: &Posed, new: &Posed, degrees: f64, is: usize) -> Result<(), Outcome> {
         let (Some(asked), Some(machine)) = (old.motion.great_circle, self.after.1) else {
             return Ok(());
@@ -314,7 +318,7 @@ impl Proof<'_> {
         };
         self.refute(
             is,
-            format!("the tool axis runs {now} where the program asks for it {was}"),
+            format!("the tool axis moves {now}, but the original program asks for {was}"),
         )
     }
 
@@ -351,11 +355,11 @@ impl Proof<'_> {
             (Some(was), Some(took)) if was > 0.0 => {
                 let share = (took - was).abs() / was;
                 if above(share, self.claim.time_share) {
-                    return self.refute(is, format!("it takes {took:.6} s and took {was:.6} s"));
+                    return self.refute(is, format!("it takes {took:.6} s, and {was:.6} s in the original"));
                 }
                 self.found.time_share = self.found.time_share.max(share);
             }
-            // no way is made: the feed has no time
+            // the tip does not move: the feed has no time
             (None, _) => self.found.feeds_not_compared += 1,
             _ => return self.refute(is, "the feed is lost".to_owned()),
         }

@@ -13,12 +13,12 @@ use trunnion_interp::{
 use trunnion_machine::{Follower, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
 
-/// What holds at the start of a program that does not say it: an excerpt.
+/// The state at the start of a program that does not set it: an excerpt.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Assume {
     /// Tool centre point control is on.
     pub tcp: bool,
-    /// A feed is in force, mm/min.
+    /// Active feed, mm/min.
     pub feed_mm_min: Option<f64>,
 }
 
@@ -34,7 +34,7 @@ pub struct Run<'a> {
     pub machine: Option<&'a Machine>,
     /// Tools, offsets, bounds.
     pub setup: &'a Setup,
-    /// What holds at its start.
+    /// The state at its start.
     pub assume: Assume,
 }
 
@@ -44,23 +44,23 @@ pub struct Posed {
     /// As programmed.
     pub motion: Motion,
     /// Where the tool is before, workpiece frame without work offset, mm; `None`: unknown. Of a tool whose length is switched off, where
-    /// the tip would be with the length that was last in force for it.
+    /// the tip would be with the length that was last active for it.
     pub start: Option<Pose>,
-    /// Where the tool is after, or why that is not known.
+    /// Where the tool is after, or why that is unknown.
     pub end: Result<Pose, String>,
     /// What the machine does, where there is one.
     pub leg: Option<Box<Leg>>,
-    /// Length of the tool that the poses are told for, mm.
+    /// Length of the tool for which the poses are given, mm.
     pub tool_length: f64,
-    /// Whose length is in force.
+    /// Which tool's length is active.
     pub length_of: LengthOf,
-    /// Whether the tip runs as far as X Y Z do, whichever way they run: they stand square to each other, and so does what turns them.
+    /// Whether the tip runs as far as X Y Z do, whichever way they run: they are perpendicular to each other, and so is what turns them.
     pub square: bool,
     /// Direction of the spindle, where the program says it: counter-clockwise.
     pub counter_clockwise: Option<bool>,
-    /// What the zero point in force has beside the declared values of the work offset (G52, G92, G10, TRANS), mm and deg.
+    /// What the active zero point adds to the declared values of the work offset (G52, G92, G10, TRANS), mm and deg.
     pub shift: [f64; 9],
-    /// Name of the work offset in force.
+    /// Name of the active work offset.
     pub work_offset: Option<Arc<str>>,
 }
 
@@ -100,15 +100,15 @@ pub struct Reading {
     /// The block with which the run was given up, because it made more motions, or had more grave faults, than are held
     /// ([`trunnion_interp::Limits::held`]).
     pub given_up: Option<BlockId>,
-    /// Faults because of which it is not known what the program does.
+    /// Faults that make it unknown what the program does.
     pub faults: Vec<Fault>,
-    /// The first block that leads into another file.
+    /// The first block that continues in another file.
     pub elsewhere: Option<BlockId>,
-    /// What the blocks ask for beside their motions, in the order they ran.
+    /// What the blocks request apart from their motions, in the order they ran.
     pub asks: Vec<Asked>,
     /// Codes of clamps that the machine names.
     pub clamp_codes: AllClampCodes,
-    /// The control changes tools itself; where it does not, nobody knows which one is in the spindle.
+    /// The control changes tools itself; where it does not, the tool in the spindle is unknown.
     pub changes_tools: bool,
     /// The control adds the length of its tools itself; where it does not, the operator sets it.
     pub tells_lengths: bool,
@@ -187,7 +187,7 @@ struct Collector<'m> {
     is_apt: bool,
     /// Where the last motion ended, without a machine.
     last: Option<Pose>,
-    /// Tool and its length that was last in force.
+    /// Tool and its length that was last in effect.
     length: (Option<u32>, f64),
     motions: Vec<Posed>,
     blocks: Vec<Ran>,
@@ -289,23 +289,23 @@ impl Collector<'_> {
         let rotary = motion.end.known & 0b11_1000 != 0;
         let axis = match motion.orientation {
             _ if motion.tilt != Tilt::default() => {
-                Err("a tilted plane is turned to by a machine: add --machine".to_owned())
+                Err("turning to a tilted plane depends on the machine: add --machine".to_owned())
             }
             Orientation::Vector(_, axis) => Ok(axis),
-            Orientation::Words if self.is_apt => Err("the tool axis is not known: program i, j, k".to_owned()),
+            Orientation::Words if self.is_apt => Err("the tool axis is unknown: program i, j, k".to_owned()),
             Orientation::Words if rotary => {
-                Err("rotary words say where the tool points only together with a machine: add --machine".to_owned())
+                Err("where the tool points for given rotary words depends on the machine: add --machine".to_owned())
             }
             Orientation::Words => Ok(Vec3::z()),
         };
         let end = match (motion.kind, motion.end.xyz(), axis) {
             (MotionKind::Unknown, ..) => Err("the motion is not modelled".to_owned()),
-            (MotionKind::Dwell(_), ..) => self.last.ok_or_else(|| "the position is not known".to_owned()),
+            (MotionKind::Dwell(_), ..) => self.last.ok_or_else(|| "the position is unknown".to_owned()),
             (_, Some(_), Ok(_)) if motion.machine_coordinates => {
-                Err("machine coordinates have a meaning only together with a machine: add --machine".to_owned())
+                Err("where machine coordinates are in the part depends on the machine: add --machine".to_owned())
             }
             (_, Some(tip), Ok(axis)) => Ok(Pose { tip, axis }),
-            (_, None, _) => Err("the position of X, Y or Z is not known".to_owned()),
+            (_, None, _) => Err("the position of X, Y or Z is unknown".to_owned()),
             (_, _, Err(why)) => Err(why),
         };
         let start = match (motion.start.xyz(), motion.orientation) {
@@ -317,14 +317,14 @@ impl Collector<'_> {
     }
 }
 
-/// What the zero point has beside the declared values of the work offset; `unnamed`: the offset in force where the program names none.
+/// What the zero point adds to the declared values of the work offset; `unnamed`: the active offset where the program names none.
 fn shift(motion: &Motion, state: &ModalState, setup: &Setup, unnamed: &str) -> [f64; 9] {
     let name = state.zero.offset().unwrap_or(unnamed);
     let base = setup.work_offset(name).map_or([0.0; 9], |offset| offset.values);
     core::array::from_fn(|axis| motion.zero[axis] - base[axis])
 }
 
-/// What of a fault makes it unsafe to tell what the program does; `None` where poses do not depend on it.
+/// Why a fault makes it unsafe to say what the program does; `None` where poses do not depend on it.
 pub(super) fn is_grave(kind: &FaultKind) -> bool {
     match kind {
         FaultKind::WorkOffsetUnset { .. }
@@ -340,7 +340,7 @@ pub(super) fn is_grave(kind: &FaultKind) -> bool {
 }
 
 impl Reading {
-    /// Faults because of which it is not known what the program does.
+    /// Faults that make it unknown what the program does.
     pub fn grave(&self) -> impl Iterator<Item = &Fault> {
         self.faults.iter()
     }

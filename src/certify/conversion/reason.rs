@@ -5,7 +5,7 @@ use trunnion_machine::NoStance;
 pub(super) fn reason(why: &NoStance) -> String {
     let deg = trunnion_geometry::deg;
     match why {
-        NoStance::PositionUnknown(letters) => format!("the position of {letters} is not known"),
+        NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown"),
         NoStance::Unreachable(off) => format!(
             "the machine cannot point the tool there: the nearest tool axis it reaches is {:.4} deg away",
             deg(*off)
@@ -17,15 +17,17 @@ pub(super) fn reason(why: &NoStance) -> String {
             deg(*limit)
         ),
         NoStance::PostureRefused { axis, value } => format!(
-            "no posture is as the program asks for it: {} would be {:.4} deg",
+            "no posture is the one that the program asks for: {} would be {:.4} deg",
             char::from(*axis),
             deg(*value)
         ),
         NoStance::NotModelled => "the motion is not modelled".to_owned(),
         NoStance::HeldElsewhere { axis, .. } => {
-            format!("the machine file holds axis {} elsewhere", char::from(*axis))
+            format!("the machine file holds axis {} at another position", char::from(*axis))
         }
-        NoStance::PlaneMisaligned(off) => format!("the tool stands {:.4} deg off the tilted plane's normal", deg(*off)),
+        NoStance::PlaneMisaligned(off) => {
+            format!("the tool is {:.4} deg off the normal of the tilted plane", deg(*off))
+        }
         NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         NoStance::RotaryOffset(letter) => format!(
             "a work offset in {} under tool centre point control is not modelled",

@@ -218,7 +218,7 @@ fn a_motion_that_takes_another_time_is_refuted() {
     refused(held(100, 200), "it takes");
 }
 
-/// A rapid to nowhere known may be left out in front of all known places of its tool, or behind them, and not between.
+/// A rapid to nowhere known may be left out before all known places of its tool, or behind them, and not between.
 #[test]
 fn a_rapid_between_known_places_is_not_left_out() {
     let places = ["G0 X0. Y0. Z5.\n", "G0 X1. Y0. Z5.\n"];

@@ -63,7 +63,7 @@ fn a_tap_made_of_feed_motions_is_refuted() {
         "fanuc-30i",
         "G84 Z-5. R2. F500.\nG80",
         "Z2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.",
-        "G84 R2. F500. (line 5 before) is lost",
+        "G84 R2. F500. (line 5 of the original) is lost",
     );
     lost(
         "haas-ngc",
@@ -81,7 +81,7 @@ fn a_tap_made_of_feed_motions_is_refuted() {
         "linuxcnc",
         "G33 Z-5 K1",
         "G95 G1 Z-5 F1\nG94",
-        "G33 K1 (line 5 before) is lost",
+        "G33 K1 (line 5 of the original) is lost",
     );
 }
 
@@ -131,29 +131,34 @@ fn a_lost_request_is_refuted() {
 
 #[test]
 fn a_request_with_other_words_or_in_another_place_is_refuted() {
-    lost("linuxcnc", "M62 P1", "M62 P2", "M62 P2 comes where M62 P1");
-    lost("linuxcnc", "G64 P0.1", "G64 P0.2", "comes where");
+    lost("linuxcnc", "M62 P1", "M62 P2", "M62 P2 takes the place of M62 P1");
+    lost("linuxcnc", "G64 P0.1", "G64 P0.2", "takes the place of");
     lost("linuxcnc", "M64 P1\nG1 X8 F100", "G1 X8 F100\nM64 P1", "is lost");
     lost(
         "linuxcnc",
         "M0\nG1 X8 F100",
         "G1 X8 F100\nM0",
-        "a stop (line 5 before) is lost",
+        "a stop (line 5 of the original) is lost",
     );
-    lost("linuxcnc", "M0", "M1", "an optional stop comes where a stop");
+    lost("linuxcnc", "M0", "M1", "an optional stop takes the place of a stop");
     lost(
         "linuxcnc",
         "M8\nG1 X8 F100\nM9",
         "M7\nG1 X8 F100\nM9",
-        "the coolant is mist where it was flood",
+        "the coolant is mist, but the original program has flood",
     );
     // a stop with the spindle running, and one without
-    lost("linuxcnc", "M5\nM0\nM3", "M0", "in another state of spindle");
+    lost(
+        "linuxcnc",
+        "M5\nM0\nM3",
+        "M0",
+        "spindle or coolant are in a different state",
+    );
     lost(
         "linuxcnc",
         "M8\nM9\nM0\nM8",
         "M8\nM0",
-        "in another state of spindle or coolant",
+        "spindle or coolant are in a different state",
     );
     lost("linuxcnc", "M4", "M3", "the spindle differs");
 }
@@ -230,5 +235,5 @@ fn what_is_not_understood_before_is_no_proof() {
     let before = format!("{HEAD}G999\n{TAIL}");
     let after = format!("{HEAD}{TAIL}");
     let found = outcome((&before, "fanuc-30i"), (&after, "fanuc-30i"), &[]).expect_err("unknown");
-    assert!(found.contains("G999 (line 5 before) is lost"), "{found}");
+    assert!(found.contains("G999 (line 5 of the original) is lost"), "{found}");
 }

@@ -1,4 +1,4 @@
-//! The way of the tool between the ends of one motion, on any machine or none, and how much it can bend.
+//! The path of the tool between the ends of one motion, on any machine or none, and how much it can bend.
 use super::Posed;
 use crate::curve::{great_circle, joint_bend};
 use trunnion_geometry::math::angle_between;
@@ -6,7 +6,7 @@ use trunnion_geometry::{Vec3, arc::Arc};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Joints, Machine, Pose, forward, tool_axis_at};
 
-/// What runs between the ends.
+/// What moves between the ends.
 #[derive(Clone, Debug)]
 enum Kind<'m> {
     /// The tip on its line or arc; the tool axis by rotary joints that run linearly, or on the great circle.
@@ -24,7 +24,7 @@ enum Kind<'m> {
     },
 }
 
-/// The way of the tool in one motion.
+/// The path of the tool in one motion.
 #[derive(Clone, Debug)]
 pub struct Track<'m> {
     kind: Kind<'m>,
@@ -35,7 +35,7 @@ pub struct Track<'m> {
 }
 
 impl<'m> Track<'m> {
-    /// The way of a motion that was read with `machine` (as [`super::Run::machine`]). `None`: an end is not known, or the way between is
+    /// The path of a motion that was read with `machine` (as [`super::Run::machine`]). `None`: an end is unknown, or the path between is
     /// not modelled (an arc without tool centre point control on which rotary axes move).
     pub fn new(posed: &Posed, machine: Option<&'m Machine>) -> Option<Self> {
         let (start, end) = (posed.start?, *posed.end.as_ref().ok()?);
@@ -136,7 +136,7 @@ impl<'m> Track<'m> {
         }
     }
 
-    /// The angle that the tool axis runs through evenly on a great circle, rad: 0 where it stands; `None`: it runs otherwise.
+    /// The angle that the tool axis runs through evenly on a great circle, rad: 0 where it does not move; `None`: it moves in another way.
     pub(super) fn circle_angle(&self) -> Option<f64> {
         match &self.kind {
             Kind::Tip { rotary: None, .. } => Some(angle_between(&self.ends[0].axis, &self.ends[1].axis)),

@@ -4,15 +4,15 @@ use trunnion_geometry::Vec3;
 use trunnion_interp::{MotionKind, Orientation, Tilt};
 use trunnion_machine::{Joints, MAX_AXES, Machine, forward};
 
-/// The axes that a rapid moves to known places, by index (X Y Z A B C U V W), with the place in mm or deg. `None`: it is no plain rapid in
-/// words (machine coordinates, a tilted plane), or it moves an axis to an unknown place.
+/// The axes that a rapid moves to known places, by index (X Y Z A B C U V W), with the place in mm or deg. `None`: it is not a plain rapid
+/// in words (machine coordinates, a tilted plane), or it moves an axis to an unknown position.
 pub fn moved_axes(posed: &Posed) -> Option<Vec<(usize, f64)>> {
     let motion = &posed.motion;
     let plain = motion.kind == MotionKind::Rapid
         && !motion.machine_coordinates
         && motion.orientation == Orientation::Words
         && motion.tilt == Tilt::default()
-        // a way that a word says itself, or an axis that moves somewhere unknown
+        // a path that a word defines itself, or an axis that moves to an unknown position
         && motion.says_way == 0;
     plain.then(|| {
         let moved = |axis: &usize| motion.end.get(*axis).is_some() && motion.start.get(*axis) != motion.end.get(*axis);
@@ -52,7 +52,7 @@ pub(super) fn words_apart(old: &Posed, new: &Posed) -> Option<(f64, f64)> {
         return None;
     }
     let mut apart = (0.0f64, 0.0f64);
-    // an axis that is moved to where it stands is not moved
+    // an axis that is moved to where it already is does not move
     let stands = |axis: usize, value: f64| old.motion.start.get(axis) == Some(value);
     for (axis, value) in &is {
         let wanted = was.iter().find(|(known, _)| known == axis);

@@ -201,7 +201,7 @@ fn fanuc(before: &str, after: &str, setup: &Setup) -> Outcome {
     on("fanuc-30i", &one, &two, &PATH, setup)
 }
 
-/// Behind G92 nobody knows the zero of B, which was never positioned, and which the machine does not have.
+/// After G92 the zero of B is unknown, which was never positioned, and which the machine does not have.
 #[test]
 fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
     let text = |line: &str| format!("G21 G90\nG0 X0 Y4 Z11 A24 C9\nG92 Y-12\n{line}\nM2\n");
@@ -210,7 +210,7 @@ fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
     assert!(matches!(compare("G1 X-4.1 F100"), Outcome::Refuted(_)));
 }
 
-/// Behind TRAORI nobody knows Y, and so not the arc: that both ends are the same is no proof.
+/// After TRAORI Y is unknown, and so is the arc: equal ends prove nothing.
 #[test]
 fn arcs_that_are_not_known_are_compared_by_their_words() {
     let text = |k: &str| {
@@ -271,11 +271,11 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
         // at the same place, but only as long as the offset is none
         ("G0 X1.", "G53 G0 X1.", "machine coordinates"),
         ("T1 M6\nG0 X1. Y1. Z1.", "T2 M6\nG0 X1. Y1. Z1.", "tool in use"),
-        ("G43 H1 G0 X1. Y1. Z1.", "G43 H3 G0 X1. Y1. Z1.", "whose tool length"),
+        ("G43 H1 G0 X1. Y1. Z1.", "G43 H3 G0 X1. Y1. Z1.", "which tool's length"),
         (
             "#1=7\nG43 H#1 G0 X1. Y1. Z1.",
             "#1=8\nG43 H#1 G0 X1. Y1. Z1.",
-            "whose tool length",
+            "which tool's length",
         ),
         ("G4 X1.", "G4 X2.", "a dwell of 1 s and one of 2 s"),
         ("G0 X1.", "G1 X1. F100.", "one is a rapid, the other a line at feed"),
@@ -377,8 +377,8 @@ fn a_certificate_is_for_its_inputs_only() {
             &setup,
             "other tools, work offsets, control parameters or variables",
         ),
-        (&spaced, &after, machine, &none, "another text before"),
-        (BEFORE, &format!("{after}\n"), machine, &none, "another text after"),
+        (&spaced, &after, machine, &none, "another original program"),
+        (BEFORE, &format!("{after}\n"), machine, &none, "another changed program"),
     ] {
         let outcome = recheck(
             &certificate,

@@ -66,6 +66,9 @@ pub(super) struct FileControl {
     bore_shift: Option<Spanned<String>>,
     roughing_escape: Option<Escape>,
     thread_pull_out: Option<Spanned<f64>>,
+    roughing_retract: Option<Spanned<f64>>,
+    thread_least_cut: Option<Spanned<f64>>,
+    thread_finish: Option<Spanned<f64>>,
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
@@ -98,6 +101,9 @@ impl FileControl {
                 Escape::Rapid => RoughingEscape::Rapid,
             }),
             thread_pull_out: leads(self.thread_pull_out.as_ref())?,
+            roughing_retract_mm: length("roughing_retract", self.roughing_retract.as_ref())?,
+            thread_least_cut_mm: length("thread_least_cut", self.thread_least_cut.as_ref())?,
+            thread_finish_mm: length("thread_finish", self.thread_finish.as_ref())?,
             outer_corner: match self.outer_corner {
                 Some(Corner::Arc) => OuterCorner::Arc,
                 Some(Corner::Lines) | None => OuterCorner::Lines,
@@ -114,6 +120,8 @@ impl FileControl {
             }),
             clamp_codes: trunnion_interp::AllClampCodes::default(),
             further_axes: Vec::new(),
+            absent_axis: None,
+            has_rotary: false,
             length_along: None,
             reference_points,
         })

@@ -67,7 +67,7 @@ struct FileTool {
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     let file: File = toml::from_str(text).map_err(|error| ConfigError {
-        message: error.message().to_owned(),
+        message: super::plain::plain(text, error.message(), error.span()),
         span: error.span(),
     })?;
     let mut config = Config {

@@ -1,4 +1,4 @@
-//! Whether a block would move the machine, judged by its text alone: doubt counts as yes.
+//! Whether a block would move the machine, judged by its text alone: in doubt it does.
 use trunnion_dialect::{Action, Dialect, Language, Role};
 use trunnion_syntax::{Address, Block, Item, Value};
 

@@ -1,4 +1,4 @@
-//! Where the subprograms of a file begin and end, as far as their heads say.
+//! Where the subprograms of a file begin and end, as far as their first lines show.
 use crate::visited::Visited;
 use trunnion_dialect::{Dialect, Language};
 use trunnion_syntax::{Address, Block, BlockId, Item, Program};

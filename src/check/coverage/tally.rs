@@ -34,7 +34,7 @@ impl Tally {
         self.known += u64::from(is_known);
     }
 
-    /// A fault may say where the run was given up.
+    /// A fault may say where the run was stopped.
     pub(crate) fn fault(&mut self, fault: &Fault) {
         let reason = match &fault.kind {
             FaultKind::NotDecided { .. } => "not-decided",

@@ -1,4 +1,4 @@
-//! What is reported of undeclared zero points and tool lengths.
+//! What is reported about undeclared zero points and tool lengths.
 use super::OffsetName;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{ChainId, LengthOf};
@@ -12,7 +12,7 @@ pub(crate) enum Missing {
 }
 
 impl Missing {
-    /// As a sentence begins or goes on: `G54`, `the length of tool 3`.
+    /// As a sentence begins or continues: `G54`, `the length of tool 3`.
     pub(crate) fn name(&self, dialect: &Dialect) -> String {
         match self {
             Self::Offset(name) => match name.as_str() {
@@ -23,7 +23,7 @@ impl Missing {
             },
             Self::Length(LengthOf::Tool(Some(number))) => format!("the length of tool {number}"),
             Self::Length(LengthOf::Tool(None)) => "the length of the tool in use".to_owned(),
-            Self::Length(LengthOf::Nothing | LengthOf::Other) => "the tool length in force".to_owned(),
+            Self::Length(LengthOf::Nothing | LengthOf::Other) => "the active tool length".to_owned(),
         }
     }
 
@@ -72,7 +72,7 @@ pub(crate) struct Fit {
     pub(crate) letter: u8,
     /// The undeclared length that is added to the zero point.
     pub(crate) with_length: Option<LengthOf>,
-    /// Lowest and highest, mm; `None`: it is not known which words count from here.
+    /// Lowest and highest, mm; `None`: it is unknown which words are relative to this position.
     pub(crate) range: Option<[f64; 2]>,
 }
 
@@ -80,14 +80,14 @@ pub(crate) struct Fit {
 #[derive(Clone, Debug)]
 pub(crate) struct Open {
     pub(crate) missing: Missing,
-    /// Block and calls of the first motion that rests on it.
+    /// Block and calls of the first motion that depends on it.
     pub(crate) block: BlockId,
     pub(crate) chain: ChainId,
     /// On a chain of linear axes: what fits.
     pub(crate) fits: Vec<Fit>,
 }
 
-/// An axis that leaves its travel wherever the zero lies.
+/// An axis that leaves its travel wherever the zero is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrun {
     pub(crate) missing: Missing,

@@ -1,11 +1,11 @@
-//! What a program rests on although nobody declared it, for commands that take it as zero and judge nothing.
+//! Undeclared values that a program depends on, for commands that take them as zero and judge nothing.
 use super::{Missing, OffsetName};
 use crate::keyed::Keyed;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, LengthOf, ModalState, Motion, Setup, Sink, Undeclared, run};
 use trunnion_syntax::Program;
 
-/// The work offsets and tool lengths that the motions of `program` use and nobody declares, in the order of their first use, as a check
+/// The work offsets and tool lengths that the motions of `program` use and that are not declared, in the order of their first use, as a check
 /// lists them: `G54 = 0 (not declared)`. Runs the program.
 pub fn assumptions(program: &Program, dialect: &Dialect, setup: &Setup) -> Vec<String> {
     let mut listed = Listed::default();
@@ -20,7 +20,7 @@ pub fn assumptions(program: &Program, dialect: &Dialect, setup: &Setup) -> Vec<S
 #[derive(Default)]
 struct Listed {
     missing: Keyed<Missing, ()>,
-    /// What the last motion rested on, so that nothing is looked up twice.
+    /// What the last motion depended on, so that nothing is looked up twice.
     last: Option<(Undeclared, OffsetName, LengthOf)>,
 }
 

@@ -1,9 +1,9 @@
-//! How far a joint ranges while part of its position is not declared.
+//! The range of a joint while part of its position is not declared.
 use super::{Missing, OffsetName};
 use trunnion_interp::{ChainId, LengthOf};
 use trunnion_syntax::BlockId;
 
-/// What a joint's position rests on that is not declared.
+/// The undeclared values that a joint's position depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Basis {
     pub(super) offset: Option<OffsetName>,
@@ -53,7 +53,7 @@ impl Range {
     }
 }
 
-/// Where a joint is while it rests on one basis, that counted as zero.
+/// Where a joint is while it depends on one basis, with that basis taken as zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) joint: usize,

@@ -24,7 +24,7 @@ impl<'v> Cut<'v> {
     }
 }
 
-/// Cuts of which a condition holds in full, after a condition that a look checks.
+/// Cuts for which a full condition holds, after a cheap first test.
 macro_rules! cuts {
     ($($(#[$doc:meta])* $fact:ident: |$look:ident| $may:expr, |$cut:ident| $holds:expr;)*) => {$(
         $(#[$doc])*

@@ -6,7 +6,7 @@ use crate::view::LegView;
 use trunnion_interp::{Motion, MotionKind};
 use trunnion_machine::NoStance;
 
-/// An end at which the machine's position is not known, or that it cannot reach.
+/// An end at which the machine's position is unknown, or that it cannot reach.
 pub(crate) struct LostEnd<'v> {
     view: &'v LegView<'v>,
     pub(crate) why: &'v NoStance,

@@ -65,7 +65,7 @@ pub(crate) struct PolePass<'v> {
 }
 over_view!(NearPole, PoleCrossing, PolePass);
 
-/// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
+/// Where the first axis turns less than this many times as far as the tool axis the pole is not the cause.
 const AMPLIFIED: f64 = 5.0;
 
 /// A tool axis that turns less than this does not turn, rad: 1e-4 deg.

@@ -23,7 +23,7 @@ impl<'v> PostureSwap<'v> {
     }
 }
 
-/// A posture that is open.
+/// An undecided posture.
 pub(crate) struct OpenPosture<'v> {
     view: &'v LegView<'v>,
     pub(crate) open: Open,
@@ -42,10 +42,10 @@ impl<'v> OpenPosture<'v> {
     }
 }
 
-/// A turning cut with a tip that is led, at whose end only one posture is left; at its start there were two.
+/// A turning cut with a guided tip, at whose end only one posture is left; at its start there were two.
 pub(crate) struct OneSidedCut<'v> {
     view: &'v LegView<'v>,
-    /// The joint that keeps the other posture from being legal.
+    /// The joint that makes the other posture illegal.
     pub(crate) joint: usize,
     /// The value it would need, rad.
     pub(crate) value: f64,
@@ -72,7 +72,7 @@ impl<'v> OneSidedCut<'v> {
     }
 }
 
-/// The axis that keeps the other posture of a stance from being legal, and the value it would need, rad; `None` where two postures are
+/// The axis that makes the other posture of a stance illegal, and the value it would need, rad; `None` where two postures are
 /// legal or there is only one anyway.
 fn missing_posture(machine: &Machine, stance: &Stance) -> Option<(usize, f64)> {
     let Orientations::Postures(postures) = orientations(machine, &stance.axis) else {

@@ -1,4 +1,4 @@
-//! Cuts in which axes travel far for little.
+//! Cuts in which axes travel far for little motion of the tool.
 use super::{Cut, over_view};
 use crate::look::Look;
 use crate::view::LegView;
@@ -17,7 +17,7 @@ pub(crate) struct FarCut<'v> {
 }
 
 impl<'v> FarCut<'v> {
-    /// A shorter tip path counts as this, mm.
+    /// A shorter tip path is taken as this, mm.
     pub(crate) const LEAST_MM: f64 = 0.1;
 
     /// How far the linear joints may run while the tip runs `tip_mm`, mm.
@@ -60,7 +60,7 @@ pub(crate) struct WindingCut<'v> {
 over_view!(FarCut, WindingCut);
 
 impl<'v> WindingCut<'v> {
-    /// A smaller turn of the tool axis counts as this, deg.
+    /// A smaller turn of the tool axis is taken as this, deg.
     pub(crate) const LEAST_DEG: f64 = 0.1;
 
     #[inline]

@@ -12,7 +12,7 @@ fn hit(line: &Line<'_>, at: usize, length: usize, message: &str, help: &'static 
     }
 }
 
-/// FIX of a negative number: RS274/NGC rounds down (measured: FIX[-2.8] is -3), macro B cuts toward zero; FUP the other way.
+/// FIX of a negative number: RS274/NGC rounds down (measured: FIX[-2.8] is -3), macro B truncates toward zero; FUP the other way.
 pub(super) fn rounding(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
     if !route.crosses() || !line.has_bracket() {
         return;
@@ -23,7 +23,7 @@ pub(super) fn rounding(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) 
             "FIX",
             [
                 "rounds down: FIX[-2.8] is -3 there, -2 here",
-                "cuts toward zero: FIX[-2.8] is -2 there, -3 here",
+                "truncates toward zero: FIX[-2.8] is -2 there, -3 here",
             ],
         ),
         (
@@ -47,7 +47,7 @@ pub(super) fn rounding(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) 
     }
 }
 
-/// MOD of a negative number: RS274/NGC gives a rest of zero or more (measured: -5 MOD 3 is 1); macro B the sign of the dividend.
+/// MOD of a negative number: RS274/NGC gives a remainder of zero or more (measured: -5 MOD 3 is 1); macro B the sign of the dividend.
 pub(super) fn remainder(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
     if route.crosses() && line.has_bracket() {
         for at in line.found("MOD") {

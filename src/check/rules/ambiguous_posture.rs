@@ -1,4 +1,4 @@
-//! Several postures give the programmed tool vector, and it is not settled which one the control takes.
+//! Several postures give the programmed tool vector, and it is unclear which one the control takes.
 //!
 //! # Why
 //! Two positions of the rotary axes give the same tool direction. Each control picks one by its own rule. Where
@@ -32,7 +32,7 @@
 //! names.
 //!
 //! # Thresholds
-//! Postures that differ by 5 deg or less in every rotary axis count as one.
+//! Postures that differ by 5 deg or less in every rotary axis are treated as one.
 //!
 //! # Sources
 //! * docs/kinematics.md#which-posture-a-control-takes
@@ -101,7 +101,7 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
             "declare the ranges in the machine file: [control] branch = { range = { A = [-30, 120] } }",
         ),
         OpenCause::StartUnknown => (
-            text("the control starts from the previous posture, which is not known here"),
+            text("the control starts from the previous posture, which is unknown here"),
             "position the rotary axes before the first vector",
         ),
         OpenCause::Direction => (

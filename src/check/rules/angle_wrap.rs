@@ -39,7 +39,7 @@ use trunnion_machine::{Limits, Wrap};
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::LongTurn(check)]);
 
-/// Turns that are half a turn but for rounding are none the less.
+/// Turns that differ from half a turn only by rounding are half turns.
 const SLACK: f64 = 1e-6;
 
 fn check(leg: &facts::LongTurn<'_>, out: &mut Reporter<'_>) {

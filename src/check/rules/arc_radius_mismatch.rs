@@ -1,4 +1,4 @@
-//! The start and end of an arc lie at different distances from its centre, or no circle of the given radius connects them.
+//! The start and end of an arc are at different distances from its centre, or no circle of the given radius connects them.
 //!
 //! # Why
 //! The control stops with an alarm, or cuts a spiral without a message. The larger the mismatch, the deeper the

@@ -59,7 +59,7 @@ fn no_zero_fits(overrun: &Overrun, out: &mut Reporter<'_>) {
                 mm(overrun.travel_mm)
             ))
             .note(format!(
-                "{missing} is not declared; all motions that rest on it are counted"
+                "{missing} is not declared; this covers all motions that depend on it"
             ))
             .help("divide the program into set-ups, or use a machine with more travel")
             .value_text("axis", name)
@@ -84,7 +84,7 @@ fn what_fits(open: &Open, out: &mut Reporter<'_>) {
             let name = letter(fit.letter);
             let Some([low, high]) = fit.range else {
                 draft.note(format!(
-                    "{name}: not known, because it is not settled which motions rest on {missing}"
+                    "{name}: unknown, because it is unclear which motions depend on {missing}"
                 ));
                 continue;
             };
@@ -107,7 +107,7 @@ fn what_fits(open: &Open, out: &mut Reporter<'_>) {
             format!("; it fits with {}", ranges.join(", "))
         };
         draft.say(format!(
-            "{missing} is not declared, so it is not known whether the program stays within the travel{fits}"
+            "{missing} is not declared, so it is unknown whether the program stays within the travel{fits}"
         ));
     });
 }
@@ -143,7 +143,7 @@ fn check(leg: &facts::OverTravel<'_>, out: &mut Reporter<'_>) {
         out.unknown(leg, Merge::once(UNSETTLED), |draft| {
             draft
                 .at_orientation()
-                .say("the path of the axes between the ends of this block is not known: it is not proven that every axis stays within its travel")
+                .say("the path of the axes between the ends of this block is unknown: it is not proven that every axis stays within its travel")
                 .note("the great circle does not lead to the posture at the end of the block: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
                 .help("guide the tool axis farther from the pole, or divide the block into smaller steps");
         });
@@ -245,7 +245,7 @@ mod tests {
         );
     }
 
-    /// The same in a rapid: whether a Sinumerik moves its axes together then is a matter of G-code group 55 and machine data.
+    /// The same in a rapid: whether a Sinumerik moves its axes together then depends on G-code group 55 and machine data.
     #[test]
     fn a_limit_between_the_ends_of_a_rapid_is_a_matter_of_its_path() {
         let text = "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG0 X200 A40\nM30\n";

@@ -24,8 +24,8 @@
 //! # Guarantee
 //! Sound for axes with a declared speed, at the worst moment inside the block. An axis that moves and has no
 //! declared speed is reported as unknown, once. Where linear and rotary axes move together without tool centre
-//! point control, a parameter of some controls (Fanuc and similar) decides whether F counts along X Y Z or along
-//! all axes. Silence then holds for both meanings. Where an axis is too fast if F counts along X Y Z, which is the
+//! point control, a parameter of some controls (Fanuc and similar) decides whether F is the speed along X Y Z or
+//! along all axes. Silence then holds for both meanings. Where an axis is too fast if F is the speed along X Y Z, which is the
 //! faster case, this rule says unknown, once, and `feed-drop` is silent. Where only rotary axes turn on a Haas,
 //! whose settings decide what F means, it says unknown, once. Up to 8 consecutive blocks are reported one by one; a
 //! longer run is reported as one finding with its worst block.
@@ -102,18 +102,18 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
 /// The fastest reading of F overruns an axis, another one may not.
 const AMBIGUOUS: [&str; 3] = [
     "linear and rotary axes move together: a parameter of this control decides whether F is mm/min along X Y Z or sqrt(mm2+deg2); speeds are not judged",
-    "if F counts along X Y Z, an axis is too fast here",
+    "if F is the speed along X Y Z, an axis is too fast here",
     "switch tool centre point control on, or program inverse time (G93)",
 ];
 
-/// A Haas counts F of a turn along circles whose diameters are settings.
+/// On a Haas F of a turn is the speed along circles whose diameters are settings.
 const BY_DIAMETER: [&str; 3] = [
     "only rotary axes move: this control measures F along circles with the diameters in its settings 34 and 79; speeds are not judged",
     "the axes may turn faster than F in degrees per minute",
     "program inverse time (G93), or declare [control] feed = \"xyz\" if F is in degrees per minute",
 ];
 
-/// What F means is not settled: message, note and help, once.
+/// What F means is ambiguous: message, note and help, once.
 fn unsettled(view: &LegView<'_>, out: &mut Reporter<'_>, [message, note, help]: [&str; 3]) {
     out.unknown(view, Merge::once(hash(message)), |draft| {
         draft.say(message).note(note).help(help);
@@ -130,13 +130,13 @@ fn undecided(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
     let why = match (cut.motion().feed, cut.motion().kind) {
         // the faults that removed the feed or the centre of the arc are reported by their own rules
         (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
-        (Feed::PerRevolution(_), _) if cut.motion().spindle_rpm.is_none() => {
-            "the feed is per revolution and the spindle speed is not known"
+        (Feed::PerRevolution(_), _) if cut.motion().most_rpm().is_none() => {
+            "the feed is per revolution and the spindle speed is unknown"
         }
         _ if cut.leg.length <= 0.0 && cut.rotary_turns() => {
             "the tip does not move while rotary axes turn: what F means then depends on the control"
         }
-        _ if cut.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is not known",
+        _ if cut.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is unknown",
         _ => "the motion is not modelled",
     };
     out.unknown(cut, Merge::once(hash(why)), |draft| {
@@ -189,7 +189,7 @@ mod tests {
         );
     }
 
-    /// Haas counts F of a turn along a circle of a set diameter, so that C may run faster than by F in degrees: 7100 are within its speed.
+    /// On a Haas F of a turn is the speed along a circle of a set diameter, so that C may run faster than by F in degrees: 7100 are within its speed.
     #[test]
     fn on_a_haas_the_feed_of_a_turn_is_a_setting() {
         let said = |info: &str, block: &str| -> Vec<String> {

@@ -10,7 +10,7 @@
 //! ```gcode
 //! N10 G0 X0 Y0
 //! /N20 G0 X100
-//! ;^ block-delete-unset: 1 block begins with /, and the state of the block delete switch is not declared: judged both with the block run and with it skipped
+//! ;^ block-delete-unset: 1 block begins with /, but the state of the block delete switch is not declared: checked once with the block run, and once with it skipped
 //! ```
 //!
 //! # Use instead
@@ -51,7 +51,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         (_, false) => ("blocks begin with or contain a /,", "what follows it", "it"),
     };
     let text = format!(
-        "{count} {begin} and the state of the block delete switch is not declared: judged both with {them} run and with {it} skipped"
+        "{count} {begin} but the state of the block delete switch is not declared: checked once with {them} run, and once with {it} skipped"
     );
     let draft = out.report(first, text);
     draft.help("declare it: [control] block_delete = true or false in trunnion.toml, or --block-delete on or off");

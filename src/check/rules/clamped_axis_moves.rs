@@ -38,10 +38,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for motions between known positions. The finding is unknown where it is not known whether a motion turns a
-//! clamped axis, and where the state of the clamp is not known: before the first clamp code, in the block of a
-//! clamp code, and after a code or call with an unknown effect. Codes in called files count. On a great circle an
-//! axis that leaves its value and returns to it has turned; over the pole, where its path is not known, it may have
+//! Sound for motions between known positions. The finding is unknown where it is uncertain whether a motion turns a
+//! clamped axis, and where the state of the clamp is unknown: before the first clamp code, in the block of a
+//! clamp code, and after a code or call with an unknown effect. Codes in called files are included. On a great circle an
+//! axis that leaves its value and returns to it has turned; over the pole, where its path is unknown, it may have
 //! turned.
 //!
 //! # Sources
@@ -133,7 +133,7 @@ fn turn(view: &LegView<'_>, axis: usize) -> Turn {
     match (motion.kind, motion.orientation) {
         (MotionKind::Dwell(_), _) => Turn::No,
         (MotionKind::Unknown, _) | (_, Orientation::Vector(..)) => Turn::Perhaps,
-        // neither before nor after this block does the program know it: the block does not name it
+        // the position is unknown both before and after this block: the block does not name it
         _ if to.is_none() || from == to => Turn::No,
         _ => Turn::Perhaps,
     }

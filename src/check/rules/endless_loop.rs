@@ -1,7 +1,7 @@
 //! A loop, or a chain of calls, does not end.
 //!
 //! # Why
-//! The machine runs until someone stops it. A loop that is meant to run for ever (a bar feeder, a warm-up) is
+//! The machine runs until someone stops it. A loop that is meant to run forever (a bar feeder, a warm-up) is
 //! reported too: allow the rule there and give the reason.
 //!
 //! # Example

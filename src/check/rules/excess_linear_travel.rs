@@ -81,7 +81,7 @@ fn check(cut: &facts::FarCut<'_>, out: &mut Reporter<'_>) {
     });
 }
 
-/// At the word of the rotary axis that turns most: it is what makes the linear axes run.
+/// At the word of the rotary axis that turns most: it is what makes the linear axes move.
 fn at_turning_word<'d, 'p>(cut: &LegView<'_>, draft: &'d mut Draft<'p>) -> &'d mut Draft<'p> {
     let turns = cut.machine.rotary.iter().zip(cut.leg.rotary_change);
     match turns.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs())) {
@@ -150,7 +150,7 @@ mod tests {
         }
     }
 
-    /// What a ratio that is allowed makes of a block.
+    /// How an allowed ratio changes the verdict on a block.
     fn status(ratio: f64) -> Option<(crate::Status, Vec<(&'static str, crate::ValueKey)>)> {
         let text = "TRAORI\nG0 X0 Y20 Z100 A10 C0\nG1 X3 A70 C50 F50\nM30\n";
         let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("embedded").clone();

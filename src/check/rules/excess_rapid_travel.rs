@@ -30,7 +30,7 @@
 //! # Guarantee
 //! Heuristic: obstacles are not known, and a detour around a clamp is not wasted. The rule judges consecutive rapid
 //! motions between two feed motions with one tool. It compares the travel of the linear axes across the tool (a
-//! retract along the tool counts nothing) and the turn of each rotary axis with the direct distance between the
+//! retract along the tool is not counted) and the turn of each rotary axis with the direct distance between the
 //! same ends. A direct distance below 0.1 mm or 0.1 deg counts as that; a detour below 10 mm or 10 deg is not
 //! reported.
 //!
@@ -45,7 +45,7 @@ use trunnion_geometry::rad;
 
 pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Arrival(check)]);
 
-/// A shorter direct distance counts as this, mm or deg.
+/// A shorter direct distance is taken as this, mm or deg.
 const LEAST: f64 = 0.1;
 
 /// A smaller detour is not reported, mm or deg.

@@ -26,8 +26,8 @@
 //! # Guarantee
 //! Heuristic: the distance from the pole at the end of or inside the block is exact; the speed and acceleration are
 //! those of a straight pass at the mean turning speed of the block. Blocks in which the first axis turns less than
-//! five times as far as the tool axis are not reported: there the pole is not the cause, and straight over the pole
-//! the tool can pass with that axis at rest. The rule uses only what the machine file declares for the first axis;
+//! five times as far as the tool axis are not reported: there the pole is not the cause, and the tool can pass straight
+//! over the pole with that axis at rest. The rule uses only what the machine file declares for the first axis;
 //! `axis-overspeed` proves its speed.
 //!
 //! # Thresholds

@@ -23,7 +23,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for axes with a declared speed: the worst moment inside the block counts, not its average. Acceleration is
+//! Sound for axes with a declared speed: the worst moment inside the block is judged, not the average. Acceleration is
 //! not considered. Up to 8 consecutive blocks are reported one by one; a longer run is reported as one finding with
 //! its worst block.
 //!

@@ -30,7 +30,7 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     let NoStance::NoSuchAxis(axis) = *lost.why else { return };
     out.finding(lost, Merge::once(u64::from(axis)), |draft| {
         let name = letter(axis);
-        let axes: Vec<String> = lost.machine.axes.iter().map(|axis| letter(axis.letter)).collect();
+        let axes: Vec<String> = lost.machine.own_axes().map(|(_, axis)| letter(axis.letter)).collect();
         draft
             .at_axis(axis)
             .say(format!("{} has no axis {name}", lost.machine.id))

@@ -37,7 +37,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             fault.range,
             "it is not known whether this feed motion has a feed: the subprogram gives no F before it",
         )
-        .note("F may be in force in the program that calls it")
+        .note("F may be active in the program that calls it")
         .help("check the program that calls this one, with this file in its folder or under `subprogram_path`")
         .unknown()
         .merge(Merge::once(0));

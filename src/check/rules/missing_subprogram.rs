@@ -1,7 +1,7 @@
 //! A called program is not found.
 //!
 //! # Why
-//! The control stops at the call. What the subprogram would do is not known here, so nothing after the call is
+//! The control stops at the call. What the subprogram would do is unknown here, so nothing after the call is
 //! proved.
 //!
 //! # Example
@@ -12,7 +12,7 @@
 //! ```
 //!
 //! # Use instead
-//! Put the program beside the one that calls it, or name its folder in `trunnion.toml`: `subprogram_path = ["subs"]`.
+//! Put the program in the folder of the one that calls it, or name its folder in `trunnion.toml`: `subprogram_path = ["subs"]`.
 //!
 //! # Guarantee
 //! Sound for the calls that are modelled. Only the program itself, its folder and the folders in the settings are

@@ -20,7 +20,7 @@
 //!
 //! # Sources
 //! * NISTIR 6556 (2000), section 3.4 on modal groups.
-//! * grammar/dialects/iso-6983.toml and the other tables beside it, for the groups of each control.
+//! * grammar/dialects/iso-6983.toml and the other tables next to it, for the groups of each control.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(

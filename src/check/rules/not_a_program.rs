@@ -1,4 +1,4 @@
-//! The file is no NC program: a picture, a binary, prose, source code.
+//! The file is not an NC program: it is a picture, a binary, prose or source code.
 //!
 //! # Why
 //! A folder of programs holds other files too, and a wrong file may be sent to a machine. Nothing in it can be checked, and
@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode detected
 //! Dear colleague,
-//! ;^^^^^^^^^^^^^^ not-a-program: this is text that is no program
+//! ;^^^^^^^^^^^^^^ not-a-program: this is text that is not a program
 //! here is the program that you asked for.
 //! Please run it slowly the first time.
 //! ```
@@ -21,7 +21,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: a file that is recognised as none has this finding and no other. A text counts as prose if hardly any line is
+//! Sound: a file that is recognised as not being a program gets this finding and no other. A text is taken as prose if hardly any line is
 //! a block and no sign of a control is in it; a dialect named in the settings or on the command line says that it is a program
 //! (but not of a picture or a binary).
 //!

@@ -1,4 +1,4 @@
-//! Where the program continues depends on something that is not known here.
+//! Where the program continues depends on something that is unknown here.
 //!
 //! # Why
 //! A condition on a probed value, a machine input or the time of day is decided at the machine. What runs after it

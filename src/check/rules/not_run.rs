@@ -20,9 +20,9 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; one finding per file, at the first such block, with all line ranges. A block counts as moving by its words
-//! alone, and in doubt it does. Blocks that the settings skip (`--block-delete on`) are not reported, nor those after a
-//! place at which another finding says why the run was given up.
+//! Sound; one finding per file, at the first such block, with all line ranges. Whether a block moves is judged by its
+//! words alone, and in doubt it does. Blocks that the settings skip (`--block-delete on`) are not reported, nor those after a
+//! place where another finding says why the run stopped.
 //!
 //! # Sources
 //! * docs/contract.md#verdicts

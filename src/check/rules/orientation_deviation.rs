@@ -43,7 +43,7 @@ use trunnion_machine::orientation_deviation;
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]);
 
-/// Keys for merging: a deviation, one that is not proven, a control that is not known, ends that are opposite.
+/// Keys for merging: a deviation, one that is not proven, a control that is unknown, ends that are opposite.
 const FOUND: u64 = 1;
 const BETWEEN: u64 = 2;
 const ASSUMED: u64 = 3;
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_tenth_of_a_degree_is_the_threshold() {
-        // at a tilt of A the path round the cone is about dC^2 sin A cos A / 8 away from the great circle
+        // at a tilt of A the path around the cone is about dC^2 sin A cos A / 8 away from the great circle
         let text = |j: f64| {
             let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(j));
             let (sin, cos) = (0.5 * sin, 0.5 * cos);

@@ -1,7 +1,7 @@
 //! Rotary axes turn in a cut while the control compensates a length other than that of the tool in use.
 //!
 //! # Why
-//! The control guides the point that lies the compensated length below the gauge point of the spindle. Where that
+//! The control guides the point at the compensated length below the gauge point of the spindle. Where that
 //! point is not the tip (no G43, or the H number of another tool), every turn of the tool against the workpiece
 //! carries the tip around that point: what is true of one path is not true of the other.
 //!

@@ -47,7 +47,7 @@ fn check(cut: &facts::StrayingCut<'_>, out: &mut Reporter<'_>) {
     let tolerance = cut.machine.tolerances.tip_mm;
     let Some(deviation) = cut.deviation() else {
         return out.unknown(cut, Merge::once(NOT_MODELLED), |draft| {
-            draft.say("the path of the tip is not modelled in this block: its deviation is not known");
+            draft.say("the path of the tip is not modelled in this block: its deviation is unknown");
         });
     };
     let (sampled, bound) = (deviation.sampled_mm, deviation.bound_mm);

@@ -44,7 +44,7 @@ fn check(cut: &facts::UncertainCut<'_>, out: &mut Reporter<'_>) {
     let found = pivot_sensitivity_between(cut.machine, &cut.start.joints, &cut.end.joints, cut.end.tool_length);
     let sum: f64 = found.iter().map(|axis| axis.tip_mm).sum();
     let allowed = cut.machine.tolerances.pivot_mm;
-    // what rounding adds is no news
+    // a difference from rounding is not reported again
     if sum <= allowed * (1.0 + 1e-9) {
         return;
     }

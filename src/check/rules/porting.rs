@@ -118,7 +118,7 @@ mod tests {
                 assert_eq!(ported(info, right), [""; 0], "{info}: {right}");
             }
         }
-        // only one of the two controls lets these pass; the other one's own rules tell of them
+        // only one of the two controls lets these pass; the other one's own rules report them
         for (wrong, what, right) in [
             ("G0 G1 X1. F100.\n", "G1", "G1 X1. F100.\n"),
             ("M3 M4 S100\n", "M4", "M4 S100\n"),

@@ -32,7 +32,7 @@ use trunnion_machine::NoStance;
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::LostArc(lost_arc)]);
 
 fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
-    // a rapid that names places before everything is positioned is how programs begin
+    // programs begin with rapids before every axis is positioned
     let motion = lost.motion();
     let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {

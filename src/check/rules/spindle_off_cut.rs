@@ -54,7 +54,7 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
                     .note("other feed motions of the same tool have a speed: if S is the power of a laser, this is intended")
                     .help("program S above zero; for a laser, allow the rule and give that reason")
             } else {
-                draft.help("program S above zero, as S8000 M3")
+                draft.help("program S above zero, for example S8000 M3")
             }
         }
         Still::SpeedUnsaid | Still::NeverStarted => return,

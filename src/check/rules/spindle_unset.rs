@@ -38,8 +38,8 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
             .help("write S and M3 before the first cut; for a pen, a laser or a drag knife, allow the rule and give that reason"),
         Still::SpeedUnsaid if out.once(0) => out
             .report_block("the spindle was started without a speed: the program gives no S before this feed motion")
-            .note("the control uses the S of the program before, or none")
-            .help("write S beside M3 or M4, as S8000 M3"),
+            .note("the control uses the S of the previous program, or none")
+            .help("write S with M3 or M4, for example S8000 M3"),
         Still::SpeedUnsaid | Still::Off | Still::NoSpeed => return,
     }
     .spans(still.count, still.last);

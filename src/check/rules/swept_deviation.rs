@@ -33,7 +33,7 @@
 //! at a constant rate on the great circle. Without tool centre point control the tip itself deviates, and
 //! `path-deviation` judges it. Where the length of the tool is not known, silence holds for tools up to 1 m long;
 //! where a 1 m tool would exceed the tolerance, the rule says unknown (tool length not known), once, with the
-//! amount. It also says unknown where it is not known how the control turns the axes between vectors.
+//! amount. It also says unknown where it is uncertain how the control turns the axes between vectors.
 //!
 //! # Thresholds
 //! `swept`: 0.05 mm.
@@ -48,7 +48,7 @@ pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]);
 /// No tool is longer, mm.
 const LONGEST_MM: f64 = 1000.0;
 
-/// Keys for merging: a deviation, one that is not proven, what is not known.
+/// Keys for merging: a deviation, one that is not proven, what is unknown.
 const FOUND: u64 = 1;
 const BETWEEN: u64 = 2;
 const NOT_KNOWN: u64 = 3;
@@ -68,7 +68,7 @@ fn check(cut: &facts::VectorCut<'_>, out: &mut Reporter<'_>) {
             out,
             &deviation,
             length,
-            "the tool length is not known, and a 1 m tool would exceed the tolerance",
+            "the tool length is unknown, and a 1 m tool would exceed the tolerance",
             "declare the tool's length in trunnion.toml: [[tool]] number = ..., length = ...",
         );
     } else if cut.orientation_is_assumed() {
@@ -180,7 +180,7 @@ mod tests {
         let all = found(&twice);
         assert_eq!((all.len(), all[0].status, all[0].count), (1, Status::Unknown, 2));
         assert!(
-            all[0].message.contains("the tool length is not known"),
+            all[0].message.contains("the tool length is unknown"),
             "{}",
             all[0].message
         );

@@ -98,7 +98,7 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
         | SyntaxErrorKind::BlankInNumber => return,
     };
     if error.kind == SyntaxErrorKind::WordWithoutValue && text.trim().eq_ignore_ascii_case("N") {
-        // whoever leaves out one number leaves out many
+        // a program without one number usually has many without
         out.report(error.range, "`N` has no number")
             .help("write the block number, or remove the N; the rest of the block is read")
             .merge(Merge::once(hash("N")));
@@ -125,7 +125,7 @@ fn word_after_bracket(program: &Program, bracket: TextRange) -> Option<String> {
         .map(|word| word.chars().take(40).collect())
 }
 
-/// Says that a file is UTF-16, in place of a problem for each of its bytes.
+/// Reports that a file is UTF-16, instead of a problem for each of its bytes.
 fn report_utf16(out: &mut Reporter<'_>) {
     out.report(TextRange::new(0, 2), "this file is UTF-16; save it as UTF-8 or ASCII")
         .note("controls read one byte per character; nothing was checked");

@@ -65,8 +65,8 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         ),
         TcpMistake::NoLengthNumber => (
             "tool centre point control is switched on without H: the program gives no length for this tool",
-            "the control takes the H that was last in force, maybe H0: then it guides the spindle nose as if it were the tip",
-            "write H with the number of the tool, as G43.4 H1",
+            "the control takes the H that was last in effect, maybe H0: then it guides the spindle nose as if it were the tip",
+            "write H with the number of the tool, for example G43.4 H1",
         ),
     };
     out.report(fault.range, message)

@@ -19,7 +19,7 @@
 //! zero, use `--assume tool-length` or `assume = ["tool-length"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per tool, at the first motion that rests on its length.
+//! Sound; reported once per tool, at the first motion that depends on its length.
 //!
 //! # Sources
 //! * docs/contract.md#offsets-and-tool-lengths
@@ -38,7 +38,7 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
         draft
             .unknown()
             .say(format!(
-                "{missing} is not declared: the travel of the axes that it shifts is not known"
+                "{missing} is not declared: it is unknown whether the axes that it shifts stay within their travel"
             ))
             .note("the tool length is measured from the gauge point of the spindle to the tip, in mm")
             .help(help);

@@ -47,7 +47,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         FaultKind::UnknownCode { machine_builder: true } => {
             out.report(
                 fault.range,
-                format!("{dialect} leaves {text} to the machine builder: its effect is not known"),
+                format!("{dialect} leaves {text} to the machine builder: its effect is unknown"),
             )
             .note("it is assumed to move nothing and to change nothing that is checked")
             .help(format!(
@@ -58,7 +58,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
         FaultKind::UnknownCode { machine_builder: false } => {
             out.report(fault.range, message)
-                .note("it is ignored: what follows is checked as if it were not there")
+                .note("it is ignored: the rest is checked as if it were not there")
                 .help(HELP)
                 .merge(Merge::run(once, 0.0))
                 .replace_with_some(near);

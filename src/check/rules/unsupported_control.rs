@@ -1,8 +1,8 @@
 //! The program is for a control that is recognised and not supported.
 //!
 //! # Why
-//! Each control reads the same letters differently. A program that is read as another control's gives findings that mean
-//! nothing, or none where there should be some. So it is not read at all, and the verdict is unknown.
+//! Each control reads the same letters differently. A program that is read as if it were for another control gives findings
+//! that mean nothing, or none where there should be some. So it is not read at all, and the verdict is unknown.
 //!
 //! # Example
 //! ```gcode detected
@@ -24,7 +24,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: a program that is recognised as one of these controls' has this finding and no other. Which control a program is
+//! Sound: a program that is recognised as being for one of these controls gets this finding and no other. Which control a program is
 //! for is a guess from its text; `dialect` in a comment, in trunnion.toml or on the command line overrides it.
 //!
 //! # Sources

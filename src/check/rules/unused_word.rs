@@ -1,7 +1,7 @@
 //! A block contains a word that nothing in it uses.
 //!
 //! # Why
-//! The word had a purpose: a code is missing beside it, or the letter is wrong. LinuxCNC refuses the block (`P word
+//! The word had a purpose: a code is missing next to it, or the letter is wrong. LinuxCNC refuses the block (`P word
 //! with no G2 G3 G4 ... to use it`), and so does grbl (error 36); other controls skip the word.
 //!
 //! # Example
@@ -20,8 +20,8 @@
 //!
 //! # Guarantee
 //! Sound for LinuxCNC and grbl, which refuse such a block: an error there. Elsewhere the control skips the word: a
-//! warning where neither a code of the block nor an active code uses the address. Words beside codes of the machine
-//! builder, and beside codes that are not modelled, are not judged. On a Sinumerik, where the program defines
+//! warning where neither a code of the block nor an active code uses the address. Words next to codes of the machine
+//! builder, and next to codes that are not modelled, are not judged. On a Sinumerik, where the program defines
 //! single letters itself, nothing is judged.
 //!
 //! # Sources
@@ -46,7 +46,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         );
         draft
             .severity(Warning)
-            .note("the control ignores it, or uses it in a way that is not known here")
+            .note("the control ignores it, or uses it in an unknown way")
             .merge(Merge::runs(hash(text), 0.0));
         help(draft);
     }

@@ -17,7 +17,7 @@
 //! undeclared offsets as zero, use `--assume work-offset` or `assume = ["work-offset"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per offset, on machines with rotary axes, at the first motion that rests on it. On a chain
+//! Sound; reported once per offset, on machines with rotary axes, at the first motion that depends on it. On a chain
 //! of linear axes `axis-limit` reports the offsets that fit.
 //!
 //! # Sources
@@ -36,8 +36,8 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
     out.event(|draft| {
         draft
             .unknown()
-            .say(format!("{missing} is not declared: the travel of the linear axes is not known"))
-            .note("where rotary axes turn, the speed of the linear axes and, without tool centre point control, the path of the tip are not known either; what depends on the tool axis alone is judged")
+            .say(format!("{missing} is not declared: it is unknown whether the linear axes stay within their travel"))
+            .note("where rotary axes turn, the speed of the linear axes is unknown too and, without tool centre point control, the path of the tip; what depends only on the tool axis is judged")
             .help(help);
     });
 }

@@ -53,7 +53,7 @@ pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
     let machine = before.resolved.machine.as_ref();
     out.push_str(&summary(&lines, found, tolerance));
     let on = machine.map_or_else(String::new, |machine| {
-        format!("  on {}, coordinates are its joints", machine.id)
+        format!("  on {}; coordinates are the positions of its axes", machine.id)
     });
     let _ = writeln!(out, "{} -> {}{on}", lines.name(0), lines.name(1));
     if let Some(line) = assuming(&[before, after]) {
@@ -124,7 +124,7 @@ fn position(point: &Point) -> String {
         .map(|axis| format!("{}{}", letter(axis), short(point.values[axis])))
         .collect();
     if parts.is_empty() {
-        "to an unknown place".to_owned()
+        "to an unknown position".to_owned()
     } else {
         format!("to {}", parts.join(" "))
     }
@@ -134,7 +134,7 @@ pub(super) fn letter(axis: usize) -> char {
     char::from(AXIS_LETTERS[axis])
 }
 
-/// Up to six digits behind the point, no zeros at the end.
+/// Up to six digits after the decimal point, without trailing zeros.
 fn short(value: f64) -> String {
     let text = format!("{:.6}", tidy(value));
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -260,7 +260,7 @@ pub(super) fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
     worst
 }
 
-/// How many of each sort: moved, only before, only after, motions with other feed and the like.
+/// How many of each kind: moved, only before, only after, motions with other feed and the like.
 pub(super) fn counts(found: &Found) -> [u64; 4] {
     let mut counts = [0; 4];
     for change in &found.changes {
@@ -280,7 +280,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         String::new()
     } else {
         format!(
-            "; compared by their words alone, because their ends are not known: {}",
+            "; compared only by their words, because their ends are unknown: {}",
             counted(found.unknown, "motion")
         )
     };
@@ -326,7 +326,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     let mut text = format!("{word} {first}\n{numbers}{listed}; other motions are the same {within}{unknown}\n");
     if found.too_different {
         text = format!(
-            "{word} {first}\n{numbers}: too little in common to say which motion is which; they part at the first line above\n"
+            "{word} {first}\n{numbers}: too little in common to say which motion is which; they differ from the first line above on\n"
         );
     } else if found.one_by_one {
         text.push_str(
@@ -336,7 +336,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     text + &stops
 }
 
-/// The first difference, or what cannot be said, with the lines.
+/// The first difference, or what is unknown, with the lines.
 pub(super) fn first(lines: &Lines<'_>, found: &Found) -> String {
     let (Verdict::Differs(difference) | Verdict::Unknown(difference)) = &found.verdict else {
         return String::new();

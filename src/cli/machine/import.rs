@@ -10,7 +10,7 @@ use trunnion_files::Outputs;
 use trunnion_machine::{MachineError, import_freecad, import_linuxcnc};
 use trunnion_workspace::LoadError;
 
-/// Runs `machine import`. Found: something is open without which the file does not load.
+/// Runs `machine import`. Found: something is missing without which the file does not load.
 pub(super) fn run(
     global: &Global,
     file: &Path,

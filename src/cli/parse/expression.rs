@@ -5,13 +5,13 @@ use trunnion_syntax::{Block, Program, TextRange, TokenKind};
 /// One part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
-    /// Brackets round it, inside the expression.
+    /// Brackets around it, inside the expression.
     pub(super) depth: u32,
     pub(super) kind: &'static str,
     pub(super) range: TextRange,
 }
 
-/// The parts of the tokens of a block that lie in a range.
+/// The parts of the tokens of a block inside a range.
 pub(super) fn parts(program: &Program, block: &Block<'_>, range: TextRange) -> Vec<Part> {
     let table = program.tokens();
     let tokens = block.tokens();

@@ -1,4 +1,4 @@
-//! The tree of a program: blocks, their items with addresses and values, expressions by their parts, problems beside them.
+//! The tree of a program: blocks, their items with addresses and values, expressions by their parts, and problems.
 use super::expression::{Part, parts};
 use crate::cli::{
     failure::{Failure, is_hidden},
@@ -32,7 +32,7 @@ impl Node {
     }
 }
 
-/// The form for people: one line a node, bytes on the left.
+/// The form for people: one line per node, bytes on the left.
 pub(super) fn text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
     let program = &loaded.program;
     let lines = LineIndex::new(program.source());
@@ -157,7 +157,7 @@ pub(super) fn errors_json(loaded: &Loaded) -> Vec<Value> {
         .collect()
 }
 
-/// What a block holds, one after the other: a line may be as long as a file.
+/// The contents of a block, one after the other: a line may be as long as a file.
 fn nodes<'a>(loaded: &'a Loaded, block: &'a Block<'a>) -> impl Iterator<Item = Node> + 'a {
     let record = block.record();
     let apt = record.is_some();

@@ -33,7 +33,7 @@ const SHOWN: [&str; 12] = [
     "unreachable-orientation",
 ];
 
-/// The blocks that a check finds, one mark a block and rule.
+/// The blocks that a check finds, one mark per block and rule.
 pub(crate) fn marks(loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
     let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());
     let index = LineIndex::new(loaded.program.source());

@@ -8,7 +8,7 @@ use trunnion_geometry::{Vec3, deg};
 use trunnion_machine::{AxisKind, Machine, inverse};
 use trunnion_pieces::{Kind, Move, Piece};
 
-/// Length of the tool that the programs declare, mm, and of the wrong one that `--plant wrong-h` calls.
+/// Length of the tool that the programs declare, mm, and of the wrong one that `--plant wrong-h` selects.
 pub(super) const TOOL_LENGTH: f64 = 80.0;
 const WRONG_LENGTH: f64 = 75.0;
 const SPINDLE: u32 = 8000;
@@ -201,7 +201,7 @@ impl<'a> Codes<'a> {
         self.form.style != Style::Joints
     }
 
-    /// Appends what the post's template says.
+    /// Appends the filled-in template of the post.
     fn say(&self, key: &str, text: &mut String, value: impl Fn(&str) -> Option<String>) -> Result<(), Failure> {
         let filled = self.post.fill(key, value).unwrap_or_else(|| Ok(String::new()));
         let filled = filled.map_err(|name| {

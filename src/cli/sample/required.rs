@@ -5,7 +5,7 @@ use std::fmt::Write;
 use trunnion_geometry::Vec3;
 use trunnion_pieces::saddle_net;
 
-/// Points along the S-wall: chords of 0.05 mm, which err by less than 1e-5 mm.
+/// Points along the S-wall: chords of 0.05 mm, with an error below 1e-5 mm.
 const ALONG: usize = 3200;
 
 /// TOML text.

@@ -54,7 +54,7 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
         } else {
             format!(", {} times", number(call.count))
         };
-        format!("{} in line {}{times}", call.name, call.line)
+        format!("{} on line {}{times}", call.name, call.line)
     });
     let calls: Vec<String> = calls.take(ROWS).collect();
     rows_of(&mut row, "calls", &calls, tally.calls.len());
@@ -105,7 +105,7 @@ fn path(tally: &Tally) -> String {
     if tally.spindle_off_mm > 0.0 {
         let _ = write!(
             text,
-            " (of which {} mm with the spindle not known to turn)",
+            " ({} mm of it with the spindle off or in an unknown state)",
             decimal(tally.spindle_off_mm, 3)
         );
     }
@@ -150,7 +150,7 @@ fn joints(tally: &Tally) -> Vec<String> {
         .collect()
 }
 
-/// A B C of the letters of axes.
+/// The letters of axes with blanks between them.
 fn is_rotary(axis: usize) -> bool {
     (3..6).contains(&axis)
 }

@@ -1,7 +1,7 @@
-//! Files that are no NC program at all: pictures, binaries, prose, source code.
+//! Files that are not NC programs at all: pictures, binaries, prose, source code.
 use super::text::{is_block, lines, strip_comments};
 
-/// Bytes that are looked at for control characters.
+/// Bytes that are searched for control characters.
 const HEAD: usize = 4096;
 
 /// First bytes of file formats that people confuse with programs, and what they are.
@@ -21,7 +21,7 @@ const FORMATS: &[(&[u8], &str)] = &[
     (b"{\\rtf", "an RTF document"),
 ];
 
-/// What a file is by its bytes, if that is no text. Leading and trailing NUL bytes are those of paper tape, and UTF-16 is text.
+/// What a file is by its bytes, if it is not text. Leading and trailing NUL bytes are those of paper tape, and UTF-16 is text.
 pub(crate) fn binary(source: &[u8]) -> Option<&'static str> {
     if let Some((_, what)) = FORMATS.iter().find(|(magic, _)| source.starts_with(magic)) {
         return Some(what);
@@ -87,18 +87,18 @@ pub(super) fn prose(text: &str, signs: u32) -> Option<&'static str> {
             braces += u32::from(code.ends_with(['{', '}']) || code.starts_with(['{', '}', '<', '"']));
         }
     }
-    // a text about programs has their words in it
+    // a text about programs contains words of programs
     if sentences >= 3 && sentences > blocks + (words - sentences) / 2 {
-        return Some("text that is no program");
+        return Some("text that is not a program");
     }
     if signs >= 10 || words == 0 || blocks * 4 > words {
         return None;
     }
-    // a few lines of an unknown kind are no proof
+    // a few lines of an unknown kind prove nothing
     (words >= 3 || blocks == 0).then_some(if braces * 3 > words {
         "data or source code"
     } else {
-        "text that is no program"
+        "text that is not a program"
     })
 }
 
@@ -113,7 +113,7 @@ fn is_sentence(code: &str) -> bool {
     plain >= 4 && plain * 10 >= all * 6
 }
 
-/// Whether a line is a statement of a macro: a variable is assigned, or something in brackets is decided.
+/// Whether a line is a statement of a macro: a variable is assigned, or a condition in brackets is tested.
 fn is_statement(code: &str) -> bool {
     let mut chars = code.chars();
     let variable = chars.next() == Some('#') && matches!(chars.next(), Some('0'..='9' | '<' | '['));
@@ -156,7 +156,10 @@ mod tests {
     fn a_text_about_programs_is_none() {
         let text = "The program begins with TRAORI and needs G43.4 on other controls.\nAfter it the tip is led along the path.\n\
                     M428 does the same on the machines of that maker.\nWrite G0 before the first motion and nothing else.\n";
-        assert_eq!(prose(&text.to_ascii_uppercase(), 30), Some("text that is no program"));
+        assert_eq!(
+            prose(&text.to_ascii_uppercase(), 30),
+            Some("text that is not a program")
+        );
         let program = "PROGRAM FOR THE SMALL PART OF JOB 12\nG21\nG0 X1\nG1 Z-1 F100\nM30\n";
         assert_eq!(prose(program, 0), None);
     }
@@ -168,7 +171,7 @@ mod tests {
         assert_eq!(is("#include <stdio.h>\nint main() {\n}\n"), Some("source code"));
         assert_eq!(
             is("Dear colleague,\nplease look at the program of last week.\nIt runs G1 too fast.\n"),
-            Some("text that is no program")
+            Some("text that is not a program")
         );
         assert_eq!(is("{\n  \"a\": 1,\n  \"b\": [1, 2]\n}\n"), Some("data or source code"));
         for program in [

@@ -1,4 +1,4 @@
-//! Signs of controls whose programs are recognised and not read. Named after what each writes that no other control does.
+//! Signs of controls whose programs are recognised and not read. Each sign is something that only one control writes.
 use super::text::{has, has_word, unnumbered, word, words};
 use super::votes::Votes;
 
@@ -92,7 +92,7 @@ fn okuma(code: &str, votes: &mut Votes) {
         let is_name = name.len() > 1
             && name.starts_with(|c: char| c.is_ascii_uppercase())
             && name.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit());
-        // the name stands at the head of the file, or of a subprogram in a library
+        // the name is at the start of the file, or of a subprogram in a library
         if is_name {
             votes.add("okuma-osp", if votes.line <= 5 { 10 } else { 4 }, "a program name O...");
         }

@@ -1,10 +1,10 @@
-//! What the text of a program shows, and the control that this and the surroundings point to.
+//! What the text of a program shows, and the control that it and the file name and machine point to.
 use super::shape::{Lathe, Shape};
 use super::text::{has_word, lines, strip_comments};
 use super::votes::Votes;
 use super::{Detected, Surroundings, named, others, supported};
 
-/// What an extension that one control owns weighs against signs in the text.
+/// The weight of an extension that one control owns, compared with signs in the text.
 const EXTENSION: u32 = 9;
 
 /// What the text shows.
@@ -13,7 +13,7 @@ pub(super) struct Seen {
     shape: Shape,
 }
 
-/// Signs that tell a Haas from a Fanuc.
+/// Signs that distinguish a Haas from a Fanuc.
 const HAAS: &[&str] = &["haas-ngc", supported::HAAS_HINT];
 
 /// Controls that share their language; inside the first group brand and kind of machine decide.
@@ -74,7 +74,7 @@ impl Seen {
                     }
                 }
             }
-            // the name of a program may stand after the percent sign
+            // the name of a program may follow the percent sign
             let code = code.strip_prefix('%').map_or(code, str::trim);
             if code.is_empty()
                 || line.starts_with("$$")
@@ -92,7 +92,7 @@ impl Seen {
         seen
     }
 
-    /// What the signs of one group weigh, at most.
+    /// The highest weight of the signs of one group.
     pub(super) fn most(&self) -> u32 {
         GROUPS
             .iter()
@@ -101,7 +101,7 @@ impl Seen {
             .unwrap_or_default()
     }
 
-    /// The control whose signs weigh most, with what name and machine add; `None` where the text shows too little.
+    /// The control whose signs weigh most, including name and machine; `None` where the text shows too little.
     pub(super) fn decide(&self, owner: Option<&'static str>, known: Surroundings<'_>) -> Option<Detected> {
         let lathe = self.shape.lathe().filter(|_| known.turns != Some(false));
         let shown = |group: &[&'static str]| {
@@ -130,7 +130,7 @@ impl Seen {
             let found = lathe.filter(|_| silent)?;
             return named("fanuc-30i-lathe-a", format!("content: {}", found.reason), false);
         }
-        // a hint alone says too little
+        // a hint alone is not enough
         if signs < 4 {
             return None;
         }

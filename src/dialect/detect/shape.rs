@@ -1,7 +1,7 @@
 //! Mill or lathe: what the blocks of a program look like together.
 use super::text::{has, word, words};
 
-/// What was seen in a program, whatever its control.
+/// What was seen in a program, for any control.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shape {
     /// G43, or a T word with M6: no lathe has them.
@@ -19,7 +19,7 @@ pub(super) struct Shape {
     limit: Option<usize>,
 }
 
-/// What a lathe shows, in the order in which it says most.
+/// Signs of a lathe, the strongest first.
 pub(super) struct Lathe {
     pub(super) reason: String,
     /// A code of lathes shows it, not the shape of the blocks alone.
@@ -29,7 +29,7 @@ pub(super) struct Lathe {
 }
 
 impl Shape {
-    /// Looks at a line without comments, in upper case.
+    /// Examines a line without comments, in upper case.
     pub(super) fn look(&mut self, code: &str, line: usize) {
         let tool = words(code).find(|(letter, digits)| *letter == b'T' && digits.bytes().any(|b| b.is_ascii_digit()));
         let length = (has(code, b'G', "43") || has(code, b'G', "44")) && word(code, b'H');
@@ -68,8 +68,8 @@ impl Shape {
         }
     }
 
-    /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a witness: a turret's T0101, surface speed, or
-    /// motions in X and Z alone. G43, M6 with T, and motions in Y without a turret speak against all of it.
+    /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a second sign: a turret's T0101, surface speed, or
+    /// motions in X and Z alone. G43, M6 with T, and motions in Y without a turret are evidence against a lathe.
     pub(super) fn lathe(&self) -> Option<Lathe> {
         let flat = self.y == 0 && self.xz >= 2;
         if self.mill || (self.y > 0 && !self.turret) {
@@ -77,7 +77,7 @@ impl Shape {
         }
         let found = |reason: &str, line: usize, system_b| {
             Some(Lathe {
-                reason: format!("{reason} in line {line}"),
+                reason: format!("{reason} on line {line}"),
                 strong: true,
                 system_b,
             })
@@ -96,7 +96,7 @@ impl Shape {
         })
     }
 
-    /// Whether only X and Z move, with a turret: a lathe of whatever control.
+    /// Whether only X and Z move, with a turret: a lathe of any control.
     pub(super) fn turns(&self) -> bool {
         !self.mill && self.y == 0 && self.xz > 0 && (self.turret || self.surface_speed || self.lathe.is_some())
     }

@@ -2,7 +2,7 @@
 use super::text::{assigned, has, has_word, word};
 use super::votes::Votes;
 
-/// A command to grbl itself, which senders put at the head of a file.
+/// A command to grbl itself, which senders put at the start of a file.
 fn grbl_command(line: &str) -> Option<&'static str> {
     let commands = ["$H", "$X", "$C", "$SLP"];
     let starts = ["$J=", "$RST="];
@@ -202,10 +202,10 @@ fn program_number(rest: &str, votes: &mut Votes) {
     }
 }
 
-/// What tells a Haas from a Fanuc, but neither from other controls.
+/// What distinguishes a Haas from a Fanuc, but neither from other controls.
 pub(super) const HAAS_HINT: &str = "haas-hint";
 
-/// Codes that a Haas has and a Fanuc has not.
+/// Codes that a Haas has and a Fanuc does not.
 fn haas(code: &str, votes: &mut Votes) {
     for number in [
         "101", "103", "110", "111", "114", "115", "154", "187", "195", "234", "241", "254", "255", "268", "269",
@@ -228,7 +228,7 @@ fn haas(code: &str, votes: &mut Votes) {
     if has(code, b'G', "28") && !has(code, b'G', "91") && !axes.iter().any(|axis| word(code, *axis)) {
         votes.add("haas-ngc", 6, "G28 without axes");
     }
-    // other controls want G90 beside it
+    // other controls need G90 with it
     if has(code, b'G', "53") && !has(code, b'G', "90") {
         if word(code, b'Z') {
             votes.add(HAAS_HINT, 3, "G53 Z");

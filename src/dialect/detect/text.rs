@@ -1,4 +1,4 @@
-//! The text of a program as the signs are looked for in: lines, words, comments.
+//! The text of a program in which signs are searched: lines, words, comments.
 
 /// Lines, whatever ends them: LF, CR LF, or CR alone.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {

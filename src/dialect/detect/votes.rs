@@ -1,4 +1,4 @@
-//! Signs of controls and what they weigh. Each sign counts once, however often it occurs.
+//! Signs of controls and their weights. Each sign counts once, however often it occurs.
 //!
 //! 10 and more: only programs for this control have it. 4 to 8: unusual elsewhere. Less: tips the scales.
 
@@ -10,7 +10,7 @@ pub(super) type Name = &'static str;
 pub(super) struct Vote {
     pub(super) name: Name,
     pub(super) weight: u32,
-    /// What was seen, with its place: `G43.4 in line 1`.
+    /// What was seen, with its place: `G43.4 on line 1`.
     pub(super) sign: String,
 }
 
@@ -19,12 +19,12 @@ pub(super) struct Vote {
 pub(super) struct Votes {
     seen: Vec<(Name, String)>,
     all: Vec<Vote>,
-    /// The line that is looked at, from 1.
+    /// The current line, from 1.
     pub(super) line: usize,
 }
 
 impl Votes {
-    /// A sign of a control in the line that is looked at.
+    /// A sign of a control in the current line.
     pub(super) fn add(&mut self, name: Name, weight: u32, sign: &str) {
         if self.seen.iter().any(|(known, seen)| *known == name && seen == sign) {
             return;
@@ -33,11 +33,11 @@ impl Votes {
         self.all.push(Vote {
             name,
             weight,
-            sign: format!("{sign} in line {}", self.line),
+            sign: format!("{sign} on line {}", self.line),
         });
     }
 
-    /// What the signs of these controls weigh together.
+    /// The total weight of the signs of these controls.
     pub(super) fn weight(&self, of: &[Name]) -> u32 {
         let own = self.all.iter().filter(|vote| of.contains(&vote.name));
         own.map(|vote| vote.weight).sum()

@@ -75,7 +75,7 @@ fn then_the_content_then_the_machine() {
         is(
             &named(name, "G43.4 H1", Some("sinumerik-840d")),
             "fanuc-30i",
-            "content: G43.4 in line 1",
+            "content: G43.4 on line 1",
         );
         is(
             &named(name, "G0 X1", Some("generic")),
@@ -92,16 +92,16 @@ fn then_the_content_then_the_machine() {
 
 #[test]
 fn signs_in_the_content() {
-    is(&content("%_N_PART_MPF\n"), "sinumerik-840d", "content: %_N_ in line 1");
+    is(&content("%_N_PART_MPF\n"), "sinumerik-840d", "content: %_N_ on line 1");
     is(
         &content("G0 X1\nTRAORI\n"),
         "sinumerik-840d",
-        "content: TRAORI in line 2",
+        "content: TRAORI on line 2",
     );
     is(
         &content("R1=5\nX=R1\n"),
         "sinumerik-840d",
-        "content: a word with `=` in line 1",
+        "content: a word with `=` on line 1",
     );
     is(
         &content("; roughing\nG1 X1 ; cut\n"),
@@ -116,36 +116,36 @@ fn signs_in_the_content() {
     is(
         &content("N10G54G710DIAMON\n"),
         "sinumerik-840d",
-        "content: G710 in line 1",
+        "content: G710 on line 1",
     );
     is(
         &content("%\nO0001 (PART)\nG0 X1\n"),
         "fanuc-30i",
-        "content: a program number O in line 2",
+        "content: a program number O on line 2",
     );
     is(
         &content("#1=5\nWHILE[#1 LT 9]DO1\nEND1\n"),
         "fanuc-30i",
-        "content: custom macro in line 2",
+        "content: custom macro on line 2",
     );
-    is(&content("o100 sub\n"), "linuxcnc", "content: an O-word in line 1");
+    is(&content("o100 sub\n"), "linuxcnc", "content: an O-word on line 1");
     is(
         &content("o<move> call [1]\n"),
         "linuxcnc",
-        "content: an O-word in line 1",
+        "content: an O-word on line 1",
     );
-    is(&content("G0 X#<x>\n"), "linuxcnc", "content: #< in line 1");
+    is(&content("G0 X#<x>\n"), "linuxcnc", "content: #< on line 1");
     is(
         &content("; note\no1 if [#1 GT 0]\n"),
         "linuxcnc",
-        "content: an O-word in line 2",
+        "content: an O-word on line 2",
     );
     is(
         &content("PARTNO / A\nGOTO / 1,2,3\n"),
         "apt",
-        "content: PARTNO in line 1",
+        "content: PARTNO on line 1",
     );
-    is(&content("$$ remark\n"), "apt", "content: a `$$` comment in line 1");
+    is(&content("$$ remark\n"), "apt", "content: a `$$` comment on line 1");
     is(
         &content("(TRAORI and R1=5)\nG0 X1\n"),
         "iso-6983",
@@ -173,31 +173,31 @@ fn signs_of_haas_grbl_and_lathes() {
     is(
         &content("%\nO00010\nG00 G90 G154 P3 X0\n"),
         "haas-ngc",
-        "content: G154 in line 3",
+        "content: G154 on line 3",
     );
-    is(&content("G187 P3 E0.01\n"), "haas-ngc", "content: G187 in line 1");
-    is(&content("M97 P1000 L3\n"), "haas-ngc", "content: M97 in line 1");
+    is(&content("G187 P3 E0.01\n"), "haas-ngc", "content: G187 on line 1");
+    is(&content("M97 P1000 L3\n"), "haas-ngc", "content: M97 on line 1");
     is(
         &content("G13 I1.0 K5. Q1.0 F30. D1\n"),
         "haas-ngc",
-        "content: a circular pocket G12 or G13 in line 1",
+        "content: a circular pocket G12 or G13 on line 1",
     );
-    is(&content("$H\nG0 X1\n"), "grbl", "content: $H in line 1");
-    is(&content("$X (unlock)\n"), "grbl", "content: $X in line 1");
+    is(&content("$H\nG0 X1\n"), "grbl", "content: $H on line 1");
+    is(&content("$X (unlock)\n"), "grbl", "content: $X on line 1");
     is(
         &content("%\nO0001\nG50 S2000\nG96 S180 M3\n"),
         "fanuc-30i-lathe-a",
-        "content: G50 S in line 3",
+        "content: G50 S on line 3",
     );
     is(
         &content("G28 U0. W0.\n"),
         "fanuc-30i-lathe-a",
-        "content: G28 U or W in line 1",
+        "content: G28 U or W on line 1",
     );
     is(
         &content("G71 U2. R0.5\nG71 P10 Q20 U0.4 W0.1 F0.25\n"),
         "fanuc-30i-lathe-a",
-        "content: the turning cycle G71 in line 1",
+        "content: the turning cycle G71 on line 1",
     );
     // a mill's codes are no signs of a lathe
     assert_eq!(
@@ -271,7 +271,7 @@ fn program_numbers_of_all_lengths() {
     // a hint tells brands apart, nothing else
     assert_eq!(content("G53 G0 Z0.\nG53 G0 X0.\nG1 X5 F9\n").0, "iso-6983");
     assert_eq!(content("O1031\nG53 G0 Z0.\nG53 G0 X0.\n").0, "haas-ngc");
-    assert_eq!(content("G21\rO1234\rM30\r").1, "content: a program number O in line 2");
+    assert_eq!(content("G21\rO1234\rM30\r").1, "content: a program number O on line 2");
 }
 
 #[test]

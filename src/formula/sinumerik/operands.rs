@@ -102,7 +102,7 @@ impl<'s> Reader<'s> {
         Ok(false)
     }
 
-    /// Passes over a bracket with all that is in it.
+    /// Skips a bracket and its contents.
     pub(super) fn group(&mut self, open: u8, close: u8) -> Result<(), Kind> {
         let mut deep = 0usize;
         let mut quoted = false;

@@ -10,7 +10,7 @@ use trunnion_geometry::math::{atan2, hypot};
 /// A point or direction in the plane.
 pub(super) type Point = [f64; 2];
 
-/// Points closer than this are one, mm.
+/// Points closer than this are the same, mm.
 pub(super) const SAME: f64 = 1e-6;
 
 pub(super) fn add(a: Point, b: Point, by: f64) -> Point {
@@ -54,7 +54,7 @@ pub(super) struct Circle {
     pub(super) sweep: f64,
 }
 
-/// The way of a motion in the plane.
+/// The path of a motion in the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
     axes: [usize; 3],
@@ -64,7 +64,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// `None` for motions that do not move in the plane or whose path is not known.
+    /// `None` for motions that do not move in the plane or whose path is unknown.
     pub(super) fn of(motion: &Motion, plane: Plane) -> Option<Self> {
         let axes = plane_axes(plane);
         let at = |position: &Position| Some([position.get(axes[0])?, position.get(axes[1])?]);

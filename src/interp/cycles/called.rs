@@ -2,8 +2,8 @@
 //! MCALL, after every motion.
 //!
 //! Order of the numbers and of the motions: Sinumerik 840D sl Programming Manual, Cycles (drilling cycles). All begin with RTP, RFP, SDIS,
-//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; where both
-//! depths are there the last one counts.
+//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; if both
+//! depths are given the last one is used.
 use super::hole::Plan;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found, not_modelled};
@@ -56,7 +56,7 @@ enum Sort {
     BoreFeed,
 }
 
-/// The cycles with how many numbers of theirs are known here.
+/// The cycles, and how many of their numbers are known here.
 const CYCLES: [(&str, Sort, usize); 9] = [
     ("CYCLE81", Sort::Drill, 6),
     ("CYCLE82", Sort::Drill, 6),
@@ -77,7 +77,7 @@ enum Modes {
     /// They say which of the two depths counts, and maybe in which plane.
     Depth {
         incremental: bool,
-        /// G17, G18 or G19; `None`: the one in force.
+        /// G17, G18 or G19; `None`: the one in effect.
         plane: Option<Plane>,
     },
     /// They say something else, or are not evaluated.
@@ -138,7 +138,7 @@ pub(crate) struct HoleCall {
     id: &'static str,
     sort: Sort,
     numbers: Vec<Given>,
-    /// Numbers that are there have no meaning here.
+    /// It has numbers that have no meaning here.
     further: bool,
     /// The modes at the end that newer posts write.
     modes: Modes,
@@ -250,7 +250,11 @@ impl Iso<'_> {
     fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
-            Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
+            // _AXN 3 is the third geometry axis, as 0 is: Z
+            Sort::Deep | Sort::Tap => !match call.number(12).or_zero() {
+                Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.coordinates.plane() == Plane::Xy,
+                None => false,
+            },
             _ => false,
         };
         let other_mode = match call.modes {
@@ -303,7 +307,7 @@ impl Iso<'_> {
         match call.sort {
             Sort::Ream => self.own_feed(call.number(6)),
             Sort::Tap => {
-                // PIT in mm, or in the units in force; threads per inch and MPIT are other numbers
+                // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
                 let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
                     (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
                         let mm = match unit_of_pitch as i64 {

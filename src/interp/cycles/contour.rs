@@ -1,7 +1,7 @@
 //! The contour of a turning cycle: the blocks between two sequence numbers, run on a copy of the interpreter.
 //!
-//! An arc of a lathe without Y is in the plane of X and Z all the same: a second run takes Y as 0, and counts only where nothing names
-//! or reads Y.
+//! An arc of a lathe without Y is in the plane of X and Z all the same: a second run takes Y as 0, and is used only if nothing names or
+//! reads Y.
 use crate::Sink;
 use crate::core::Report;
 use crate::iso::Iso;
@@ -15,7 +15,7 @@ const Y: usize = 1;
 /// Motions of a contour, or of a cut along it.
 const MOST_MOTIONS: usize = 100_000;
 
-/// A contour as its blocks tell it, from where the cycle begins.
+/// A contour as its blocks define it, from where the cycle begins.
 pub(super) struct Contour {
     pub(super) motions: Vec<Motion>,
     /// Its first and last block, and whether it begins directly after the cycle's own block.

@@ -10,7 +10,7 @@ pub(crate) enum Stored {
     /// Not given yet.
     #[default]
     Nothing,
-    /// Given, but its value is not known.
+    /// Given, but its value is unknown.
     Unknown,
     /// mm as a coordinate.
     At(f64),
@@ -19,7 +19,7 @@ pub(crate) enum Stored {
 }
 
 impl Stored {
-    /// The coordinate, from the level that a distance counts from.
+    /// The coordinate, from the level that a distance is relative to.
     pub(crate) fn from(self, level: Option<f64>) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),
@@ -67,6 +67,13 @@ impl Iso<'_> {
             (false, _) => number.value,
         };
         Some(value * self.core.state.coordinates.unit_mm())
+    }
+
+    /// The same of a turning cycle in one block. Without a decimal point controls take it for least increments or for millimetres, whatever
+    /// they do with coordinates: `None` where the settings do not say.
+    pub(super) fn one_block_length(&self, words: &Words, letter: u8) -> Option<f64> {
+        let has_point = words.letter(letter).number()?.has_point;
+        (has_point || self.core.setup.control.implicit_decimals.is_some()).then(|| self.length_word(words, letter))?
     }
 
     /// Keeps the data of a block.

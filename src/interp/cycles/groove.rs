@@ -51,27 +51,52 @@ impl Iso<'_> {
         } else {
             [b'P', b'Q']
         };
-        let steps = letters.map(|letter| self.increment_word(words, letter));
-        if !named(axes[0]) || steps[0].is_none_or(|step| step == 0.0) && words.letter(letters[0]).is_said() {
+        // in one block (Haas; Fanuc Series 10/11 format) I is the step of X as a radius, K that of Z, D the relief
+        let in_one = [b'I', b'K', b'D'].iter().any(|&letter| words.letter(letter).is_said());
+        let (letters, steps, relief) = if in_one {
+            let letters = if action == Action::FacePeckCycle {
+                [b'K', b'I']
+            } else {
+                [b'I', b'K']
+            };
+            let steps = letters.map(|letter| self.one_block_length(words, letter).map(f64::abs));
+            (letters, steps, words.letter(b'D'))
+        } else {
+            (
+                letters,
+                letters.map(|letter| self.increment_word(words, letter)),
+                words.radius,
+            )
+        };
+        let unread = in_one && (0..2).any(|place| steps[place].is_none() && words.letter(letters[place]).is_said());
+        if !named(axes[0]) || !unread && steps[0].is_none_or(|step| step == 0.0) && words.letter(letters[0]).is_said() {
             let message = format!(
                 "{} without the end of its cut, or with a step of 0",
                 self.memory.cycle.id
             );
             self.refuse(words, Refusal::CannedCycle, message, None, report);
-            // no number of steps of 0 comes to an end
+            // steps of 0 never reach the end
             return self.nowhere(start, report);
         }
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let known = axes
             .iter()
             .all(|&axis| start.get(axis).is_some() && end.get(axis).is_some());
-        let relieved = words.radius.is_said() && words.radius.number().is_none_or(|number| number.value != 0.0);
+        let relieved = relief.is_said() && relief.number().is_none_or(|number| number.value != 0.0);
+        let control = self.core.setup.control.chip_break_retract_mm;
+        let lift = if in_one { control } else { self.memory.cycle.kept.lift };
         let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
         let count = |place: usize| way(place) / steps[place].filter(|step| *step > 0.0).unwrap_or(f64::MAX);
-        let why = if self.memory.frames.active || self.core.state.zero.is_lost() || !known {
+        let why = if unread {
+            Some("with a step (I, K) without a decimal point")
+        } else if self.memory.frames.active || self.core.state.zero.is_lost() || !known {
             Some("from or to an unknown position")
         } else if relieved {
-            Some("with a relief at the bottom (R)")
+            Some("with a relief at the bottom (R, in one block D)")
+        } else if in_one && lift.is_none() && count(0) > 1.0 + 1e-9 {
+            Some(
+                "in the format in one block: how far the tool goes back after each step (declare [control] chip_break_retract: Haas setting 22)",
+            )
         } else if way(1) > 0.0 && steps[1].is_none_or(|step| step == 0.0) {
             Some("with a sideways move and no step for it")
         } else if count(0) * (count(1) + 1.0) > MOST {
@@ -92,7 +117,7 @@ impl Iso<'_> {
             axes,
             ends: axes.map(|axis| end.values[axis]),
             steps: [steps[0].unwrap_or(f64::MAX), steps[1].unwrap_or(0.0)],
-            lift: self.memory.cycle.kept.lift,
+            lift,
             feed,
         };
         self.grooves(&grooves, report);

@@ -10,7 +10,7 @@ use trunnion_dialect::Action;
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
 
-/// Motions of one block that are worked out: they are held until the block is done.
+/// Motions of one block that are computed: they are held until the block is done.
 pub(super) const MOST_MOTIONS: usize = 200_000;
 
 /// One hole with its numbers, all as coordinates of the words.
@@ -25,7 +25,7 @@ pub(super) struct Plan {
 }
 
 impl Iso<'_> {
-    /// Runs the cycle in force at the places that the block says.
+    /// Runs the cycle in effect at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         self.store_hole(words, axis);
@@ -77,7 +77,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Whether the block in hand, or the cycles of the run together, have made more motions than are worked out.
+    /// Whether the current block, or the cycles of the run together, have made more motions than are computed.
     pub(super) fn is_full(&self) -> bool {
         self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
     }
@@ -356,7 +356,7 @@ impl Iso<'_> {
         });
     }
 
-    /// Where coordinates lead, polar ones too, as words tell it.
+    /// The target of coordinates, polar ones too, as words.
     pub(crate) fn place(&mut self, words: &Words, place: &mut Position) {
         self.targets(&words.axes, false, place);
         if self.memory.frames.active {

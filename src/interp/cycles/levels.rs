@@ -5,9 +5,9 @@ use crate::{Motion, MotionKind, Position};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 
-/// Levels nearer than this to a part of the contour along the cut are the same for a control or not, mm: below its least increment.
+/// Levels nearer than this to a part of the contour along the cut may or may not be the same to a control, mm: below its least increment.
 const SAME: f64 = 1e-4;
-/// What rounded ends and centres of arcs may be off, mm.
+/// How far rounded ends and centres of arcs may be off, mm.
 const ROUNDED: f64 = 2e-3;
 
 /// Axes, directions and origin of the plane.
@@ -15,7 +15,7 @@ const ROUNDED: f64 = 2e-3;
 pub(super) struct Frame {
     /// The axis into the work and the one along the cuts.
     pub(super) axes: [usize; 2],
-    /// 1 or -1: the direction in which depth and distance along grow.
+    /// 1 or -1: the direction in which depth and distance along increase.
     pub(super) signs: [f64; 2],
     /// Where both are 0, mm.
     pub(super) origin: [f64; 2],
@@ -31,7 +31,7 @@ impl Frame {
     fn of_point(&self, point: &Vec3) -> [f64; 2] {
         self.of(self.axes.map(|axis| point[axis]))
     }
-    /// A place in the plane, as coordinates of the two axes, mm.
+    /// A position in the plane, as coordinates of the two axes, mm.
     pub(super) fn coordinates(&self, depth: f64, along: f64) -> [f64; 2] {
         let place = [depth, along];
         [0, 1].map(|i| self.origin[i] + self.signs[i] * place[i])
@@ -51,7 +51,7 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// The path of motions; else why roughing down to it is not known.
+    /// The path of motions; else why roughing down to it is unknown.
     pub(super) fn new(motions: &[Motion], frame: Frame) -> Result<Self, &'static str> {
         let mut pieces = Vec::with_capacity(motions.len());
         for motion in motions {
@@ -90,7 +90,7 @@ impl Path {
         leaves.then_some(piece.to[1])
     }
 
-    /// The place of a depth on a piece that passes it.
+    /// The position of a depth on a piece that crosses it.
     fn along(&self, piece: &Piece, depth: f64) -> f64 {
         let [from, to] = [piece.from, piece.to];
         let Some(arc) = piece.arc else {

@@ -13,7 +13,7 @@ const X: usize = 0;
 const Z: usize = 2;
 
 impl Iso<'_> {
-    /// Runs the pass in force with what the block changes of it. X is a radius here; R is the difference of radii (or of Z when facing).
+    /// Runs the current pass with the changes of the block. X is a radius here; R is the difference of radii (or of Z when facing).
     pub(crate) fn pass_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let position = self.core.state.position;
         let start = self.memory.frames.programmed(&position);
@@ -84,7 +84,7 @@ impl Iso<'_> {
         }
     }
 
-    /// What the block changes of the pass in force.
+    /// The changes of the block to the current pass.
     fn keep_pass(&mut self, words: &Words) {
         for (slot, axis) in [(0, X), (1, Z)] {
             let bit = 1 << axis;
@@ -109,8 +109,11 @@ impl Iso<'_> {
         }
     }
 
-    /// What happens to the corners of a thread that is left before its end. If it is not declared whether it is, they stay, and that is reported.
+    /// What happens to the corners of a thread that is left before its end. If that is not declared, they stay, and that is reported.
     fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
+        if self.memory.thread_chamfer_off {
+            return;
+        }
         let (Some(leads), Feed::PerRevolution(lead)) = (self.core.setup.control.thread_pull_out, lead) else {
             let why =
                 "whether the tool pulls out before the end of the thread (declare [control] thread_pull_out, in leads)";

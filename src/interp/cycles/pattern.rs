@@ -1,4 +1,4 @@
-//! Holes on a circle, an arc or a line (Haas G70, G71, G72): the cycle in force runs at each of them.
+//! Holes on a circle, an arc or a line (Haas G70, G71, G72): the active cycle runs at each of them.
 use crate::arc::plane_axes;
 use crate::codes::Found;
 use crate::core::Report;
@@ -11,7 +11,7 @@ use trunnion_geometry::math::sin_cos;
 /// Holes of one block.
 const MOST_HOLES: u32 = 10_000;
 
-/// A pattern in the block in hand.
+/// A pattern in the current block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pattern {
     /// G70.
@@ -34,7 +34,7 @@ impl Pattern {
 }
 
 impl Iso<'_> {
-    /// Runs the cycle in force at the holes of the pattern; I is a radius or distance, J an angle, K an angle, L counts.
+    /// Runs the active cycle at the holes of the pattern; I is a radius or distance, J an angle, K an angle, L counts.
     pub(crate) fn pattern(&mut self, pattern: Pattern, words: &Words, report: &mut Report<'_>) {
         let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         if !self.core.state.motion.is_some_and(Action::is_hole_cycle) {

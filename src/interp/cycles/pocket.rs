@@ -6,7 +6,7 @@ use crate::words::Words;
 use crate::{Feed, MotionKind, Refusal};
 
 impl Iso<'_> {
-    /// A pocket about the present point, or about X Y of the block, down to Z.
+    /// A pocket around the present point, or about X Y of the block, down to Z.
     pub(crate) fn pocket(&mut self, words: &Words, report: &mut Report<'_>) {
         if self.length_word(words, b'I').is_none_or(|radius| radius <= 0.0) {
             let message = "a circular pocket without I, the radius of the first circle".to_owned();

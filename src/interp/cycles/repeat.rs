@@ -2,7 +2,7 @@
 //!
 //! Sources: Fanuc Series 30i operator's manual, lathe system, multiple repetitive cycles; Adtech CNC4620 programming manual, sections 3.6.1
 //! to 3.6.6 (the same cycles, with the order of their motions). G70 runs along the contour and returns to its start in rapid. G73 runs along
-//! the contour as often as R says, each time nearer to it, and goes to the start of the next run in rapid. G71 and G72: `rough.rs`; G74 and
+//! the contour as often as R gives, each time nearer to it, and goes to the start of the next run in rapid. G71 and G72: `rough.rs`; G74 and
 //! G75: `groove.rs`; G76: `thread.rs`.
 use super::contour::{Contour, shifted};
 use super::rough::Roughing;
@@ -34,7 +34,7 @@ pub(crate) struct Kept {
     pub(super) thread: Thread,
 }
 
-/// A cycle in the block in hand.
+/// A cycle in the current block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeated {
     pub(crate) action: Action,
@@ -60,7 +60,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Runs the cycle, or keeps what its first block says.
+    /// Runs the cycle, or keeps the data of its first block.
     pub(crate) fn repeated_cycle(&mut self, repeated: Repeated, words: &Words, report: &mut Report<'_>) {
         if self.memory.in_contour {
             let what = format!("{} inside the contour of a cycle", self.memory.cycle.id);
@@ -134,10 +134,21 @@ impl Iso<'_> {
     /// G73: along the contour, each run nearer by the same step.
     fn pattern_repeat(&mut self, contour: &Contour, start: Position, words: &Words, report: &mut Report<'_>) {
         let kept = self.memory.cycle.kept;
-        let (Some([x, z]), Some(runs @ 2..)) = (kept.relief, kept.runs) else {
+        let in_one = words.letter(b'D').is_said();
+        let (relief, runs) = if in_one {
+            self.pattern_in_one(words)
+        } else {
+            (kept.relief, kept.runs)
+        };
+        let (Some([x, z]), Some(runs @ 2..)) = (relief, runs) else {
             let what = format!(
-                "{} without U, W and at least two passes (R of its first block)",
-                self.memory.cycle.id
+                "{} without {}",
+                self.memory.cycle.id,
+                if in_one {
+                    "known I and K and at least two passes (D)"
+                } else {
+                    "U, W and at least two passes (R of its first block)"
+                }
             );
             return self.somehow_back(&what, start, report);
         };
@@ -162,12 +173,23 @@ impl Iso<'_> {
         self.rapid_straight(start, report);
     }
 
-    /// Along a contour that is moved by X and Z, mm: F, S and M of its blocks do not count, those of the cycle do.
+    /// G73 in one block (Haas; Fanuc Series 10/11 format): I and K the distance of the first run from the last, D the number of runs.
+    fn pattern_in_one(&self, words: &Words) -> (Option<[f64; 2]>, Option<u32>) {
+        let length = |letter| match self.length_word(words, letter) {
+            None if words.letter(letter).is_said() => None,
+            length => Some(length.unwrap_or(0.0)),
+        };
+        let relief = length(b'I').zip(length(b'K')).map(|(x, z)| [x, z]);
+        let runs = words.letter(b'D').index().filter(|runs| (1..=MOST_RUNS).contains(runs));
+        (relief, runs)
+    }
+
+    /// Along a contour that is moved by X and Z, mm: F, S and M of its blocks are ignored, those of the cycle apply.
     pub(super) fn along(&mut self, motions: &[Motion], by: [f64; 2], feed: Feed, report: &Report<'_>) {
         for motion in motions {
             let mut motion = shifted(motion, by[0], by[1]);
             motion.block = self.core.main_block(report.block);
-            (motion.spindle_on, motion.spindle_rpm) = (self.core.state.spindle.on(), self.core.state.spindle.rpm());
+            self.core.spindle_of(&mut motion);
             if motion.kind != MotionKind::Rapid {
                 motion.feed = feed;
             }
@@ -176,7 +198,7 @@ impl Iso<'_> {
         }
     }
 
-    /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: not known.
+    /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: unknown.
     pub(super) fn allowance(&self, words: &Words) -> Option<[f64; 2]> {
         let diameter = self.memory.diameter.unwrap_or(self.core.dialect.quirks.diameter);
         let [x, z] = self.lengths(words)?;
@@ -192,11 +214,11 @@ impl Iso<'_> {
         Some([length(b'U')?, length(b'W')?])
     }
 
-    /// The way of a cycle is not known; it ends where it began.
+    /// The path of a cycle is unknown; it ends where it began.
     pub(super) fn somehow_back(&mut self, what: &str, start: Position, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
         let orientation = self.core.held_orientation();
-        // a cycle that is given up half way has already moved the tool
+        // a cycle that stops half way has already moved the tool
         let from = std::mem::replace(&mut self.core.state.position, start);
         let motion = self
             .core
@@ -204,7 +226,7 @@ impl Iso<'_> {
         self.memory.out.push(motion);
     }
 
-    /// Neither the path nor the end of a cycle is known.
+    /// Both the path and the end of a cycle are unknown.
     pub(super) fn nowhere(&mut self, start: Position, report: &Report<'_>) {
         self.core.forget_linear();
         let end = self.core.state.position;

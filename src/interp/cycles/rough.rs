@@ -4,10 +4,11 @@
 //! axis at the feed up to the contour, which is moved by the allowance; off at 45 degrees by the escape; back in rapid to the start line; in by
 //! depth and escape; and where the first point of the contour is reached or would be passed, in to that point and along the whole contour, then
 //! back to the start point in rapid. Depth and escape stay until they are programmed again (parameters 5132 and 5133), for both cycles.
+//! In one block (Haas; Fanuc Series 10/11 format) D is the depth, and the control has set the escape.
 //!
 //! Sources: Robur concise guide to Fanuc lathe cycles, page 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions);
 //! Rockwell 9/Series lathe manual, page 24-9. Fanuc's own (Series 30i operator's manual, lathe system, stock removal in turning and facing) was
-//! not at hand. They differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
+//! not available. They differ in whether the tool leaves its cuts at the feed or in rapid, and do not describe cuts that miss the contour, run along a part of it, or are
 //! shorter than the escape: there the path is unknown, and what follows is known again.
 use super::contour::Contour;
 use super::levels::{Frame, Path};
@@ -22,7 +23,7 @@ const X: usize = 0;
 const Z: usize = 2;
 /// Cuts of one cycle.
 const MOST: f64 = 10_000.0;
-/// What positions may be off, mm.
+/// How far positions may be off, mm.
 const OFF: f64 = 1e-6;
 
 /// What the first block of G71 and G72 keeps, mm; `None`: not programmed, or unknown.
@@ -32,7 +33,7 @@ pub(crate) struct Roughing {
     escape: Option<f64>,
 }
 
-/// A cycle that can be worked out.
+/// A cycle that can be computed.
 struct Plan {
     frame: Frame,
     path: Path,
@@ -88,7 +89,7 @@ impl Iso<'_> {
         }
     }
 
-    /// What a control refuses: a first block that is no straight motion (Fanuc alarm PS0065).
+    /// What a control refuses: a first block that is not a straight motion (Fanuc alarm PS0065).
     fn roughing_mistakes(&mut self, action: Action, contour: &Contour, words: &Words, report: &mut Report<'_>) {
         let straight = contour.motions.first().is_some_and(|motion| {
             let moves = |axis: usize| motion.start.get(axis) != motion.end.get(axis);
@@ -110,7 +111,7 @@ impl Iso<'_> {
         }
     }
 
-    /// The cycle, or why it cannot be worked out.
+    /// The cycle, or why it cannot be computed.
     fn plan_roughing(
         &self,
         action: Action,
@@ -125,15 +126,7 @@ impl Iso<'_> {
         } else {
             [X, Z]
         };
-        if [b'D', b'I', b'K', b'R']
-            .iter()
-            .any(|&letter| words.letter(letter).is_said())
-        {
-            return Err("the format in one block");
-        }
-        let Roughing { depth, escape } = self.memory.cycle.kept.roughing;
-        let depth = depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132)")?;
-        let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
+        let (depth, escape) = self.roughing_data(words)?;
         let allowance = self.allowance(words).ok_or("its finishing allowance is unknown")?;
         if self.core.state.coordinates.plane() != Plane::Zx {
             return Err("a plane other than that of X and Z");
@@ -151,7 +144,7 @@ impl Iso<'_> {
         let signs = ways.map(f64::signum);
         let moved = axes.map(|axis| allowance[usize::from(axis == Z)]);
         if (0..2).any(|i| moved[i] * signs[i] > 0.0) {
-            return Err("its finishing allowance leads beyond the contour");
+            return Err("its finishing allowance extends beyond the contour");
         }
         let full = ways[0].abs();
         if full / depth > MOST {
@@ -183,7 +176,34 @@ impl Iso<'_> {
         })
     }
 
-    /// The motions of a contour down to which type I can be worked out.
+    /// Depth of cut and escape, mm: of the block before, or in one block D and what the control has set.
+    fn roughing_data(&self, words: &Words) -> Result<(f64, f64), &'static str> {
+        let set = self.core.setup.control.roughing_retract_mm;
+        let kept = self.memory.cycle.kept.roughing;
+        if words.letter(b'R').is_said() {
+            return Err("R in the block with P and Q");
+        }
+        if [b'I', b'K'].iter().any(|&letter| words.letter(letter).is_said()) {
+            return Err("with an allowance for a cut before the last (I, K)");
+        }
+        if words.letter(b'D').is_said() {
+            let depth = self.one_block_length(words, b'D').filter(|depth| *depth > 0.0);
+            let depth =
+                depth.ok_or("the format in one block: its depth of cut (D) is not above 0, or has no decimal point")?;
+            let escape = set.ok_or(
+                "the format in one block: declare [control] roughing_retract (Haas setting 73, parameter 5133)",
+            )?;
+            return Ok((depth, escape));
+        }
+        let depth = kept.depth;
+        let depth =
+            depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132, Haas setting 72)")?;
+        let escape = kept.escape.or(set);
+        let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
+        Ok((depth, escape))
+    }
+
+    /// The motions of a contour for which type I can be computed.
     fn outline(
         &self,
         contour: &Contour,
@@ -292,14 +312,14 @@ impl Iso<'_> {
         self.goes(kind, place, feed, report);
     }
 
-    /// Says what of a cycle is not known.
+    /// Reports what is unknown about a cycle.
     pub(super) fn not_worked_out(&self, why: &str, report: &mut Report<'_>) {
         let what = format!("{}: {why}", self.memory.cycle.id);
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 }
 
-/// Type I: the first block of the contour says G0 or G1 and one axis.
+/// Type I: the first block of the contour has G0 or G1 and one axis.
 fn says_type_one(first: u32, axes: [usize; 2], report: &Report<'_>) -> Result<(), &'static str> {
     let (mut straight, mut infeed, mut both) = (false, false, false);
     let letters = |axis: usize| if axis == X { [b'X', b'U'] } else { [b'Z', b'W'] };

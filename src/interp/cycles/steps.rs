@@ -8,7 +8,7 @@ use crate::iso::Iso;
 use crate::{FaultKind, MotionKind};
 use trunnion_dialect::Action;
 
-/// More steps than this are no drilling.
+/// More steps than this are refused.
 const MOST_STEPS: f64 = 10_000.0;
 
 /// Depths of the steps, mm.

@@ -7,7 +7,7 @@
 //! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
 //!
 //! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
-//! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
+//! 30i operator's manual, lathe system, multiple threading cycle) was not available. Where in Z a cut begins that goes in along the flank (angle above 0), and
 //! the shape of the pull-out (parameter 5131), are shown in pictures only: unknown.
 use crate::core::Report;
 use crate::iso::Iso;
@@ -32,12 +32,25 @@ pub(crate) struct Thread {
     allowance: Option<f64>,
 }
 
-/// A thread that can be worked out, mm.
+/// A thread as it is programmed, mm.
+struct Data {
+    finishing: u32,
+    /// How many leads before its end the tool pulls out.
+    leads_out: f64,
+    flank: bool,
+    least: f64,
+    allowance: f64,
+    height: f64,
+    first: f64,
+    taper: f64,
+}
+
+/// A thread that can be computed, mm.
 struct Plan {
     start: Position,
     /// Root of the thread at its end.
     root: [f64; 2],
-    /// Which way X leads out of the work: 1 or -1.
+    /// Direction of X out of the work: 1 or -1.
     out: f64,
     taper: f64,
     height: f64,
@@ -91,25 +104,26 @@ impl Iso<'_> {
         }
     }
 
-    /// The thread, or why it cannot be worked out.
+    /// The thread, or why it cannot be computed.
     fn plan_thread(&self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
-        if [b'A', b'D', b'I', b'K']
+        let data = if [b'A', b'D', b'I', b'K']
             .iter()
             .any(|&letter| words.letter(letter).is_said())
         {
-            return Err("the format in one block");
-        }
-        let Thread {
-            digits,
+            self.thread_in_one(words)?
+        } else {
+            self.thread_in_two(words)?
+        };
+        let Data {
+            finishing,
+            leads_out,
+            flank,
             least,
             allowance,
-        } = self.memory.cycle.kept.thread;
-        let [finishing, tenths, angle] = digits.ok_or("without P in its first block (parameters 5142, 5130, 5143)")?;
-        let least = least.ok_or("without Q in its first block (parameter 5140)")?;
-        let allowance = allowance.ok_or("without R in its first block (parameter 5141)")?;
-        if finishing == 0 || !ANGLES.contains(&angle) {
-            return Err("no finishing pass, or an angle other than 0, 29, 30, 55, 60 or 80");
-        }
+            height,
+            first,
+            taper,
+        } = data;
         let mut end = start;
         self.targets(&words.axes, false, &mut end);
         let known = [start, end]
@@ -118,14 +132,6 @@ impl Iso<'_> {
         if !known || self.memory.frames.active || self.core.state.zero.is_lost() {
             return Err("from or to an unknown position");
         }
-        let taper = match self.length_word(words, b'R') {
-            None if words.radius.is_said() => return Err("its taper (R) is unknown"),
-            taper => taper.unwrap_or(0.0),
-        };
-        let size = |letter| self.increment_word(words, letter).filter(|size| *size > 0.0);
-        let (Some(height), Some(first)) = (size(b'P'), size(b'Q')) else {
-            return Err("without its height (P) and the depth of its first cut (Q), both greater than 0");
-        };
         let Feed::PerRevolution(pitch) = lead else {
             return Err("without its lead (F)");
         };
@@ -136,7 +142,7 @@ impl Iso<'_> {
         if rise * out < height - 1e-9 || (rise - taper) * out < height - 1e-9 || way == 0.0 {
             return Err("it starts inside its thread, or has no length");
         }
-        let pull_out = pitch * f64::from(tenths) / 10.0;
+        let pull_out = pitch * leads_out;
         if pull_out >= way.abs() {
             return Err("its pull-out is as long as the thread");
         }
@@ -151,8 +157,90 @@ impl Iso<'_> {
             height,
             depths,
             pull_out,
-            flank: angle > 0,
+            flank,
             lead,
+        })
+    }
+
+    /// What the two blocks say.
+    fn thread_in_two(&self, words: &Words) -> Result<Data, &'static str> {
+        let Thread {
+            digits,
+            least,
+            allowance,
+        } = self.memory.cycle.kept.thread;
+        let [finishing, tenths, angle] = digits.ok_or("without P in its first block (parameters 5142, 5130, 5143)")?;
+        let least = least.ok_or("without Q in its first block (parameter 5140)")?;
+        let allowance = allowance.ok_or("without R in its first block (parameter 5141)")?;
+        if finishing == 0 || !ANGLES.contains(&angle) {
+            return Err("no finishing pass, or an angle other than 0, 29, 30, 55, 60 or 80");
+        }
+        let taper = match self.length_word(words, b'R') {
+            None if words.radius.is_said() => return Err("its taper (R) is unknown"),
+            taper => taper.unwrap_or(0.0),
+        };
+        let size = |letter| self.increment_word(words, letter).filter(|size| *size > 0.0);
+        let (Some(height), Some(first)) = (size(b'P'), size(b'Q')) else {
+            return Err("without its height (P) and the depth of its first cut (Q), both greater than 0");
+        };
+        Ok(Data {
+            finishing,
+            leads_out: f64::from(tenths) / 10.0,
+            flank: angle > 0,
+            least,
+            allowance,
+            height,
+            first,
+            taper,
+        })
+    }
+
+    /// What one block says and the control has set (Haas; Fanuc Series 10/11 format): K the height, D the first cut, I the radius at the
+    /// beginning less that at the end, A the angle of the tool, P the way of cutting. One pass at the whole height ends it where the
+    /// control leaves an allowance.
+    fn thread_in_one(&self, words: &Words) -> Result<Data, &'static str> {
+        if words.p.is_said() && words.p.index() != Some(1) {
+            return Err("a way of cutting (P) other than 1");
+        }
+        let size = |letter| self.one_block_length(words, letter).filter(|size| *size > 0.0);
+        let (Some(height), Some(first)) = (size(b'K'), size(b'D')) else {
+            return Err(
+                "the format in one block: its height (K) or first cut (D) is missing, not above 0, or has no decimal point",
+            );
+        };
+        let taper = match self.length_word(words, b'I') {
+            None if words.letter(b'I').is_said() => return Err("its taper (I) is unknown"),
+            taper => taper.unwrap_or(0.0),
+        };
+        let angle = words.letter(b'A');
+        let angle = match angle.number() {
+            None if angle.is_said() => return Err("the angle of its tool (A) is unknown"),
+            angle => angle.map_or(0.0, |angle| angle.value),
+        };
+        let control = &self.core.setup.control;
+        let least = control.thread_least_cut_mm;
+        let allowance = control.thread_finish_mm;
+        let (Some(least), Some(allowance)) = (least, allowance) else {
+            return Err(
+                "the format in one block: declare [control] thread_least_cut and thread_finish (Haas settings 99 and 86, parameters 5140 and 5141)",
+            );
+        };
+        let leads_out = if self.memory.thread_chamfer_off {
+            Some(0.0)
+        } else {
+            control.thread_pull_out
+        };
+        let leads_out =
+            leads_out.ok_or("the format in one block: declare [control] thread_pull_out (Haas setting 95)")?;
+        Ok(Data {
+            finishing: u32::from(allowance > 0.0),
+            leads_out,
+            flank: angle > 0.0,
+            least,
+            allowance,
+            height,
+            first,
+            taper,
         })
     }
 

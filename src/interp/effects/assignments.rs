@@ -7,7 +7,7 @@ use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
-/// What words that are written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
+/// What words written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
 pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId) {
     let mut effects = Vec::new();
     for word in view.words() {

@@ -1,10 +1,10 @@
 //! Effects that a run has collected.
 use crate::{Argument, Effect, Placed, Reach};
 
-/// Blocks of shifts and turns that wait for a motion that needs their words.
+/// Blocks of shifts and turns whose words a later motion may need.
 const MOST_FRAMES: usize = 1000;
 
-/// Effects of the block in hand, collected only where somebody asks for them.
+/// Effects of the current block, collected only if they are requested.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Effects {
     wanted: bool,
@@ -12,7 +12,7 @@ pub(crate) struct Effects {
     count: u32,
     /// Words of blocks that shift or turn the coordinates and were held by known positions so far.
     frames: Vec<Vec<Argument>>,
-    /// Not handed on yet.
+    /// Not emitted yet.
     ready: Vec<Placed>,
 }
 
@@ -21,7 +21,7 @@ impl Effects {
     pub(crate) fn watch(&mut self) {
         self.wanted = true;
     }
-    /// Whether somebody asks for them.
+    /// Whether they are requested.
     #[inline]
     pub(crate) fn wanted(&self) -> bool {
         self.wanted
@@ -35,7 +35,7 @@ impl Effects {
         let reach = effect.usual_reach();
         self.add_with(block, effect, reach);
     }
-    /// One that reaches further, or less far, than others of its sort.
+    /// One that may change more, or less, than others of its kind.
     pub(crate) fn add_with(&mut self, block: trunnion_syntax::BlockId, effect: Effect, reach: Reach) {
         self.count += 1;
         self.ready.push(Placed { block, effect, reach });
@@ -48,11 +48,11 @@ impl Effects {
             self.add(block, effect);
         }
     }
-    /// One that was handed on already.
+    /// One that was emitted already.
     pub(crate) fn skip(&mut self) {
         self.count += 1;
     }
-    /// Those that were not handed on yet.
+    /// Those that were not emitted yet.
     pub(crate) fn take(&mut self) -> Vec<Placed> {
         std::mem::take(&mut self.ready)
     }

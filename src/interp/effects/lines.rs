@@ -27,7 +27,7 @@ impl Iso<'_> {
         self.core.effects.add(block, Effect::Unmodelled(words));
     }
 
-    /// What a block of a contour does beside the contour: the control does it in the finishing cut, or in every cut.
+    /// What a block of a contour does apart from the contour: the control does it in the finishing cut, or in every cut.
     #[cold]
     pub(crate) fn contour_effects(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
         let of_contour = |argument: &Argument| match (argument.name.as_ref(), &argument.value) {

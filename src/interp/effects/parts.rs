@@ -7,7 +7,7 @@ use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::{Block, Item};
 
 impl Iso<'_> {
-    /// A return to a reference point: which point it is, and that it is one. Where no axis is named the machine decides which move.
+    /// A return to a reference point: which point it is, and that it is a return. Where no axis is named the machine decides which move.
     pub(super) fn reference_effects(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
         let reference = |action| {
             matches!(
@@ -67,7 +67,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
+    /// Parameters of the block that neither its codes nor the active codes read. The machine, or a macro that a code calls, may read them.
     pub(super) fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
         let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
         if opaque || self.core.dialect.quirks.user_names() {
@@ -88,7 +88,7 @@ impl Iso<'_> {
 }
 
 impl Iso<'_> {
-    /// Under a mirror G41 is on the right: the side that counts where the radius is not known, and motions are the programmed ones.
+    /// Under a mirror G41 is on the right: the side that matters where the radius is unknown, and motions are the programmed ones.
     pub(super) fn mirrored_compensation(&mut self, block: trunnion_syntax::BlockId) {
         let state = &self.core.state;
         let mirrored = state.compensation != 0 && self.memory.frames.shape.flips(state.coordinates.plane());

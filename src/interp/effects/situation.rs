@@ -15,7 +15,7 @@ impl Situation {
         Self { state, to_r }
     }
 
-    /// The first setting that differs: name, before, after. `feed_counts`: whether F may not differ.
+    /// The first setting that differs: name, before, after. `feed_counts`: whether F must be the same.
     pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
         if self.equals(other) {
             return None;
@@ -37,7 +37,7 @@ impl Situation {
             && a.zero == b.zero
     }
 
-    /// Each setting by name. Numbers compare to 1e-9 of their size, what is unknown is like what is unknown.
+    /// Each setting by name. Numbers are compared to a relative 1e-9; unknown values are equal.
     fn settings(&self, feed_counts: bool) -> Vec<(&'static str, Vec<Argument>)> {
         let state = &self.state;
         let flag = |is_on: bool| vec![Argument::code(if is_on { "on" } else { "off" })];
@@ -78,9 +78,9 @@ impl Situation {
                     .map(|value| Argument::number("", *value))
                     .collect(),
             ),
-            ("the tool length in force", number(state.length.mm())),
+            ("the active tool length", number(state.length.mm())),
             (
-                "whose tool length is in force",
+                "which tool's length is active",
                 vec![Argument::code(state.length.of().to_string())],
             ),
             ("the tool", number(state.tool.number().map(f64::from))),

@@ -1,4 +1,4 @@
-//! What a code is for a comparison, and the words that belong to it.
+//! The purpose of a code in a comparison, and the words that belong to it.
 use crate::codes::Found;
 use crate::tools::Chosen;
 use crate::words::{Said, Words};
@@ -10,7 +10,7 @@ use trunnion_syntax::Block;
 /// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M109 question to the operator, M130 to M131 media).
 pub(super) const READ_COMMENTS: [&str; 5] = ["G47", "M95", "M109", "M130", "M131"];
 
-/// Names of codes that tell the operator something and do nothing else.
+/// Names of codes that show something to the operator and do nothing else.
 const NEUTRAL: [&str; 1] = ["MSG"];
 
 /// Whether the spindle does more in a cycle or along a path than turn: it is coupled to the feed, stops, or is oriented.
@@ -38,7 +38,7 @@ pub(super) fn is_plain_cycle(code: &trunnion_dialect::Code) -> bool {
     code.action == Action::HoleCall && plain.contains(&code.id.as_str())
 }
 
-/// Whether a code repeats the cycle that is called beside it after each motion; alone it ends that.
+/// Whether a code repeats the cycle that is called with it after each motion; alone it ends that.
 pub(super) fn is_modal_call(code: &trunnion_dialect::Code) -> bool {
     code.action == Action::CannedCycle && code.id == "MCALL"
 }
@@ -58,9 +58,9 @@ pub(super) fn uncouples(action: Action) -> bool {
         )
 }
 
-/// What a code is for a comparison.
+/// The purpose of a code in a comparison.
 pub(super) enum Sort {
-    /// Motions and the modal state hold it.
+    /// It is in motions and the modal state.
     Held,
     /// It sets something until another code sets it again.
     Setting(&'static str),

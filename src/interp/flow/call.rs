@@ -18,7 +18,7 @@ pub(crate) fn main_range(running: &Running<'_>, from: u32) -> TextRange {
     }
 }
 
-/// The call at the block `from` as people are shown it.
+/// The call at the block `from`, for messages.
 pub(crate) fn frame_of(running: &Running<'_>, from: u32) -> Frame {
     let program = running.program();
     Frame {
@@ -81,7 +81,7 @@ impl Iso<'_> {
         self.push_call(level, times, place, running, from);
     }
 
-    /// What a modal macro that is not there would read: its arguments, which are in the block of its G66.
+    /// What a missing modal macro would read: its arguments, which are in the block of its G66.
     fn missing_macro(&mut self, calling: &Calling, from: u32) {
         let With::MacroB(with) = &calling.with else { return };
         let Some(locals) = with.arguments.as_ref().filter(|_| self.core.effects.wanted()) else {
@@ -100,7 +100,7 @@ impl Iso<'_> {
         self.core.effects.add(block, crate::Effect::Unmodelled(words));
     }
 
-    /// What a program does that is not there is not known.
+    /// What a missing program does is unknown.
     pub(crate) fn call_is_not_followed(&mut self) {
         self.core.forget_everything();
         self.memory.own.lose();
@@ -156,7 +156,7 @@ impl Iso<'_> {
         Ok((file, self.first_block(file, name)))
     }
 
-    /// The block where a program of another file begins: at its number or header, else behind the `%` at its start.
+    /// The block where a program of another file begins: at its number or header, else after the `%` at its start.
     fn first_block(&mut self, file: u16, name: &Key) -> u32 {
         let dialect = self.core.dialect;
         let trail = self.flow.trail();
@@ -176,7 +176,7 @@ impl Iso<'_> {
 
     /// A return.
     pub(crate) fn leave(&mut self, back: Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
-        // sections that are repeated end with the program in which they stand
+        // sections that are repeated end with the program that contains them
         while let Some(trail) = &mut self.flow.trail
             && trail.course.repeated().is_some()
         {

@@ -80,7 +80,7 @@ impl Iso<'_> {
         Some(block)
     }
 
-    /// Does what the first block with a jump, loop, call or macro statement asks for.
+    /// Does what the first block with a jump, loop, call or macro statement requests.
     #[cold]
     pub(crate) fn first_statement(&mut self, main: &Program, block: BlockId, sink: &mut impl Sink) {
         self.flow.trail();
@@ -88,7 +88,7 @@ impl Iso<'_> {
         self.after_block(&running, block.0, false, sink);
     }
 
-    /// Does what the block that has run asks for, and ends the run where nothing is left.
+    /// Does what the block that has run requests, and ends the run if nothing is left.
     pub(crate) fn after_block(&mut self, running: &Running<'_>, from: u32, moved: bool, sink: &mut impl Sink) {
         if self.flow.trail.is_none() {
             return;
@@ -114,13 +114,13 @@ impl Iso<'_> {
         }
     }
 
-    /// What the block in hand asks for, whichever language it is in.
+    /// What the current block requests, in any language.
     fn asked_for(&mut self) -> Option<Transfer> {
         let deep = self.flow.deep.as_mut().and_then(|deep| deep.pending.take());
         deep.or_else(|| self.memory.own.pending.take())
     }
 
-    /// Whatever may make a decision come out otherwise than before has been counted.
+    /// Everything that may change the outcome of a decision has been counted.
     pub(crate) fn changes(&self) -> u64 {
         let deep = self.flow.deep.as_ref().map_or(0, |deep| deep.variables.changes);
         deep + self.memory.own.changes
@@ -137,14 +137,14 @@ impl Iso<'_> {
         self.flow.next >= end
     }
 
-    /// The run cannot go on: nothing after it is followed.
+    /// The run cannot continue: nothing after it is followed.
     pub(crate) fn stop(&mut self) {
         self.core.state.ended = true;
-        // what is missing is said already
+        // what is missing is reported already
         self.core.proper_end = true;
     }
 
-    /// Tells a fact about a block of the program that runs.
+    /// Reports a fact about a block of the program that runs.
     pub(crate) fn tell_of_flow(
         &mut self,
         running: &Running<'_>,
@@ -169,7 +169,7 @@ impl Iso<'_> {
         trail.told = through.told;
     }
 
-    /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that began anew most often does not end.
+    /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that was repeated most often does not end.
     fn out_of_fuel(&mut self, fuel: Fuel, main: &Program, sink: &mut impl Sink) {
         self.stop();
         if let (Some(trail), Fuel::Out { most, proved, blocks }) = (&self.flow.trail, fuel) {

@@ -1,5 +1,5 @@
-//! The sink between a block that runs in a call or a loop and the sink of the run: it tells each fault once, and gives what happens
-//! in another file a place in the main program.
+//! The sink between a block that runs in a call or a loop and the sink of the run: it reports each fault once, and gives events in
+//! another file a place in the main program.
 use super::told::{Told, is_textual};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Sink};
 use trunnion_flow::{Called, Place};
@@ -9,7 +9,7 @@ pub(crate) struct Through<'s, S> {
     pub(crate) sink: &'s mut S,
     pub(crate) told: Told,
     pub(crate) place: Place,
-    /// The file in which the block stands, unless it is the main program's.
+    /// The file that contains the block, unless it is the main program's.
     pub(crate) called: Option<&'s Called>,
     /// The block has run before.
     pub(crate) again: bool,
@@ -42,7 +42,7 @@ impl<S: Sink> Sink for Through<'_, S> {
     }
 }
 
-/// A fact about a block of another file, told at the call.
+/// A fact about a block of another file, reported at the call.
 fn carried(called: &Called, fault: &Fault) -> FaultKind {
     let place = format!("{}, line {}", called.path, fault.block.0 + 1);
     match &fault.kind {

@@ -1,20 +1,20 @@
-//! Which faults were told, so that a loop tells each of them once.
+//! Which faults were reported, so that a loop reports each of them once.
 use crate::{Fault, FaultKind};
 use std::collections::HashSet;
 use std::mem::{Discriminant, discriminant};
 
-/// What tells one fault from another: file, block, first byte, kind.
+/// What distinguishes one fault from another: file, block, first byte, kind.
 type Key = (u16, u32, u32, Discriminant<FaultKind>);
 
-/// Faults that were told.
+/// Faults that were reported.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Told(HashSet<Key>);
 
-/// Faults kept: a program of noise fills no memory.
+/// Faults kept: a program of noise must not fill the memory.
 const KEPT: usize = 100_000;
 
 impl Told {
-    /// Whether the fault is new. `again`: its block has run before, so that what its text alone says was told then.
+    /// Whether the fault is new. `again`: its block has run before, so that facts of its text alone were reported then.
     pub(crate) fn is_new(&mut self, file: u16, fault: &Fault, again: bool) -> bool {
         if again && is_textual(&fault.kind) {
             return false;

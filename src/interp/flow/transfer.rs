@@ -1,4 +1,4 @@
-//! What a block asks for beside its motion: jumps, loops, branches, repeated sections.
+//! What a block requests apart from its motion: jumps, loops, branches, repeated sections.
 use super::{Index, Label, Level, Running, Transfer, index_of};
 use crate::Sink;
 use crate::iso::Iso;
@@ -9,7 +9,7 @@ use trunnion_flow::{Ends, Going, Key, Search};
 use trunnion_syntax::{Program, TextRange};
 
 impl Iso<'_> {
-    /// Where jumps of the file that runs may lead.
+    /// Targets of the jumps of the file that runs.
     pub(crate) fn sequence_numbers(&mut self, program: &Program) -> Arc<Index> {
         let (dialect, file) = (self.core.dialect, self.flow.file());
         match &mut self.flow.trail {
@@ -18,7 +18,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Does what the block `from` of the program that runs asks for.
+    /// Does what the block `from` of the program that runs requests.
     pub(crate) fn transfer(&mut self, transfer: Transfer, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         match transfer {
             Transfer::Next => {}
@@ -90,12 +90,12 @@ impl Iso<'_> {
         }
     }
 
-    /// Why a jump is refused, or its outcome not known.
+    /// Why a jump is refused, or its outcome unknown.
     fn wrong_target(&self, index: &Index, label: &Key, (from, to): (u32, u32)) -> Option<FaultKind> {
         if !self.core.dialect.quirks.user_names() {
             index.loops.entered(from, to, |_| true)?;
             let Key::Number(number) = label else { return None };
-            let message = format!("GOTO {number} leads into a loop from outside: its DO has not run");
+            let message = format!("GOTO {number} jumps into a loop from outside: its DO has not run");
             return Some(rejected(
                 self.core.dialect,
                 Mistake::Unnumbered,
@@ -135,7 +135,7 @@ impl Iso<'_> {
         self.stop();
     }
 
-    /// The block belongs to a loop that is not whole: the run ends. For Macro B the end of the run reports what is wrong in the main
+    /// The block belongs to an incomplete loop: the run ends. For Macro B the end of the run reports what is wrong in the main
     /// program's file.
     fn broken(&mut self, index: &Index, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         let told_at_end = self.core.dialect.quirks.macro_b() && running.called.is_none();
@@ -155,7 +155,7 @@ impl Iso<'_> {
         self.stop();
     }
 
-    /// Goes on at a block of the program that runs.
+    /// Continues at a block of the program that runs.
     pub(crate) fn jump(&mut self, to: u32) {
         let end = self.flow.next;
         if let Some(trail) = &mut self.flow.trail {
@@ -164,7 +164,7 @@ impl Iso<'_> {
         self.flow.next = to;
     }
 
-    /// The same to a block in front of the jump.
+    /// The same to a block before the jump.
     pub(crate) fn jump_back(&mut self, to: u32) {
         let (end, changes) = (self.flow.next, self.changes());
         if let Some(trail) = &mut self.flow.trail {
@@ -173,7 +173,7 @@ impl Iso<'_> {
         self.flow.next = to;
     }
 
-    /// A section of the program runs so many times; then the run goes on here.
+    /// A section of the program runs this many times; then the run continues here.
     fn repeat(&mut self, (first, last): (u32, u32), times: u32, running: &Running<'_>, from: u32) {
         if self.index(running).is_none() {
             return;
@@ -198,7 +198,7 @@ impl Iso<'_> {
         self.flow.next = first;
     }
 
-    /// The last block of a repeated section has run: the section begins anew, or the run goes on after its REPEAT.
+    /// The last block of a repeated section has run: the section starts again, or the run continues after its REPEAT.
     pub(crate) fn section_ends(&mut self) {
         while let Some(trail) = &mut self.flow.trail
             && trail

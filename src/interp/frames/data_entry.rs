@@ -146,7 +146,7 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// The program writes a work offset; it acts at once where it is in force.
+    /// The program writes a work offset; it acts at once if it is active.
     pub(crate) fn store_offset(&mut self, name: &str, zero: OffsetValues) {
         let written = &mut self.memory.frames.written;
         match written.iter_mut().find(|(known, _)| **known == *name) {
@@ -197,7 +197,7 @@ impl<'d> Iso<'d> {
             }
             offset.radius_unclear |= unclear && l >= 12;
         }
-        // when the new length acts is a parameter of the control; the next G43 or G49 makes it plain
+        // a parameter of the control decides when the new length acts; after the next G43 or G49 it is certain
         let in_force = self.memory.length_offset == Some(number) && self.core.state.length.mm().is_some();
         if l <= 11 && in_force {
             let what = format!("{} of the active length offset", found.code.id);

@@ -4,7 +4,7 @@ use crate::words::Words;
 use crate::{ModalState, Position};
 use trunnion_geometry::math::sin_cos;
 
-/// What was given last; `None`: not known.
+/// What was given last; `None`: unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Polar {
     radius: Option<f64>,
@@ -12,7 +12,7 @@ pub(crate) struct Polar {
 }
 
 impl Polar {
-    /// Puts the position that the words give into `end`. An incremental radius counts from the present position, which makes a new
+    /// Puts the position that the words give into `end`. An incremental radius starts from the present position, which makes a new
     /// centre; that is not followed.
     pub(crate) fn place(&mut self, words: &Words, state: &ModalState, end: &mut Position) {
         let [a, b, _] = plane_axes(state.coordinates.plane());

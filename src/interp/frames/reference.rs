@@ -7,7 +7,7 @@ use crate::{FaultKind, Feed, MotionKind, Position};
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
-/// A return in the block in hand.
+/// A return in the current block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Return {
     /// G27.
@@ -45,6 +45,7 @@ impl Iso<'_> {
                     self.memory.frames.intermediate = Some(self.core.state.position);
                 } else if self.core.dialect.quirks.return_moves_all {
                     named = (1 << 9) - 1;
+                    self.core.standing.end_unnamed();
                 } else {
                     return;
                 }
@@ -53,7 +54,7 @@ impl Iso<'_> {
         }
     }
 
-    /// The present point becomes a reference point; what is not known of it stays unknown.
+    /// The present point becomes a reference point; its unknown coordinates stay unknown.
     pub(crate) fn store_reference(&mut self, place: usize) {
         let mut position = self.core.state.position;
         self.to_machine(&mut position, 1.0);
@@ -89,13 +90,15 @@ impl Iso<'_> {
         let mut start = self.core.state.position;
         self.to_machine(&mut start, 1.0);
         let mut end = start;
-        let mut all = true;
+        // a return of all axes moves those that the machine has: of others nothing is declared, and they stay unknown
+        let every = named.count_ones() == 9;
+        let mut all = !every || declared.is_some();
         for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
             if let Some(value) = declared.and_then(|point| point.get(axis)) {
                 end.set(axis, value);
             } else {
                 end.forget(axis);
-                all = false;
+                all &= every;
             }
         }
         let orientation = self.core.held_orientation();

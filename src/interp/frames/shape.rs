@@ -81,7 +81,7 @@ impl Shape {
     pub(crate) fn is_identity(&self) -> bool {
         *self == Self::default()
     }
-    /// From what the words say to work coordinates.
+    /// From the coordinates of words to work coordinates.
     pub(crate) fn to_work(self, words: &Position) -> Position {
         let mut point = *words;
         if let Some(rotation) = &self.rotation {
@@ -118,7 +118,7 @@ impl Shape {
             }
         }
     }
-    /// An arc of the words in work coordinates; none where different factors make it no arc.
+    /// An arc of the words in work coordinates; none if different factors distort it.
     pub(crate) fn arc_to_work(&self, arc: &Arc) -> Option<Arc> {
         let size = self.scaling.map_or(Some(1.0), |scaling| scaling.uniform())?;
         let place = |point: Vec3| {

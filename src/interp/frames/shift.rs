@@ -5,7 +5,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 
 impl<'d> Iso<'d> {
-    /// The zero point in force from its parts. The machine stays where it is.
+    /// The active zero point from its parts. The machine stays where it is.
     pub(crate) fn refresh_zero(&mut self) {
         let frames = &self.memory.frames;
         let mut zero = frames.selected;
@@ -45,7 +45,7 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         block.takes_coordinates = true;
-        // the sources do not say whether the distance counts from the last shift
+        // the sources do not say whether the distance is relative to the last shift
         let unclear = self.core.state.coordinates.incremental()
             && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
         if unclear || !self.shifts_plainly(words) {
@@ -60,8 +60,8 @@ impl<'d> Iso<'d> {
         self.refresh_zero();
     }
 
-    /// TRANS, ATRANS: the zero point moves by the coordinates of the block, whatever G91 says (Sinumerik 840D sl Programming Manual,
-    /// Fundamentals, frames). TRANS comes instead of all programmable frames before it, ATRANS is added to them.
+    /// TRANS, ATRANS: the zero point moves by the coordinates of the block, regardless of G91 (Sinumerik 840D sl Programming Manual,
+    /// Fundamentals, frames). TRANS replaces all programmable frames before it, ATRANS is added to them.
     pub(crate) fn programmable_shift(
         &mut self,
         found: &Found<'d>,

@@ -10,7 +10,7 @@ use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 
 impl<'d> Iso<'d> {
-    /// A motion as it is put out: in the workpiece frame.
+    /// A motion as it is emitted: in the workpiece frame.
     #[inline]
     pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
         match &self.memory.frames.tilt {
@@ -36,8 +36,8 @@ impl<'d> Iso<'d> {
         }
         self.memory.frames.tilt = tilt;
         if !self.core.state.tool_axis.tcp() {
-            // words without tool centre point control are no places of the tip where a rotary axis is turned, or the tool hangs off the
-            // zero of the axes; where the tip is, the machine knows
+            // without tool centre point control words are not positions of the tip if a rotary axis is turned, or if the tool is off the
+            // zero of the axes; only the machine gives the position of the tip
             position.known &= !XYZ;
         }
         self.core.state.position = position;
@@ -53,8 +53,8 @@ impl<'d> Iso<'d> {
     }
 
     /// G68.2 X Y Z I J K: zero of the plane, and Euler angles about Z, the turned X, the turned Z (Series 30i operator's manual, tilted
-    /// working plane). P1 gives turns about X, Y, Z with their order in Q; whether about fixed or turned axes is a parameter of the run
-    /// and makes no difference where at most one is not zero. The other kinds of P are not modelled. G68.4 is relative to the active plane.
+    /// working plane). P1 gives turns about X, Y, Z with their order in Q; a parameter of the run decides between fixed and turned axes;
+    /// it makes no difference where at most one is not zero. The other kinds of P are not modelled. G68.4 is relative to the active plane.
     pub(crate) fn tilted_plane(
         &mut self,
         found: &Found<'d>,
@@ -82,7 +82,7 @@ impl<'d> Iso<'d> {
         self.tilt_to(Some(outer.map_or(plane, |outer| outer.then(&plane))), report);
     }
 
-    /// Axis and degrees of the turns that I J K tell.
+    /// Axis and degrees of the turns that I J K give.
     fn plane_turns(&self, words: &Words, report: &mut Report<'_>) -> Option<[(usize, f64); 3]> {
         let implicit = self.core.setup.control.implicit_decimals;
         let angle = |letter| match words.letter(letter) {
@@ -169,7 +169,7 @@ impl<'d> Iso<'d> {
     /// Turns the rotary axes onto the plane's normal.
     fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &Report<'_>) {
         let start = self.core.state.position;
-        // also where the tip stays: what X Y Z were without it being led is no place of the tip
+        // also where the tip stays: X Y Z from before it was guided are not a position of the tip
         self.core.forget_linear();
         self.core.state.position.known &= !ROTARY;
         let mut end = self.core.state.position;
@@ -232,7 +232,7 @@ impl<'d> Iso<'d> {
     }
 }
 
-/// What a call of CYCLE800 says.
+/// The arguments of a call of CYCLE800.
 #[derive(Clone, Debug, PartialEq)]
 struct SwivelCall {
     retracts: bool,
@@ -246,8 +246,8 @@ struct SwivelCall {
 }
 
 impl SwivelCall {
-    /// `None` where it says something that is not modelled: another mode than axis by axis, the end of a data record, values that are
-    /// no numbers.
+    /// `None` for what is not modelled: a mode other than axis by axis, the end of a data record, values that are not
+    /// numbers.
     fn read(text: &str) -> Option<Self> {
         let inside = text.split_once('(')?.1.trim_end().strip_suffix(')')?;
         let values: Vec<&str> = inside.split(',').map(str::trim).collect();

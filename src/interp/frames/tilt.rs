@@ -1,6 +1,6 @@
 //! A tilted working plane: its position and rotation in the workpiece frame. While one is active all positions of the interpreter are expressed in
 //! its coordinates, so that cycles, compensation and lengths work as in any plane; motions are turned into the workpiece frame when they
-//! are put out.
+//! are emitted.
 use super::XYZ;
 use super::shape::sin_cos_degrees;
 use crate::{AXIS_LETTERS, Motion, MotionKind, Orientation, Position, Swivel};
@@ -77,8 +77,8 @@ impl Tilted {
         }
         motion
     }
-    /// Coordinates of the plane that the program does not know: where the machine has the tool, the floor that knows the machine finds
-    /// from the normal. Where it cannot, nothing is known of the end.
+    /// Coordinates of the plane that the program does not know: the machine floor finds the position of the tool from the normal. Where
+    /// it cannot, the end is unknown.
     fn leave_free(self, motion: &mut Motion, in_plane: &Motion) {
         let free = XYZ & !in_plane.end.known;
         let turns = (3..AXIS_LETTERS.len()).any(|axis| in_plane.start.get(axis) != in_plane.end.get(axis));

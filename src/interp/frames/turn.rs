@@ -7,7 +7,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 
 impl<'d> Iso<'d> {
-    /// Whether nothing is in force that would make a new frame's place unclear.
+    /// Whether nothing is active that would make the position of a new frame unclear.
     fn frames_are_plain(&self) -> bool {
         !self.core.state.zero.is_lost()
             && !self.core.state.tool_axis.tcp()
@@ -172,8 +172,8 @@ impl<'d> Iso<'d> {
         self.reshaped();
     }
 
-    /// What a turned plane says about coordinates that a block gives: after G68 an axis that no word has named yet has no known
-    /// place once the other is given; after G69 the first coordinate must be absolute.
+    /// The effect of a turned plane on coordinates of a block: after G68 an axis that no word has named yet has an unknown position
+    /// once the other is given; after G69 the first coordinate must be absolute.
     pub(crate) fn after_turn(&mut self, words: &Words, end: &mut crate::Position) {
         let named = words.axes.given | words.axes.unread;
         let frames = &mut self.memory.frames;

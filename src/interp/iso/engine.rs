@@ -15,10 +15,10 @@ use trunnion_syntax::{BlockId, Program};
 pub(crate) struct Iso<'d> {
     pub(crate) core: Core<'d>,
     pub(crate) memory: Memory<'d>,
-    /// Codes of the block in hand: kept only for its storage.
+    /// Codes of the current block: kept only for its storage.
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) flow: Flow,
-    /// Motions of cycles so far: they have a bound as executed blocks have.
+    /// Motions of cycles so far: they are bounded like executed blocks.
     pub(crate) cycle_motions: u64,
 }
 
@@ -68,7 +68,7 @@ impl<'d> Engine<'d> for Iso<'d> {
             let name = argument.name.trim_start_matches("where ").to_owned();
             found.push(argument);
             if lost {
-                // what it held before it was lost may be what it holds
+                // it may still have the value from before it was lost
                 let mut before = self.flow.all_variables();
                 before.retain(|known| known.name == name);
                 found.extend(before);
@@ -143,7 +143,7 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// What waits at the end of the text, and a missing program end.
+    /// What is pending at the end of the text, and a missing program end.
     pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
         if let Some(block) = self.core.last_content {
             self.put_out_rest(&program.block(block), sink);

@@ -11,7 +11,7 @@ pub(crate) enum Mistake {
     ProgramWordMissing,
     /// Calls nested too deep.
     Nesting,
-    /// A program or sequence number that is not there.
+    /// A program or sequence number that does not exist.
     NumberNotFound,
     /// Arithmetic without a result: overflow.
     Overflow,
@@ -33,7 +33,7 @@ pub(crate) enum Mistake {
     LoopNumber,
     /// Words and macro statements in one block.
     MixedBlock,
-    /// GOTO to a number that is no sequence number.
+    /// GOTO to a number that is not a sequence number.
     SequenceNumber,
     /// The text ends without M99 or M30.
     EndOfRecord,
@@ -45,7 +45,7 @@ struct Row {
     mistake: Mistake,
     refusal: Refusal,
     number: &'static str,
-    /// Kept beside the number for whoever checks it.
+    /// Kept with the number for whoever checks it.
     #[expect(dead_code, reason = "documentation of the number")]
     source: &'static str,
 }

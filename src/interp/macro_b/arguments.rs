@@ -1,7 +1,7 @@
 //! The words of a call: program, repetitions, and the arguments of G65 and G66 as local variables.
 //!
 //! Letters are variables (specification I); more than one I, J or K makes triples of #4 to #33 (specification II). Where both name a
-//! variable, the later word counts (B-63684EN/01, p. 278).
+//! variable, the later word wins (B-63684EN/01, p. 278).
 use super::evaluate::Form;
 use super::read::Macros;
 use super::variables::{Held, Locals};
@@ -9,7 +9,7 @@ use crate::FaultKind;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, Block, Item, TextRange, Value};
 
-/// Specification I: the variable of each letter from A; 0 where it is none.
+/// Specification I: the variable of each letter from A; 0 where there is none.
 const VARIABLES: [u8; 26] = [
     1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26,
 ];
@@ -36,7 +36,7 @@ struct Triples {
 }
 
 impl Triples {
-    /// The variable of the next I, J or K; `None` behind the tenth triple.
+    /// The variable of the next I, J or K; `None` after the tenth triple.
     fn next(&mut self, letter: u8) -> Option<u8> {
         if self.last != 0 && letter <= self.last {
             self.set += 1;
@@ -47,7 +47,7 @@ impl Triples {
     }
 }
 
-/// Reads the words behind G65 or G66 at `code`.
+/// Reads the words after G65 or G66 at `code`.
 pub(crate) fn read(
     macros: &mut Macros<'_>,
     dialect: &Dialect,

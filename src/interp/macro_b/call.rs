@@ -24,18 +24,18 @@ pub(crate) struct With {
     pub(crate) modal: Option<usize>,
 }
 
-/// What is kept of a call.
+/// What is stored for a call.
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     modal_active: usize,
-    /// A macro call: the caller's variables, and the arguments, for each time anew.
+    /// A macro call: the caller's variables, and the arguments, for each repetition.
     variables_of_call: Option<Box<(Locals, Locals)>>,
     /// The modal call that this is.
     modal: Option<usize>,
 }
 
 impl Level {
-    /// The called program begins anew.
+    /// The called program starts again.
     pub(crate) fn again(&self, variables: &mut Variables) {
         if let Some(level) = &self.variables_of_call {
             variables.locals = level.1;
@@ -44,7 +44,7 @@ impl Level {
 }
 
 impl Iso<'_> {
-    /// Where the program of a call stands; `None`: M97 to a sequence number that is not there.
+    /// Where the program of a call is; `None`: M97 to a sequence number that does not exist.
     pub(crate) fn find_macro(
         &mut self,
         calling: &Calling,
@@ -105,7 +105,7 @@ impl Iso<'_> {
         (depth >= limit).then(|| rejected(self.core.dialect, Mistake::Nesting, Refusal::Subprogram, message))
     }
 
-    /// M99 has left a call: the caller's variables are back, and the run goes on at a sequence number if M99 names one.
+    /// M99 has left a call: the caller's variables are back, and the run continues at a sequence number if M99 names one.
     pub(crate) fn leave_macro(
         &mut self,
         level: &Level,
@@ -138,7 +138,7 @@ impl Iso<'_> {
         }
     }
 
-    /// M99 of the main program begins it anew for ever: one pass is run. M99 P jumps; forward, that is followed.
+    /// M99 of the main program restarts it forever: one pass is run. M99 P jumps; forward, that is followed.
     pub(crate) fn leave_main(&mut self, back: Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         let target = back.label.map(|label| {
             let index = self.sequence_numbers(running.main);
@@ -150,7 +150,7 @@ impl Iso<'_> {
             Some((_, Some(to))) if to > from => self.jump(to),
             _ => {
                 if !has_end(running.main, self.core.dialect) {
-                    let what = "M99 of the main program, which begins it anew: one pass is run".to_owned();
+                    let what = "M99 in the main program, which restarts it: one pass is run".to_owned();
                     self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
                 }
                 self.stop();
@@ -170,7 +170,7 @@ impl Iso<'_> {
             }
             _ => (place.main, place.main_range),
         };
-        let message = "the program that is called ends without M99".to_owned();
+        let message = "the called program ends without M99".to_owned();
         let kind: FaultKind = rejected(self.core.dialect, Mistake::EndOfRecord, Refusal::ProgramEnd, message);
         sink.fault(Fault { block, range, kind });
         self.stop();
@@ -193,7 +193,7 @@ fn has_end(program: &Program, dialect: &Dialect) -> bool {
 }
 
 impl Deep {
-    /// Puts the variables of the caller back. Those of a modal call stay for its next time.
+    /// Puts the variables of the caller back. Those of a modal call are kept for its next run.
     fn end_level(&mut self, level: &Level) {
         let Some(kept) = &level.variables_of_call else { return };
         let used = std::mem::replace(&mut self.variables.locals, kept.0);

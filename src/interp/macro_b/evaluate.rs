@@ -1,4 +1,4 @@
-//! Evaluates expressions with the variables that a run knows.
+//! Evaluates expressions with the known variables of a run.
 use super::alarms::{Mistake, rejected};
 use super::system::Known;
 use super::variables::{Class, Held, Variables, class};
@@ -9,14 +9,14 @@ use trunnion_dialect::Dialect;
 use trunnion_formula::{Cursor, Formula, FormulaError, FormulaErrorKind, Grammar, Target, ValueError};
 use trunnion_syntax::{Program, TextRange};
 
-/// Where an expression stands, which decides how it is written.
+/// Where an expression is, which decides how it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// Behind a letter: `#1`, `[#1+2]`, `-#1`, `SIN[30]`.
+    /// After a letter: `#1`, `[#1+2]`, `-#1`, `SIN[30]`.
     Value,
     /// Of IF and WHILE: in brackets.
     Condition,
-    /// Behind `=`: operators may stand outside of brackets.
+    /// After `=`: operators may be outside of brackets.
     Whole,
 }
 
@@ -36,15 +36,15 @@ impl Clone for Compiled {
     }
 }
 
-/// What a formula reads from.
+/// The source of a formula's variables.
 pub(crate) struct View<'a> {
     pub(crate) variables: &'a Variables,
     pub(crate) known: Known<'a>,
-    /// The first variable that was asked for and is not known.
+    /// The first variable that was read and is unknown.
     pub(crate) unknown: Cell<Option<i64>>,
-    /// A named variable was asked for that is not known.
+    /// A named variable was read that is unknown.
     pub(crate) unknown_name: Cell<bool>,
-    /// A variable of the control was asked for, whose value changes without being assigned.
+    /// A variable of the control was read, whose value changes without being assigned.
     pub(crate) asked_control: Cell<bool>,
 }
 
@@ -89,11 +89,11 @@ impl trunnion_formula::Variables for View<'_> {
 }
 
 impl View<'_> {
-    /// Why the value that was just reckoned is not known.
+    /// Why the value that was just computed is unknown.
     pub(crate) fn reason(&self, text: &str) -> String {
         match self.unknown.get() {
             Some(index) => self.variables.reason(index),
-            None if self.unknown_name.get() => format!("{text}: a named variable whose value is not known"),
+            None if self.unknown_name.get() => format!("{text}: a named variable with an unknown value"),
             None => text.to_owned(),
         }
     }
@@ -146,7 +146,7 @@ pub(crate) fn only_read(dialect: &Dialect, program: &Program, range: TextRange, 
         .map_err(|error| trouble(dialect, program, range, &error))
 }
 
-/// The value of an expression: `None` is `<vacant>`, NaN not known.
+/// The value of an expression: `None` is `<vacant>`, NaN unknown.
 pub(crate) fn evaluate(
     dialect: &Dialect,
     (program, file): (&Program, u16),
@@ -171,7 +171,7 @@ pub(crate) fn evaluate(
     value
 }
 
-/// The variable that an assignment names: its number (`None`: not known), or its name.
+/// The variable that an assignment names: its number (`None`: unknown), or its name.
 pub(crate) enum Assigned {
     Number(Option<i64>),
     Name(Box<str>),
@@ -201,7 +201,7 @@ pub(crate) fn assigned(
     }
 }
 
-/// No more of an expression is quoted in a message, characters.
+/// At most this much of an expression is quoted in a message, characters.
 const QUOTED: usize = 80;
 
 /// A mistake of an expression as a fact.

@@ -1,4 +1,4 @@
-//! The end of a run: blocks that never ran are read all the same, so that one mistake does not hide the others.
+//! The end of a run: blocks that never ran are still read, so that one mistake does not hide the others.
 use super::Deep;
 use super::alarms::rejected;
 use super::read::{Macros, Mode};
@@ -11,7 +11,7 @@ use crate::{Clamps, Fault, FaultKind, Refusal};
 use trunnion_syntax::{BlockId, Format, Program, TextRange};
 
 impl Iso<'_> {
-    /// Nothing is left to run: tells what is missing, and what is wrong with the text of blocks that did not run.
+    /// Nothing is left to run: reports what is missing, and what is wrong with the text of blocks that did not run.
     #[cold]
     pub(crate) fn end(&mut self, program: &Program, sink: &mut impl Sink) {
         if std::mem::replace(&mut self.flow.finished, true) {
@@ -42,7 +42,7 @@ impl Iso<'_> {
     /// What is wrong with DO and END.
     fn broken_loops(&self, program: &Program, trail: &mut Trail, sink: &mut impl Sink) {
         if self.core.dialect.quirks.user_names() {
-            // structures are looked for while a program runs: what is not reached is no mistake
+            // structures are searched while a program runs: one that is not reached is not a mistake
             return;
         }
         for broken in &trail.index(0, || index_of(self.core.dialect, program)).broken {

@@ -1,11 +1,11 @@
-//! Where jumps of a program may lead: sequence numbers, programs in the file, loops.
+//! Targets of the jumps of a program: sequence numbers, programs in the file, loops.
 use super::alarms::Mistake;
 use super::name::bracketed;
 use crate::flow::{Broken, Index};
 use trunnion_flow::{Key, Loop, Loops};
 use trunnion_syntax::{Address, Block, BlockId, Call, Item, Program, TextRange, Value};
 
-/// What is found on the way through a file.
+/// What is found while a file is read.
 #[derive(Default)]
 struct Builder {
     labels: Vec<(Key, u32)>,
@@ -14,7 +14,7 @@ struct Builder {
     broken: Vec<Broken>,
 }
 
-/// A DO that waits for its END.
+/// A DO whose END was not read yet.
 struct Open {
     number: u32,
     block: u32,
@@ -96,7 +96,8 @@ impl Builder {
                 range,
             }),
             (true, Some(_)) => {
-                let message = format!("DO{number} stands inside a loop of the same number; its END{number} is missing");
+                let message =
+                    format!("DO{number} is inside a loop of the same number; the END{number} of that loop is missing");
                 self.broken(at, range, Mistake::EndMissing, message);
             }
             (false, Some(place)) if place + 1 == open.len() => {
@@ -110,8 +111,7 @@ impl Builder {
             }
             (false, Some(place)) => {
                 let inner = open[place + 1].number;
-                let message =
-                    format!("loops cross: END{number} stands inside the loop DO{inner}, which is not ended yet");
+                let message = format!("loops cross: END{number} is inside the loop DO{inner}, which has not ended yet");
                 open.truncate(place);
                 self.broken(at, range, Mistake::EndMissing, message);
             }

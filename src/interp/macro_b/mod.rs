@@ -28,23 +28,23 @@ use trunnion_flow::Key;
 use trunnion_syntax::TextRange;
 use variables::{Locals, Variables};
 
-/// What a program with macro statements needs beside the flow.
+/// What a program with macro statements needs in addition to the flow.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Deep {
     pub(crate) variables: Variables,
     compiled: Compiled,
-    /// Offsets of the control that the block in hand writes: number of the variable, value in program units.
+    /// Offsets of the control that the current block writes: number of the variable, value in program units.
     pub(crate) writes: Vec<(u32, f64)>,
-    /// What the block in hand asks for, done when it has run.
+    /// What the current block requests, done when it has run.
     pub(crate) pending: Option<Transfer>,
-    /// A code of the block in hand that calls or returns.
+    /// A code of the current block that calls or returns.
     pub(crate) code: Option<(FlowCode, TextRange)>,
     /// The number of the variable that was assigned last, where it is known.
     pub(crate) assigned: Option<i64>,
-    /// The block in hand assigns a variable or decides something.
+    /// The current block assigns a variable or decides something.
     pub(crate) statement: Option<TextRange>,
     modal: Vec<Modal>,
-    /// How many of the modal calls count where the run is.
+    /// How many of the modal calls apply at this point of the run.
     modal_active: usize,
 }
 

@@ -1,14 +1,14 @@
-//! What a program is called by: `O1000` by its number, `<SUB>` by its name.
+//! The name of a program: `O1000` by its number, `<SUB>` by its name.
 use std::fmt;
 use trunnion_flow::Key;
 
-/// The name of a program as people are shown it: `O1000`, `<SUB>`; on a Sinumerik the bare name.
+/// The name of a program for messages: `O1000`, `<SUB>`; on a Sinumerik the bare name.
 pub(crate) struct ProgramName<'k>(pub(crate) &'k Key);
 
 /// Endings of file names that are tried.
 const ENDINGS: [&str; 7] = ["", ".nc", ".NC", ".cnc", ".tap", ".txt", ".prg"];
 
-/// From `<SUB>`; `None` where it is no name in brackets. `<O123>` is the program of the number 123. Upper and lower case are different
+/// From `<SUB>`; `None` if it is not a name in brackets. `<O123>` is the program of the number 123. Upper and lower case are different
 /// names.
 pub(crate) fn bracketed(text: &[u8]) -> Option<Key> {
     let name = std::str::from_utf8(text).ok()?;

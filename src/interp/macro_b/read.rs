@@ -1,4 +1,4 @@
-//! Reads macro statements as the reader meets them: assignments, IF, WHILE, GOTO, DO, END, and values that are expressions.
+//! Reads macro statements as they occur: assignments, IF, WHILE, GOTO, DO, END, and values that are expressions.
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
 use super::statement::{Statement, statement};
@@ -118,7 +118,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Ok((None, _)) => Said::Nothing,
             Ok((Some(value), _)) if value.abs() <= LARGEST => Said::Number(Number {
                 value,
-                // a variable counts as written with a point; P knows none
+                // a variable is taken as written with a decimal point; P has none
                 has_point: word.address != Address::Letter(b'P') || value.fract() != 0.0,
                 range: word.range,
             }),
@@ -135,7 +135,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// A code whose number is an expression, in tenths: `G#1`. `None`: `<vacant>`, not known, or no number of a code.
+    /// A code whose number is an expression, in tenths: `G#1`. `None`: `<vacant>`, unknown, or not a code number.
     pub(crate) fn macro_code(&mut self, word: &Word, range: TextRange) -> Option<u32> {
         match self.macro_value(word, range) {
             Said::Nothing => None,
@@ -165,7 +165,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         true
     }
 
-    /// After a call or jump that is not followed no variable is known.
+    /// After a call or jump that is not followed all variables are unknown.
     pub(crate) fn flow_is_lost(&mut self, code: &Code) {
         if code.action == Action::SubprogramCall
             && let Some(macros) = &mut self.macros
@@ -208,7 +208,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         true
     }
 
-    /// `<SUB>` behind G65 or G66, whose other words are arguments.
+    /// `<SUB>` after G65 or G66, whose other words are arguments.
     pub(crate) fn program_name_of_macro(&mut self, range: TextRange) {
         let named = self.program.bytes(range).first() == Some(&b'<');
         let deep = self.macros.as_ref().and_then(|macros| macros.deep.as_ref());
@@ -217,7 +217,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// `<SUB>` names the program of the call in front of it; elsewhere it has no meaning.
+    /// `<SUB>` names the program of the call before it; elsewhere it has no meaning.
     pub(crate) fn program_name(&mut self, range: TextRange) {
         let calls = self.macros.as_mut().is_some_and(|macros| {
             let code = macros.deep.as_ref().and_then(|deep| deep.code);
@@ -230,7 +230,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// Keeps what is to be done when the block has run; a run that cannot go on stays so.
+    /// Keeps what is to be done when the block has run; a run that cannot continue stays so.
     fn pend(&mut self, pending: Transfer) {
         if let Some(macros) = &mut self.macros
             && macros.mode == Mode::Follow
@@ -253,7 +253,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// Whether a condition holds; `None` where it cannot be told, which ends the run.
+    /// Whether a condition holds; `None` where it is unknown, which ends the run.
     fn condition(&mut self, call: &Call) -> Option<bool> {
         let range = call.arguments.unwrap_or(call.range);
         let macros = self.macros.as_mut()?;
@@ -282,7 +282,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                     let label = Label::number(number, range);
                     return self.pend(Transfer::Jump(label, Search::ForwardThenStart));
                 }
-                let message = format!("`{}` is no sequence number", self.program.text(range).trim());
+                let message = format!("`{}` is not a sequence number", self.program.text(range).trim());
                 let kind = rejected(self.dialect, Mistake::SequenceNumber, Refusal::Label, message);
                 Some((range, kind))
             }
@@ -337,7 +337,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 return;
             }
             Class::System(3000) if macros.mode == Mode::Follow => return self.alarm(held),
-            // a stop with a message: the operator goes on
+            // a stop with a message: the operator continues
             Class::System(3006) if macros.mode == Mode::Follow => return,
             Class::System(number) if is_followed(number) && held.is_some_and(f64::is_finite) => {
                 macros.deep().writes.push((number, held.unwrap_or(0.0)));
@@ -371,7 +371,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     }
 }
 
-/// A number as N has it.
+/// A number as in an N word.
 fn sequence_number(value: f64) -> Option<u32> {
     (value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0).then_some(value as u32)
 }

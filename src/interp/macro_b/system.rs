@@ -1,4 +1,4 @@
-//! System variables: what a run knows of #1000 and above, and what the others are.
+//! System variables: which of #1000 and above a run knows, and what the others are.
 //!
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
@@ -7,7 +7,7 @@ use crate::iso::Iso;
 use crate::{FeedMode, ModalState, Setup};
 use trunnion_dialect::{Action, Plane};
 
-/// What a variable of the control is, for people who ask why its value is not known.
+/// What a variable of the control is, for messages about why its value is unknown.
 pub(crate) fn what(number: u32) -> &'static str {
     match number {
         1000..=1999 => "a signal of the machine",
@@ -16,18 +16,18 @@ pub(crate) fn what(number: u32) -> &'static str {
         3901 | 3902 => "a counter of parts",
         4000..=4199 => "modal information that the run does not keep",
         5001..=5160 if is_probing(number) => "the result of probing",
-        5001..=5160 => "a position that is not known here",
+        5001..=5160 => "a position that is unknown here",
         5201..=5324 | 7001..=7960 => "a work offset of the control",
         _ => "a value of the control",
     }
 }
 
-/// #5061 ff.: where a skip signal came.
+/// #5061 ff.: the position of a skip signal.
 fn is_probing(number: u32) -> bool {
     (5061..=5080).contains(&number)
 }
 
-/// What a system variable is read from.
+/// The data from which system variables are read.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<'a> {
     pub(crate) state: &'a ModalState,
@@ -38,7 +38,7 @@ pub(crate) struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// The value of a system variable, NaN where it is not known.
+    /// The value of a system variable, NaN where it is unknown.
     pub(crate) fn read(&self, number: u32) -> f64 {
         let unknown = f64::NAN;
         match number {
@@ -100,7 +100,7 @@ impl Known<'_> {
         Some(code)
     }
 
-    /// 54 to 59: the work offset in force.
+    /// 54 to 59: the active work offset.
     fn offset_code(&self) -> Option<f64> {
         let name = self.state.zero.offset()?;
         name.strip_prefix('G')?.parse().ok()

@@ -1,7 +1,7 @@
-//! The variables of a program: local, common and named ones. `None` is `<vacant>`, NaN is a value that is not known.
+//! The variables of a program: local, common and named ones. `None` is `<vacant>`, NaN is a value that is unknown.
 use std::collections::BTreeMap;
 
-/// A variable's content: `None` is `<vacant>`, NaN a value that is not known.
+/// A variable's content: `None` is `<vacant>`, NaN a value that is unknown.
 pub(crate) type Held = Option<f64>;
 
 /// #1 to #33 of one level of macro calls.
@@ -21,13 +21,13 @@ pub(crate) struct Variables {
     declared: BTreeMap<u32, Held>,
     /// Why a variable that was assigned is not known.
     reasons: BTreeMap<i64, Box<str>>,
-    /// Blocks ran, or did not run, that nobody followed: nothing is known any more.
+    /// Blocks ran, or did not run, that were not followed: all values are unknown.
     lost: bool,
-    /// Grows with whatever may make a decision come out otherwise than before: assignments, calls, values of the control.
+    /// Grows with everything that may change the outcome of a decision: assignments, calls, values of the control.
     pub(crate) changes: u64,
 }
 
-/// Bytes of a reason that are kept of the one that it comes from.
+/// Bytes that are kept of the reason that caused it.
 const LONGEST_REASON: usize = 240;
 
 impl Default for Variables {
@@ -44,7 +44,7 @@ impl Default for Variables {
     }
 }
 
-/// Where a variable's number belongs.
+/// The kind of a variable's number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
     /// #0: always vacant.
@@ -59,8 +59,8 @@ pub(crate) enum Class {
     Missing,
 }
 
-/// Series 30i operator's manual, custom macro, variables: #1 to #33 local, #100 to #199 and #500 to #999 common (#200 to #499 where
-/// the option is there), from #1000 the control's.
+/// Series 30i operator's manual, custom macro, variables: #1 to #33 local, #100 to #199 and #500 to #999 common (#200 to #499 with
+/// an option), from #1000 the control's.
 pub(crate) fn class(index: i64) -> Class {
     match u32::try_from(index) {
         Ok(0) => Class::Vacant,
@@ -106,7 +106,7 @@ impl Variables {
         };
         Some(if self.lost { Some(f64::NAN) } else { held })
     }
-    /// Assigns a local or common variable. `reason`: why its value is not known, where it is not.
+    /// Assigns a local or common variable. `reason`: why its value is unknown, where it is not.
     pub(crate) fn set(&mut self, index: i64, held: Held, reason: Option<&str>) {
         self.changes += 1;
         match class(index) {
@@ -126,7 +126,7 @@ impl Variables {
             }
         }
     }
-    /// A local, common or named variable as it is written; NaN where it is not known, `None` where it is vacant or there is none.
+    /// A local, common or named variable as it is written; NaN where it is unknown, `None` where it is vacant or there is none.
     pub(crate) fn written(&self, text: &str) -> Option<f64> {
         let name = text.trim().strip_prefix('#')?;
         match name.parse() {
@@ -134,7 +134,7 @@ impl Variables {
             Err(_) => self.named(&name.to_ascii_lowercase()),
         }
     }
-    /// All that have a value, also where nothing is known any more: then those from before.
+    /// All that have a value; after all values were lost, those from before.
     pub(crate) fn all(&self) -> Vec<crate::Argument> {
         let locals = self.locals.iter().zip(1..).map(|(held, number)| (number, *held));
         let common = self.common.iter().map(|(number, held)| (*number, *held));
@@ -147,7 +147,7 @@ impl Variables {
             .map(|(name, value)| crate::Argument::number(name, value))
             .collect()
     }
-    /// #500 to #999 with their values, as far as they are known: they outlive the program (Series 30i operator's manual, custom macro).
+    /// #500 to #999 with their values, as far as they are known: they keep their values after the program ends (Series 30i operator's manual, custom macro).
     pub(crate) fn kept(&self) -> Vec<(String, f64)> {
         let kept = self.common.range(500..).filter(|_| !self.lost);
         kept.filter_map(|(number, held)| Some((format!("#{number}"), (*held)?)))
@@ -166,7 +166,7 @@ impl Variables {
         self.changes += 1;
         self.named.insert(name.into(), held.unwrap_or(0.0));
     }
-    /// From here on no value is known: what assigns them is not followed.
+    /// From here on all values are unknown: assignments are not followed.
     pub(crate) fn lose(&mut self) {
         self.changes += 1;
         self.lost = true;
@@ -177,7 +177,7 @@ impl Variables {
             return format!("#{index}: jumps or calls before it are not followed");
         }
         if let Some(reason) = self.reasons.get(&index) {
-            // in a loop a value may depend on itself again and again; what it began with is at the end
+            // in a loop a value may depend on itself repeatedly; the original cause is at the end
             let from = reason.ceil_char_boundary(reason.len().saturating_sub(LONGEST_REASON));
             let cut = if from == 0 { "" } else { "... " };
             return format!("#{index}: from {cut}{}", &reason[from..]);

@@ -1,4 +1,4 @@
-//! What a block with macro statements or calls asks for, once all its words are read.
+//! What a block with macro statements or calls requests, once all its words are read.
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::arguments;
 use super::name::bracketed;
@@ -17,7 +17,7 @@ use trunnion_flow::Key;
 use trunnion_syntax::{Block, Item, TextRange};
 
 impl<'d> Iso<'d> {
-    /// Reads the words of a block; what macro statements ask for is done when it has run.
+    /// Reads the words of a block; what macro statements request is done when it has run.
     pub(crate) fn read(
         &mut self,
         block: &Block<'_>,
@@ -56,7 +56,7 @@ impl<'d> Iso<'d> {
             own.begin_block();
         }
         for item in block.items() {
-            // who jumps there may bring other values
+            // a jump to this block may bring other values
             if let (Item::Label(_), Some(own)) = (&item, &mut reader.own)
                 && !own.follows
             {
@@ -67,7 +67,7 @@ impl<'d> Iso<'d> {
         self.core.state.clamps = clamps;
         if let Some(range) = words.rest_deleted.filter(|_| words.flow) {
             // statements are read as a whole
-            let what = "`/` behind a statement of a macro".to_owned();
+            let what = "`/` after a macro statement".to_owned();
             report.fault(range, FaultKind::NotModelled { what });
             words.forgets_all = true;
         }
@@ -113,14 +113,14 @@ impl<'d> Iso<'d> {
         if let Some((code, range)) = deep.code.take() {
             self.flow_code(&mut deep, (code, range), block, words, report);
         } else if let Some(range) = statement.filter(|_| is_fanuc(self.core.dialect) && mixes(codes, words)) {
-            let message = "a macro statement and words of the control stand in one block".to_owned();
+            let message = "a macro statement and ordinary words are in one block".to_owned();
             let kind = rejected(self.core.dialect, Mistake::MixedBlock, Refusal::Structure, message);
             report.fault(range, kind);
         }
         self.flow.deep = Some(deep);
     }
 
-    /// Whether the O word of a block begins a program behind the one that runs.
+    /// Whether the O word of a block begins a program after the one that runs.
     fn begins_another(&self, block: &Block<'_>) -> bool {
         let inside = self.flow.trail.as_ref().is_some_and(|trail| {
             let section = trail.course.place().section;
@@ -252,7 +252,7 @@ fn target(
         }
         let fits = value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0;
         fits.then_some(value as u32).ok_or_else(|| {
-            let message = format!("{value} is no number of a program or of repetitions");
+            let message = format!("{value} is not a program number or a number of repeats");
             rejected(dialect, Mistake::NumberNotFound, Refusal::Number, message)
         })
     };
@@ -261,7 +261,7 @@ fn target(
         return Ok((name, repeats.unwrap_or(1)));
     }
     let Some(number) = number else {
-        let message = "the call has no P that says which program".to_owned();
+        let message = "the call has no P with the program number".to_owned();
         let kind = rejected(dialect, Mistake::ProgramWordMissing, Refusal::MissingWord, message);
         return Err(kind);
     };

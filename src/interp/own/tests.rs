@@ -48,7 +48,7 @@ fn what_may_have_changed_is_not_known() {
     let mut own = Own::default();
     own.define("REAL A, B=2.5");
     own.define("INT COUNT=2.5");
-    assert_eq!(own.value("B"), None, "written in the block in hand");
+    assert_eq!(own.value("B"), None, "written in the current block");
     own.begin_block();
     assert_eq!(
         (own.value("a"), own.value("B"), own.value("COUNT")),

@@ -7,7 +7,7 @@ use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
 impl super::Own {
-    /// What a variable holds now, also where the block in hand has written it.
+    /// What a variable holds now, also where the current block has written it.
     pub(crate) fn held(&self, name: &str) -> Option<f64> {
         let name = name.to_ascii_lowercase();
         match super::r_parameter(&name) {
@@ -23,7 +23,7 @@ impl super::Own {
 }
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
-    /// An assignment to a name of the program's own.
+    /// An assignment to a name that the program defines.
     pub(crate) fn own_assignment(&mut self, name: TextRange, word: &Word) {
         self.words.has_values = true;
         let name = self.text(name);

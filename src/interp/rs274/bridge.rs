@@ -64,7 +64,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.fault(at, range, FaultKind::NotModelled { what });
     }
 
-    /// Says so where compensation begins with a radius of zero, because nothing is declared of the tool.
+    /// Reports compensation that begins with a radius of zero, because the tool is not declared.
     pub(super) fn radius_unset(&mut self, state: &State, at: At) {
         let on = state.side != trunnion_ngc::Side::Off;
         let was = std::mem::replace(&mut self.told.compensated, on);
@@ -139,6 +139,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             feed,
             spindle_on: modal.spindle.on(),
             spindle_rpm: modal.spindle.rpm(),
+            spin: None,
             zero: shift.zero,
             tool_length_mm: shift.length,
             undeclared: if state.machine_frame {
@@ -336,7 +337,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// Where the probe touches is known to the machine only: on every axis that the block moves the position is lost.
+    /// Where the probe touches is known to the machine only: the position of every axis that the block moves is lost.
     fn probe(&mut self, kind: u8, pose: &Pose, at: At, state: &State) {
         let shift = self.shift(state);
         let target = shift.coordinates(pose);

@@ -1,4 +1,4 @@
-//! Calls that move nothing: tools, offsets, feed, spindle, planes, units, and codes of the machine's own.
+//! Calls that move nothing: tools, offsets, feed, spindle, planes, units, and the machine's own codes.
 use super::bridge::{Bridge, LINEAR_AXES};
 use super::feed::Rate;
 use super::frames::Shift;
@@ -34,7 +34,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.core.state.zero.lose(true);
     }
 
-    /// A code of the machine's own: what the dialect's table says of it, otherwise the position after it is unknown.
+    /// One of the machine's own codes: its effect by the dialect's table, otherwise the position after it is unknown.
     fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
         let code = table_entry(self.core.dialect, own);
         let clamps_axis = self.clamp_code(own, state);
@@ -68,7 +68,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             return;
         }
         if known && state.named_axes != 0 {
-            // the words are arguments of the remap, or a motion beside it: the interpreter does not run them
+            // the words are arguments of the remap, or a motion with it: the interpreter does not run them
             let what = format!("{} with axis words in its block", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.lost = true;
@@ -135,7 +135,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.lost = true;
     }
 
-    /// The first code of the block in hand that `is` says, ten times its number; the whole block where it is not written as a number.
+    /// The first code of the current block that `is` says, ten times its number; the whole block where it is not written as a number.
     pub(super) fn code_range(&mut self, at: At, letter: u8, is: impl Fn(i64) -> bool) -> TextRange {
         let block = self.block(at);
         let mut words = self.program.block(block).words();
@@ -288,8 +288,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// Axes of a work offset of which nothing says that it is declared: the control knows no difference between a zero that somebody set and
-    /// one that was never set.
+    /// Axes of a work offset that is not known to be declared: the control does not distinguish a zero that was set from one that was never
+    /// set.
     fn zeros_without_value(&self, index: i32, offset: &Pose) -> u16 {
         let first = FIRST_SYSTEM + 20 * (index - 1).max(0).unsigned_abs();
         let given = |axis: usize| {
@@ -320,7 +320,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 }
 
-/// What the dialect's table says of a code of the machine's own.
+/// What the dialect's table says about one of the machine's own codes.
 fn table_entry(dialect: &Dialect, own: OwnCode) -> Option<&Code> {
     if own.letter == b'G' {
         dialect.g(own.tenths)

@@ -4,8 +4,8 @@
 ///
 /// A part of a span is a rational Bezier curve, whose control points are values of the span's polar form (Ramshaw: Blossoming, 1987;
 /// Piegl, Tiller: The NURBS Book, 2nd ed., 5.3). With positive weights it is inside the convex hull of its control points: a part whose
-/// control points are within the tolerance of its chord is proved to be; all others are halved. `None` where the knots are no knots, a
-/// weight is not positive, the curve tears, or halving comes to no end.
+/// control points are within the tolerance of its chord is proved to be; all others are halved. `None` if the knots are invalid, a weight
+/// is not positive, the curve is discontinuous, or halving does not end.
 pub(super) fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance: f64) -> Option<Vec<[f64; 2]>> {
     if order < 2 || points.len() < order {
         return None;

@@ -1,4 +1,4 @@
-//! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
+//! Effects of a LinuxCNC program: canonical calls that are not motions and not in the modal state.
 use super::bridge::Bridge;
 use super::frames::Shift;
 use crate::{Argument, Effect, Reach};
@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, State, Stop, Switch};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
-    /// Hands the effect of a canonical call on, if it has one.
+    /// Emits the effect of a canonical call, if it has one.
     #[cold]
     pub(super) fn effect_of_call(&mut self, call: &Canon, at: At, state: &State) {
         if let Some(effect) = effect(call) {
@@ -22,7 +22,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
         if let Canon::G92Offset(offset) = call
             && Shift::metric(offset, state.units.mm()) != self.told.g92
-            // after motions that all rest on one offset and length, nothing undeclared comes into it
+            // after motions that all depend on one offset and length, no undeclared value matters
             && (self.told.strayed || !self.told.moved)
         {
             self.core.set_from_here(self.block(at));
@@ -119,7 +119,7 @@ fn reach(call: &Canon) -> Option<Reach> {
     }
 }
 
-/// What a call does beside moving. Calls that a [`crate::Motion`] or the modal state holds, and texts that do not stop the program, have
+/// What a call does apart from moving. Calls that a [`crate::Motion`] or the modal state holds, and texts that do not stop the program, have
 /// none.
 #[expect(
     clippy::too_many_lines,

@@ -10,7 +10,7 @@ pub(super) struct Rate {
     pub(super) deg: f64,
 }
 
-/// The control feeds no slower under G93, program units per minute.
+/// The lowest feed of the control under G93, program units per minute.
 const SLOWEST_INVERSE_TIME: f64 = 0.1;
 
 /// Rounding of a coordinate that passes through offsets and units, mm or deg.

@@ -10,7 +10,7 @@ fn is_rotary(axis: usize) -> bool {
     (3..6).contains(&axis)
 }
 
-/// What program coordinates lack to be machine coordinates. LinuxCNC: machine = R (program + G92) + G5x + tool offset, with R the
+/// The difference between program coordinates and machine coordinates. LinuxCNC: machine = R (program + G92) + G5x + tool offset, with R the
 /// rotation about Z (LinuxCNC documentation, Coordinate Systems).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Shift {
@@ -22,7 +22,7 @@ pub(super) struct Shift {
     rotation: Option<(f64, f64)>,
     /// G92 where there is a rotation, mm and deg.
     inside: Pose,
-    /// To be added to what [`Shift::coordinates`] gives, mm and deg: what a motion calls its zero.
+    /// To be added to what [`Shift::coordinates`] gives, mm and deg: the zero point of a motion.
     pub(super) zero: Pose,
     /// Tool offset along Z, mm.
     pub(super) length: f64,
@@ -30,7 +30,7 @@ pub(super) struct Shift {
 
 impl Shift {
     /// `g92`, `tool`: the last shift and the last tool offset that were set, mm and deg. Under compensation of the cutter radius,
-    /// and when the unit changes, the interpreter changes its own without telling the machine.
+    /// and when the unit changes, the interpreter changes its own values without a call.
     pub(super) fn of(state: &State, g92: &Pose, tool: &Pose) -> Self {
         let unit = state.units.mm();
         let scale = |axis: usize| if is_rotary(axis) { 1.0 } else { unit };
@@ -85,8 +85,8 @@ impl Shift {
         position
     }
 
-    /// Moves the named axes (bit per axis) of an end, and of the same in coordinates of the machine, to a pose, whose other axes lead to
-    /// where these two are already. `false` where the short path does not apply: then the two are of no use.
+    /// Moves the named axes (bit per axis) of an end, and of the same in coordinates of the machine, to a pose, whose other axes are
+    /// already there. `false` where the short path does not apply: then the two are of no use.
     #[inline]
     pub(super) fn reach(&self, pose: &Pose, named: u16, end: &mut Position, machine: &mut Position) -> bool {
         if self.rotation.is_some() {
@@ -102,7 +102,7 @@ impl Shift {
             if axis == 2 {
                 there += self.length;
             }
-            // no value is either where the place is finite
+            // no value is infinite or NaN if the position is finite
             if !there.is_finite() {
                 return false;
             }

@@ -1,6 +1,6 @@
-//! Lines that hand values to a subroutine or back to its caller.
+//! Lines that pass values to a subroutine or back to its caller.
 
-/// Where a line hands its values.
+/// Where a line passes its values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Handed {
     /// `o<name> call [1] [2]`: as #1 to #30.

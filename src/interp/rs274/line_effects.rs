@@ -1,4 +1,4 @@
-//! What a line of a LinuxCNC program does beside its motions and calls, as it is compared.
+//! What a line of a LinuxCNC program does apart from its motions and calls, as it is compared.
 use super::handed::{Handed, hands_values};
 use super::stored::stored_offsets;
 use super::{Codes, Ngc};
@@ -10,7 +10,7 @@ use trunnion_ngc::{At, FileId};
 use trunnion_syntax::{BlockId, Item, Program};
 
 impl Ngc<'_> {
-    /// What the line does that neither its motions nor its calls hold.
+    /// What the line does that is neither in its motions nor in its calls.
     #[cold]
     pub(super) fn line_effect(&mut self, program: &Program, block: BlockId, at: At, sink: &mut impl Sink) {
         let Some(run) = &mut self.run else { return };
@@ -99,7 +99,7 @@ impl Ngc<'_> {
         }
     }
 
-    /// What the machine's own codes do is not known: they may read any word of their line.
+    /// What the machine's own codes do is unknown: they may read any word of their line.
     fn own_code(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
         let held = |word: &Argument| {
             let letter = word.name.as_bytes();
@@ -113,20 +113,20 @@ impl Ngc<'_> {
         self.unmodelled(block, words, sink);
     }
 
-    /// The line hands values to a subroutine or to its caller: it counts where some of them are unknown. By now the local variables are
+    /// The line passes values to a subroutine or to its caller: it matters if some of them are unknown. By now the local variables are
     /// those of the subroutine, or those of the caller.
     fn handed(&mut self, handed: Handed, line: &str, block: BlockId, sink: &mut impl Sink) {
         let words = vec![Argument::text("", line)];
         match handed {
             Handed::ToSubroutine => {
-                // in a definition that is passed over nothing is called
+                // in a definition that is skipped nothing is called
                 let called = self.run.as_ref().is_some_and(|run| !run.engine.is_defining());
                 if called && (1..=30).any(|number| self.is_unknown(&format!("#{number}"))) {
                     self.unmodelled(block, words, sink);
                 }
             }
             Handed::ToCaller => {
-                // the control sets it in a definition that is passed over, too; it counts where the program reads it
+                // the control sets it in a definition that is skipped, too; it matters where the program reads it
                 let returned = self.is_unknown("#<_value>").then_some(words);
                 if let Some(run) = &mut self.run {
                     run.told.returned = returned;

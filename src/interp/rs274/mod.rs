@@ -36,7 +36,7 @@ pub(crate) struct Rs274 {
     done: bool,
 }
 
-/// The block in which each line (from 0) has its first word; `None` where blocks are lines. A lone CR ends blocks and no lines.
+/// The block in which each line (from 0) has its first word; `None` where blocks are lines. A lone CR ends blocks but not lines.
 fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
     let source = program.source();
     let lone = |at: usize| source.get(at + 1) != Some(&b'\n');
@@ -76,7 +76,7 @@ impl Rs274 {
     pub(crate) fn variable(&self, text: &str) -> Option<f64> {
         self.engine.variable(text)
     }
-    /// Variables that outlive the program, as far as they are known.
+    /// Variables that keep their values after the program ends, as far as they are known.
     pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
         self.engine.outliving()
     }
@@ -178,7 +178,7 @@ impl Values for Ngc<'_> {
 impl Ngc<'_> {
     fn hand_on(&mut self, sink: &mut impl Sink) {
         if let Some(run) = &mut self.run {
-            // the next motion says anew how many effects came before it
+            // the next motion states again how many effects came before it
             run.told.steady = None;
         }
         self.core.hand_on_effects(sink);
@@ -263,16 +263,16 @@ impl Ngc<'_> {
     }
 }
 
-/// What the codes of a line do that no canonical call shows.
+/// Effects of the codes of a line that no canonical call shows.
 #[derive(Default)]
 struct Codes {
     /// M99.
     returns: bool,
-    /// G10, G52, G53, G92: they count from the present position, or set where coordinates count from.
+    /// G10, G52, G53, G92: they are relative to the present position, or set the zero of coordinates.
     shifts: bool,
-    /// The machine has codes of its own in it.
+    /// It contains the machine's own codes.
     own: bool,
-    /// G10 L11 counts from the ninth coordinate system, which may not be declared.
+    /// G10 L11 is relative to the ninth coordinate system, which may not be declared.
     ninth: bool,
 }
 
@@ -287,7 +287,7 @@ impl Codes {
     }
 }
 
-/// Axes are not known any more.
+/// Axes become unknown.
 fn forget(engine: &mut trunnion_ngc::Engine, told: &mut Told, axes: &[usize]) {
     for &axis in axes {
         engine.state.current[axis] = f64::NAN;

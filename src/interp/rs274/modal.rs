@@ -1,10 +1,10 @@
-//! What is in force, as the rules read it.
+//! The modal state for rules.
 use super::frames::Shift;
 use crate::{FeedMode, ModalState};
 use trunnion_dialect::Action;
 use trunnion_ngc::{DistanceMode, Side, State};
 
-/// The motion code in force; 800 is G80.
+/// The motion code in effect; 800 is G80.
 fn motion(code: i16) -> Option<Action> {
     Some(match code {
         0 => Action::Rapid,
@@ -17,7 +17,7 @@ fn motion(code: i16) -> Option<Action> {
     })
 }
 
-/// Takes over what the interpreter has in force but feed, spindle, tool and offsets, which calls tell in step with motions.
+/// Copies the modal state of the interpreter except feed, spindle, tool and offsets, which calls set in step with motions.
 pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
     modal.motion = motion(state.motion);
     modal

@@ -12,7 +12,7 @@ struct Table {
     /// The place of chain n + 1.
     places: Vec<At>,
     known: HashMap<At, crate::ChainId>,
-    /// The block of the main program from which a chain of calls goes out.
+    /// The block of the main program where a chain of calls starts.
     callers: HashMap<ChainId, BlockId>,
 }
 
@@ -40,7 +40,7 @@ impl Places {
             Arc::make_mut(&mut self.table).callers.insert(chain, last);
         }
     }
-    /// The block of the main program from which the chain of calls goes out: of a chain that is new, the one that ran last.
+    /// The block of the main program where the chain of calls starts: for a new chain, the one that ran last.
     pub(super) fn caller(&self, chain: ChainId) -> BlockId {
         self.table.callers.get(&chain).copied().unwrap_or(self.last)
     }

@@ -1,4 +1,4 @@
-//! What LinuxCNC's interpreter learns of a run's setup.
+//! The setup of a run for LinuxCNC's interpreter.
 use crate::{LengthUnit, Setup, Tool};
 use trunnion_dialect::{Code, CodeKind, Dialect};
 use trunnion_ngc::{Ini, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
@@ -43,7 +43,7 @@ fn row(tool: &Tool, units: Units) -> ToolEntry {
 }
 
 /// The setup of the interpreter: declared offsets as parameters, declared tools as its table, further codes of the dialect's table as
-/// codes of the machine's own. Offsets that are not declared are zero.
+/// the machine's own codes. Offsets that are not declared are zero.
 pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told {
     let units = match setup.control.units {
         Some(LengthUnit::Inch) => Units::Inch,
@@ -79,7 +79,7 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     );
     values.sort_unstable_by_key(|(number, _)| *number);
     let mut own: Vec<(u8, u32)> = dialect.codes().iter().filter_map(numbered).collect();
-    // the machine file has declared the effect of a clamp code; those that the control knows itself it does not ask for
+    // the machine file has declared the effect of a clamp code; those that the control itself knows are not requested from it
     let clamps = setup.control.clamp_codes.iter().flatten();
     own.extend(clamps.flat_map(|codes| [codes.on, codes.off].map(|code| (b'M', u32::from(code) * 10))));
     own.sort_unstable();

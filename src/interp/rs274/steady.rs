@@ -55,7 +55,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let Steady { shift, motion, .. } = steady;
         let mut machine = self.told.machine;
         motion.start = motion.end;
-        // axes without a word stay where the line before it has led them
+        // axes without a word stay where the line before it moved them
         if !shift.reach(pose, state.named_axes, &mut motion.end, &mut machine) {
             motion.end = shift.coordinates(pose);
             machine = shift.machine(&motion.end);

@@ -1,7 +1,7 @@
-//! Offsets that a line writes and that outlive the program.
+//! Offsets that a line writes and that are kept after the program ends.
 use crate::Argument;
 
-/// What a line writes to the offsets that outlive the program: `G10 L2`, `G10 L20`, `#5221=0` (LinuxCNC user manual: numbered parameters).
+/// What a line writes to the offsets that are kept after the program ends: `G10 L2`, `G10 L20`, `#5221=0` (LinuxCNC user manual: numbered parameters).
 pub(super) fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) -> Option<f64>) -> Vec<Argument> {
     let active = value("#5220").unwrap_or(f64::NAN);
     let is_offset = |name: &&String| {
@@ -19,7 +19,7 @@ pub(super) fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) 
     stores
 }
 
-/// The values of a line `G10 L2 P2 X5`, each under a name of its own; with an expression the whole line.
+/// The values of a line `G10 L2 P2 X5`, each under its own name; with an expression the whole line.
 fn written_by_g10(line: &str, active: f64) -> Vec<Argument> {
     let text = crate::canonical_text(line);
     let mut words: Vec<(char, f64)> = Vec::new();

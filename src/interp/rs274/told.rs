@@ -1,4 +1,4 @@
-//! What the calls of the interpreter leave behind for the motions that follow.
+//! State that the calls of the interpreter set for the motions that follow.
 use super::feed::Rate;
 use super::places::Places;
 use super::steady::Steady;
@@ -28,7 +28,7 @@ pub(super) struct Told {
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
     /// Where lines are and from where the main program called them.
     pub(super) places: Places,
-    /// The files of the run as people are shown them; the main program first.
+    /// The files of the run for messages; the main program first.
     pub(super) paths: Vec<std::sync::Arc<str>>,
     /// Compensation of the cutter radius was on after the last line.
     pub(super) compensated: bool,
@@ -36,16 +36,16 @@ pub(super) struct Told {
     pub(super) lost: bool,
     /// The same of A B C.
     pub(super) lost_rotary: bool,
-    /// A tilted plane that is not modelled is in force: X Y Z say nothing about the machine.
+    /// A tilted plane that is not modelled is in effect: X Y Z say nothing about the machine.
     pub(super) hidden: bool,
     /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
     pub(super) steady: Option<Box<Steady>>,
-    /// Of the line in hand: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
+    /// Of the current line: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
     pub(super) does_more: bool,
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).
     pub(super) machine_frame: bool,
-    /// Some motion was made; since the first one, some axis may stand where another offset, another length or G53 put it.
+    /// Some motion was made; since the first one, some axis may be where another offset, another length or G53 put it.
     pub(super) moved: bool,
     pub(super) strayed: bool,
     /// The line that set `#<_value>` to something unknown.

@@ -1,4 +1,4 @@
-//! Subprograms: arguments, PROC, variables of their own, return.
+//! Subprograms: arguments, PROC, own variables, return.
 use crate::Sink;
 use crate::flow::{Back, Running};
 use crate::iso::Iso;
@@ -12,7 +12,7 @@ const LEVELS: usize = 16;
 /// One argument of a call.
 #[derive(Clone, Debug, PartialEq)]
 struct Argument {
-    /// Nothing stands between the commas.
+    /// There is nothing between the commas.
     is_left_out: bool,
     /// `None`: it is not known.
     value: Option<f64>,
@@ -46,7 +46,7 @@ fn is_variable(text: &str) -> bool {
         && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
-/// What is kept of a call.
+/// What is stored for a call.
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     /// The caller's variables.
@@ -60,7 +60,7 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    /// The subprogram begins anew; its parameters were handed over for the first run only.
+    /// The subprogram starts again; its parameters were handed over for the first run only.
     pub(crate) fn again(&mut self, own: &mut Own) {
         own.begin_scope();
         for (name, sort) in &self.parameters {
@@ -87,7 +87,7 @@ struct Parameter {
     by_reference: bool,
 }
 
-/// The PROC of a program: its parameters, and the words behind them.
+/// The PROC of a program: its parameters, and the words after them.
 struct Proc {
     parameters: Vec<Parameter>,
     saves: bool,
@@ -116,7 +116,7 @@ impl Proc {
         None
     }
 
-    /// All behind PROC: `GROOVE(REAL XBOT, INT N=1, VAR REAL OUT) SAVE`.
+    /// Everything after PROC: `GROOVE(REAL XBOT, INT N=1, VAR REAL OUT) SAVE`.
     fn read(text: &str, own: &Own) -> Self {
         let text = text.split(';').next().unwrap_or_default();
         let (inside, behind) = match (text.find('('), text.rfind(')')) {
@@ -157,7 +157,7 @@ impl Proc {
 }
 
 impl Iso<'_> {
-    /// Gives a subprogram its parameters; what is kept for the caller. Else why the call cannot be followed.
+    /// Gives a subprogram its parameters; returns what is kept for the caller. Else why the call cannot be followed.
     pub(crate) fn enter_subprogram(
         &mut self,
         with: With,

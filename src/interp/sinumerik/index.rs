@@ -1,4 +1,4 @@
-//! Where jumps of a Sinumerik file may lead: labels, block numbers, programs behind `%_N_NAME_SPF`, control structures.
+//! Targets of the jumps of a Sinumerik file: labels, block numbers, programs after `%_N_NAME_SPF`, control structures.
 use super::names::program_key;
 use crate::flow::{Broken, Index};
 use crate::macro_b::Mistake;

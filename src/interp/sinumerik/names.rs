@@ -40,7 +40,7 @@ pub(super) fn program_key(text: &str) -> Key {
     Key::Name(name.into())
 }
 
-/// File names that a program may have. A name alone is looked for as a main program first, then as a subprogram (Programming Manual,
+/// File names that a program may have. A name alone is searched as a main program first, then as a subprogram (Programming Manual,
 /// 3.2.3.1).
 pub(crate) fn files(name: &Key) -> Vec<String> {
     let Key::Name(name) = name else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Reads one statement of the flow, decides it with the values that are known, and says what it asks for.
+//! Reads one statement of the flow, decides it with the known values, and returns what it requests.
 use super::text::Text;
 use crate::flow::{Back, Index, Label, Transfer};
 use crate::own::Own;
@@ -7,16 +7,16 @@ use trunnion_flow::{Key, Search};
 use trunnion_formula::FormulaErrorKind;
 use trunnion_syntax::TextRange;
 
-/// A place and what is wrong or not known there.
+/// A place and what is wrong or unknown there.
 pub(super) type Trouble = (TextRange, FaultKind);
 
-/// One statement of the block in hand.
+/// One statement of the current block.
 pub(super) struct Statement<'a> {
     pub(super) text: Text,
     pub(super) own: &'a mut Own,
     /// File and block.
     pub(super) place: (u16, u32),
-    /// Where labels of the file stand.
+    /// The labels of the file.
     pub(super) index: &'a mut dyn FnMut() -> std::sync::Arc<Index>,
     /// The end of the loop that the block opens has led here.
     pub(super) again: bool,
@@ -29,7 +29,7 @@ fn not_decided<T>(range: TextRange, what: impl Into<String>) -> Result<T, Troubl
 }
 
 impl Statement<'_> {
-    /// What the statement asks for.
+    /// What the statement requests.
     pub(super) fn read(&mut self) -> Result<Transfer, Trouble> {
         let from = self.text.at();
         let keyword = self.text.letters();
@@ -61,15 +61,15 @@ impl Statement<'_> {
         Ok(transfer)
     }
 
-    /// Nothing may stand behind a statement.
+    /// Nothing may follow a statement.
     fn end(&mut self) -> Result<(), Trouble> {
         if self.text.is_at_end() {
             return Ok(());
         }
-        not_decided(self.text.rest(), "a statement of the flow that is not understood")
+        not_decided(self.text.rest(), "a flow statement that is not understood")
     }
 
-    /// The value of an expression that stands here, and its place.
+    /// The value of the expression at this point, and its place.
     fn value(&mut self) -> Result<(f64, TextRange), Trouble> {
         let from = self.text.at();
         match self.own.evaluate(self.text.bytes(), from) {
@@ -79,7 +79,7 @@ impl Statement<'_> {
             }
             Ok((None, why, end)) => not_decided(self.text.range(from, end), why.unwrap_or_default()),
             Err(FormulaErrorKind::ParameterOutOfRange(number)) => {
-                let message = format!("there is no R parameter of the number {number}");
+                let message = format!("there is no R parameter with the number {number}");
                 let kind = FaultKind::Rejected {
                     refusal: Refusal::Variable,
                     message,
@@ -101,10 +101,10 @@ impl Statement<'_> {
         if value.fract() == 0.0 && value.abs() < 2_147_483_647.0 {
             return Ok(value);
         }
-        not_decided(range, format!("{what}: {value} is no whole number"))
+        not_decided(range, format!("{what}: {value} is not a whole number"))
     }
 
-    /// IF: alone it opens a branch; with GOTO behind it, several in one block, the first that holds jumps.
+    /// IF: alone it opens a branch; with GOTO after it, several in one block, the first true one jumps.
     fn branch(&mut self) -> Result<Transfer, Trouble> {
         let mut holds = self.condition()?;
         if self.text.is_at_end() {
@@ -127,7 +127,7 @@ impl Statement<'_> {
                 self.text.go_to(at);
                 self.end()?;
             }
-            // once a jump is taken the conditions behind it are not asked
+            // once a jump is taken the conditions after it are not tested
             if taken.is_some() {
                 return Ok(taken.unwrap_or(Transfer::Next));
             }
@@ -135,7 +135,7 @@ impl Statement<'_> {
         }
     }
 
-    /// GOTOF, GOTOB, GOTO, GOTOC with its target, GOTOS; `None`: another word stands here.
+    /// GOTOF, GOTOB, GOTO, GOTOC with its target, GOTOS; `None`: there is another word.
     fn jump(&mut self) -> Result<Option<Transfer>, Trouble> {
         let from = self.text.at();
         let (search, may_miss) = match self.text.letters().as_str() {
@@ -145,7 +145,7 @@ impl Statement<'_> {
             "GOTOC" => (Search::ForwardThenBackward, true),
             "GOTOS" => {
                 let what =
-                    "GOTOS: it jumps only if the PLC asks for it; the run goes on with the next block".to_owned();
+                    "GOTOS: it jumps only if the PLC asks for it; the run continues with the next block".to_owned();
                 let range = self.text.range(from, from + 5);
                 self.remarks.push((range, FaultKind::NotModelled { what }));
                 return Ok(Some(Transfer::Next));
@@ -160,7 +160,7 @@ impl Statement<'_> {
         Ok(Some(Transfer::Jump(label, search)))
     }
 
-    /// A label, `N100`, `100`, or either as a text.
+    /// A label, `N100`, `100`, or either as a string.
     fn target(&mut self) -> Result<Label, Trouble> {
         let from = self.text.at();
         let quoted = self.text.quoted();
@@ -200,12 +200,12 @@ impl Statement<'_> {
         let counter = self.text.range(from, from + equals);
         self.text.go_to(from + equals + 1);
         let first = if self.again {
-            // what it begins with is not asked again
+            // its first value is not read again
             let end = self.own.evaluate(self.text.bytes(), from + equals + 1);
             self.text.go_to(end.map_or(from + equals + 1, |found| found.2));
             match self.own.value(&name) {
                 Some(value) => value + 1.0,
-                None => return not_decided(counter, format!("{name}: the counter of FOR is not known")),
+                None => return not_decided(counter, format!("{name}: the counter of FOR is unknown")),
             }
         } else {
             self.whole("the first value of FOR")?
@@ -218,7 +218,7 @@ impl Statement<'_> {
         if first.fract() != 0.0 {
             return not_decided(
                 counter,
-                format!("{name}: the counter of FOR is {first}, no whole number"),
+                format!("{name}: the counter of FOR is {first}, not a whole number"),
             );
         }
         let known = if self.again {
@@ -326,7 +326,7 @@ impl Statement<'_> {
         }
     }
 
-    /// The block of a label that REPEAT names. Where it stands in front of the statement and behind it, which one counts is not documented.
+    /// The block of a label that REPEAT names. If it is both before and after the statement, it is not documented which one is used.
     fn only(&self, index: &Index, name: &str, range: TextRange) -> Result<u32, Trouble> {
         let here = self.place.1;
         let section = index.section(here);
@@ -342,7 +342,10 @@ impl Statement<'_> {
                 range,
                 super::no_label(format!("there is no label {name} in this program")),
             )),
-            (Some(_), Some(_)) => not_decided(range, format!("{name}: the label stands before and after REPEAT")),
+            (Some(_), Some(_)) => not_decided(
+                range,
+                format!("{name}: the label is defined both before and after REPEAT"),
+            ),
         }
     }
 }

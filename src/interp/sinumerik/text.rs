@@ -37,7 +37,7 @@ impl Text {
         self.at += self.bytes[self.at..].iter().take_while(blank).count();
     }
 
-    /// Where the next sign stands in the text.
+    /// The position of the next character in the text.
     pub(super) fn at(&mut self) -> usize {
         self.blanks();
         self.at
@@ -72,7 +72,7 @@ impl Text {
         String::from_utf8_lossy(&self.bytes[from..self.at]).to_ascii_uppercase()
     }
 
-    /// Letters alone: a keyword that a number may be glued to.
+    /// Letters alone: a keyword that a number may follow directly.
     pub(super) fn letters(&mut self) -> String {
         let from = self.at();
         let count = self.bytes[from..]
@@ -83,7 +83,7 @@ impl Text {
         String::from_utf8_lossy(&self.bytes[from..self.at]).to_ascii_uppercase()
     }
 
-    /// Takes a sign if it stands there.
+    /// Takes a character if it is next.
     pub(super) fn eat(&mut self, sign: u8) -> bool {
         let at = self.at();
         let there = self.bytes.get(at) == Some(&sign);
@@ -91,7 +91,7 @@ impl Text {
         there
     }
 
-    /// A text in quotation marks, without them.
+    /// A string in quotation marks, without them.
     pub(super) fn quoted(&mut self) -> Option<String> {
         let from = self.at();
         if self.bytes.get(from) != Some(&b'"') {

@@ -1,4 +1,4 @@
-//! Blocks with a statement of the flow or a call: what the reader notes, and what is done with it once the block is read.
+//! Blocks with a statement of the flow or a call: what the reader records, and what is done with it once the block is read.
 use super::call::With;
 use super::names::{files, is_statement, program_key};
 use super::statement::Statement;
@@ -16,7 +16,7 @@ use trunnion_flow::Key;
 use trunnion_syntax::{Block, Call, TextRange, Word};
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
-    /// A statement of the flow, or a name that no code has, where jumps and calls are followed; false for other names.
+    /// A flow statement, or a name that is not a code, where jumps and calls are followed; false for other names.
     pub(crate) fn sinumerik_name(&mut self, call: &Call) -> bool {
         let Some(own) = self.own.as_mut().filter(|own| own.follows) else {
             return false;
@@ -26,7 +26,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         };
         if is_statement(name) {
             own.statement = Some(call.range);
-            // its text has a reader of its own
+            // its text has its own reader
             self.words.declares = true;
             return true;
         }
@@ -50,16 +50,16 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     }
 }
 
-/// Words of a call and beside it: the block's number, L and P.
+/// Words of a call and next to it: the block's number, L and P.
 const BESIDE_CALL: u32 = 1 << (b'N' - b'A') | 1 << (b'L' - b'A') | 1 << (b'P' - b'A');
 
-/// Whether nothing but words of these letters stands in a block.
+/// Whether a block contains only words of these letters.
 fn only(letters: u32, codes: &[Found<'_>], words: &Words) -> bool {
     codes.is_empty() && words.letters & !letters == 0 && !words.axes.any() && !words.forgets_all
 }
 
 impl<'d> Iso<'d> {
-    /// Notes for the reader what counts in the block to come.
+    /// Prepares the reader for the next block.
     pub(crate) fn sinumerik_begins(&mut self) {
         let own = &mut self.memory.own;
         own.follows = self.flow.follows;
@@ -68,7 +68,7 @@ impl<'d> Iso<'d> {
         (own.statement, own.called, own.called_by_number) = (None, None, None);
     }
 
-    /// Does what the reader has noted in a block.
+    /// Does what the reader has recorded in a block.
     #[inline]
     pub(crate) fn sinumerik_words(
         &mut self,
@@ -111,7 +111,7 @@ impl<'d> Iso<'d> {
             remarks: Vec::new(),
         };
         let asked = if beside {
-            let what = "words beside a statement of the flow".to_owned();
+            let what = "other words in the block of a flow statement".to_owned();
             Err((range, FaultKind::NotDecided { what }))
         } else {
             statement.read()
@@ -126,7 +126,7 @@ impl<'d> Iso<'d> {
         self.memory.own.pending = Some(pending);
     }
 
-    /// A name that no code has, or `L20`: a subprogram, if there is one.
+    /// A name that is not a code, or `L20`: a subprogram, if there is one.
     #[cold]
     fn sinumerik_call(&mut self, block: &Block<'_>, codes: &[Found<'d>], words: &mut Words, report: &mut Report<'_>) {
         let program = block.program();
@@ -175,7 +175,7 @@ impl<'d> Iso<'d> {
         }));
     }
 
-    /// Whether a program of a name is there: in this file, or in the library.
+    /// Whether a program with this name exists: in this file, or in the library.
     fn is_program(&mut self, key: &Key, program: &trunnion_syntax::Program) -> bool {
         let Key::Name(name) = key else { return false };
         // the text is searched once, not at every call

@@ -13,7 +13,7 @@ use trunnion_geometry::math::{angle_between, sin, sin_cos};
 /// What a block does to the tip of the second machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlongBlock {
-    /// The worst that was found; never above the truth.
+    /// The worst value found; never above the true one.
     pub worst: TipDifference,
     /// Proven upper bound, mm; infinite where nothing is proven.
     pub bound_mm: f64,
@@ -29,7 +29,7 @@ struct Rates {
 }
 
 impl Comparison<'_> {
-    /// The tip of the truth along a whole block whose joints run as the believed machine lets them. `tolerance_mm`: the bound may be loose
+    /// The tip of the true machine along a whole block whose joints move as on the believed machine. `tolerance_mm`: the bound may be loose
     /// where it already proves this. `None`: a stance or the path between the two is not known or not modelled.
     ///
     /// With both tip paths W1, W2 bending by at most Q1 and Q2 their difference is on a piece of length h at most its largest end +
@@ -106,7 +106,7 @@ impl Comparison<'_> {
         ball.off * (1.0 + 1e-12)
     }
 
-    /// Values of the believed machine's joints in the order of the truth's.
+    /// Values of the believed machine's joints in the order of the true machine's.
     pub(super) fn ordered(&self, joints: &Joints) -> Joints {
         let mut other: Joints = [0.0; MAX_AXES];
         for (slot, from) in other.iter_mut().zip(&self.order) {
@@ -145,7 +145,7 @@ impl Ball {
         if angle > 0.0 && half > 0.0 {
             self.off += (8.0 * half * sin(0.5 * angle)).min(2.0) * reach;
         }
-        // the point goes round the axis' point
+        // the point moves around the axis' point
         (self.centre, self.radius) = (points[1], reach);
     }
 }

@@ -203,7 +203,10 @@ fn along_and_sampled(
 ) -> (crate::AlongBlock, f64) {
     let mut pose = || {
         let mut position = trunnion_interp::Position::default();
-        for axis in &machine.axes {
+        if let Some(absent) = machine.absent_axis() {
+            position.set(usize::from(absent), 0.0);
+        }
+        for (_, axis) in machine.own_axes() {
             let Some(letter) = trunnion_interp::AxisLetter::new(axis.letter) else {
                 continue;
             };

@@ -12,6 +12,7 @@ pub const BUILTIN_MACHINES: &[&str] = &[
     "fork-head-ca",
     "gantry-mill",
     "head-table-bc",
+    "lathe-2axis",
     "linuxcnc-bridge-mill",
     "linuxcnc-max5",
     "linuxcnc-xyzab-tdr",
@@ -40,6 +41,7 @@ const FILES: [&str; COUNT] = [
     include_str!("../../../samples/machines/fork-head-ca.toml"),
     include_str!("../../../samples/machines/gantry-mill.toml"),
     include_str!("../../../samples/machines/head-table-bc.toml"),
+    include_str!("../../../samples/machines/lathe-2axis.toml"),
     include_str!("../../../samples/machines/linuxcnc-bridge-mill.toml"),
     include_str!("../../../samples/machines/linuxcnc-max5.toml"),
     include_str!("../../../samples/machines/linuxcnc-xyzab-tdr.toml"),
@@ -63,13 +65,13 @@ const COUNT: usize = BUILTIN_MACHINES.len();
 
 static LOADED: [OnceLock<Option<Machine>>; COUNT] = [const { OnceLock::new() }; COUNT];
 
-/// A built-in machine by name; loaded once. `None`: no machine of that name (every embedded file loads; a test says so).
+/// A built-in machine by name; loaded once. `None`: no machine of that name (a test checks that every embedded file loads).
 pub fn builtin(name: &str) -> Option<&'static Machine> {
     let index = BUILTIN_MACHINES.iter().position(|&known| known == name)?;
     LOADED[index].get_or_init(|| load(name, FILES[index]).ok()).as_ref()
 }
 
-/// The text of a built-in machine's file, as a start for a machine of one's own.
+/// The text of a built-in machine's file, as a start for a machine of your own.
 pub fn builtin_source(name: &str) -> Option<&'static str> {
     BUILTIN_MACHINES
         .iter()

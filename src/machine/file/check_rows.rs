@@ -1,4 +1,4 @@
-//! `[[check]]` rows of a machine file: what its axes must give, written a second time. A wrong sign, point, order or limit contradicts
+//! `[[check]]` rows of a machine file: what its axes must yield, written a second time. A wrong sign, point, order or limit contradicts
 //! its row, and the file does not load.
 use crate::file::raw::{Number, RawCheck, RawLimits, Word};
 use crate::file::text::{number, triple};
@@ -9,14 +9,14 @@ use toml::Spanned;
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg, rad};
 
-/// How far the tip may lie from where a row says, mm, unless the row says otherwise (`within`).
+/// How far the tip may be from the position in a row, mm, unless the row states it (`within`).
 const TIP: f64 = 1e-4;
-/// How far the tool axis may lie from where a row says, rad.
+/// How far the tool axis may be from the direction in a row, rad.
 const AXIS: f64 = 1e-6;
-/// How far a limit may lie from where a row says, of its size.
+/// How far a limit may be from that in a row, relative.
 const SHARE: f64 = 1e-9;
 
-/// Checks every row. The error names the row, what it says, what the axes give, and where to look.
+/// Checks every row. The error names the row, its value, the value by the axes, and where to look.
 pub(crate) fn verify(rows: &[Spanned<RawCheck>], machine: &Machine) -> Result<(), Fault> {
     for row in rows {
         let written = row.get_ref();

@@ -6,7 +6,7 @@ use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
 use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
-use trunnion_interp::{AxisLetter, LengthUnit, Position, TcpCodes};
+use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 
 /// Names that `family` may have (docs/contract.md#machine-files).
 const FAMILIES: &[&str] = &[
@@ -25,7 +25,7 @@ const FAMILIES: &[&str] = &[
     "apt",
 ];
 
-/// Checks the part and keeps what later floors read.
+/// Checks this part and keeps what later floors read.
 pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault> {
     let family = one_of("family", raw.family.as_ref(), FAMILIES)?;
     let mut orientation = None;
@@ -59,17 +59,18 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         block_time: None,
         tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
         posture_words: posture_words(&raw.posture_words, axes)?,
-        units: match one_of("units", raw.units.as_ref(), &["mm", "inch"])?.as_deref() {
-            Some("inch") => Some(LengthUnit::Inch),
-            Some(_) => Some(LengthUnit::Millimetre),
-            None => None,
-        },
+        units: units(raw.units.as_ref())?,
         reference_points: match &raw.reference_points {
             Some(points) => Some(reference_points(points, axes)?),
             None => None,
         },
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
+        roughing_escape: roughing_escape(raw.roughing_escape.as_ref())?,
+        thread_pull_out: non_negative("thread_pull_out", raw.thread_pull_out.as_ref())?,
+        roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
+        thread_least_cut_mm: non_negative("thread_least_cut", raw.thread_least_cut.as_ref())?,
+        thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
@@ -108,6 +109,22 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         control.block_time = non_negative("block_time", planner.block_time.as_ref())?;
     }
     Ok(control)
+}
+
+fn units(word: Option<&Word>) -> Result<Option<LengthUnit>, Fault> {
+    let unit = one_of("units", word, &["mm", "inch"])?;
+    Ok(unit.map(|unit| match unit.as_str() {
+        "inch" => LengthUnit::Inch,
+        _ => LengthUnit::Millimetre,
+    }))
+}
+
+fn roughing_escape(word: Option<&Word>) -> Result<Option<RoughingEscape>, Fault> {
+    let escape = one_of("roughing_escape", word, &["feed", "rapid"])?;
+    Ok(escape.map(|escape| match escape.as_str() {
+        "feed" => RoughingEscape::Feed,
+        _ => RoughingEscape::Rapid,
+    }))
 }
 
 /// Codes that switch the kinematics: each a G or M code with its number, in one of the two lists.
@@ -256,7 +273,7 @@ fn passing_type(number: Option<&Number>) -> Result<Option<u8>, Fault> {
     }
 }
 
-/// What is known of the choice of postures, the pole and the meaning of F, for people.
+/// What is known about the choice of postures, the pole and the meaning of F, for people.
 pub(crate) fn in_words(control: &Control) -> Vec<String> {
     let branch = &control.branch;
     let mut lines = Vec::new();
@@ -304,11 +321,11 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         _ => {}
     }
     match control.feed {
-        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F counts along X Y Z".to_owned()),
+        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F is the speed along X Y Z".to_owned()),
         Some(FeedMeaning::Combined) => {
-            lines.push("without tool centre point control F counts along the root of mm2 + deg2".to_owned());
+            lines.push("without tool centre point control F is the speed along sqrt(mm2 + deg2)".to_owned());
         }
-        // RS274/NGC says it, Sinumerik counts along the geometry axes
+        // RS274/NGC says so, on a Sinumerik F is the speed along the geometry axes
         None if matches!(control.family.as_str(), "linuxcnc" | "grbl" | "sinumerik-840d" | "generic" | "apt") => {}
         None => lines.push(
             "it is not declared what F means when rotary and linear axes move together without tool centre point control: reported as unknown where it matters"

@@ -20,7 +20,7 @@ pub struct AxisDescription {
     pub direction: [f64; 3],
     /// A point of a rotary axis at home, machine frame, mm; `None` for a linear axis.
     pub point: Option<[f64; 3]>,
-    /// +1: ISO 841; -1: turned round.
+    /// +1: ISO 841; -1: reversed.
     pub sign: i8,
     /// What a positive motion does.
     pub sentence: String,
@@ -57,11 +57,11 @@ pub struct Description {
     pub pole: String,
     /// How many postures inside the travels each range of tilts from the first rotary axis has.
     pub postures: Vec<String>,
-    /// What is odd about the file, and what its check rows say.
+    /// Warnings about the file, and the result of its check rows.
     pub remarks: Vec<String>,
-    /// What is known of the control.
+    /// What is known about the control.
     pub control: Vec<String>,
-    /// What the file declares and nothing honours yet.
+    /// What the file declares and nothing uses yet.
     pub not_used: Vec<String>,
     /// Thresholds: name, value and unit.
     pub tolerances: Vec<(&'static str, f64, &'static str)>,
@@ -75,7 +75,7 @@ pub fn describe(machine: &Machine) -> Description {
     Description {
         id: machine.id.clone(),
         name: machine.name.clone(),
-        axes: (0..machine.axes.len()).map(|joint| axis(machine, joint)).collect(),
+        axes: machine.own_axes().map(|(joint, _)| axis(machine, joint)).collect(),
         tool_axis: machine.home.tool_axis.into(),
         gauge_point: machine.home.gauge_point.into(),
         formula: tool_axis_formula(machine),
@@ -209,7 +209,7 @@ fn axis(machine: &Machine, joint: usize) -> AxisDescription {
 /// Distance of the tip from the axis' point for which an uncertain direction is printed, mm.
 const ARM: f64 = 100.0;
 
-/// What the declared uncertainty of an axis does to the tip.
+/// The effect of the declared uncertainty of an axis on the tip.
 fn uncertainty(machine: &Machine, joint: usize) -> Option<String> {
     let worst = worst_pivot_error(machine, joint, ARM)?;
     let extra = &machine.axes[joint].extra;
@@ -225,7 +225,7 @@ fn uncertainty(machine: &Machine, joint: usize) -> Option<String> {
     ))
 }
 
-/// What is odd, and what was checked when the file was loaded.
+/// Warnings, and what was checked when the file was loaded.
 fn remarks(machine: &Machine) -> Vec<String> {
     let mut lines: Vec<String> = machine.warnings.iter().map(|line| format!("Warning: {line}")).collect();
     lines.push(match machine.checks {
@@ -356,7 +356,7 @@ fn control(machine: &Machine) -> Vec<String> {
         RapidPath::Synchronous => lines.push("in rapid motions all axes arrive together".to_owned()),
         RapidPath::Dogleg => {
             lines.push(
-                "in rapid motions each axis runs at its own speed: the path between the ends is not known".to_owned(),
+                "in rapid motions each axis runs at its own speed: the path between the ends is unknown".to_owned(),
             );
         }
     }

@@ -39,7 +39,8 @@ axes | {letter="C",side="table"} | "C" | sign = -1 (reversed)
 axes | XYZ,{letter="V",follow="U"} | "U" | not an axis of this machine
 axes | {letter="V",follow="V"} | "V" | cannot follow itself
 axes | XYZ,{letter="C", sign=1,side="table"} | "C" | from workpiece to tool
-axes | {letter="X", sign=1},{letter="Z", sign=1} | [{letter="X", sign=1},{letter="Z", sign=1}] | there are X, Z
+axes | {letter="X", sign=1},{letter="Z", sign=1},{letter="C", sign=1,side="head"} | [{letter="X", sign=1},{letter="Z", sign=1},{letter="C", sign=1,side="head"}] | there are X, Z
+axes | {letter="Z", sign=1},{letter="W", sign=1} | [{letter="Z", sign=1},{letter="W", sign=1}] | there are Z, W
 axes |  | [] | there is none
 axes | {letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]} | [{letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]}] | in independent directions
 axes | {letter="C", sign=1,side="table"},{letter="A", sign=1,side="table",dir=[0,0,-1]},XYZ | {letter="A", sign=1,side="table",dir=[0,0,-1]} | C and A are parallel

@@ -1,5 +1,5 @@
-//! Axes that mirror another one: the second motor of a gantry. A motion must suit both, so the leader's travel and highest speeds are
-//! what both allow.
+//! Axes that mirror another one: the second motor of a gantry. A motion must be possible for both, so the leader's travel and highest
+//! speeds are what both allow.
 use crate::file::raw::{RawAxis, Word};
 use crate::file::validate::{Fault, letter};
 use crate::{Axis, Gantry, Limits};
@@ -17,7 +17,7 @@ struct Rail {
     axis: Axis,
     /// Where the file names the leader.
     span: Range<usize>,
-    /// The file gives its sign; else it runs as its leader does.
+    /// The file gives its sign; else it moves like its leader.
     signed: bool,
     /// The file gives its direction.
     directed: bool,

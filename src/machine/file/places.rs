@@ -1,6 +1,6 @@
-//! Places of a machine that its control knows, as people read them.
+//! Positions of a machine that its control knows, for people.
 use crate::Control;
-use trunnion_interp::AXIS_LETTERS;
+use trunnion_interp::{AXIS_LETTERS, RoughingEscape};
 
 /// Reference points, and the retracts of drilling cycles.
 pub(crate) fn places(control: &Control) -> Vec<String> {
@@ -22,11 +22,38 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             control.chip_break_retract_mm,
             "",
         ),
+        (
+            "a roughing cycle in one block (G71, G72) goes off its cuts by",
+            control.roughing_retract_mm,
+            "",
+        ),
+        (
+            "a threading cycle in one block (G76) cuts at least",
+            control.thread_least_cut_mm,
+            "deep",
+        ),
+        (
+            "a threading cycle in one block (G76) leaves its last cut",
+            control.thread_finish_mm,
+            "",
+        ),
     ];
     for (what, value, rest) in retracts {
         if let Some(value) = value {
             lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
         }
+    }
+    if let Some(escape) = control.roughing_escape {
+        let how = match escape {
+            RoughingEscape::Feed => "at the feed",
+            RoughingEscape::Rapid => "in rapid",
+        };
+        lines.push(format!("a turning tool leaves the cuts of G71 and G72 {how}"));
+    }
+    if let Some(leads) = control.thread_pull_out {
+        lines.push(format!(
+            "a thread of one pass (G92) is left {leads} leads before its end"
+        ));
     }
     lines
 }

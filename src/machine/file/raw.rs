@@ -36,7 +36,7 @@ pub(crate) struct RawMachine {
     pub(crate) unknown: Vec<Word>,
 }
 
-/// What the axes must give: a pose, or travels and speeds written a second time.
+/// What the axes must yield: a pose, or travels and speeds written a second time.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawCheck {
@@ -181,6 +181,11 @@ pub(crate) struct RawControl {
     pub(crate) reference_points: Option<Vec<BTreeMap<Word, Number>>>,
     pub(crate) peck_clearance: Option<Number>,
     pub(crate) chip_break_retract: Option<Number>,
+    pub(crate) roughing_escape: Option<Word>,
+    pub(crate) thread_pull_out: Option<Number>,
+    pub(crate) roughing_retract: Option<Number>,
+    pub(crate) thread_least_cut: Option<Number>,
+    pub(crate) thread_finish: Option<Number>,
 }
 
 #[derive(Deserialize, Default)]

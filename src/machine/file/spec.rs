@@ -1,4 +1,5 @@
 //! The machine file (TOML, schema `ncmachine/1`, kinematics notes 7): read, checked, turned into mm, rad and s, with clear errors.
+use crate::file::absent::complete;
 use crate::file::check_rows::verify;
 use crate::file::control::control;
 use crate::file::gantry::Rails;
@@ -12,7 +13,7 @@ use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::AXIS_LETTERS;
 
-/// Two directions nearer than this count as parallel, rad.
+/// Two directions nearer than this are taken as parallel, rad.
 const PARALLEL: f64 = 1e-3;
 
 /// Above this condition number of the linear axes the machine is warned about (docs/kinematics.md#linear-axes-for-a-given-tip).
@@ -108,14 +109,15 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         home: Home { tool_axis, gauge_point },
         warnings: warnings(&chain.axes, &chain.constants),
         checks: raw.check.len(),
-        control: control(&raw.control, &chain.axes)?,
+        control: control(&raw.control, &chain.axes[..chain.written])?,
         tolerances: tolerances(&raw.tolerances)?,
         sources,
         rotary,
         linear,
         joint_of_letter,
         constants: chain.constants,
-        bodies: bodies(&raw.body, &chain.axes)?,
+        bodies: bodies(&raw.body, &chain.axes[..chain.written])?,
+        absent: chain.absent,
         gantries: chain.gantries,
         axes: chain.axes,
     };
@@ -123,7 +125,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     Ok(machine)
 }
 
-/// What is odd and yet usable.
+/// What is suspicious but usable.
 fn warnings(axes: &[Axis], constants: &Constants) -> Vec<String> {
     let mut out = Vec::new();
     let condition = constants.condition();
@@ -149,6 +151,10 @@ fn warnings(axes: &[Axis], constants: &Constants) -> Vec<String> {
 /// The axes of a file, proved usable.
 struct Chain {
     axes: Vec<Axis>,
+    /// How many of them the file lists.
+    written: usize,
+    /// The letter of the one that was added.
+    absent: Option<u8>,
     gantries: Vec<Gantry>,
     constants: Constants,
 }
@@ -189,9 +195,14 @@ impl Chain {
             spans.push(span);
         }
         rails.bind(&mut axes)?;
+        let written = axes.len();
+        let absent = complete(&mut axes);
+        spans.resize(axes.len(), raw.axis.span());
         let constants = check_chain(&axes, &spans, raw.axis.span(), tool_axis)?;
         Ok(Self {
             axes,
+            written,
+            absent,
             gantries: rails.gantries(),
             constants,
         })
@@ -258,7 +269,9 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
         } else {
             format!("there are {}", letters.join(", "))
         };
-        let message = format!("three linear axes in independent directions are needed, {has}");
+        let message = format!(
+            "linear axes in independent directions are needed: three, or two and no rotary axis (a lathe, a laser); {has}"
+        );
         Fault { message, span: all }
     })
 }

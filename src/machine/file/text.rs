@@ -1,4 +1,4 @@
-//! Numbers and directions as people read them.
+//! Numbers and directions for messages.
 use trunnion_geometry::Vec3;
 
 /// `+Z` for a coordinate direction, else its three components.

@@ -1,7 +1,7 @@
-//! What a machine file may declare although nothing honours it yet: read and checked, and said plainly.
+//! What a machine file may declare although nothing uses it yet: read, checked and listed.
 use crate::file::raw::{RawAxis, RawControl, RawMachine};
 
-/// One sentence for each declaration that no formula and no rule honours.
+/// One sentence for each declaration that no formula and no rule uses.
 pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
     let mut out = Vec::new();
     for axis in raw.axis.get_ref() {
@@ -18,7 +18,7 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
     out
 }
 
-/// Those that could change a verdict of the present rules: what moves, and in which direction, is not what is judged.
+/// Those that could change a verdict of the present rules.
 pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
     let decisive = ["limit_margin of"];
     let mut all = not_used(raw);

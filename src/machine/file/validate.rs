@@ -1,4 +1,4 @@
-//! Checks of single entries of a machine file, each with the place it stands at, and their conversion to mm, rad and s.
+//! Checks of single entries of a machine file, each with its place, and their conversion to mm, rad and s.
 use crate::file::raw::{Number, RawAxis, RawKind, RawLimits, RawMode, RawSide, RawWrap, Triple, Word};
 use crate::{Axis, AxisExtra, AxisKind, Limits, Side, Wrap};
 use core::ops::Range;
@@ -93,7 +93,7 @@ pub(crate) fn unit_vector(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
             span: triple.span(),
         });
     }
-    // a vector that is exact already stays as it is, to the last bit
+    // a vector that is already exact is not changed
     Ok(if norm == 1.0 { vector } else { unit })
 }
 
@@ -128,7 +128,7 @@ pub(crate) fn usual_direction(letter: u8) -> Vec3 {
     }
 }
 
-/// What an importer could not know must be filled in first.
+/// Values that an importer could not know must be filled in first.
 fn all_known(raw: &RawAxis, letter: u8) -> Result<(), Fault> {
     if let Some(first) = raw.unknown.first() {
         let keys: Vec<&str> = raw.unknown.iter().map(|word| word.get_ref().as_str()).collect();
@@ -183,7 +183,7 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
         None => Vec3::zeros(),
     };
     let sign = match &raw.sign {
-        // an axis that mirrors another one is no joint and has no formula
+        // an axis that mirrors another one is not a joint and has no formula
         None if raw.follow.is_some() => 1.0,
         None => {
             let message = format!(

@@ -1,4 +1,4 @@
-//! The windings of a posture inside the travel of the axes, the ranges that the control is given, and what the program asks for.
+//! The windings of a posture inside the travel of the axes, the ranges that are set in the control, and what the program requests.
 use crate::follow::posture_rule::{Candidate, TIE};
 use crate::follow::requests::Requested;
 use crate::kinematics::windings::windings_in;
@@ -27,7 +27,7 @@ pub(crate) fn legal_winding(limits: Limits, q: f64, near: f64) -> Result<(f64, b
     }
 }
 
-/// The travel of a rotary axis, and where the control is given a range for it what both have in common.
+/// The travel of a rotary axis, and, if a range is set in the control, what both have in common.
 pub(crate) fn searched(machine: &Machine, joint: usize) -> Limits {
     let axis = &machine.axes[joint];
     let range = machine.control.branch.range.iter().find(|range| range.0 == axis.letter);

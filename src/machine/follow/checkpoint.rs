@@ -1,4 +1,4 @@
-//! What a follower remembers, without the machine it follows on: an owned check-point.
+//! What a follower remembers, without its machine: an owned check-point.
 use crate::follow::follower::State;
 use crate::{Follower, Machine};
 
@@ -9,12 +9,12 @@ pub struct Memory {
 }
 
 impl<'m> Follower<'m> {
-    /// A check-point to go on from with [`Follower::resume`].
+    /// A check-point to continue from with [`Follower::resume`].
     pub fn memory(&self) -> Memory {
         Memory { state: self.state }
     }
 
-    /// Goes on from a check-point made on the same machine.
+    /// Continues from a check-point made on the same machine.
     pub fn resume(machine: &'m Machine, memory: &Memory) -> Self {
         Self::at(machine, &memory.state)
     }

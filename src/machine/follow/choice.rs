@@ -1,8 +1,8 @@
 //! Which posture and winding of the rotary axes a control takes for a programmed tool vector, by the rule in
 //! [`crate::follow::posture_rule`]; where the documentation leaves it open, which other posture it may take.
 //!
-//! At the pole the first rotary axis stays where it is. Windings are chosen inside the limits (and the ranges that the control is given);
-//! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are taken to stand at zero.
+//! At the pole the first rotary axis stays where it is. Windings are chosen inside the limits (and the ranges set in the control);
+//! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are assumed at zero.
 use crate::follow::allowed_windings::{Outside, excess, legal, no_winding, searched};
 use crate::follow::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
 use crate::follow::requests::Requested;
@@ -19,17 +19,17 @@ const DIFFERENT: f64 = 5.0 * PI / 180.0;
 /// What a choice starts from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before {
-    /// Rotary joints, workpiece side first, rad; zeros where nothing is known.
+    /// Rotary joints, workpiece side first, rad; zeros if unknown.
     pub(crate) q: [f64; 2],
     /// Whether they are known.
     pub(crate) known: bool,
-    /// Sign of the posture; 0 at the pole or where it is not known.
+    /// Sign of the posture; 0 at the pole or where it is unknown.
     pub(crate) sign: i8,
     /// Angle to the pole, rad.
     pub(crate) pole_angle: f64,
     /// The tool axis follows a great circle that does not touch the pole: the posture cannot change along it.
     pub(crate) continuous: bool,
-    /// What the program asks for.
+    /// What the program requests.
     pub(crate) wish: Posture,
 }
 
@@ -132,8 +132,8 @@ fn stays_unknown(machine: &Machine, q: [f64; 2], before: &Before) -> Option<Open
     })
 }
 
-/// Parameters 19741 to 19744 of a Fanuc set the range in which it looks for values. Where these are not declared and the choice without
-/// the axes' travel would be another, it is open which one is taken.
+/// Parameters 19741 to 19744 of a Fanuc set the range in which it looks for values. If these are not declared and the choice without the
+/// axes' travel would differ, it is undecided which one is taken.
 fn unfiltered(machine: &Machine, postures: &[Solution], before: &Before, chosen: &Item) -> Option<Open> {
     let branch = &machine.control.branch;
     if branch.rule != Some(PostureRule::Fanuc) || !branch.range.is_empty() || before.wish != Posture::ByRule {
@@ -165,7 +165,7 @@ struct Item {
     half_turn: Option<usize>,
 }
 
-/// No posture is as the program asks for it: the axis nearest the tool is named.
+/// No posture is the one that the program requests: the axis nearest the tool is named.
 fn refusal(machine: &Machine, q: &[f64; 2]) -> NoStance {
     let rotary = machine.constants.rotary();
     let axis = rotary.last().map_or(b'?', |rotary| machine.axes[rotary.joint].letter);
@@ -237,8 +237,8 @@ impl Found {
         }
     }
 
-    /// On a great circle that keeps off the pole the posture stays; where the control's rule takes the other one, the documents of the
-    /// control do not say which of the two it ignores.
+    /// On a great circle away from the pole the posture cannot change; if the control's rule takes the other one, its documentation does
+    /// not say which of the two it ignores.
     fn torn(&self, taken: usize, before: &Before) -> Option<Open> {
         let (chosen, other) = (self.items.get(taken)?, self.items.get(1 - taken.min(1))?);
         let stays = before.continuous && before.known && before.sign != 0 && other.branch == before.sign;
@@ -316,7 +316,7 @@ impl Found {
     /// Mitsubishi's passing types. Type 1 looks at the sign of the axis nearer the tool, which tilts; type 2 at the move of the other.
     fn passing(&self, machine: &Machine, branch: &Branch, before: &Before) -> (usize, Option<OpenCause>) {
         let cone = machine.control.pole_cone.unwrap_or(0.0);
-        // at the pole itself no sign is left to be kept, whatever the one before was
+        // at the pole itself there is no sign to keep
         let at_pole = before.sign == 0 || before.pole_angle < cone.max(POLE_TOLERANCE);
         let tilt = |index: usize| self.items[index].candidate.q[1];
         let signed = |negative: bool| {
@@ -373,7 +373,7 @@ fn direction_axis(machine: &Machine) -> usize {
 }
 
 /// Sum of the rotary moves, rad, of the cheapest move from `from` to the tool axis `axis` in the posture with the sign `branch`, limits
-/// aside: the least travel of docs/kinematics.md#change-of-posture. A swap that a limit enforces is a swap all the same. `None`: no such posture.
+/// aside: the least travel of docs/kinematics.md#change-of-posture. A swap that a limit forces is still a swap. `None`: no such posture.
 pub(crate) fn cheapest_in_posture(machine: &Machine, axis: &Vec3, branch: i8, from: [f64; 2]) -> Option<f64> {
     let Orientations::Postures(postures) = orientations(machine, axis) else {
         return None;

@@ -12,7 +12,7 @@ use trunnion_geometry::Vec3;
 use trunnion_geometry::math::angle_between;
 use trunnion_interp::{Motion, MotionKind, Orientation, Position, Swivel};
 
-/// How far from its normal the tool may stand on a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
+/// How far the tool may be off the normal of a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
 const PLANE_TOLERANCE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
 /// What a follower remembers between two motions.
@@ -22,13 +22,13 @@ pub(crate) struct State {
     pub(crate) known_joints: (Joints, u16),
     /// Last known rotary joints, rad; zeros before the first: the reference of the posture choice.
     pub(crate) rotary: [f64; 2],
-    /// Whether they are where the rotary axes stand now.
+    /// Whether they are the present positions of the rotary axes.
     pub(crate) rotary_known: bool,
     /// Sign of the last stance that had one, 0 when there was none.
     pub(crate) sign: i8,
     /// Rotary joints that a turn onto a tilted plane has set and no word has named since, as a mask.
     pub(crate) aimed: u16,
-    /// Letters that the last motion's end knew.
+    /// Letters with a known end in the last motion.
     pub(crate) named: u16,
     /// Whether the last motion's X Y Z were tip coordinates.
     pub(crate) tip_words: bool,
@@ -42,7 +42,7 @@ pub struct Follower<'m> {
     pub(crate) words: Words,
     /// Where the last motion was a straight one: what it has in common with the next.
     pub(crate) lines: Option<LineCache>,
-    /// What is foreseen of the rotary axes.
+    /// Predicted sines of the rotary axes.
     pub(crate) sines: [Sine; 2],
 }
 
@@ -61,7 +61,7 @@ impl<'m> Follower<'m> {
         };
         Self::at(machine, &state)
     }
-    /// Going on from a remembered state.
+    /// Continues from a remembered state.
     pub(crate) fn at(machine: &'m Machine, state: &State) -> Self {
         Self {
             machine,
@@ -76,7 +76,7 @@ impl<'m> Follower<'m> {
         self.machine
     }
 
-    /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
+    /// Moves the machine. A motion that cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
         self.general(motion)
     }
@@ -88,7 +88,7 @@ impl<'m> Follower<'m> {
         self.step(motion, given)
     }
 
-    /// Takes the stance that the program tells without a motion (APT FROM): tip and tool vector where the motion starts. The posture
+    /// Takes the stance that the program states without a motion (APT FROM): tip and tool vector where the motion starts. The posture
     /// is chosen as at a first motion. `false` where there is no such stance.
     fn begin(&mut self, motion: &Motion) -> bool {
         let Orientation::Vector(Some(axis), _) = motion.orientation else {
@@ -231,8 +231,8 @@ impl<'m> Follower<'m> {
         Ok(stance)
     }
 
-    /// The tip that tip words name, workpiece frame with the work offset, mm. Where the program never named it but the machine
-    /// stands somewhere (TCP was just switched), it stays there.
+    /// The tip that tip words name, workpiece frame with the work offset, mm. If the program never named it but the position of
+    /// the machine is known (TCP was just switched), it stays there.
     fn tip(&self, motion: &Motion, start: Option<&Stance>) -> Option<Vec3> {
         if let Some(point) = self.words.point(motion, &motion.end) {
             return Some(point + zero_point(motion));
@@ -249,7 +249,7 @@ impl<'m> Follower<'m> {
         for letter in 0..3 {
             match (motion.end.get(letter), motion.start.get(letter)) {
                 (Some(value), _) => tip[letter] = value + zero[letter],
-                // an increment to a coordinate that the program does not know
+                // an increment of an unknown coordinate
                 (None, None) if motion.says_way & (1 << letter) != 0 => return None,
                 (None, None) => {}
                 (None, Some(_)) => return None,
@@ -265,9 +265,9 @@ impl<'m> Follower<'m> {
         lost & XYZ == 0 || (self.state.tip_words != has_tip_words(motion) && lost & !XYZ == 0)
     }
 
-    /// Joints that no word names keep what the machine knows of them, unless the program itself lost their position.
+    /// Joints that no word names keep their known positions on the machine, unless the program itself lost them.
     fn keep(&self, motion: &Motion, start: Option<&Stance>, into: &mut (Joints, u16)) {
-        // what a turn onto a plane has set is known also where the rest is not
+        // joints that a turn onto a plane has set are known even if the rest is not
         let known = match start {
             None => self.state.known_joints.1 & self.state.aimed,
             Some(_) => self.state.known_joints.1,
@@ -307,7 +307,7 @@ impl<'m> Follower<'m> {
         let mut turns = [Turn::NONE; 2];
         for (index, rotary) in constants.rotary().iter().enumerate() {
             turns[index] = match start {
-                // a rotary axis that stands still needs no sine
+                // a rotary axis that does not move needs no sine
                 Some(before) if before.joints[rotary.joint] == joints[rotary.joint] => {
                     let (sin, cos) = before.turns[index];
                     Turn {
@@ -319,7 +319,7 @@ impl<'m> Follower<'m> {
                 _ => Turn::new(constants, index, joints[rotary.joint]),
             };
         }
-        // the tool hangs in the spindle also where the words are machine coordinates
+        // the tool is in the spindle even if the words are machine coordinates
         let tool_length = motion.tool_length_mm;
         let point = tip.unwrap_or_else(|| {
             let tool = machine.gauge_point - machine.tool_axis * tool_length;
@@ -386,7 +386,7 @@ pub(crate) fn has_tip_words(motion: &Motion) -> bool {
         && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays | Swivel::PointToPoint)
 }
 
-/// Whether the tip is led between the ends too: not in point-to-point motions, whose axes run straight.
+/// Whether the tip is guided between the ends too: not in point-to-point motions, whose axes move linearly.
 #[inline]
 pub(crate) fn leads_path(motion: &Motion) -> bool {
     has_tip_words(motion) && motion.tilt.swivel != Swivel::PointToPoint

@@ -1,16 +1,25 @@
-//! What an interpreter learns about the machine that a program runs on.
-use crate::Machine;
+//! The data of a machine for the interpreter of a program.
 use crate::follow::words::Words;
+use crate::{AxisKind, Machine};
 use trunnion_interp::ControlData;
 
 impl Machine {
-    /// Sets what the machine says into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
-    /// points at home. What was set for another machine before is gone; without a machine, all of it.
+    /// Copies the declarations of the machine into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
+    /// points at home. Data of another machine are removed; without a machine, all of it.
     pub fn tell(machine: Option<&Self>, control: &mut ControlData) {
         control.tcp_codes = machine.and_then(|machine| machine.control.tcp_codes.clone());
         control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();
         control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
         control.length_along = machine.and_then(Self::length_along);
+        control.absent_axis = machine.and_then(Self::absent_axis);
+        control.has_rotary =
+            machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.kind == AxisKind::Rotary));
+    }
+
+    /// Index of the letter of the axis that it lacks.
+    pub(crate) fn absent_axis(&self) -> Option<u8> {
+        let letter = trunnion_interp::AxisLetter::new(self.absent?)?;
+        Some(letter.0)
     }
 
     /// How far 1 mm of tool length moves a joint while words are joints, mm: 0 for rotary axes.
@@ -18,7 +27,7 @@ impl Machine {
         Words::new(self).joint_per_length(joint)
     }
 
-    /// Letters of its axes beside X Y Z A B C.
+    /// Letters of its axes other than X Y Z A B C.
     fn further_axes(&self) -> Vec<u8> {
         let letters = self.axes.iter().map(|axis| axis.letter);
         letters.filter(|letter| !b"XYZABC".contains(letter)).collect()

@@ -1,4 +1,4 @@
-//! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
+//! The short path for the most frequent motion: a line in words of the joints, from one known stance to the next.
 use crate::follow::choice::cheapest_in_posture;
 use crate::follow::line_cache::LineCache;
 use crate::kinematics::pole;
@@ -23,7 +23,7 @@ impl Follower<'_> {
         }
     }
 
-    /// [`Self::follow_into`] for a line that differs from the motion of the leg before in what [`trunnion_interp::Sink::next_line`] says and in
+    /// [`Self::follow_into`] for a line that differs from the motion of the leg before in what [`trunnion_interp::Sink::next_line`] names and in
     /// nothing else.
     #[inline]
     pub fn follow_line_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
@@ -31,7 +31,7 @@ impl Follower<'_> {
             Some(leg) if self.lines.is_some() && self.goes_on(motion) => {
                 debug_assert!(
                     self.is_straight(motion),
-                    "a line that is not straight behind one that is"
+                    "a line that is not straight after one that is"
                 );
                 let own = &mut leg.motion;
                 (own.block, own.chain, own.feed) = (motion.block, motion.chain, motion.feed);
@@ -50,7 +50,7 @@ impl Follower<'_> {
         }
     }
 
-    /// What is foreseen of a rotary axis, 0 being that nearest the workpiece.
+    /// Sets the predicted sine of a rotary axis, 0 being that nearest the workpiece.
     #[inline]
     pub fn foresee(&mut self, index: usize, sine: Sine) {
         if let Some(own) = self.sines.get_mut(index) {
@@ -58,7 +58,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Whether [`Self::straight`] applies to a motion: the words name all axes, and only offsets separate words and axis positions.
+    /// Whether [`Self::straight`] applies to a motion: the words name all axes, and words differ from axis positions only by offsets.
     #[inline]
     pub(crate) fn is_straight(&self, motion: &Motion) -> bool {
         let tilt = &motion.tilt;
@@ -130,7 +130,7 @@ impl Follower<'_> {
         };
         leg.pole_angle_min = end.pole_angle;
         let from = self.state.rotary;
-        debug_assert_eq!(from, start.rotary(self.machine), "the machine stands elsewhere");
+        debug_assert_eq!(from, start.rotary(self.machine), "the machine is at another position");
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz()) {
             leg.length = way((to - from).norm());
@@ -156,7 +156,7 @@ pub(crate) mod tests {
     use proptest::prelude::*;
     use trunnion_interp::{AXIS_LETTERS, Feed, Motion, MotionKind, Position};
 
-    /// The built-in machines, and one with its axes off the origin and turned about, whose linear axes lie in each piece of the chain.
+    /// The built-in machines, and one with its axes off the origin and reversed, whose linear axes are in each part of the chain.
     pub(crate) fn machines() -> Vec<Machine> {
         let own = BUILTIN_MACHINES
             .iter()

@@ -1,4 +1,4 @@
-//! Lines one after the other that differ in where they lead, in kind and feed alone: what they have in common is worked out once.
+//! Consecutive lines that differ only in their end, kind and feed: what they have in common is computed once.
 use crate::follow::words::{Added, Words};
 use crate::kinematics::forward::Along;
 use crate::kinematics::pole;
@@ -14,7 +14,7 @@ pub(crate) struct LineCache {
     pub(crate) added: Added,
     /// The tip at home, machine frame, mm.
     tool: Vec3,
-    /// How the two rotary axes lie; `None` with fewer of them, and where the linear axes are not as in `along`.
+    /// The directions of the two rotary axes; `None` with fewer of them, and where the linear axes are not as in `along`.
     rotary: Option<[Along; 2]>,
     /// Joint and sign of the linear axis along X, Y and Z, all of them in one segment of the chain.
     along: [(usize, f64); 3],
@@ -58,7 +58,7 @@ impl LineCache {
     }
 
     /// Fills in all of a stance but the axis positions, as the general path does (a test compares both), on a machine with two rotary axes whose linear
-    /// ones lie along X, Y and Z in one piece; `false` where this is not so, or a joint is out of all reason.
+    /// ones are along X, Y and Z in one part of the chain; `false` if this is not so, or a joint is absurdly large.
     #[inline]
     pub(crate) fn stand(&self, machine: &Machine, sines: &[Sine; 2], start: &Stance, end: &mut Stance) -> bool {
         let constants = &machine.constants;

@@ -1,16 +1,16 @@
-//! Sines of the rotary axes, computed ahead: what a line costs the follower most depends on the words of the line alone, and can be computed on
+//! Sines of the rotary axes, computed ahead: the most expensive part of following a line depends on the words of the line alone, and can be computed on
 //! another thread.
 //!
-//! The follower takes a sine only where it is that of the very angle it asks for, so that nothing hangs on what was foreseen.
+//! The follower takes a sine only if it is that of exactly the angle that it needs, so that no result depends on the prediction.
 use crate::follow::words::{Added, Words};
 use crate::{Machine, RotaryAxis};
 use trunnion_geometry::math::sin_cos;
 use trunnion_interp::{Motion, Position};
 
-/// Sine and cosine of the angle by which a rotary axis is foreseen to turn.
+/// Sine and cosine of the predicted angle of a rotary axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Sine {
-    /// rad; not a number where nothing was foreseen.
+    /// rad; NaN without a prediction.
     angle: f64,
     sin: f64,
     cos: f64,
@@ -40,13 +40,13 @@ impl Sine {
 pub struct Lookahead<'m> {
     rotary: &'m [RotaryAxis; 2],
     words: Words,
-    /// What the last whole motion adds to words; `None` where nothing is foreseen.
+    /// What the last whole motion adds to words; `None` if nothing is predicted.
     added: Option<Added>,
     last: [Sine; 2],
 }
 
 impl<'m> Lookahead<'m> {
-    /// Of a machine; `None` where there is nothing to foresee.
+    /// For a machine; `None` if there is nothing to predict.
     pub fn new(machine: &'m Machine) -> Option<Self> {
         let words = Words::new(machine);
         (words.literal && machine.constants.pair.is_some()).then_some(Self {
@@ -57,7 +57,7 @@ impl<'m> Lookahead<'m> {
         })
     }
 
-    /// A motion: lines that differ from it in little may follow.
+    /// A motion: lines that differ from it only slightly may follow.
     pub fn motion(&mut self, motion: &Motion) {
         self.added = Some(self.words.added(motion)).filter(|_| !motion.tcp);
     }
@@ -99,7 +99,7 @@ mod tests {
     }
 
     proptest! {
-        /// The angles are those of the joints to the last bit, so that the follower takes what was foreseen, and does not end elsewhere by it.
+        /// The angles are those of the joints to the last bit, so that the follower takes the prediction, and the result does not change by it.
         #[test]
         fn what_is_foreseen_is_what_the_follower_asks_for(
             machine in proptest::sample::select(machines()),

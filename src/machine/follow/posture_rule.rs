@@ -1,4 +1,4 @@
-//! The rules by which controls pick one of several postures for a tool vector, as far as they are documented.
+//! The documented rules by which controls pick one of several postures for a tool vector.
 //!
 //! * generic: no control, but Trunnion's own rule: the posture that the slowest rotary axis reaches soonest; ties by the smaller first,
 //!   then the smaller second move, then the value nearer zero.
@@ -56,7 +56,7 @@ impl PostureRule {
             .map_or("", |(name, _)| name)
     }
     /// The rule that a control family documents; `None` where nothing is documented, or where the family is programmed without vectors.
-    /// A family that is no control has the generic rule.
+    /// A family that is not a control has the generic rule.
     pub(crate) fn of_family(family: &str) -> Option<Self> {
         match family {
             "generic" | "iso-6983" | "apt" => Some(Self::Generic),
@@ -68,12 +68,12 @@ impl PostureRule {
     }
 }
 
-/// What two postures are compared by.
+/// The criteria by which two postures are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
     /// Time of the slower axis.
     Time,
-    /// Way of the rule's first (0) or second (1) axis.
+    /// Move of the rule's first (0) or second (1) axis.
     Move(usize),
     /// Distance from zero of that axis.
     Value(usize),
@@ -124,7 +124,7 @@ pub(crate) fn precedence(machine: &Machine, rule: PostureRule) -> [usize; 2] {
     }
 }
 
-/// A posture with its windings and what it costs to go there.
+/// A posture with its windings and the cost of moving there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
     pub(crate) q: [f64; 2],

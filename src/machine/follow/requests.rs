@@ -1,12 +1,12 @@
-//! What a program asks of the choice between postures beside the tool vector, and what the machine file says that it means.
+//! What a program requests of the choice between postures in addition to the tool vector, and its meaning by the machine file.
 //!
 //! * SEQ+ and SEQ- of a Heidenhain: the sign of the primary rotary axis, which is the first seen from the tool, or seen from the table the
 //!   last (TNC7 user's manual, tilting solution). If no posture with it is within the travel, the control stops with an error.
 //! * G53.1 P1 and P2: the machine file declares which solution the number means.
 //! * STAT and TU of a Sinumerik in point-to-point motions: bits of TU are the signs of the rotary axes, 0 for 0 <= value < 360 deg, 1 for
 //!   -360 < value < 0 deg, counted by the channel's axis numbers; an axis whose travel is more than 360 deg either way takes the shortest
-//!   way whatever they say (840D sl Function Manual, Extended Functions, 03/2013, section 6.6.2; Programming Manual, Job Planning, 03/2013,
-//!   section 6.9). What the bits of STAT mean depends on the transformation: the machine file says it.
+//!   path regardless of them (840D sl Function Manual, Extended Functions, 03/2013, section 6.6.2; Programming Manual, Job Planning, 03/2013,
+//!   section 6.9). What the bits of STAT mean depends on the transformation: the machine file declares it.
 use crate::file::raw::{Number, RawPostureWords, Word};
 use crate::file::validate::Fault;
 use crate::follow::posture_rule::TIE;
@@ -34,7 +34,7 @@ pub struct PostureWords {
     pub solutions: Vec<(u8, AxisSign)>,
 }
 
-/// What a choice has to keep.
+/// The constraints of a choice.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Requested {
     /// For each rotary axis, workpiece side first, whether TU asks for a value below zero.
@@ -96,7 +96,7 @@ impl Requested {
         }
     }
 
-    /// The limits of a rotary axis narrowed to what TU asks.
+    /// The limits of a rotary axis narrowed to what TU requests.
     pub(crate) fn narrow(&self, index: usize, limits: Limits) -> Limits {
         let Some(negative) = self.turns[index] else {
             return limits;
@@ -108,12 +108,12 @@ impl Requested {
         }
     }
 
-    /// Whether TU asks for anything.
+    /// Whether TU requests anything.
     pub(crate) fn narrows(&self) -> bool {
         self.turns != [None; 2]
     }
 
-    /// Whether rotary values have the signs that are asked for; modulo a turn, half a turn being neither.
+    /// Whether rotary values have the requested signs; modulo a turn, half a turn being neither.
     pub(crate) fn fits(&self, q: &[f64; 2]) -> bool {
         self.signs.iter().flatten().all(|&(index, negative)| {
             let value = q[index] - TAU * (q[index] / TAU).round();
@@ -123,8 +123,8 @@ impl Requested {
 }
 
 impl Follower<'_> {
-    /// The turns that TU gives to rotary words of a point-to-point motion: C270 goes to 270 deg or to -90 deg. Where the bits are not
-    /// declared the word is taken as it is, and another turn of it is open.
+    /// The turns that TU gives to rotary words of a point-to-point motion: C270 goes to 270 deg or to -90 deg. If the bits are not
+    /// declared the word is taken as it is, and another turn of it is possible.
     #[inline]
     pub(crate) fn asked_turns(&self, motion: &Motion, into: &mut (Joints, u16), open: &mut Option<Open>) {
         if let (Posture::Bits { turn: Some(mask), .. }, Orientation::Words) = (motion.tilt.posture, motion.orientation)

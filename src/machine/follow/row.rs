@@ -1,4 +1,4 @@
-//! One row of a trace: what the machine does in one motion, in the units people read.
+//! One row of a trace: what the machine does in one motion, in the units of messages.
 use crate::follow::follower::has_tip_words;
 use crate::follow::words::Words;
 use crate::path::speed::feed_limit_tight;
@@ -36,8 +36,8 @@ pub struct Row {
     pub limiting_axis: Option<char>,
     /// Joint values in chain order, mm or deg; `None` where unknown.
     pub joints: Vec<Option<f64>>,
-    /// The other posture that the control may take at the end of the block, in one word why, and its rotary values, workpiece side first,
-    /// deg; `None` where nothing is open.
+    /// The other posture that the control may take at the end of the block: the reason in one word, and its rotary values, workpiece side
+    /// first, deg; `None` if the posture is certain.
     pub open: Option<(&'static str, [f64; 2])>,
 }
 
@@ -53,7 +53,7 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
     let in_frame = stance.filter(|_| Words::new(machine).turned_frame(machine, motion).is_none());
     let posture = stance.filter(|_| machine.constants.pair.is_some());
     let limit = feed_limit_tight(machine, leg).filter(|limit| limit.feed_mm_min.is_finite());
-    let axes = machine.axes.iter().enumerate();
+    let axes = machine.own_axes();
     let joint = |(index, axis): (usize, &crate::Axis)| {
         (leg.known_joints.1 & (1 << index) != 0).then(|| match axis.kind {
             AxisKind::Linear => leg.known_joints.0[index],
@@ -75,7 +75,7 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
         feed_mm_min: match motion.feed {
             _ if !motion.is_feed() => None,
             Feed::PerMinute(feed) => Some(feed),
-            Feed::PerRevolution(feed) => motion.spindle_rpm.map(|rpm| feed * rpm),
+            Feed::PerRevolution(feed) => motion.mean_rpm().map(|rpm| feed * rpm),
             Feed::InverseTime(per_minute) => (leg.length > 0.0).then_some(per_minute * leg.length),
             Feed::Unknown | Feed::Rapid => None,
         },

@@ -1,4 +1,4 @@
-//! Where the machine stands between two blocks, and what it does in one.
+//! The position of the machine between two blocks, and what it does in one.
 use crate::kinematics::forward::Turn;
 use crate::{Joints, Machine};
 use trunnion_geometry::Vec3;
@@ -48,7 +48,7 @@ impl Stance {
             self.point + self.axis * (self.tool_length - tool_length)
         }
     }
-    /// How far the tip is from it in another stance, with that one's tool, mm: in the workpiece, whatever work offset each is expressed in.
+    /// How far the tip is from it in another stance, with that one's tool, mm: in the workpiece, independent of the work offset of each.
     #[inline]
     pub fn tip_distance_to(&self, end: &Self) -> f64 {
         (end.point - self.point_with(end.tool_length)).norm()
@@ -70,7 +70,7 @@ fn rotary_joints(machine: &Machine, joints: &Joints) -> [f64; 2] {
     }
 }
 
-/// Why the posture at the end of a motion is not settled by what is documented and declared.
+/// Why documentation and declarations do not decide the posture at the end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OpenCause {
     /// No rule is documented for the control family, and the machine file names none.
@@ -87,7 +87,7 @@ pub enum OpenCause {
     StartUnknown,
     /// The preferred direction in the program fits both postures.
     Direction,
-    /// The program asks for a posture by words (STAT, TU, G53.1 P) whose meaning the machine file does not say.
+    /// The program requests a posture by words (STAT, TU, G53.1 P) whose meaning the machine file does not declare.
     WordsNotDeclared,
     /// Inside the cone about the pole the control holds the first rotary axis.
     PoleHeld,
@@ -116,7 +116,7 @@ impl OpenCause {
     }
 }
 
-/// A posture that is followed although another may be taken. Rotary joints, workpiece side first, rad.
+/// A posture that is followed although the control may take another. Rotary joints, workpiece side first, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Open {
     /// Why.
@@ -143,7 +143,7 @@ pub enum NoStance {
         /// rad.
         limit: f64,
     },
-    /// Postures exist inside the limits, but none as the program asks for it (SEQ, STAT, TU, G53.1 P): the axis and the value it would
+    /// Postures exist inside the limits, but not the one that the program requests (SEQ, STAT, TU, G53.1 P): the axis and the value it would
     /// have, rad.
     PostureRefused {
         /// Letter.
@@ -153,7 +153,7 @@ pub enum NoStance {
     },
     /// A motion that is not modelled.
     NotModelled,
-    /// The program moves an axis that the machine file holds elsewhere; rad.
+    /// The program moves an axis that the machine file holds at another position; rad.
     HeldElsewhere {
         /// Letter.
         axis: u8,
@@ -164,8 +164,8 @@ pub enum NoStance {
     },
     /// The program names an axis that the machine does not have.
     NoSuchAxis(u8),
-    /// A work offset turns the axis with this letter while X Y Z are tip coordinates: how a control turns the workpiece frame with it
-    /// differs, so that no joint follows from the words for certain.
+    /// A work offset turns the axis with this letter while X Y Z are tip coordinates: controls differ in how they turn the workpiece
+    /// frame with it, so no joint follows from the words for certain.
     RotaryOffset(u8),
     /// The tool is not perpendicular to the tilted plane in which X Y Z are programmed: angle between tool axis and normal, rad.
     PlaneMisaligned(f64),
@@ -192,13 +192,13 @@ pub struct Leg {
     pub pole_angle_min: f64,
     /// Rotary excess over the cheapest move of the start's posture, rad, when the posture sign changes; else 0.
     pub rotary_excess: f64,
-    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known. A
-    /// coordinate that the program does not know at the start (first words after TCP was switched) counts with the travel of its axis.
+    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is unknown. A
+    /// coordinate that the program does not know at the start (first words after TCP was switched) is replaced by the travel of its axis.
     pub length: f64,
 }
 
 impl Leg {
-    /// Becomes another, in its own storage.
+    /// Copies another one into its own storage.
     pub fn copy_from(&mut self, other: &Self) {
         // all of them, so that none is forgotten
         let Self {

@@ -1,4 +1,4 @@
-//! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane and places in it.
+//! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane and positions in it.
 use crate::follow::choice::{Before, choose};
 use crate::follow::words::{XYZ, zero_point};
 use crate::kinematics::pole;
@@ -10,7 +10,7 @@ use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, Orientation, Swivel};
 
 impl Follower<'_> {
-    /// Sets the rotary axes for the unit tool axis `axis`; returns what is open about it.
+    /// Sets the rotary axes for the unit tool axis `axis`; returns what is undecided about it.
     pub(crate) fn aim(
         &self,
         motion: &Motion,
@@ -65,7 +65,7 @@ impl Follower<'_> {
         Ok(self.stand(motion, &into.0, start, None))
     }
 
-    /// The tip in a tilted plane of which the program knows the height alone, or all but the height: the rest stays.
+    /// The tip in a tilted plane if the program knows only the height, or all but the height: the rest stays.
     pub(crate) fn tip_in_plane(&self, motion: &Motion, start: Option<&Stance>) -> Option<Vec3> {
         let (stance, normal) = (start.filter(|_| self.knows_turns(motion))?, motion.tilt.normal?);
         let mut end = motion.end;
@@ -85,8 +85,8 @@ impl Follower<'_> {
         self.state.named & !motion.start.known & !XYZ == 0
     }
 
-    /// A control that holds the first rotary axis near the pole, or stops there with an alarm: where a vector leads through its cone,
-    /// what it does is not what is followed.
+    /// A control that holds the first rotary axis near the pole, or stops there with an alarm: if a vector passes through its cone,
+    /// the control does not do what is followed.
     pub(crate) fn held_at_pole(&self, leg: &Leg) -> Option<Open> {
         let control = &self.machine.control;
         let cause = match control.pole_action {

@@ -1,4 +1,4 @@
-//! Which axes a follower knows nothing of.
+//! Which axes are unknown to a follower.
 use crate::{Follower, NoStance};
 use trunnion_interp::Motion;
 

@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_interp::{AXIS_LETTERS, Motion, Position};
 
-/// A way that differs by less from half a turn is one, rad.
+/// A move that differs by less from half a turn is half a turn, rad.
 const HALF_TURN: f64 = 1e-9;
 
 /// Bits of X, Y, Z in a [`Position`].
@@ -23,15 +23,17 @@ pub(crate) struct Words {
     per_length: Joints,
     /// Number of joints.
     count: usize,
-    /// Letters the machine has no axis for.
+    /// Letters without an axis on the machine.
     foreign: u16,
+    /// The one of them that stands at 0.
+    absent: u16,
     /// X, Y, Z words to mm (diameters to radii).
     point_scale: Vec3,
     /// Whether words of some axis are diameters.
     pub(crate) diameters: bool,
     /// Whether words of some rotary axis are not taken literally.
     pub(crate) wraps: bool,
-    /// Whether every joint has a letter and a word of it leads it where it says: no diameters, no wraps, no held axes.
+    /// Whether every joint has a letter and moves literally to its words: no diameters, no wraps, no held axes.
     pub(crate) literal: bool,
     /// The letters of the joints as a mask.
     letters: u16,
@@ -53,6 +55,7 @@ impl Words {
             per_length: [0.0; MAX_AXES],
             count: machine.axes.len().min(MAX_AXES),
             foreign: (1 << AXIS_LETTERS.len()) - 1,
+            absent: machine.absent_axis().map_or(0, |axis| 1 << axis),
             point_scale: Vec3::new(1.0, 1.0, 1.0),
             diameters: false,
             wraps: false,
@@ -67,7 +70,7 @@ impl Words {
             words.wraps |= axis.kind == AxisKind::Rotary && axis.extra.wrap != Wrap::Literal;
             if let Some(index) = AXIS_LETTERS.iter().position(|&letter| letter == axis.letter) {
                 words.letter[joint] = index as u8;
-                words.foreign &= !(1 << index);
+                words.foreign &= !(1 << index) | words.absent;
                 words.letters |= 1 << index;
                 if index < 3 {
                     words.point_scale[index] = words.scale[joint];
@@ -100,13 +103,14 @@ impl Words {
         ((1_u32 << self.count) - 1) as u16
     }
 
-    /// The first letter that the motion gives a value to and that is no axis of the machine. Words that stay as they were are no news.
+    /// The first letter that the motion gives a value to and that is not an axis of the machine. Words that do not change are not reported.
     #[inline]
     pub(crate) fn foreign(&self, motion: &Motion) -> Option<u8> {
         let mut named = motion.end.known & self.foreign;
         while named != 0 {
             let letter = named.trailing_zeros() as usize;
-            if motion.start.get(letter) != motion.end.get(letter) {
+            let stands = self.absent & (1 << letter) != 0 && motion.end.values[letter] == 0.0;
+            if !stands && motion.start.get(letter) != motion.end.get(letter) {
                 return Some(AXIS_LETTERS[letter]);
             }
             named &= named - 1;
@@ -155,7 +159,7 @@ impl Words {
         (joints, known)
     }
 
-    /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates; `added` is that of their motion. What is
+    /// [`Self::joints`] where words are literal, name all joints, and are not machine coordinates; `added` is that of their motion. What is
     /// after the last axis stays.
     #[inline]
     pub(crate) fn put_literal_joints(&self, end: &Position, added: &Added, joints: &mut Joints) {
@@ -190,8 +194,8 @@ impl Words {
     /// the direction of the word's sign to the word's amount (LinuxCNC wrapped rotary axes). A word that stays the same moves nothing, and an
     /// incremental one turns by its full amount: the shorter way is for absolute words (trade knowledge of WRAPPED_ROTARY and of Fanuc's
     /// roll-over, not read in a manual).
-    /// Half a turn in either direction is equally long: which one is taken is open. `from`: the axis positions, where known; how many times
-    /// they have turned is then open, and the first word gives the position.
+    /// Half a turn in either direction is equally long: it is undecided which one is taken. `from`: the axis positions, where known; how many times
+    /// they have turned is then unknown, and the first word gives the position.
     pub(crate) fn wrap(
         &self,
         machine: &Machine,

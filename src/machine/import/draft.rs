@@ -1,4 +1,4 @@
-//! A machine file before it is written: what is known of each axis, and what is not.
+//! A machine file before it is written: what is known about each axis, and what is not.
 use super::Imported;
 use std::fmt::Write;
 
@@ -35,7 +35,7 @@ pub(super) struct Draft {
     pub(super) family: &'static str,
     /// The control keeps the tip on its path; orientation joint by joint.
     pub(super) tcp: bool,
-    /// What of the machine as a whole is not known (`order`).
+    /// What is unknown about the machine as a whole (`order`).
     pub(super) unknown: Vec<&'static str>,
     pub(super) open: Vec<String>,
 }
@@ -101,7 +101,7 @@ pub(super) fn usual(letter: char) -> [f64; 3] {
 }
 
 impl Draft {
-    /// The file and what is open.
+    /// The file and what is missing.
     pub(super) fn finish(mut self) -> Imported {
         for axis in &self.axes {
             let keys = axis.unknown();

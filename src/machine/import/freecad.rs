@@ -1,7 +1,7 @@
 //! A machine file from a machine of FreeCAD's CAM workbench (`.fcm`, JSON): axes with type, role, parent, joint, limits and highest speed.
 //!
 //! Speeds are per minute. The file has no accelerations, and does not say in which direction a positive rotary word turns (dir is the axis of
-//! rotation, its sense depends on the post processor), so that the sign of rotary axes stays open.
+//! rotation, its sense depends on the post processor), so the sign of rotary axes stays unknown.
 use super::Imported;
 use super::draft::{Draft, DraftAxis};
 use crate::MachineError;
@@ -49,7 +49,7 @@ struct Limits {
     max: Option<f64>,
 }
 
-/// Where pieces of the file lie in it, for the places of errors.
+/// Positions of pieces in the file, for the places of errors.
 struct Source<'a> {
     text: &'a str,
 }
@@ -90,7 +90,7 @@ struct Placed {
 /// Makes a machine file. `name` is its title where the file has none.
 ///
 /// # Errors
-/// No JSON, no axes, an axis without direction, of an unknown type or role, mounted on an axis that is missing; with the place.
+/// Not JSON, no axes, an axis without direction, of an unknown type or role, mounted on an axis that is missing; with the place.
 pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> {
     let source = Source { text };
     let file: File<'_> = source.parse(text)?;
@@ -229,7 +229,7 @@ fn axis(
     })
 }
 
-/// Tells what the file says and nothing here reads. A frame of the base moves every place and direction.
+/// Reports what the file contains and nothing here reads. A frame of the base moves every position and direction.
 fn unread<'a>(
     source: &Source<'a>,
     machine: &'a str,
@@ -276,7 +276,7 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     (norm > 1e-6).then(|| v.map(|c| c / norm))
 }
 
-/// From workpiece to tool: of the table's axes those mounted on another one come first, of the head's in the opposite order.
+/// From workpiece to tool: among the axes of the table those mounted on another one come first, among those of the head the order is opposite.
 fn order(placed: Vec<Placed>, draft: &mut Draft) -> Result<(), MachineError> {
     let parents: BTreeMap<String, Option<String>> = placed
         .iter()

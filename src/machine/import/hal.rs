@@ -2,12 +2,12 @@
 use super::ini::Ini;
 use crate::MachineError;
 
-/// What is known of a pin.
+/// What is known about a pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pin {
     /// Set by a line of the INI, or given.
     Set(f64),
-    /// Nothing in the INI sets or connects it: the module's own default holds, unless a HAL file sets it.
+    /// Nothing in the INI sets or connects it: the module's own default applies, unless a HAL file sets it.
     Untouched,
     /// Connected to a signal whose value comes from somewhere else (a panel, a HAL file).
     Elsewhere,
@@ -64,7 +64,7 @@ impl<'a> Pins<'a> {
         if let Some((_, value)) = self.given.iter().find(given) {
             return Ok(Pin::Set(*value));
         }
-        // the last line holds
+        // the last line wins
         if let Some((_, text, span)) = self.set.iter().rev().find(|(pin, ..)| self.is(pin, name)) {
             return self.value(text, span).map(Pin::Set);
         }

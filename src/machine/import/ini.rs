@@ -1,4 +1,4 @@
-//! INI files as LinuxCNC reads them: sections, `KEY = VALUE`, comments on lines of their own, keys that repeat.
+//! INI files as LinuxCNC reads them: sections, `KEY = VALUE`, comments on separate lines, keys that repeat.
 use crate::MachineError;
 use core::ops::Range;
 

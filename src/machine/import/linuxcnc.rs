@@ -9,7 +9,7 @@ use crate::MachineError;
 /// Makes a machine file. `name` is its title where the file has none; `given` are pins and their values that the file leaves to others.
 ///
 /// # Errors
-/// No INI file, no or an unknown kinematics module, no axes, unknown units, or a value that is no number; with the bytes concerned.
+/// Not an INI file, no or an unknown kinematics module, no axes, unknown units, or a value that is not a number; with the bytes concerned.
 pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Result<Imported, MachineError> {
     let ini = Ini::read(text)?;
     let kins = kinematics(&ini)?;

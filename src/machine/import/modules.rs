@@ -18,7 +18,7 @@ pub(super) const KNOWN: &[&str] = &[
     "xyzbca_trsrn",
 ];
 
-/// A chain, and what had to be taken for granted.
+/// A chain, and what had to be assumed.
 pub(super) struct Chain {
     pub(super) axes: Vec<DraftAxis>,
     /// The module keeps the tip on its path.
@@ -26,7 +26,7 @@ pub(super) struct Chain {
     pub(super) unknown: Vec<&'static str>,
 }
 
-/// Reads pins and notes what they leave open.
+/// Reads pins and records what they leave unknown.
 pub(super) struct Offsets<'a> {
     pub(super) pins: Pins<'a>,
     pub(super) open: Vec<String>,
@@ -102,7 +102,7 @@ fn tcp(axes: Vec<DraftAxis>) -> Chain {
     }
 }
 
-/// Joints are words: linear axes are what their letters say; nothing is assumed about rotary axes.
+/// Joints are words: linear axes are along their letters; nothing is assumed about rotary axes.
 fn trivial(letters: &[char]) -> Chain {
     let rotary = |letter: &&char| ('A'..='C').contains(*letter);
     let extra = |letter: &&char| ('U'..='W').contains(*letter);

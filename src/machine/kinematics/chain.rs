@@ -48,7 +48,7 @@ pub struct Axis {
     pub direction: Vec3,
     /// Any point of a rotary axis at home, machine frame, mm.
     pub point: Vec3,
-    /// +1: ISO 841 (positive = tool relative to workpiece); -1: turned round.
+    /// +1: ISO 841 (positive = tool relative to workpiece); -1: reversed.
     pub sign: f64,
     /// Travel.
     pub limits: Limits,
@@ -56,7 +56,7 @@ pub struct Axis {
     pub max_speed: Option<f64>,
     /// Highest acceleration, mm/s^2 or rad/s^2; `None`: not declared.
     pub max_acceleration: Option<f64>,
-    /// A word on where speed or limits come from ("assumed"), for people.
+    /// A note on where speed or limits come from ("assumed"), for people.
     pub note: Option<String>,
     /// Where the numbers of this axis come from.
     pub source: Option<String>,
@@ -120,7 +120,7 @@ pub struct Gantry {
     pub leader: u8,
 }
 
-/// How rapid motions run.
+/// How axes move in rapid motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RapidPath {
     /// The file does not say.
@@ -135,7 +135,7 @@ pub enum RapidPath {
 /// What a control does inside its cone about the pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum PoleAction {
-    /// It goes on as anywhere.
+    /// It continues as anywhere else.
     #[default]
     Through,
     /// It holds the first rotary axis.
@@ -144,7 +144,7 @@ pub enum PoleAction {
     Alarm,
 }
 
-/// What F counts along where rotary and linear axes move together without TCP.
+/// What F measures where rotary and linear axes move together without TCP.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMeaning {
     /// The path of X Y Z, mm; where these do not move the angle, deg (RS274/NGC).
@@ -171,7 +171,7 @@ pub struct Control {
     pub tcp_great_circle: bool,
     /// Whether the machine file declares it, or it is the default.
     pub tcp_declared: bool,
-    /// How rapid motions run.
+    /// How axes move in rapid motions.
     pub rapid: RapidPath,
     /// How the control picks postures.
     pub branch: Branch,
@@ -179,7 +179,7 @@ pub struct Control {
     pub pole_cone: Option<f64>,
     /// What it does there.
     pub pole_action: PoleAction,
-    /// What F counts along where rotary and linear axes move together without TCP; `None`: not declared, X Y Z are taken.
+    /// What F measures where rotary and linear axes move together without TCP; `None`: not declared, X Y Z are taken.
     pub feed: Option<FeedMeaning>,
     /// Corner speed model (axis-jump, grbl, klipper, linuxcnc-g64, exact-stop, servo); `None`: not declared.
     pub corner_model: Option<String>,
@@ -187,7 +187,7 @@ pub struct Control {
     pub block_time: Option<f64>,
     /// Codes of the builder that switch tool centre point control (LinuxCNC's M428 ...); `None`: not declared.
     pub tcp_codes: Option<trunnion_interp::TcpCodes>,
-    /// What words mean that ask for a posture: STAT, TU, G53.1 P.
+    /// The meaning of words that request a posture: STAT, TU, G53.1 P.
     pub posture_words: crate::PostureWords,
     /// Unit of lengths before a program says one; `None`: not declared.
     pub units: Option<trunnion_interp::LengthUnit>,
@@ -197,6 +197,16 @@ pub struct Control {
     pub peck_clearance_mm: Option<f64>,
     /// How far G73 retracts to break the chip, mm; `None`: not declared.
     pub chip_break_retract_mm: Option<f64>,
+    /// How a turning tool leaves the cuts of a roughing cycle; `None`: not declared.
+    pub roughing_escape: Option<trunnion_interp::RoughingEscape>,
+    /// How many leads before its end the tool leaves a thread of one pass; `None`: not declared.
+    pub thread_pull_out: Option<f64>,
+    /// How far the tool goes off a cut of a roughing cycle in one block, mm; `None`: not declared.
+    pub roughing_retract_mm: Option<f64>,
+    /// Least depth of a cut of a threading cycle in one block, mm; `None`: not declared.
+    pub thread_least_cut_mm: Option<f64>,
+    /// What the last cut of such a cycle is left, mm; `None`: not declared.
+    pub thread_finish_mm: Option<f64>,
 }
 
 /// Thresholds of the rules.
@@ -295,11 +305,13 @@ pub struct Machine {
     pub constants: Constants,
     /// Axes that mirror another one.
     pub gantries: Vec<Gantry>,
+    /// Letter of the axis that a machine with two linear axes lacks (Y of a lathe): it is the last of `axes`, and never moves.
+    pub absent: Option<u8>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
-    /// What the file declares and nothing honours yet, one sentence each: rules that depend on it judge without it.
+    /// What the file declares and nothing uses yet, one sentence each: rules that depend on it judge without it.
     pub not_used: Vec<String>,
-    /// What is odd about the file and yet usable, one sentence each.
+    /// What is suspicious about the file but usable, one sentence each.
     pub warnings: Vec<String>,
     /// How many `[[check]]` rows the file has; all of them hold, else it does not load.
     pub checks: usize,
@@ -314,7 +326,13 @@ impl Machine {
         self.axes.iter().position(|axis| axis.letter == upper)
     }
 
-    /// The codes of its clamps, as an interpreter wants them.
+    /// The axes that it really has, with their joints.
+    pub fn own_axes(&self) -> impl Iterator<Item = (usize, &Axis)> {
+        let axes = self.axes.iter().enumerate();
+        axes.filter(|(_, axis)| Some(axis.letter) != self.absent)
+    }
+
+    /// The codes of its clamps, in the form of the interpreter.
     pub fn clamp_codes(&self) -> trunnion_interp::AllClampCodes {
         let mut codes = trunnion_interp::AllClampCodes::default();
         for axis in &self.axes {

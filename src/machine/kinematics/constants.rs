@@ -1,10 +1,10 @@
-//! What forward and inverse kinematics need of a chain, worked out once when the machine is loaded.
+//! Constants of a chain for forward and inverse kinematics, computed once when the machine is loaded.
 use crate::kinematics::held_axes::Carried;
 use crate::{Axis, AxisKind, MAX_AXES};
 use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Mat3, Vec3};
 
-/// One rotary axis as the formulas want it.
+/// One rotary axis in the form of the formulas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryAxis {
     /// Index of the joint.
@@ -17,14 +17,14 @@ pub struct RotaryAxis {
     pub sign: f64,
 }
 
-/// One linear axis as the formulas want it.
+/// One linear axis in the form of the formulas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearAxis {
     /// Index of the joint.
     pub joint: usize,
     /// Sign times unit direction at home, machine frame: tip motion per mm of joint, before the rotary axes turn it.
     pub motion: Vec3,
-    /// How many rotary axes lie between the workpiece and this axis: 0, 1 or 2.
+    /// How many rotary axes are between the workpiece and this axis: 0, 1 or 2.
     pub segment: usize,
 }
 
@@ -70,11 +70,11 @@ pub struct Constants {
     pub linear_count: usize,
     /// The three entries of `linear` that inverse kinematics solves for; further ones (a quill) keep their value.
     pub solved: [usize; 3],
-    /// Whether linear axes lie in each segment of the chain.
+    /// Whether there are linear axes in each segment of the chain.
     pub occupied: [bool; 3],
-    /// The segment in which all linear axes lie; `None` when they lie in different ones.
+    /// The segment with all linear axes; `None` when they are in different ones.
     pub only_segment: Option<usize>,
-    /// The segment shared by the three solved axes; `None` when they lie in different ones.
+    /// The segment shared by the three solved axes; `None` when they are in different ones.
     pub shared_segment: Option<usize>,
     /// Inverse of the matrix whose columns are the motions of the three solved axes.
     pub inverse_motion: Mat3,
@@ -218,8 +218,11 @@ fn snap(value: f64) -> f64 {
     if value.abs() < 1e-15 { 0.0 } else { value }
 }
 
+/// Volume of three unit vectors (area of two) up to which they count as flat.
+pub(crate) const NEARLY_FLAT: f64 = 1e-3;
+
 /// Three linear axes that span space: X, Y, Z if they do, else the first three (in the order XYZUVW) that do; of several choices
-/// the first whose volume is above 1e-3.
+/// the first one with a volume above 1e-3.
 fn choose_solved(axes: &[Axis], linear: &[LinearAxis]) -> Option<[usize; 3]> {
     let rank = |i: &usize| {
         b"XYZUVW"
@@ -233,7 +236,7 @@ fn choose_solved(axes: &[Axis], linear: &[LinearAxis]) -> Option<[usize; 3]> {
         for (m, &b) in order.iter().enumerate().skip(n + 1) {
             for &c in order.iter().skip(m + 1) {
                 let volume = linear[a].motion.cross(&linear[b].motion).dot(&linear[c].motion).abs();
-                if volume > 1e-3 {
+                if volume > NEARLY_FLAT {
                     return Some([a, b, c]);
                 }
             }

@@ -151,7 +151,7 @@ pub(crate) fn segment_shifts(constants: &Constants, joints: &Joints) -> [Vec3; 3
     shifts
 }
 
-/// Forward kinematics: docs/kinematics.md#machine-model (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis counts
+/// Forward kinematics: docs/kinematics.md#machine-model (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis is used
 /// with its value in `joints`.
 pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
     if let Some(other) = machine.held_elsewhere(joints) {
@@ -193,7 +193,7 @@ mod tests {
         fn turns_are_those_of_rodrigues(
             axis in prop_oneof![
                 (0..3_usize, any::<bool>()).prop_map(|(axis, back)| Vec3::ith(axis, if back { -1.0 } else { 1.0 })),
-                // askew by so little that its length along the coordinate is 1 to the last bit
+                // skewed by so little that its length along the coordinate is 1 to the last bit
                 (0..3_usize).prop_map(|axis| Vec3::ith(axis, 1.0) + Vec3::ith((axis + 1) % 3, 9e-9)),
                 proptest::array::uniform3(-1.0..1.0).prop_map(|v: [f64; 3]| Vec3::from(v).normalize()),
             ],

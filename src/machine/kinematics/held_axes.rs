@@ -1,4 +1,4 @@
-//! Rotary axes beyond the two that inverse kinematics solves for. The machine file holds each of them at a value; it then only carries
+//! Rotary axes beyond the two that inverse kinematics solves for. The machine file holds each of them at a value; it then only moves
 //! what follows it in the chain: with H its motion, A H B = (A)(H B H^-1)(H), so that directions and points after it are turned
 //! and moved by H once, and the solver sees two rotary axes.
 use crate::{Axis, Constants, Joints, Machine, NoStance};
@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use trunnion_geometry::math::rotate;
 use trunnion_geometry::{Mat3, Vec3};
 
-/// Joint values this near, rad, are the held one: rounding of degrees.
+/// Joint values this near to the held one are equal to it, rad: rounding of degrees.
 const SAME: f64 = 1e-9;
 
 /// The motion of all held axes met so far, from workpiece to tool; nothing at first.
@@ -48,7 +48,7 @@ impl Carried {
 }
 
 impl Machine {
-    /// Whether no axis is held: so it is with nearly every machine.
+    /// Whether no axis is held, as on nearly every machine.
     pub(crate) fn all_move(&self) -> bool {
         self.constants.rotary_count + self.constants.linear_count == self.axes.len()
     }
@@ -75,7 +75,7 @@ impl Machine {
     }
 }
 
-/// Held axes that no word names are where the machine file holds them; one that a word moves elsewhere makes the rest unknown.
+/// Held axes that no word names are where the machine file holds them; one that a word moves away makes the rest unknown.
 pub(crate) fn settle_held(machine: &Machine, known: &mut (Joints, u16)) -> Result<(), NoStance> {
     if machine.all_move() {
         return Ok(());

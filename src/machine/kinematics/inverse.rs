@@ -5,14 +5,14 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Mat3, Vec3};
 
-/// How far outside the reachable cone a tool axis may lie and still be taken for its edge, rad (0.1 micrometre at 100 mm). It is also
-/// how far the tool axis of a machine without rotary axes may lie from the axis at home.
+/// How far outside the reachable cone a tool axis may be and still be taken as on its edge, rad (0.1 micrometre at 100 mm). It is also
+/// how far the tool axis of a machine without rotary axes may be from the axis at home.
 pub(crate) const REACH_TOLERANCE: f64 = 1e-6;
 
 /// A tool axis nearer than this to the first rotary axis is at the pole, rad: its azimuth is rounding noise.
 pub const POLE_TOLERANCE: f64 = 1e-9;
 
-/// Below this value of |S| the two postures are one: their sign says nothing.
+/// Below this value of |S| the two postures are the same: their sign has no meaning.
 const MERGED: f64 = 1e-9;
 
 /// One posture of the rotary axes for a tool axis, before windings.

@@ -31,7 +31,7 @@ pub(crate) fn pole_angle(constants: &Constants, pair: &PairConstants, w: &Vec3, 
         // e1, e2, k0 at right angles in pairs: the angle is tau itself, without any rounding at the pole
         let tau = constants.rotary[1].sign * q2 + pair.k_azimuth;
         let halves = tau / PI;
-        // no half turn to take away is most of what there is
+        // mostly there is no half turn to subtract
         return if halves.abs() < 0.5 {
             tau.abs()
         } else {
@@ -49,14 +49,14 @@ fn is_orthogonal(pair: &PairConstants) -> bool {
     pair.c == 0.0 && pair.y == 0.0
 }
 
-/// Whether an angle is surely between two multiples of pi, 0 and one beside it.
+/// Whether an angle is certainly between two adjacent multiples of pi, one of them 0.
 #[inline]
 fn inside(tau: f64) -> bool {
     let size = tau.abs();
     size > 1e-9 && size < 3.0
 }
 
-/// Smallest pole angle, rad, while q2 runs straight from `from.0` to `to.0`; the pole angles at the ends are `from.1` and `to.1`.
+/// Smallest pole angle, rad, while q2 moves linearly from `from.0` to `to.0`; the pole angles at the ends are `from.1` and `to.1`.
 #[inline]
 pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: (f64, f64), to: (f64, f64)) -> f64 {
     let ends = from.1.min(to.1);
@@ -70,7 +70,7 @@ pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: 
         return ends;
     }
     let (a, b) = (a / PI, b / PI);
-    // most blocks stay between the same two multiples of pi, 0 and one beside it
+    // most blocks stay between the same two multiples of pi, one of them 0
     if a.min(b) > 0.0 && a.max(b) < 1.0 || a.min(b) > -1.0 && a.max(b) < 0.0 {
         return ends;
     }

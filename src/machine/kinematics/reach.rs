@@ -4,7 +4,7 @@ use crate::{Limits, Machine, Orientations, orientations, windings};
 use trunnion_geometry::math::{atan2, rotate};
 use trunnion_geometry::{Vec3, deg, rad};
 
-/// The cone of tool axes that the geometry allows, and what is left of it inside the travel of the second rotary axis.
+/// The cone of tool axes that the geometry allows, and the part of it inside the travel of the second rotary axis.
 pub(crate) fn reach(machine: &Machine) -> String {
     let constants = &machine.constants;
     let Some(pair) = &constants.pair else {
@@ -95,7 +95,7 @@ pub(crate) fn pole(machine: &Machine) -> String {
 }
 
 /// How many postures inside the travels the tilts from the first rotary axis have, whole degrees, as ranges in words; empty for machines
-/// with fewer than two rotary axes. A tilt counts what its azimuths have at least and at most, every 15 deg.
+/// with fewer than two rotary axes. For a tilt the smallest and largest number among its azimuths are given, every 15 deg.
 pub(crate) fn postures_by_tilt(machine: &Machine) -> Vec<String> {
     if machine.constants.pair.is_none() {
         return Vec::new();

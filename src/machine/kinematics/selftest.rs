@@ -3,7 +3,7 @@ use crate::{AxisKind, Joints, Limits, MAX_AXES, Machine, Orientations, forward, 
 use core::f64::consts::{PI, TAU};
 use trunnion_geometry::math::angle_between;
 
-/// What a self-test found.
+/// The result of a self-test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfTest {
     /// Poses tried.
@@ -29,7 +29,7 @@ pub fn self_test(machine: &Machine, poses: usize, seed: u64) -> SelfTest {
         posture_missing: 0,
     };
     let mut random = SplitMix(seed);
-    // held axes are tried at a few other values too: a machine of its own each time
+    // held axes are tried at a few other values too: a separate machine each time
     let mut elsewhere = None;
     for pose in 0..poses {
         let mut joints = random_joints(machine, &mut random);
@@ -48,7 +48,7 @@ pub fn self_test(machine: &Machine, poses: usize, seed: u64) -> SelfTest {
     result
 }
 
-/// So many poses are tried before held axes change between their own value and another.
+/// This many poses are tried before held axes change between their own value and another.
 const HELD_FOR: usize = 64;
 
 /// One pose: joints, pose, all postures, joints again, pose again.

@@ -1,4 +1,4 @@
-//! What the declared uncertainty of an axis does to the tip (docs/kinematics.md#uncertainty-of-the-rotary-axes): first order, worst direction.
+//! The effect of the declared uncertainty of an axis on the tip (docs/kinematics.md#uncertainty-of-the-rotary-axes): first order, worst direction.
 //!
 //! A control that believes a rotary axis to pass through c while it passes through c + dc, and that was zeroed with the axis at zero,
 //! misses the tip by (I - R) dc, whose length is at most 2 |sin(q/2)| |dc|. An axis that is tilted by a small angle e about a line
@@ -9,10 +9,10 @@ use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{rotate, sin};
 
-/// Above this the uncertainty is worth a word, mm (kinematics notes 5, PIVOT-SENS).
+/// Above this the uncertainty is reported, mm (kinematics notes 5, PIVOT-SENS).
 pub(crate) const PIVOT_SENSITIVITY: f64 = 0.02;
 
-/// What the uncertainty of one rotary axis does.
+/// The effect of the uncertainty of one rotary axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisUncertainty {
     /// Letter.
@@ -24,7 +24,7 @@ pub struct AxisUncertainty {
 }
 
 /// How far the tip may be off in a block that runs from `start` to `end`, for each rotary axis with a declared uncertainty; the errors add up
-/// at worst. Of each axis the turn between the two that moves the tip most counts, and the larger of its distances from the tip at both ends.
+/// at worst. For each axis the turn between the two that moves the tip most is used, and the larger of its distances from the tip at both ends.
 /// Empty where no uncertainty is declared. mm and rad; `tool_length` in mm.
 pub fn pivot_sensitivity_between(
     machine: &Machine,

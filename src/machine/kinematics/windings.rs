@@ -4,7 +4,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{atan2, rotate};
 
-/// How far outside a limit a rotary value may lie and still count as on it, rad: 1e-5 deg. Posts write tool vectors with seven digits;
+/// How far outside a limit a rotary value may be and still be taken as on it, rad: 1e-5 deg. Posts write tool vectors with seven digits;
 /// what they round away turns a tool axis by up to 5e-8 rad per component, and must not drive the machine to another posture. A value
 /// taken so is set to the limit itself.
 const LIMIT_SLACK: f64 = 1e-5 * core::f64::consts::PI / 180.0;

@@ -15,7 +15,7 @@ pub struct Moment {
     pub axis: Vec3,
 }
 
-/// The way of one leg, from 0 (its start) to 1 (its end): the tip runs along the programmed path (TCP), or the joints do (no TCP).
+/// The path of one leg, from 0 (its start) to 1 (its end): the tip moves along the programmed path (TCP), or the joints do (no TCP).
 pub struct BlockPath<'a> {
     course: JointPath<'a>,
     zero: Vec3,
@@ -37,7 +37,7 @@ impl<'a> BlockPath<'a> {
         Some(way)
     }
 
-    /// Joints and tool after the share `t` of the block (held to 0..=1). Coordinates are not numbers where a great circle leaves the reach.
+    /// Joints and tool after the share `t` of the block (held to 0..=1). Coordinates are NaN where a great circle leaves the reach.
     pub fn at(&self, t: f64) -> Moment {
         let course = &self.course;
         let t = t.clamp(0.0, 1.0);

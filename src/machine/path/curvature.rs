@@ -8,7 +8,7 @@ use trunnion_geometry::{Mat3, Vec3};
 use trunnion_interp::MotionKind;
 
 impl JointPath<'_> {
-    /// The bounds of [`JointPath::bends`] hold for the whole block at once and need not be asked for piece by piece.
+    /// The bounds of [`JointPath::bends`] hold for the whole block at once and need not be computed piece by piece.
     pub(crate) fn bends_at_once(&self) -> bool {
         !self.tip || (self.constants().shared_segment.is_some() && matches!(self.spin, RotaryPath::Even))
     }
@@ -36,7 +36,7 @@ impl JointPath<'_> {
 
 /// Rough bounds of rate and second derivative of every solved joint under TCP along a line, mm per block: distances from the rotary axes
 /// are bounded by distances from the origin, so that a block that is far from every limit is settled without turning a single point.
-/// `None` where the finer bounds must be asked (arcs, great circles, solved axes in different places, a quill).
+/// `None` where the finer bounds are needed (arcs, great circles, solved axes in different places, a quill).
 pub(crate) fn rough_bends(machine: &Machine, leg: &Leg) -> Option<(f64, f64)> {
     let constants = &machine.constants;
     let is_line = matches!(leg.motion.kind, MotionKind::Linear | MotionKind::Rapid);
@@ -180,7 +180,7 @@ impl<'c, 'm> PieceOfCourse<'c, 'm> {
             return nothing;
         };
         let change = inverse.norm() * spin * (self.ends[1] - self.ends[0]);
-        // not a number proves nothing either
+        // NaN proves nothing either
         if change.is_nan() || change >= 0.9 {
             return nothing;
         }
@@ -236,7 +236,7 @@ pub(crate) struct Carried {
 }
 
 impl Carried {
-    /// How far the point can stray from its chord.
+    /// How far the point can deviate from its chord.
     fn sag(&self) -> f64 {
         self.bend * self.length * self.length * 0.125
     }

@@ -1,4 +1,4 @@
-//! How far a moving point strays from a curve: set distance, sampled from below and proven from above.
+//! How far a moving point deviates from a curve: set distance, sampled from below and proven from above.
 use crate::path::peak::{Piece, peak_tagged};
 use core::cell::Cell;
 use core::cmp::Ordering;
@@ -14,7 +14,7 @@ pub(crate) struct CurveDistance<W, S> {
     pub(crate) curve_bend: f64,
 }
 
-/// What was found; mm, and where in the block the largest sample is.
+/// The result; mm, and where in the block the largest sample is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found {
     /// Never above the truth.
@@ -32,11 +32,11 @@ struct Radii {
     foot: Vec3,
 }
 
-/// How near to the true nearest point of the curve is looked for: mm, and as a share of the distance.
+/// How near to the true nearest point of the curve the search goes: mm, and as a share of the distance.
 const NEAR_MM: f64 = 2e-6;
 const NEAR_SHARE: f64 = 1e-6;
 
-/// Most points of the curve that are looked at for one sample.
+/// Most points of the curve that are examined for one sample.
 const MOST_FEET: u32 = 1000;
 
 /// Most samples of the point: each asks for its nearest point of the curve. The bound stays sound when they run out.
@@ -135,7 +135,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> CurveDistance<W, S> {
                 ends,
             }
         };
-        // where a parametric guess is near, most of the curve is never looked at
+        // if a parametric guess is near, most of the curve is never examined
         let guess = (self.curve)(t);
         look(t, guess, &mut least);
         let mut waiting = BinaryHeap::new();
@@ -165,7 +165,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> CurveDistance<W, S> {
     }
 }
 
-/// How far above the truth a distance found by [`CurveDistance::nearest`] may lie, mm.
+/// How far above the true value a distance found by [`CurveDistance::nearest`] may be, mm.
 fn slack(distance: f64) -> f64 {
     NEAR_MM + NEAR_SHARE * distance
 }

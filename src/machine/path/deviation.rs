@@ -1,4 +1,4 @@
-//! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
+//! How far the tip deviates from the programmed segment inside a block: sampled value and proven bound.
 use crate::follow::follower::leads_path;
 use crate::path::curve_distance::CurveDistance;
 use crate::path::peak::{Piece, SAMPLES, peak};
@@ -23,7 +23,7 @@ pub(crate) fn runs_dogleg(machine: &Machine, leg: &Leg) -> bool {
     matches!(leg.motion.kind, MotionKind::Rapid) && machine.control.rapid == RapidPath::Dogleg
 }
 
-/// Where sample and bound are this near, mm, more samples say nothing more.
+/// If sample and bound are this near, mm, more samples are useless.
 const CLOSE_MM: f64 = 2e-5;
 
 /// Samples spent on closeness; beyond them a bound of [`RATIO`] times the sample is enough.
@@ -36,7 +36,7 @@ const VAIN_SAMPLES: u32 = 16;
 pub(crate) const RATIO: f64 = 1.19;
 
 /// Set distance of the tip path to the programmed segment. `tolerance_mm`: the bound may be loose where it already proves
-/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes run each for itself.
+/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes move independently.
 ///
 /// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc in its position in the workpiece at the
 /// start of the block, its end carried evenly to where the tip ends. With TCP or vectors the control keeps the tip on the programmed
@@ -63,7 +63,7 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
     let run = Run::new(machine, start, end);
     let tolerance = tolerance_mm.max(0.0);
     if arc.is_none() {
-        // most lines are settled here, without a path
+        // most lines are decided here, without a path
         let (bend, rounding) = run.bound(None);
         let at_once = bend * 0.125 + rounding;
         if at_once <= tolerance {
@@ -84,7 +84,7 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         });
     }
     let room = (tolerance - path.rounding).max(0.0);
-    // what the most samples leave open, spread evenly: where an axis winds thousands of times within a block, they prove nothing
+    // what remains open after the most samples, spread evenly: if an axis winds thousands of times within a block, they prove nothing
     let open = (path.bend + arc.as_ref().map_or(0.0, |arc| arc.bend)) * 0.125 / f64::from(SAMPLES).powi(2);
     let search = Search { room, open };
     let enough = |bound: f64, sampled: f64, samples: u32| search.ends(bound, sampled, samples);

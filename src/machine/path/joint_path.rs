@@ -18,7 +18,7 @@ pub(crate) fn on_great_circle(machine: &Machine, motion: &Motion) -> bool {
         && motion.great_circle.unwrap_or(machine.control.tcp_great_circle)
 }
 
-/// What runs along a line or an arc: the tip (TCP) or the joints X Y Z (no TCP).
+/// What moves along a line or an arc: the tip (TCP) or the joints X Y Z (no TCP).
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Track {
     /// From start to end in a straight line.
@@ -28,7 +28,7 @@ pub(crate) enum Track {
 }
 
 impl Track {
-    /// Way from the start after the share t, and its rate.
+    /// Distance from the start after the share t, and its rate.
     pub(crate) fn at(&self, t: f64) -> (Vec3, Vec3) {
         match self {
             Self::Line(way) => (way * t, *way),
@@ -69,7 +69,7 @@ pub(crate) struct JointPath<'a> {
     pub(crate) start: &'a Stance,
     pub(crate) end: &'a Stance,
     pub(crate) track: Track,
-    /// The track is the tip's; else the joints'.
+    /// The track is that of the tip; else of the joints.
     pub(crate) tip: bool,
     pub(crate) tool_length: f64,
     /// Tool tip at home with all joints zero, machine frame.
@@ -119,7 +119,7 @@ impl<'a> JointPath<'a> {
         &self.machine.constants
     }
 
-    /// Turns of the rotary axes at t; not a number where a great circle leaves the reach.
+    /// Turns of the rotary axes at t; NaN where a great circle leaves the reach.
     pub(crate) fn turns(&self, t: f64) -> [Turn; 2] {
         if t <= 0.0 {
             return self.start.turns(self.machine);
@@ -178,7 +178,7 @@ impl<'a> JointPath<'a> {
         (start, end)
     }
 
-    /// All joints after the share `t` of the block, 0..=1; not numbers where a great circle leaves the reach.
+    /// All joints after the share `t` of the block, 0..=1; NaN where a great circle leaves the reach.
     pub(crate) fn joints(&self, t: f64) -> Joints {
         let (start, end) = (self.start, self.end);
         let mut joints: Joints = start.joints;

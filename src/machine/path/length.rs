@@ -1,12 +1,12 @@
-//! The length of a block's path, along which F counts.
+//! The length of a block's path, along which F is the speed.
 use crate::follow::follower::has_tip_words;
 use crate::{FeedMeaning, Follower, Leg, Machine};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
 
-/// A shorter path counts as none, mm: what sums of increments, unit conversions and changes of the frame leave at coordinates of up to
-/// 100 m. No control resolves it, and a speed along it would be noise over noise.
+/// A shorter path is taken as none, mm: rounding of increments, unit conversions and changes of the frame at coordinates of up to 100
+/// m. No control resolves it, and a speed along it would be noise.
 const NO_WAY: f64 = 1e-9;
 
 /// The length of a path, 0 where there is none.
@@ -15,7 +15,7 @@ pub(crate) fn way(length: f64) -> f64 {
     if length < NO_WAY { 0.0 } else { length }
 }
 
-/// What the rotary axes add to the path along which F counts, deg: nothing unless the control counts all axes together.
+/// What the rotary axes add to the path along which F is the speed, deg: nothing unless F includes all axes.
 pub(crate) fn rotary_part(machine: &Machine, leg: &Leg) -> f64 {
     let motion = &leg.motion;
     let combined = machine.control.feed == Some(FeedMeaning::Combined);
@@ -28,7 +28,7 @@ pub(crate) fn rotary_part(machine: &Machine, leg: &Leg) -> f64 {
 }
 
 impl Follower<'_> {
-    /// Length that F counts along, mm: [`Self::length`], or on a control that counts all axes together the root of mm2 + deg2.
+    /// Length along which F is the speed, mm: [`Self::length`], or on a control whose F includes all axes the root of mm2 + deg2.
     pub(crate) fn feed_length(&self, leg: &Leg) -> f64 {
         let turned = rotary_part(self.machine, leg);
         if turned > 0.0 && leg.length > 0.0 {
@@ -38,7 +38,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is not known.
+    /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is unknown.
     pub(crate) fn length(&self, leg: &Leg) -> f64 {
         let motion = &leg.motion;
         match &motion.kind {

@@ -18,11 +18,11 @@ pub struct Excess {
     pub limit: f64,
     /// Whether it happens inside the block while both ends are legal on this axis.
     pub inside: bool,
-    /// Only if the axes of this rapid arrive together, of which the machine file says nothing.
+    /// Only if the axes of this rapid arrive together, which the machine file does not declare.
     pub if_together: bool,
 }
 
-/// How far a joint may lie beyond its limit and still count as on it, mm or rad: rounding.
+/// How far a joint may be beyond its limit and still be taken as on it, mm or rad: rounding.
 pub const LIMIT_SLACK: f64 = 1e-6;
 
 /// How near sample and bound are brought, mm, where a limit is broken inside a block.
@@ -31,11 +31,11 @@ const CLOSE_MM: f64 = 1e-3;
 /// All joints outside their travel in this leg, each limit once with the worst value. At the end: the known joints, also
 /// where the stance is not known; at a start that the program gave without a motion, all of them. Inside the block, whatever its ends
 /// are: linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of docs/kinematics.md#between-the-ends-of-a-block and bisection;
-/// other joints run straight from end to end, so that an end is their worst. A joint that only returns from beyond its limit is not
+/// other joints move linearly from end to end, so that an end is their worst. A joint that only returns from beyond its limit is not
 /// named again: the block before named it.
 ///
-/// False where what happens between the ends is not known (a great circle over the pole): what is found is then true, and
-/// what is not found is not proven.
+/// False where what happens between the ends is not known (a great circle over the pole): findings are then true, but their
+/// absence is not proven.
 pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool {
     if let (true, Some(start)) = (leg.start_given, &leg.start) {
         ends(machine, &start.joints, u16::MAX, out);
@@ -53,8 +53,8 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     true
 }
 
-/// Whether the axes of a rapid may arrive together or each separately: what happens between the ends is then known for neither. Of a control
-/// whose axes run separately it is not known whether they still do while it guides the tip.
+/// Whether the axes of a rapid may arrive together or each separately: what happens between the ends is then unknown for both. If the axes of
+/// a control move separately, it is unknown whether they still do while it guides the tip.
 fn is_undeclared(machine: &Machine, leg: &Leg) -> bool {
     leg.motion.kind == MotionKind::Rapid && machine.control.rapid != RapidPath::Synchronous
 }
@@ -79,7 +79,7 @@ fn ends(machine: &Machine, joints: &Joints, known: u16, out: &mut Vec<Excess>) {
     }
 }
 
-/// Adds what is found, or puts it in the place of what is less far beyond the same limit.
+/// Adds what is found, or replaces a smaller excess over the same limit.
 fn add(out: &mut Vec<Excess>, found: Excess) {
     match out
         .iter_mut()
@@ -97,7 +97,7 @@ impl Excess {
     }
 }
 
-/// Whether linear joints can run otherwise than straight, and far enough to leave their travel between the ends.
+/// Whether linear joints can move nonlinearly, and far enough to leave their travel between the ends.
 fn may_bend(machine: &Machine, leg: &Leg) -> bool {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return false;
@@ -190,7 +190,7 @@ fn judge(
         };
         // what the ends reach is already reported, here or by the block before
         let told = over(from).max(over(to)).max(0.0) + LIMIT_SLACK;
-        // where an end is beyond it, that much is certain
+        // if an end is beyond it, that much is certain
         let certain = if_together && told > 2.0 * LIMIT_SLACK;
         if certain || bound(&whole) <= told {
             continue;

@@ -1,4 +1,4 @@
-//! How far the tool axis strays from the programmed great circle inside a block: sampled value and proven bound.
+//! How far the tool axis deviates from the programmed great circle inside a block: sampled value and proven bound.
 use crate::follow::follower::leads_path;
 use crate::path::deviation::RATIO;
 use crate::path::joint_path::on_great_circle;
@@ -20,16 +20,16 @@ pub struct OrientationDeviation {
     pub at: f64,
 }
 
-/// Where sample and bound are this near, rad, more samples say nothing more: 1e-5 deg.
+/// If sample and bound are this near, rad, more samples are useless: 1e-5 deg.
 const CLOSE: f64 = 1.7e-7;
 
 /// Samples spent on closeness; beyond them a bound within the ratio is enough.
 const CLOSE_SAMPLES: u32 = 256;
 
-/// Tool axes this near to opposite directions have no great circle between them that one could name, rad.
+/// Tool axes this near to opposite directions have no defined great circle between them, rad.
 const OPPOSITE: f64 = 1e-6;
 
-/// What rounding may cost, rad.
+/// Room for rounding, rad.
 const ROUNDING: f64 = 1e-13;
 
 /// Whether the tool axis is programmed by vectors while the rotary joints run evenly: then it leaves the great circle. Rotary words that
@@ -43,7 +43,7 @@ pub(crate) fn strays(machine: &Machine, leg: &Leg) -> bool {
 
 /// Set distance of the tool axis to the great-circle arc between its directions at both ends. `tolerance`, rad: the bound may be loose
 /// where it already proves this; above it, it is at most 1.2 times the truth. `None`: no path, an unknown stance, opposite ends, or a
-/// rapid whose axes run each for itself.
+/// rapid whose axes move independently.
 ///
 /// Zero by construction where no vectors are programmed, where the control runs them on the great circle, and where no rotary axis moves.
 /// With |u''| <= Q (at most (D1 + D2)^2) the axis keeps within asin(Q / 8) of the arc; on a piece of length h the sine of the distance, which
@@ -140,9 +140,9 @@ pub(crate) fn axis_bend(machine: &Machine, start: &Stance, end: &Stance) -> f64 
 pub(crate) struct Circle {
     from: Vec3,
     to: Vec3,
-    /// Unit vector at right angles to `from`, towards `to`; zero where both are one.
+    /// Unit vector at right angles to `from`, towards `to`; zero if both are the same.
     side: Vec3,
-    /// Unit normal of the plane; zero where both are one.
+    /// Unit normal of the plane; zero if both are the same.
     normal: Vec3,
     /// Angle of the arc, rad.
     pub(crate) angle: f64,

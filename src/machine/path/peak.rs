@@ -2,7 +2,7 @@
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// What is known of the largest value.
+/// What is known about the largest value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Peak {
     /// Largest value at a sample: never above the truth.
@@ -13,7 +13,7 @@ pub(crate) struct Peak {
     pub(crate) bound: f64,
 }
 
-/// A piece of 0..=1 with the function's values at its ends, and what else was worked out there.
+/// A piece of 0..=1 with the function's values at its ends, and other data computed there.
 #[derive(Clone, Copy)]
 pub(crate) struct Piece<T = ()> {
     pub(crate) from: f64,
@@ -45,7 +45,7 @@ pub(crate) const SAMPLES: u32 = 20_000;
 /// A piece below this length is not halved further: beyond any resolution of a block.
 const SHORTEST: f64 = 1e-12;
 
-/// A piece that waits, ordered by its bound.
+/// A pending piece, ordered by its bound.
 #[derive(Clone, Copy)]
 struct Waiting<T> {
     bound: f64,
@@ -72,7 +72,7 @@ impl<T> Ord for Waiting<T> {
     }
 }
 
-/// Not a number counts as infinite: nothing is known of it.
+/// NaN is taken as infinite: nothing is known about it.
 fn known(value: f64) -> f64 {
     if value.is_nan() { f64::INFINITY } else { value }
 }
@@ -87,7 +87,7 @@ pub(crate) fn peak(
     peak_tagged(|t| (value(t), ()), over, enough)
 }
 
-/// [`peak`] of a function that leaves something at each sample for the bounds of the pieces beside it.
+/// [`peak`] of a function that stores something at each sample for the bounds of the adjacent pieces.
 pub(crate) fn peak_tagged<T: Copy>(
     value: impl Fn(f64) -> (f64, T),
     over: impl Fn(&Piece<T>) -> f64,

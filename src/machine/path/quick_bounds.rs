@@ -1,4 +1,4 @@
-//! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
+//! Upper bounds for a block in which all joints move linearly, from its joints alone: enough to decide most blocks.
 use crate::follow::follower::leads_path;
 use crate::path::limits::LIMIT_SLACK;
 use crate::{AxisKind, Leg, Limits, MAX_AXES, Machine, RotaryRadii};
@@ -7,7 +7,7 @@ use trunnion_interp::MotionKind;
 /// Room for rounding in a bound, relative.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
 
-/// What the axes of a machine allow, axis by axis, so that a loop over them needs no look at what is declared and what is not.
+/// What the axes of a machine allow, axis by axis, so that a loop over them need not test what is declared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowances {
     axes: [Allowance; MAX_AXES],
@@ -54,7 +54,7 @@ impl Allowances {
     }
 }
 
-/// Upper bounds of what a leg does whose joints all run straight from one known stance to another.
+/// Upper bounds for a leg whose joints all move linearly from one known stance to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuickBounds {
     /// All joints stay inside their travel ([`crate::limit_excess`] finds nothing).
@@ -63,13 +63,13 @@ pub struct QuickBounds {
     pub axes_s: f64,
     /// Length of the path of the linear axes, mm ([`crate::linear_travel`]).
     pub linear_mm: f64,
-    /// Way of the tip from end to end, mm ([`crate::Stance::tip_distance_to`]): no bound.
+    /// Distance of the tip from end to end, mm ([`crate::Stance::tip_distance_to`]): no bound.
     pub tip_mm: f64,
     /// How far the tip leaves its segment, mm ([`crate::tip_deviation`]); roughly where that is within the machine's tolerance.
     pub stray_mm: f64,
 }
 
-/// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine, `near` is kept
+/// Bounds for a line along which all joints move linearly; `None` for all other legs. `allowances` are those of the machine, `near` is kept
 /// from leg to leg. Source: kinematics notes 3, as in the functions that [`QuickBounds`] names.
 #[inline]
 pub fn quick_bounds(
@@ -129,7 +129,7 @@ mod tests {
     use trunnion_interp::{AXIS_LETTERS, MotionKind, Position};
 
     proptest! {
-        /// What a glance rules out, the full functions rule out too, and no bound is below what they find.
+        /// What the bounds rule out, the full functions rule out too, and no bound is below what they find.
         #[test]
         fn a_look_promises_no_more_than_the_full_functions(
             machine in 0..BUILTIN_MACHINES.len(),
@@ -140,7 +140,11 @@ mod tests {
         ) {
             let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
             let (mut start, mut end) = (Position::default(), Position::default());
-            let own = |axis: &usize| machine.axes.iter().any(|own| own.letter == AXIS_LETTERS[*axis]);
+            let own = |axis: &usize| machine.own_axes().any(|(_, own)| own.letter == AXIS_LETTERS[*axis]);
+            if let Some(absent) = machine.absent_axis() {
+                start.set(usize::from(absent), 0.0);
+                end.set(usize::from(absent), 0.0);
+            }
             for axis in (0..9).filter(own) {
                 start.set(axis, from[axis]);
                 let way = if still & (1 << axis) == 0 { by[axis] * share } else { 0.0 };
@@ -150,7 +154,7 @@ mod tests {
             follower.follow(&motion(Position::default(), start, MotionKind::Rapid, 0.0));
             let leg = follower.follow(&motion(start, end, MotionKind::Linear, 0.0));
             let Some(seen) = quick_bounds(machine, &Allowances::of(machine), &mut RotaryRadii::default(), &leg) else {
-                // held axes are asked to stand elsewhere
+                // held axes get another position
                 prop_assert!(leg.end.is_err(), "{:?}", leg.motion);
                 return Ok(());
             };

@@ -11,7 +11,7 @@ use trunnion_geometry::math::{angle_between, atan2, sin_cos};
 
 pub(crate) use bounds::RotaryPathBounds;
 
-/// Tool axes nearer than this are one: nothing runs on a great circle, rad.
+/// Tool axes nearer than this are the same: nothing moves on a great circle, rad.
 const SAME_AXIS: f64 = 1e-12;
 
 /// A turn of a rotary axis up to this is rounding, rad.
@@ -66,7 +66,7 @@ impl<'a> RotaryPath<'a> {
         }
         let circle = GreatCircle::new(machine, pair, [start.axis, side.normalize()], angle, start.branch);
         if circle.azimuth_turned(&end.axis).abs() > PI - ARRIVAL {
-            // over the pole: to which side the first axis turns is not known
+            // over the pole: the direction in which the first axis turns is unknown
             return None;
         }
         let (from, to) = (start.rotary(machine), end.rotary(machine));

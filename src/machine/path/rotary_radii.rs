@@ -1,4 +1,4 @@
-//! How far the tip leaves its segment at most, from a bound of a block before: the tool comes no farther from an axis than it goes.
+//! How far the tip leaves its segment at most, from a bound of a block before: its distance from an axis grows by no more than it moves.
 use crate::Stance;
 use crate::path::tip_path::{ROUNDING, straight_stray};
 use crate::{Constants, Machine};
@@ -15,7 +15,7 @@ pub struct RotaryRadii(Option<Radii>);
 
 #[derive(Clone, Copy, Debug)]
 struct Radii {
-    /// Where the machine stands: the tool in the workpiece, the linear joints and the length of the tool.
+    /// The position of the machine: the tool in the workpiece, the linear joints and the length of the tool.
     point: Vec3,
     linear: [f64; 3],
     tool_length: f64,
@@ -39,7 +39,7 @@ fn linear(constants: &Constants, stance: &Stance) -> [f64; 3] {
 }
 
 impl Radii {
-    /// In full, where the machine stands.
+    /// Computed in full at the position of the machine.
     fn of(machine: &Machine, stance: &Stance) -> Option<Self> {
         let constants = &machine.constants;
         if !is_table(constants) {
@@ -88,7 +88,7 @@ impl Radii {
 impl RotaryRadii {
     /// A bound of the distance between the tip's path and its chord while all joints run straight from one stance to the other, mm.
     /// It may be loose where it proves `enough`. `turned`: by how much both rotary joints turn, rad; `tip`: how far the tip goes, mm; `way`: how
-    /// far the linear joints go at most, mm. Source: docs/kinematics.md#between-the-ends-of-a-block; the distances from the axes are those at an earlier block and what the tool went since.
+    /// far the linear joints go at most, mm. Source: docs/kinematics.md#between-the-ends-of-a-block; the distances from the axes are those at an earlier block and the travel of the tool since.
     #[inline]
     pub(crate) fn stray(
         &mut self,
@@ -101,7 +101,7 @@ impl RotaryRadii {
         if let Some(near) = &mut self.0
             && near.begins(constants, ends[0], ends[1].tool_length)
         {
-            // where it is of no use, the next begins in full
+            // where it is of no use, the next one is computed in full
             near.go(constants, ends[1], tip, way);
             // as in the bound in full: axis by axis from the tool to the workpiece
             let [first, second] = turned;

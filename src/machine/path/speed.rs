@@ -29,7 +29,7 @@ const TIGHT: f64 = 1e-3;
 /// The worst moment inside the block. `None`: stance or path unknown, no length, or no axis that moves has a declared speed.
 ///
 /// Never above the true limit. Where the programmed feed is above it, it is within 1e-3 of the true limit; where the program stays
-/// below, a coarser bound with any of the linear axes may be given, which settles that no axis is overrun and no more; so it may on chains whose linear axes lie in different places, near postures where they hardly
+/// below, a coarser bound with any of the linear axes may be given, which only proves that no axis is overrun; so it may on chains whose linear axes lie in different places, near postures where they hardly
 /// span space. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
 /// TCP (or vectors) the rotary joints run linearly and the linear joints' rates change within the block: samples of their exact rates
 /// and a bound of their second derivative (docs/kinematics.md#axis-speed-and-feed).
@@ -56,7 +56,7 @@ impl Load {
     }
 }
 
-/// `enough_mm_min`: a feed from which on a coarse answer does.
+/// `enough_mm_min`: a feed above which a coarse answer is enough.
 fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     if leg.length <= 0.0 {
@@ -76,7 +76,7 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
             _ => {
                 let course = JointPath::new(machine, leg)?;
                 if matches!(course.spin, RotaryPath::Even) {
-                    // also where the tool axis stands still on its great circle
+                    // also where the tool axis does not move on its great circle
                     worst = constant_load(machine, (start, end), Changes::Solved);
                 }
                 let above = worst.map_or(0.0, |load| load.share());
@@ -129,11 +129,11 @@ enum Changes {
 }
 
 impl Changes {
-    /// `None` where the path is not known.
+    /// `None` where the path is unknown.
     fn of(machine: &Machine, leg: &Leg) -> Option<Self> {
         match leg.motion.kind {
             MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
-            // along a line with standing rotary axes the linear joints run straight as well, also under TCP
+            // along a line without rotary motion the linear joints move linearly as well, also under TCP
             MotionKind::Rapid | MotionKind::Linear if !leads_path(&leg.motion) || leg.rotary_change == [0.0; 2] => {
                 return Some(Self::Nothing);
             }
@@ -211,7 +211,7 @@ impl<'c, 'm> Changing<'c, 'm> {
         let mut worst = (0.0, 0);
         for (slot, (rate, per_rate)) in rates.iter().zip(&self.per_rate).enumerate().take(self.count) {
             let share = rate.abs() * per_rate;
-            // not a number counts as infinite
+            // NaN is taken as infinite
             let share = if share.is_nan() { f64::INFINITY } else { share };
             if share > worst.0 {
                 worst = (share, slot);
@@ -290,11 +290,11 @@ fn changing_load(course: &JointPath<'_>, above: f64, coarse: f64) -> Option<Opti
     Some(axes.load(axes.at(found.at).1, bound))
 }
 
-/// Programmed feed along the path, mm/min; `None` for rapids and where it is unknown.
+/// Programmed feed along the path, mm/min, at its highest where the spindle speed changes; `None` for rapids and where it is unknown.
 fn programmed_feed(leg: &Leg) -> Option<f64> {
     match leg.motion.feed {
         Feed::PerMinute(feed) => Some(feed),
-        Feed::PerRevolution(feed) => Some(feed * leg.motion.spindle_rpm?),
+        Feed::PerRevolution(feed) => Some(feed * leg.motion.most_rpm()?),
         Feed::InverseTime(per_minute) => Some(per_minute * leg.length),
         Feed::Unknown | Feed::Rapid => None,
     }
@@ -316,7 +316,12 @@ pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
         Feed::InverseTime(per_minute) if per_minute > 0.0 => 60.0 / per_minute,
         Feed::InverseTime(_) | Feed::Unknown => return None,
         Feed::PerMinute(_) | Feed::PerRevolution(_) => {
-            let feed = programmed_feed(leg).filter(|feed| *feed > 0.0)?;
+            let mean = |per_turn| Some(per_turn * leg.motion.mean_rpm()?);
+            let feed = match leg.motion.feed {
+                Feed::PerRevolution(per_turn) => mean(per_turn),
+                _ => programmed_feed(leg),
+            };
+            let feed = feed.filter(|feed| *feed > 0.0)?;
             let way = if leg.length > 0.0 { leg.length } else { rotary_way(leg)? };
             way / feed * 60.0
         }

@@ -1,4 +1,4 @@
-//! How far the body of the tool strays inside a block while its tip is led: the point at a distance above the tip.
+//! How far the body of the tool deviates inside a block while its tip is guided: the point at a distance above the tip.
 use crate::path::curve_distance::CurveDistance;
 use crate::path::deviation::{RATIO, runs_dogleg};
 use crate::path::joint_path::Track;
@@ -6,7 +6,7 @@ use crate::path::orientation::{Circle, axis_bend, strays};
 use crate::{Deviation, Leg, Machine, tool_axis_at};
 use trunnion_interp::MotionKind;
 
-/// Where sample and bound are this near, mm, more samples say nothing more.
+/// If sample and bound are this near, mm, more samples are useless.
 const CLOSE_MM: f64 = 1e-4;
 
 /// Samples spent on closeness; beyond them a bound within the ratio is enough.
@@ -15,12 +15,12 @@ const CLOSE_SAMPLES: u32 = 64;
 /// Share of a coordinate that rounding may cost.
 const ROUNDING: f64 = 1e-13;
 
-/// Set distance of the point at `above_tip` mm above the tip, on the tool axis, to the path it should run on: the tip along its segment and
+/// Set distance of the point at `above_tip` mm above the tip, on the tool axis, to the path it should follow: the tip along its segment and
 /// the tool axis evenly on the great circle. `tolerance_mm`: the bound may be loose where it already proves this; above it, it is at most
 /// 1.2 times the truth. `None`: no path, an unknown stance, opposite tool axes at the ends, or a motion without tip coordinates, whose tip
-/// itself strays and the whole tool with it ([`crate::tip_deviation`]), or a rapid whose axes run each for itself.
+/// itself deviates and the whole tool with it ([`crate::tip_deviation`]), or a rapid whose axes move independently.
 ///
-/// Zero where the axis does not stray ([`crate::orientation_deviation`]). At the same moment both points differ by at most
+/// Zero where the axis does not deviate ([`crate::orientation_deviation`]). At the same moment both points differ by at most
 /// L (Q + angle^2) / 8 with |u''| <= Q, L the distance above the tip; closer bounds by bisection. Source: docs/kinematics.md#deviation-of-the-tool-body.
 pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_mm: f64) -> Option<Deviation> {
     if runs_dogleg(machine, leg) {

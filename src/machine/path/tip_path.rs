@@ -20,16 +20,16 @@ pub(crate) struct Run<'a> {
     ways: [Vec3; 3],
     /// Tip at the start, mm.
     from: Vec3,
-    /// Way of the tip from start to end, mm.
+    /// Displacement of the tip from start to end, mm.
     chord: Vec3,
 }
 
 /// The tip path W(t) in the workpiece frame while all joints run linearly (X Y Z perhaps along an arc), and the chord of its ends.
 pub(crate) struct TipPath<'a> {
     run: Run<'a>,
-    /// Words that run along an arc.
+    /// Words that move along an arc.
     bulge: Option<Bulge>,
-    /// Way of the tip from start to end, mm.
+    /// Displacement of the tip from start to end, mm.
     pub(crate) chord: Vec3,
     /// Q: bound of |W''|, mm per block squared.
     pub(crate) bend: f64,
@@ -57,7 +57,7 @@ impl Bulge {
         Self { arc: *arc, motions }
     }
 
-    /// Way of the words beside their chord at t, mm; zero at both ends.
+    /// Offset of the words from their chord at t, mm; zero at both ends.
     fn at(&self, t: f64) -> Vec3 {
         self.arc.point_at(t) - self.arc.start - (self.arc.end - self.arc.start) * t
     }
@@ -253,7 +253,7 @@ pub(crate) struct LaidArc<'p> {
 }
 
 impl LaidArc<'_> {
-    /// Way from the start after the share s, mm.
+    /// Displacement from the start after the share s, mm.
     pub(crate) fn way(&self, s: f64) -> Vec3 {
         if s <= 0.0 {
             return Vec3::zeros();

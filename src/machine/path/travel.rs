@@ -1,4 +1,4 @@
-//! How far the linear axes run in a block: the length of their path, and how far an axis runs beyond both its ends.
+//! How far the linear axes move in a block: the length of their path, and how far an axis moves beyond both its ends.
 use crate::follow::follower::leads_path;
 use crate::path::curvature::rough_bends;
 use crate::path::joint_path::JointPath;
@@ -30,7 +30,7 @@ pub struct Excursion {
 /// Relative width to which the length is closed in.
 const TIGHT: f64 = 1e-3;
 
-/// So many pieces are enough where the length is known to be more than asked for, or has no bound.
+/// This many pieces are enough if the length is known to be above the threshold, or has no bound.
 const COARSE: u32 = 1024;
 
 /// Most pieces a block is cut into, to decide on which side of a threshold its length is.
@@ -41,10 +41,10 @@ const CLOSE_MM: f64 = 1e-3;
 
 /// Length of the path of the linear joints. Bounds may be coarse where they prove that it is at most `enough_mm`; else they are closed in
 /// until they prove that it is more, or until the block would be cut into more than 16 384 pieces: then `enough_mm` is between them.
-/// `None`: an unknown stance or path, or a rapid whose axes run each for itself.
+/// `None`: an unknown stance or path, or a rapid whose axes move independently.
 ///
 /// Without TCP along a line the joints run straight. Else, on a piece of length h with |q''| <= Q the path is at least its chord and at most
-/// root(chord^2 + Q^2 h^4 / 12): by Cauchy and Schwarz length^2 <= h int |q'|^2 = chord^2 + h int |q' - mean|^2, and q' strays from its mean
+/// root(chord^2 + Q^2 h^4 / 12): by Cauchy and Schwarz length^2 <= h int |q'|^2 = chord^2 + h int |q' - mean|^2, and q' deviates from its mean
 /// by less than a straight line of slope Q would.
 pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<LinearTravel> {
     if crate::path::deviation::runs_dogleg(machine, leg) {
@@ -85,7 +85,7 @@ pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<Lin
         let found = lengths(&course, pieces, whole);
         let tight = found.most_mm <= found.least_mm * (1.0 + TIGHT) || pieces >= COARSE;
         let settled = found.most_mm <= enough_mm || (tight && found.least_mm > enough_mm);
-        // where nothing bounds the length, more pieces do not either
+        // where nothing bounds the length, more pieces do not help
         if settled || pieces >= PIECES || (pieces >= COARSE && found.most_mm.is_infinite()) {
             return Some(found);
         }
@@ -93,7 +93,7 @@ pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<Lin
     }
 }
 
-/// Bounds from so many pieces; `bend`: of the second derivative, where it holds everywhere.
+/// Bounds from this many pieces; `bend`: of the second derivative, where it holds everywhere.
 fn lengths(course: &JointPath<'_>, pieces: u32, bend: Option<f64>) -> LinearTravel {
     let h = 1.0 / f64::from(pieces);
     let idle: f64 = course
@@ -118,7 +118,7 @@ fn lengths(course: &JointPath<'_>, pieces: u32, bend: Option<f64>) -> LinearTrav
         };
         let chord2 = (next - last).norm_squared() + idle;
         let bend = bend.unwrap_or_else(|| course.bends(from, to).1.norm()) * h * h;
-        // not a number proves nothing
+        // NaN proves nothing
         let most = (chord2 + bend * bend / 12.0).sqrt();
         sum.most_mm += if most.is_nan() { f64::INFINITY } else { most };
         sum.least_mm += if chord2.is_finite() { chord2.sqrt() } else { 0.0 };

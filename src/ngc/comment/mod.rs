@@ -1,6 +1,6 @@
 //! Active comments: `(MSG,`, `(DEBUG,`, `(PRINT,`, `(LOG,`, `(LOGOPEN,`, `(LOGAPPEND,`, `(LOGCLOSE)`, `(ABORT,`, `(PY,`.
 //!
-//! Of the comments of a line only the last one in parentheses counts; text after `;` does not count, unless it is
+//! Of the comments of a line only the last one in parentheses is active; text after `;` is not, unless it is
 //! `;py,`. The comment is emitted before the line's block is run.
 mod text;
 
@@ -16,7 +16,7 @@ const ABORT: Problem = Problem {
     help: "The program itself stops here with (ABORT,...).",
 };
 
-/// Words that make a comment active, in lower case, with what is done with the text after them.
+/// Words that make a comment active, in lower case, with the treatment of the text after them.
 const ACTIVE: [(&[u8], Kind); 7] = [
     (b"msg,", Kind::Message),
     (b"debug,", Kind::Debug),
@@ -38,7 +38,7 @@ enum Kind {
     Abort,
 }
 
-/// Tells the comment of a line that was read.
+/// Emits the comment of a line that was read.
 #[inline]
 pub(crate) fn run(engine: &mut Engine, line: &Line, at: At, sink: &mut dyn Sink) -> Result<(), Halt> {
     let source = &engine.files[at.file.0 as usize];

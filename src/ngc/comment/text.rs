@@ -1,4 +1,4 @@
-//! Texts with values: `#1`, `#<name>`, and the number formats `%d`, `%f`, `%.3f` that hold for the rest of the comment.
+//! Texts with values: `#1`, `#<name>`, and the number formats `%d`, `%f`, `%.3f` that apply to the rest of the comment.
 use crate::Engine;
 use std::io::Write as _;
 use trunnion_formula::Variables;

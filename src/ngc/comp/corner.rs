@@ -26,7 +26,7 @@ pub(super) fn corner(side: Side, before: Point, behind: Point, bulging: bool) ->
         plane::turn(behind, before)
     };
     let reversal = if bulging { PI + FLAT } else { PI - FLAT };
-    // what is unknown is joined as it is
+    // what is unknown is joined unchanged
     if angle > FLAT && angle < reversal {
         Corner::Inside
     } else if angle >= reversal && angle < TAU - FLAT {
@@ -41,7 +41,7 @@ pub(super) fn sign(side: Side) -> f64 {
     if side == Side::Left { 1.0 } else { -1.0 }
 }
 
-/// A way of the centre near a corner.
+/// A path of the centre near a corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Way {
     /// Through a point along a direction.

@@ -42,13 +42,13 @@ pub(crate) fn end(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     let text = "interpreter: cutter radius compensation off";
     engine.emit(Canon::Comment(Shared::from(text.as_bytes())), at, sink);
     let state = &mut engine.state;
-    // the first move after compensation leads from the cutter's path to the contour: an arc cannot
+    // the first move after compensation goes from the cutter's path to the contour, which an arc cannot do
     state.exit_pending = state.side != Side::Off && state.radius != 0.0 && !state.first_compensated;
     state.side = Side::Off;
     Ok(())
 }
 
-/// Tells what is held, for calls that stop the machine (M0, M1, M2, M30, M60) or end the program. Refused where the held move would run
+/// Emits what is held, for calls that stop the machine (M0, M1, M2, M30, M60) or end the program. Refused where the held move would run
 /// backwards.
 pub(crate) fn flush(engine: &mut Engine, block: &Block, sink: &mut dyn Sink) -> Result<(), Error> {
     if engine.queue.is_empty() {
@@ -58,7 +58,7 @@ pub(crate) fn flush(engine: &mut Engine, block: &Block, sink: &mut dyn Sink) -> 
     queue::settle(engine, last, block.range, sink)
 }
 
-/// Whether a call waits after held moves. Those that do not reach the machine in time order anyway are emitted at once, as `rs274` does.
+/// Whether a call is queued after held moves. Those that do not reach the machine in time order anyway are emitted at once, as `rs274` does.
 pub(crate) fn waits(call: &Canon) -> bool {
     match call {
         Canon::Comment(text) => !text.starts_with(b"interpreter: Lathe diameter mode"),

@@ -4,7 +4,7 @@ use super::plane::{self, Point};
 use super::{problems, queue};
 use crate::{At, Block, Engine, Error, FeedMode, Pose, Side, Sink, exec};
 
-/// What a straight motion is for.
+/// The purpose of a straight motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// G0.
@@ -55,7 +55,7 @@ impl Here {
             normal,
         }
     }
-    /// The centre, if the direction to the cutter is another one.
+    /// The centre for another direction to the cutter.
     fn beside(&self, normal: Point) -> Point {
         plane::add(self.contour, plane::scaled(normal, self.radius))
     }
@@ -134,7 +134,7 @@ pub(crate) fn along(
     Ok(())
 }
 
-/// The control knows no thread that begins compensation, that does not move in the plane, or that goes around an outside corner.
+/// The control has no threads that begin compensation, that do not move in the plane, or that go around an outside corner.
 fn refuse_thread(kind: Kind, block: &Block) -> Result<(), Error> {
     match kind {
         Kind::Thread => Err(Error::new(&problems::NOT_G0_G1, block.range)),
@@ -190,7 +190,7 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
         )?;
         let direction = plane::scaled(start, outward / radius);
         let found = corner::corner(engine.state.side, here.normal, direction, outward > 0.0);
-        // the control fits the corner to the radius at the end of the arc, as if the contour came to that circle
+        // the control fits the corner to the radius at the end of the arc, as if the contour reached that circle
         let fitted = plane::length(plane::sub(target, arc.centre));
         let coming = Coming {
             kind: Kind::Feed,
@@ -218,7 +218,7 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
     Ok(())
 }
 
-/// What an arc that begins compensation must fulfil before its centre is looked for.
+/// Conditions of an arc that begins compensation, before its centre is computed.
 pub(crate) fn check_entry_arc(engine: &Engine, end: &Pose, clockwise: bool, block: &Block) -> Result<(), Error> {
     let state = &engine.state;
     if state.side == Side::Off || !state.first_compensated || state.radius == 0.0 {
@@ -235,13 +235,13 @@ pub(crate) fn check_entry_arc(engine: &Engine, end: &Pose, clockwise: bool, bloc
         .map_or(Ok(()), |radius| tight(outward, state.radius, radius.abs(), block))
 }
 
-/// Whether the last move is an arc around whose outside the cutter runs.
+/// Whether the last move is an arc with the cutter on its outside.
 fn bulging(engine: &Engine) -> bool {
     let left = corner::sign(engine.state.side) > 0.0;
     engine.queue.last_arc().is_some_and(|(_, turns)| (turns > 0) != left)
 }
 
-/// An arc whose inside the cutter takes must be larger than the cutter.
+/// An arc with the cutter on its inside must be larger than the cutter.
 fn tight(outward: f64, radius: f64, arc_radius: f64, block: &Block) -> Result<(), Error> {
     if outward < 0.0 && radius >= arc_radius {
         return Err(Error::new(&problems::TIGHT_ARC, block.range));
@@ -249,7 +249,7 @@ fn tight(outward: f64, radius: f64, arc_radius: f64, block: &Block) -> Result<()
     Ok(())
 }
 
-/// Compensation begins with an arc: another arc from the cutter's place that touches the compensated end in the same direction.
+/// Compensation begins with an arc: another arc from the cutter's position that touches the compensated end in the same direction.
 fn entry(engine: &mut Engine, arc: &Arc, here: &Here, end: Point, at: At) -> queue::Bow {
     let plane = engine.state.plane;
     engine.queue.start(here.contour);

@@ -5,7 +5,7 @@ use crate::{At, Canon, DistanceMode, Engine, Error, FeedMode, Pose, Sink, State,
 use std::f64::consts::TAU;
 use trunnion_syntax::TextRange;
 
-/// One call that waits.
+/// One queued call.
 #[derive(Clone, Debug)]
 enum Held {
     /// Not a motion.
@@ -16,7 +16,7 @@ enum Held {
     Bow(Bow, Modes, At),
 }
 
-/// What was active when a motion was held: it is emitted with that, not with what later lines have changed.
+/// What was active when a motion was held: it is emitted with that, unaffected by later lines.
 #[derive(Clone, Copy, Debug)]
 struct Modes {
     motion: i16,
@@ -38,7 +38,7 @@ impl Modes {
             named_axes: state.named_axes,
         }
     }
-    /// Puts these in force; what was in force before comes back.
+    /// Puts these in effect; returns what was in effect before.
     fn swap(self, state: &mut State) -> Self {
         let before = Self::of(state);
         state.motion = self.motion;
@@ -57,7 +57,7 @@ pub(super) struct Line {
     pub(super) rapid: bool,
     /// End, centre.
     pub(super) end: Pose,
-    /// The contour's direction, or zero where a reversal does no harm (entry, motion along the axis).
+    /// The contour's direction, or zero where a reversal is harmless (entry, motion along the axis).
     pub(super) along: Point,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Bow {
     pub(super) fixed: bool,
 }
 
-/// What follows decides where the last move ends; until then it and the calls after it are here.
+/// The next move decides where the last one ends; until then it and the calls after it are held here.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Queue {
     held: Vec<Held>,
@@ -97,7 +97,7 @@ impl Queue {
         self.told = at;
         self.last_arc = None;
     }
-    /// A call that is no motion waits in order.
+    /// A call that is not a motion is queued in order.
     pub(crate) fn hold(&mut self, call: Canon, at: At) {
         self.held.push(Held::Call(call, at));
     }
@@ -127,7 +127,7 @@ impl Queue {
     pub(super) fn last_arc(&self) -> Option<(Point, i32)> {
         self.last_arc
     }
-    /// What the last move of the contour in the plane is.
+    /// Sets the last move of the contour in the plane.
     pub(super) fn moves(&mut self, arc: Option<(Point, i32)>) {
         self.last_arc = arc;
     }
@@ -145,7 +145,7 @@ pub(super) fn bow(engine: &mut Engine, bow: Bow, at: At) {
     engine.queue.held.push(Held::Bow(bow, modes, at));
 }
 
-/// Tells everything that is held as it is.
+/// Emits everything that is held unchanged.
 pub(super) fn release(engine: &mut Engine, sink: &mut dyn Sink) {
     let mut held = std::mem::take(&mut engine.queue.held);
     for one in held.drain(..) {

@@ -82,7 +82,7 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
             hole.rapid(work, r);
         }
         drill(work, code, &hole, &words)?;
-        // the control takes the tool to be at the retract level even where an operator has moved it (G88)
+        // the control assumes the tool at the retract level even if an operator has moved it (G88)
         let pose = hole.pose(work, hole.at, clear);
         work.engine.state.current = pose;
         level = clear;
@@ -134,7 +134,7 @@ fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Erro
     Ok(())
 }
 
-/// The words of the block, or those of the blocks before it. They keep the meaning of the distance mode in force.
+/// The words of the block, or those of the blocks before it. They keep the meaning of the distance mode in effect.
 fn words(work: &Work<'_>, axes: Axes, code: i16, new_code: bool) -> Result<CycleWords, Error> {
     let block = work.block;
     let mut words = work.engine.state.cycle;
@@ -168,7 +168,7 @@ fn words(work: &Work<'_>, axes: Axes, code: i16, new_code: bool) -> Result<Cycle
     Ok(words)
 }
 
-/// Words that a cycle needs when its code is new. The control marks an absent P or Q by -1, so that -1 counts as absent.
+/// Words that a cycle needs when its code is new. The control marks an absent P or Q by -1, so that -1 is taken as absent.
 fn missing(work: &Work<'_>, code: i16, new_code: bool) -> Result<(), Error> {
     if !new_code {
         return Ok(());
@@ -200,7 +200,7 @@ fn missing(work: &Work<'_>, code: i16, new_code: bool) -> Result<(), Error> {
     }
 }
 
-/// The way in one hole, from the R plane.
+/// The path in one hole, from the R plane.
 fn drill(work: &mut Work<'_>, code: i16, hole: &Hole, words: &CycleWords) -> Result<(), Error> {
     match code {
         730 | 830 => return peck(work, code, hole, words.q),
@@ -273,8 +273,8 @@ fn peck(work: &mut Work<'_>, code: i16, hole: &Hole, peck: f64) -> Result<(), Er
     Ok(())
 }
 
-/// G74 and G84: feed in, reverse the spindle, feed out, without overrides. In the XZ and YZ planes the control passes the coordinates of
-/// both feeds on in the wrong order; it does the same here, because that is where the machine would go.
+/// G74 and G84: feed in, reverse the spindle, feed out, without overrides. In the XZ and YZ planes the control emits the coordinates of
+/// both feeds in the wrong order; the same is done here, because that is where the machine would go.
 fn tap(work: &mut Work<'_>, code: i16, hole: &Hole, dwell: f64) -> Result<(), Error> {
     let (spindle, turning) = work.turning();
     let (still, wrong, expected) = if code == 740 {
@@ -322,7 +322,7 @@ fn mixed_feed(work: &mut Work<'_>, hole: &Hole, level: f64) {
     work.emit(Canon::Feed(pose));
 }
 
-/// G87: down beside the hole with the spindle oriented, up into the material with it turning, and out along the same path.
+/// G87: down next to the hole with the spindle oriented, up into the material with it turning, and out along the same path.
 fn back_bore(work: &mut Work<'_>, hole: &Hole, words: &CycleWords) -> Result<(), Error> {
     let (spindle, turning) = work.turning();
     if turning == 0 {

@@ -48,7 +48,7 @@ impl Hole {
     pub(super) fn rapid(&self, work: &mut Work<'_>, level: f64) {
         self.rapid_beside(work, self.at, level);
     }
-    /// Rapid to a level beside the hole.
+    /// Rapid to a level next to the hole.
     pub(super) fn rapid_beside(&self, work: &mut Work<'_>, at: [f64; 2], level: f64) {
         let pose = self.pose(work, at, level);
         work.engine.state.current = pose;

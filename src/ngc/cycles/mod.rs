@@ -1,6 +1,6 @@
 //! Canned cycles (G73-G89), threads (G33, G33.1, G76), splines (G5-G5.3), turning cycles (G70-G72.2).
 //!
-//! Everything is emitted as the calls that `rs274` makes, in its order; the tests hold the programs they were compared with.
+//! Everything is emitted as the calls that `rs274` makes, in its order; the tests contain the programs they were compared with.
 mod drill;
 mod hole;
 mod problems;
@@ -13,7 +13,7 @@ use crate::{At, Block, Engine, Error, Sink};
 pub(crate) use spline::Spline;
 pub(crate) use turning::Turning;
 
-/// What a cycle needs at hand.
+/// What a cycle needs available.
 pub(super) struct Work<'a> {
     engine: &'a mut Engine,
     block: &'a Block,
@@ -22,7 +22,7 @@ pub(super) struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Tells a call, which costs as much as a line: cycles in loops end as loops do.
+    /// Emits a call, which counts as a line: cycles in loops end as loops do.
     fn emit(&mut self, call: crate::Canon) {
         self.engine.flow.spend();
         self.engine.emit(call, self.at, self.sink);
@@ -35,7 +35,7 @@ impl Work<'_> {
             self.block.range
         }
     }
-    /// Refuses to go on where the bound on executed lines is reached.
+    /// Refuses to continue when the bound on executed lines is reached.
     fn may_go_on(&self) -> Result<(), Error> {
         if self.engine.flow.is_spent() {
             return Err(self.refuse(&problems::MANY));
@@ -46,7 +46,7 @@ impl Work<'_> {
     fn refuse(&self, problem: &'static crate::Problem) -> Error {
         Error::new(problem, self.code_range())
     }
-    /// The spindle of `$`: it counts for this and the following threads.
+    /// The spindle of `$`: it applies to this and the following threads.
     fn choose_spindle(&mut self, problem: &'static crate::Problem) -> Result<(), Error> {
         let Some(number) = self.block.spindle else {
             return Ok(());
@@ -56,14 +56,14 @@ impl Work<'_> {
         self.engine.state.chosen_spindle = spindle.ok_or_else(|| self.refuse(problem))?;
         Ok(())
     }
-    /// The spindle whose state counts, and its direction: 0, 1, -1.
+    /// The spindle whose state matters, and its direction: 0, 1, -1.
     fn turning(&self) -> (i32, i8) {
         let spindle = self.engine.state.chosen_spindle;
         (spindle as i32, self.engine.state.turning[spindle])
     }
 }
 
-/// Before anything of a block is done: G5.3 is not allowed with another motion.
+/// Before a block does anything: G5.3 is not allowed with another motion.
 pub(crate) fn check_between(block: &Block) -> Result<(), Error> {
     if matches!(block.g[0], 53 | 63) && block.g[1] >= 0 && block.g[1] != 52 {
         return Err(Error::new(&problems::NURBS_BETWEEN, block.g_range(1)));
@@ -71,7 +71,7 @@ pub(crate) fn check_between(block: &Block) -> Result<(), Error> {
     Ok(())
 }
 
-/// Before anything of a block is done: the words that G76 cannot do without.
+/// Before a block does anything: the words that G76 cannot do without.
 pub(crate) fn check_thread(block: &Block) -> Result<(), Error> {
     if block.motion == 760 {
         threading::check(block)?;

@@ -18,7 +18,7 @@ pub(crate) struct Spline {
     tail: Option<(Pose, [f64; 2])>,
 }
 
-/// What G5 and G5.1 need. Motion codes of splines do not stay in force.
+/// What G5 and G5.1 need. Motion codes of splines do not stay in effect.
 fn check(work: &mut Work<'_>) -> Result<(), Error> {
     let block = work.block;
     let state = &work.engine.state;
@@ -28,7 +28,7 @@ fn check(work: &mut Work<'_>) -> Result<(), Error> {
     match state.feed_mode {
         FeedMode::InverseTime if !block.has(b'F') => return Err(work.refuse(&problems::SPLINE_INVERSE)),
         FeedMode::PerMinute if state.feed_rate == 0.0 => return Err(work.refuse(&problems::SPLINE_FEED)),
-        // observed: under G95 no rate is asked for
+        // observed: under G95 no rate is required
         _ => {}
     }
     if state.plane != crate::Plane::Xy {
@@ -40,7 +40,7 @@ fn check(work: &mut Work<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Tells a Bezier curve through its control points, weights 1.
+/// Emits a Bezier curve by its control points, weights 1.
 fn bezier(work: &mut Work<'_>, points: &[[f64; 2]], end: Pose) -> Result<(), Error> {
     if !work.engine.spline.points.is_empty() {
         return Err(work.refuse(&problems::OPEN));
@@ -48,7 +48,7 @@ fn bezier(work: &mut Work<'_>, points: &[[f64; 2]], end: Pose) -> Result<(), Err
     let order = points.len();
     let mut knots = vec![0.0; order];
     knots.resize(2 * order, 1.0);
-    // the motion code in force stays
+    // the motion code in effect stays
     work.engine.state.current = end;
     work.emit(Canon::Nurbs {
         order: order as u32,
@@ -114,7 +114,7 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
         work.engine.spline.order = 3;
     }
     if let Some(order) = block.word(b'L') {
-        // observed: the last one above 3 counts
+        // observed: the last one above 3 is used
         let order = order as u32;
         if order > 3 {
             work.engine.spline.order = order;
@@ -125,7 +125,7 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
     if one {
         return Err(work.refuse(&problems::NURBS_POINT));
     }
-    // observed: under G93 and G95 none is asked for
+    // observed: under G93 and G95 none is required
     let state = &work.engine.state;
     if state.feed_mode == FeedMode::PerMinute && state.feed_rate == 0.0 {
         return Err(work.refuse(&problems::NURBS_FEED));

@@ -2,7 +2,7 @@
 use super::{Work, problems};
 use crate::{Canon, Error, Pose, Problem, Side, SyncedFeed, comp, exec};
 
-/// Feed of so much per revolution of the spindle.
+/// A feed per revolution of the spindle.
 pub(super) fn coupled(per_revolution: f64) -> Canon {
     Canon::StartSync(SyncedFeed {
         per_revolution,
@@ -30,7 +30,7 @@ fn turns(work: &Work<'_>, still: &'static Problem) -> Result<(), Error> {
     }
 }
 
-/// Whether compensation leads the tool beside the contour.
+/// Whether compensation guides the tool next to the contour.
 pub(super) fn is_held(work: &Work<'_>) -> bool {
     work.engine.state.side != Side::Off && work.engine.state.radius != 0.0
 }
@@ -74,7 +74,7 @@ pub(super) fn rigid(work: &mut Work<'_>) -> Result<(), Error> {
     work.emit(coupled(pitch));
     work.emit(Canon::RigidTap([end[0], end[1], end[2]], ratio));
     work.emit(Canon::StopSync);
-    // the tool comes back in X Y Z; the other axes are taken to be at their end
+    // the tool comes back in X Y Z; the other axes are assumed at their end
     let start = work.engine.state.current;
     work.engine.state.current = end;
     work.engine.state.current[..3].copy_from_slice(&start[..3]);

@@ -50,7 +50,7 @@ pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// The words without which nothing of the block is done: pitch (the control marks an absent one by -1), peak, first and full depth.
+/// The words without which the block does nothing: pitch (the control marks an absent one by -1), peak, first and full depth.
 fn needed(block: &Block) -> Result<[f64; 4], Error> {
     let refuse = |problem| Error::new(problem, exec::code_range(block));
     let Some(pitch) = block.word(b'P').filter(|&pitch| pitch != -1.0) else {
@@ -62,7 +62,7 @@ fn needed(block: &Block) -> Result<[f64; 4], Error> {
     }
 }
 
-/// What is refused before anything of the block is done.
+/// What is refused before the block does anything.
 pub(super) fn check(block: &Block) -> Result<(), Error> {
     needed(block).map(|_| ())
 }
@@ -79,7 +79,7 @@ fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
         return Err(Error::with(&problems::STILL_G76, work.code_range(), text));
     }
     let end = exec::end_of(state, block)?;
-    // observed: a rotary word that does not move counts as none; whether one moves from an unknown position is unknown too
+    // observed: a rotary word that does not move is taken as none; whether one moves from an unknown position is unknown too
     let moves = |axis: usize| (end[axis] - state.current[axis]).abs() > 0.0;
     if let Some((&letter, _)) = b"ABC".iter().zip(3..).find(|&(_, axis)| moves(axis)) {
         return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));
@@ -110,7 +110,7 @@ fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
         tangent: math::tan(angle.to_radians()),
         springs: block.word(b'H').map_or(0, |h| h as i32),
         taper,
-        // observed: a taper of no length or a negative one is none
+        // observed: a taper of zero or negative length is none
         taper_in: matches!(tapers, 1 | 3) && taper > 0.0,
         taper_out: matches!(tapers, 2 | 3) && taper > 0.0,
         start: state.current,

@@ -1,4 +1,4 @@
-//! Numbered parameters that the control keeps in step with what is in force.
+//! Numbered parameters that the control updates with its state.
 use super::ends::word;
 use crate::{Block, Engine, Pose, Units};
 
@@ -6,7 +6,7 @@ use crate::{Block, Engine, Pose, Units};
 pub(crate) const HOME: usize = 5161;
 /// See [`HOME`].
 pub(crate) const SECOND_HOME: usize = 5181;
-/// 1: G92 is in force.
+/// 1: G92 is in effect.
 pub(crate) const G92_ON: usize = 5210;
 /// See [`HOME`].
 pub(crate) const G92: usize = 5211;
@@ -48,7 +48,7 @@ impl Engine {
         let first = system(index);
         (self.stored_pose(first), self.parameter(first + 9))
     }
-    /// The offset of G92 as the parameters tell it, program units.
+    /// The offset of G92 from the parameters, program units.
     pub(crate) fn stored_axis_offset(&self) -> Pose {
         match self.parameter(G92_ON) {
             0.0 => [0.0; 9],
@@ -56,7 +56,7 @@ impl Engine {
             _ => self.stored_pose(G92),
         }
     }
-    /// The words of the block over a pose: what is not given stays.
+    /// A pose with the words of the block: the rest stays.
     pub(crate) fn over(&self, block: &Block, pose: Pose) -> Pose {
         std::array::from_fn(|axis| word(&self.state, block, super::ends::AXES[axis]).unwrap_or(pose[axis]))
     }
@@ -97,7 +97,7 @@ fn always_kept(index: u32) -> bool {
 }
 
 impl Engine {
-    /// What the control writes into its parameter file at the end: what always belongs there, and what was in it.
+    /// What the control writes into its parameter file at the end: what it must contain, and what was in it.
     pub fn kept_parameters(&self) -> crate::Parameters {
         let declared = &self.setup.parameters.values;
         let mut indices: Vec<u32> = declared.iter().map(|&(index, _)| index).collect();

@@ -33,7 +33,7 @@ problems! {
     OTHER_PLANE Other "Cannot do an arc in planes G17.1, G18.1, or G19.1" "Write G17, G18 or G19."
 }
 
-/// What depends on the plane: places of first, second and third coordinate in a pose, letters, centre letters, problems.
+/// What depends on the plane: indices of first, second and third coordinate in a pose, letters, centre letters, problems.
 pub(super) struct Axes {
     pub(super) places: [usize; 3],
     centre: [u8; 2],
@@ -120,7 +120,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     sweep(engine, end, centre, turns, block, at, sink)
 }
 
-/// One arc in the plane in force to `end` (program coordinates, contour).
+/// One arc in the plane in effect to `end` (program coordinates, contour).
 pub(crate) fn sweep(
     engine: &mut Engine,
     end: Pose,

@@ -1,9 +1,9 @@
-//! What must fit together in a block before anything of it is done.
+//! Consistency of a block, checked before it does anything.
 use super::{motion, problems, unused};
 use crate::block::M_GROUPS;
 use crate::{Block, DistanceMode, Error, Plane, State, cycles};
 
-/// A line holds at most so many M codes.
+/// A line has at most this many M codes.
 const M_CODES: u8 = 4;
 
 /// How many M codes there are.
@@ -18,7 +18,7 @@ pub(crate) fn codes(block: &Block) -> Result<(), Error> {
     Ok(())
 }
 
-/// Finds out which motion applies to the block: the code given, or the one in force where axis words ask for it.
+/// Determines which motion applies to the block: the code given, or the one in effect if there are axis words.
 pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Error> {
     let polar = block.radius.is_some() || block.angle.is_some();
     if polar && state.plane != Plane::Xy {
@@ -56,7 +56,7 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
             return Err(Error::new(&problems::AXES_WITH_G80, block.range));
         }
     } else if axes && block.g[8] == 432 && !setting {
-        // observed: polar words lead in the mode in force, which uses the other words, too; axis words are refused later
+        // observed: polar words move in the mode in effect, which uses the other words, too; axis words are refused later
         block.motion = state.motion;
     } else if setting || tool_offset {
         // the axis words are theirs
@@ -66,13 +66,13 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         }
         block.motion = state.motion;
     } else if matches!(state.motion, 20 | 30) && [b'I', b'J', b'K'].into_iter().any(|letter| block.has(letter)) {
-        // a centre alone asks for another full circle
+        // a centre alone means another full circle
         block.motion = state.motion;
     }
     Ok(())
 }
 
-/// Axis words without a motion code, while the one in force may be one that is not modelled: what they do is not known.
+/// Axis words without a motion code, while the one in effect may not be modelled: what they do is unknown.
 pub(crate) fn modelled(block: &Block, state: &State) -> Result<(), Error> {
     let Some(tenths) = state.unmodelled else { return Ok(()) };
     let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920) || matches!(block.g[8], 431 | 432);
@@ -140,7 +140,7 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
     cycles::check_thread(block)
 }
 
-/// A value counts as whole so near a whole number (observed: within 0.0001 it does, at 0.0005 no more).
+/// A value this near a whole number is taken as whole (observed: within 0.0001 it is, at 0.0005 it is not).
 pub(super) const WHOLE: f64 = 0.0002;
 
 fn check_g10(block: &Block) -> Result<(), Error> {

@@ -1,4 +1,4 @@
-//! The words of G40-G42.1; what compensation does is in `comp`.
+//! The words of G40-G42.1; compensation itself is in `comp`.
 use super::access;
 use crate::{At, Block, Class, Engine, Error, Plane, Problem, Side, Sink, comp};
 

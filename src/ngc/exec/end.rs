@@ -1,11 +1,11 @@
-//! The calls before the first line, stops, and what M2 and M30 set back.
+//! The calls before the first line, stops, and what M2 and M30 reset.
 use super::{After, access, frame, tools};
 use crate::{
     At, Block, Canon, Coolant, DistanceMode, Engine, Error, FeedMode, Plane, Side, Sink, SpindleMode, SpindleTurn,
     Start, Stop, Switch,
 };
 
-/// The calls before the first line: parameters and tool table come into force.
+/// The calls before the first line: parameters and tool table take effect.
 pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     let at = At::default();
     engine.state.tools = engine.setup.tool_rows();
@@ -19,11 +19,11 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
         engine.set_parameter(access::G92_ON, 0.0);
     }
     let index = engine.parameter(5220);
-    // 0: not known which one is in force
+    // 0: unknown which one is in effect
     engine.state.origin_index = if index.is_nan() { 0 } else { (index as i32).clamp(1, 9) };
     let (origin, mut rotation) = engine.stored_origin(engine.state.origin_index.max(1));
     if !engine.setup.g92_persists() {
-        // observed: with this switch the control begins with the rotation of G54 in whatever system
+        // observed: with this switch the control begins with the rotation of G54 in any system
         rotation = engine.stored_origin(1).1;
     }
     let unknown = engine.state.origin_index == 0;
@@ -31,7 +31,7 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     engine.state.rotation_xy = if unknown { f64::NAN } else { rotation };
     engine.state.axis_offset = engine.stored_axis_offset();
     if engine.setup.start == Start::Zero {
-        // machine zero in program coordinates; as on the control the rotation plays no part here, nor do the offsets of U V W
+        // machine zero in program coordinates; as on the control the rotation is not used here, nor are the offsets of U V W
         let offsets = frame::sum(&engine.state.origin_offset, &engine.state.axis_offset);
         engine.state.current = std::array::from_fn(|axis| if axis < 6 { 0.0 - offsets[axis] } else { 0.0 });
         engine.state.compensated = engine.state.current;
@@ -83,7 +83,7 @@ pub(crate) fn stop(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Si
     Ok(After::Go)
 }
 
-/// What the end of a program sets back.
+/// What the end of a program resets.
 fn reset(engine: &mut Engine, at: At, sink: &mut dyn Sink) {
     let (origin, rotation) = engine.stored_origin(1);
     frame::change_origin(&mut engine.state, origin, rotation);

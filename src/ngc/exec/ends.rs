@@ -32,7 +32,7 @@ pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
     cycle_end(state, block)
 }
 
-/// The same of a canned cycle: at the origin a radius without angle leads along X.
+/// The same of a canned cycle: at the origin a radius without angle is along X.
 pub(crate) fn cycle_end(state: &State, block: &Block) -> Result<Pose, Error> {
     if block.g[0] == 530 {
         return machine_end(state, block);
@@ -79,7 +79,7 @@ pub(crate) fn put_words(pose: &mut Pose, block: &Block) {
     }
 }
 
-/// Where an absolute word leads from `here`: on a wrapped rotary axis in the direction of its sign.
+/// The target of an absolute word from `here`: on a wrapped rotary axis in the direction of its sign.
 fn absolute(state: &State, block: &Block, place: usize, here: f64, value: f64) -> Result<f64, Error> {
     if !is_wrapped(state, place) {
         return Ok(value);
@@ -100,8 +100,8 @@ fn turned_to(here: f64, backward: bool, size: f64) -> f64 {
     }
 }
 
-/// Where an axis goes to a place of the machine (G28, G30, G53), `end` in program coordinates: on a wrapped rotary axis the sign of the
-/// machine coordinate gives the direction, and the program coordinate counts without its sign. Observed from `rs274`.
+/// The target of an axis that moves to a machine position (G28, G30, G53), `end` in program coordinates: on a wrapped rotary axis the sign of the
+/// machine coordinate gives the direction, and the program coordinate is used without its sign. Observed from `rs274`.
 pub(crate) fn named_end(
     state: &State,
     block: &Block,

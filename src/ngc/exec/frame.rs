@@ -42,7 +42,7 @@ pub(crate) fn to_program(state: &State, machine: &Pose) -> Pose {
     difference(&turned(shifted, -state.rotation_xy), &state.axis_offset)
 }
 
-/// Program coordinates of a point that G28, G30 or G53 names: as on the control the tool offset plays no part in the rotary axes.
+/// Program coordinates of a point that G28, G30 or G53 names: as on the control the tool offset is not used for the rotary axes.
 pub(crate) fn named_point(state: &State, machine: &Pose) -> Pose {
     let program = to_program(state, machine);
     std::array::from_fn(|axis| {

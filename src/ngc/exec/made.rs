@@ -1,4 +1,4 @@
-//! Motion that the control makes itself in a cycle: with the checks of a block that holds nothing but G0, G1, G2 or G3 and its end.
+//! Motion that the control makes itself in a cycle: with the checks of a block that contains only G0, G1, G2 or G3 and its end.
 use super::{arcs, motion, problems};
 use crate::{At, Block, Engine, Error, Pose, Sink};
 
@@ -20,7 +20,7 @@ pub(crate) fn made_straight(
     motion::feed(engine, end, block, at, sink)
 }
 
-/// G2 (`turns` -1) or G3 (1) in the plane in force to a pose in program coordinates.
+/// G2 (`turns` -1) or G3 (1) in the plane in effect to a pose in program coordinates.
 pub(crate) fn made_arc(
     engine: &mut Engine,
     (end, centre, turns): (Pose, [f64; 2], i32),

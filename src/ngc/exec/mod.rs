@@ -1,4 +1,4 @@
-//! Runs one evaluated block: what must fit together, modal changes, motion, stop, in the order in which the control does them.
+//! Runs one evaluated block: checks, modal changes, motion, stop, in the order of the control.
 mod access;
 mod arcs;
 mod checks;
@@ -35,11 +35,11 @@ pub(crate) enum After {
     Ended,
 }
 
-/// What must fit together before anything of a block is done; `block.motion` is filled in. The line's comment comes between this and
+/// Checks a block before it does anything; `block.motion` is filled in. The line's comment comes between this and
 /// [`execute`].
 pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
     if !block.own.is_empty() {
-        // what its words mean depends on the machine; a motion code beside M codes is active after them all the same
+        // what its words mean depends on the machine; a motion code next to M codes is still active after them
         if block.own.iter().all(|own| own.letter == b'M') {
             return checks::choose_motion(block, &engine.state);
         }
@@ -66,7 +66,7 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     modes(engine, block, at, sink)?;
     switches(engine, block, at, sink)?;
     if flow::context::run(engine, block, at, sink)? {
-        // the rest of the block is gone, its dwell too
+        // the rest of the block is lost, including its dwell
         engine.refresh_parameters();
         return Ok(After::Go);
     }
@@ -92,20 +92,20 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     Ok(after)
 }
 
-/// Codes of the machine's own: emitted, and what they may leave active.
+/// The machine's own codes: emitted, with what they may leave active.
 #[cold]
 fn own_codes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     engine.emit(Canon::OwnCodes(block.own.clone()), at, sink);
     for own in &block.own {
         let motion = engine.setup.own_motions.binary_search(&own.tenths).is_ok();
-        // what a remap runs may leave a motion code in force
+        // what a remap runs may leave a motion code in effect
         if own.letter == b'G' && (motion || engine.state.motion == 800) {
             engine.state.unmodelled = Some(own.tenths);
         }
     }
 }
 
-/// Whether a block is nothing but a line (G0, G1) and its F: then [`check`] finds nothing, and [`line()`] does what [`execute`] would.
+/// Whether a block is only a line (G0, G1) and its F: then [`check`] finds nothing, and [`line()`] does what [`execute`] would.
 /// `block.motion` is filled in.
 #[inline]
 pub(crate) fn choose_line(engine: &Engine, block: &mut Block) -> bool {
@@ -138,7 +138,7 @@ pub(crate) fn line(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Si
     Ok(After::Go)
 }
 
-/// A block without anything but a motion and its F: what the other steps look for is not there.
+/// A block with only a motion and its F: there is nothing for the other steps.
 fn move_only(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
     modal::feed_rate(engine, block, at, sink);
     move_tool(engine, block, at, sink)?;
@@ -146,7 +146,7 @@ fn move_only(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) ->
     Ok(After::Go)
 }
 
-/// Axes with words: bit i is axis i of a pose. Polar words lead along X and Y.
+/// Axes with words: bit i is axis i of a pose. Polar words move X and Y.
 #[inline]
 fn named_axes(block: &Block) -> u16 {
     let polar = u16::from(block.radius.is_some() || block.angle.is_some()) * 0b11;
@@ -163,7 +163,7 @@ fn modes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Res
     tools::select(engine, block, at, sink)
 }
 
-/// M codes but the stops.
+/// M codes except the stops.
 fn switches(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if block.m_count > 0 {
         outputs::signals(engine, block, at, sink)?;
@@ -196,7 +196,7 @@ fn setting(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> R
     match block.g[0] {
         100 if matches!(block.word(b'L'), Some(2.0 | 20.0)) => offsets::coordinate_system(engine, block, at, sink),
         100 => tools::table(engine, block, at, sink),
-        // the end of a spline is no modal motion
+        // the end of a spline is not a modal motion
         code @ (53 | 63) => cycles::run(engine, code, block, at, sink),
         280 | 281 | 300 | 301 => home::run(engine, block, at, sink),
         _ => offsets::axis_offsets(engine, block, at, sink),
@@ -223,7 +223,7 @@ fn move_tool(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) ->
     }
 }
 
-/// Tells what compensation holds back.
+/// Emits what compensation holds back.
 fn flush(engine: &mut Engine, block: &Block, sink: &mut dyn Sink) -> Result<(), Error> {
     comp::flush(engine, block, sink)
 }

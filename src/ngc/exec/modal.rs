@@ -29,7 +29,7 @@ pub(crate) fn feed_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     let of_spindle = if mode == FeedMode::PerRevolution { spindle } else { 0 };
     engine.emit(Canon::FeedMode(of_spindle as i32, per_revolution), at, sink);
     if mode != FeedMode::InverseTime {
-        // an F of another mode would be meant otherwise: it must be written again
+        // an F of another mode would have another meaning: it must be written again
         engine.state.feed_rate = 0.0;
         engine.emit(Canon::FeedRate(0.0), at, sink);
     }
@@ -122,7 +122,7 @@ pub(crate) fn control_mode(engine: &mut Engine, block: &Block, at: At, sink: &mu
     Ok(())
 }
 
-/// A word whose negative values count as absent.
+/// A word whose negative values are taken as absent.
 fn positive(value: Option<f64>) -> Option<f64> {
     value.filter(|value| value.is_nan() || *value >= 0.0)
 }
@@ -225,7 +225,7 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     Ok(())
 }
 
-/// The spindle that a mode names: the first where it names none. Threads and feed per revolution follow it from then on.
+/// The spindle that a mode names: the first if it names none. Threads and feed per revolution follow it from then on.
 fn choose_spindle(engine: &mut Engine, block: &Block, problem: &'static Problem) -> Result<usize, Error> {
     let spindle = match block.spindle.map(usize::try_from) {
         None => 0,

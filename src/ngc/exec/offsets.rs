@@ -1,4 +1,4 @@
-//! G10 L2 and L20, G92 to G92.3, G52: where zero is.
+//! G10 L2 and L20, G92 to G92.3, G52: the zero points.
 use super::{access, checks::WHOLE, frame, modal, problems};
 use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink};
 
@@ -92,7 +92,7 @@ pub(crate) fn axis_offsets(engine: &mut Engine, block: &Block, at: At, sink: &mu
         });
     }
     engine.state.axis_offset = new;
-    // observed: under compensation the offset changes without a word to the machine
+    // observed: under compensation the offset changes without a call to the machine
     if engine.state.side == Side::Off {
         engine.emit(Canon::G92Offset(new), at, sink);
     }

@@ -55,7 +55,7 @@ pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
     Ok(())
 }
 
-/// M66: what is read is put into parameter 5399; it is known to the machine only.
+/// M66: what is read is put into parameter 5399; only the machine knows it.
 fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let range = block.m_range(5);
     let digital = block.word(b'P').map(f64::round_ties_even);

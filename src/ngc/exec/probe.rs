@@ -2,7 +2,7 @@
 use super::{ends, motion, problems};
 use crate::{At, Block, Canon, Engine, Error, FeedMode, Pose, Side, Sink};
 
-/// How far short of the programmed end the listing of `rs274` leaves the tool, mm: it has no machine that could touch something.
+/// How far short of the programmed end the listing of `rs274` leaves the tool, mm: it has no machine that could touch anything.
 const SHORT_MM: f64 = 0.254;
 
 /// G38.2-G38.5.

@@ -1,4 +1,4 @@
-//! Why a block is refused, as the control says it (messages observed from `rs274`).
+//! Why a block is refused, in the words of the control (messages observed from `rs274`).
 use crate::{Class, Problem};
 
 macro_rules! problems {
@@ -91,7 +91,7 @@ problems! {
     M19_P Number "P value must be 0,1,or 2 with M19" "P is 0 for the shorter way, 1 for clockwise, 2 for counter-clockwise."
     M19_Q Number "Q word with M19 requires a value > 0" "Q is the longest wait in seconds."
     P_NOT_INTEGER Number "P value not an integer with M19 G2 or G3" "Write a whole number."
-    P_TURNS Number "P value should be 1 or greater with G2 or G3" "P counts the turns."
+    P_TURNS Number "P value should be 1 or greater with G2 or G3" "P is the number of turns."
     M61_Q MissingWord "Need non-negative Q-word to specify tool number with M61" "Add Q with the tool number."
     M62_P MissingWord "No valid P word with M62" "Add P with the output number."
     M63_P MissingWord "No valid P word with M63" "Add P with the output number."

@@ -11,7 +11,7 @@ fn chosen(engine: &Engine, block: &Block, problem: &'static Problem) -> Result<R
         Some(-1) => Ok(0..count),
         Some(number) if (0..count as i32).contains(&number) => Ok(number as usize..number as usize + 1),
         Some(number) => {
-            // S alone says it in one line
+            // S alone does it in one line
             let text = format!("{}\nnum_spindles ={count}. $={number}\n", problem.message);
             let short = *problem == problems::SPINDLE_RANGE;
             Err(if short {
@@ -80,15 +80,16 @@ fn turn_to(
 fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let angle = block.word(b'R').unwrap_or(0.0);
     let mode = block.word(b'P').unwrap_or(0.0).round();
-    // all of them at once (-1) it does not turn
+    // it cannot turn all of them at once (-1)
     let number = block.spindle.unwrap_or(0);
     let exists = usize::try_from(number).is_ok_and(|spindle| spindle < engine.setup.spindles());
     if !exists {
         return Err(Error::new(&problems::SPINDLE_RANGE_M19, block.range));
     }
-    // whichever it turns, the control takes all of them as stopped
+    // the control takes all of them as stopped, whichever it turns
     engine.state.turning = [0; 8];
     if block.has(b'R') || block.has(b'P') {
+        let angle = angle + engine.setup.orient_offset();
         engine.emit(Canon::OrientSpindle(number, angle, mode as i32), at, sink);
     }
     if let Some(timeout) = block.word(b'Q') {

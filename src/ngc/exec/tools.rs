@@ -236,7 +236,7 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 spindle_row_offset(engine, block, at, sink);
                 return Ok(());
             }
-            // with axis words the control looks for a tool of its own number for "no H", and never finds it
+            // with axis words the control searches for a tool with its internal number for "no H", and never finds it
             let row = engine.tool_row(h.unwrap_or(-1), if h.is_some() { block.range_of(b'H') } else { range })?;
             frame::sum(&engine.state.tool_offset, &engine.tool_row_offset(row))
         }
@@ -247,7 +247,7 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
 }
 
 /// H0 of G43 and G43.2: the row of the spindle as it was before a change in the same block, which the control takes over after the
-/// block. In a check that row is not relied upon.
+/// block. A check does not rely on that row.
 fn spindle_row_offset(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     let before = engine.state.spindle_row_before.filter(|_| block.m[6] == 6);
     let row = match before {

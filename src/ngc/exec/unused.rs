@@ -156,7 +156,7 @@ const ASKED: u32 = {
 
 fn check_each(block: &Block) -> Result<(), Error> {
     let codes = Codes(block);
-    // the control looks at these before anything of the block is done, and before all other words
+    // the control checks these before the block does anything, and before all other words
     for (letter, problem) in [(b'A', &AXIS_A), (b'B', &AXIS_B), (b'C', &AXIS_C)] {
         if block.has(letter) && codes.cycle() {
             return Err(Error::new(problem, block.range_of(letter)));
@@ -192,7 +192,7 @@ fn check_each(block: &Block) -> Result<(), Error> {
     Ok(())
 }
 
-/// P of arcs and of M19 counts.
+/// P of arcs and of M19 is a count.
 fn check_p(block: &Block) -> Result<(), Error> {
     let Some(p) = block.word(b'P') else { return Ok(()) };
     let (arc, orient) = (matches!(block.motion, 20 | 30), block.m[7] == 19);

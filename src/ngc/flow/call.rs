@@ -1,4 +1,4 @@
-//! Calls and returns: `o... call`, `sub`, `endsub`, `return`; subprograms in files of their own.
+//! Calls and returns: `o... call`, `sub`, `endsub`, `return`; subprograms in separate files.
 use super::labels::{NameId, Place, Style, Subprogram};
 use super::oline::{Keyword, OLine};
 use super::{Call, Compiled, Goal, Halt, Seeking, context, problems};
@@ -20,7 +20,7 @@ impl Engine {
         sought: Option<&Seeking>,
     ) -> Result<(), Halt> {
         if sought.is_some() {
-            // a call in the text of its own definition, which is passed over: as on the control its arguments are not evaluated
+            // a call in the text of its own definition, which is skipped: as on the control its arguments are not evaluated
             self.flow.seeking = sought.copied();
             return Ok(());
         }
@@ -34,7 +34,7 @@ impl Engine {
         let given = &arguments[..line.values.len()];
         self.enter(compiled, line, name, Style::Sub, 1, Some(given))
     }
-    /// Goes into a subprogram: to its first line where it is known, to its file, or forward in this file until it is found.
+    /// Enters a subprogram: at its first line if that is known, to its file, or forward in this file until it is found.
     /// `arguments`: become #1 to #30, which are the call's own then; `None`: #1 to #30 are shared (M98).
     pub(super) fn enter(
         &mut self,
@@ -186,7 +186,7 @@ impl Engine {
             let detail = format!("{head} redefining sub: o|{text}| already defined in file:{other}");
             Error::with(&problems::REDEFINED, range, detail)
         };
-        // the text of the subprogram is not run into all the same
+        // the run still does not enter the text of the subprogram
         self.flow.seeking = Some(Seeking {
             goal: Goal::Definition(name),
             opener: known.place,
@@ -227,7 +227,7 @@ impl Engine {
         let value = match (value, line.tail) {
             (Ok(value), None) => value,
             (value, flaw) => {
-                // refused; the subprogram ends here all the same
+                // refused; the subprogram still ends here
                 let error = match (value, flaw) {
                     (Err(error), _) => error,
                     (_, flaw) => flaw.map_or(Error::new(&problems::TAIL, line.label_range), |flaw| {
@@ -245,7 +245,7 @@ impl Engine {
         self.store.set_returned(value);
         self.leave_call(sink)
     }
-    /// A value in a definition that is passed over: names that are not defined there are no mistake, but have no value either.
+    /// A value in a definition that is skipped: names that are not defined there are not a mistake, but have no value either.
     fn value_in_passing(&self, formula: &Formula) -> Result<f64, Error> {
         let value = formula.eval(&InPassing(self.values()));
         value.map_err(|error| crate::read::formula_error(&error))
@@ -288,7 +288,7 @@ impl Engine {
     }
     /// Back to the line after the call, nothing else.
     pub(super) fn abandon_call(&mut self) {
-        // a contour that is left by an error is gone
+        // a contour that is left by an error is lost
         self.take_turning();
         self.flow.watch.stir();
         let Some(call) = self.flow.calls.pop() else { return };
@@ -302,7 +302,7 @@ impl Engine {
     }
 }
 
-/// What formulas read from in a definition that is passed over.
+/// The source of variables for formulas in a definition that is skipped.
 struct InPassing<'a>(Values<'a>);
 
 impl Variables for InPassing<'_> {

@@ -1,4 +1,4 @@
-//! Chains of calls: how a line came to run.
+//! Chains of calls that led to a line.
 use super::labels::{Labels, NameId, Style};
 use crate::{ChainId, FileId, Frame};
 use foldhash::HashMap;
@@ -13,7 +13,7 @@ struct Link {
     style: Style,
 }
 
-/// What a chain is known by: the chain that led to the call, and the line of the call.
+/// The key of a chain: the chain that led to the call, and the line of the call.
 type Key = (ChainId, FileId, u32);
 
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,7 @@ struct Table {
     known: Known,
 }
 
-/// Chains by their keys. A program that calls as it continues meets them in order, and needs no more than a list.
+/// Chains by their keys. A program that calls as it continues meets them in order, and a list is enough.
 #[derive(Clone, Debug, Default)]
 struct Known {
     in_order: Vec<(Key, ChainId)>,
@@ -32,7 +32,7 @@ struct Known {
 }
 
 impl Known {
-    /// Whether a key is greater than all there were: then it is not known.
+    /// Whether a key is greater than all before: then it is new.
     fn is_next(&self, key: &Key) -> bool {
         self.in_order.last().is_none_or(|(last, _)| last < key)
     }
@@ -45,7 +45,7 @@ impl Known {
             Err(_) => self.others.get(key).copied(),
         }
     }
-    /// Adds one that is not known.
+    /// Adds a new one.
     fn add(&mut self, key: Key, id: ChainId) {
         if self.is_next(&key) {
             self.in_order.push((key, id));

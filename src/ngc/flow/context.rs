@@ -1,5 +1,5 @@
-//! M70 to M73: the modal state is saved and restored. What is restored is what differs, by a block of the codes that set it, so that
-//! the machine is commanded in the order and with the quirks of the control: M51 comes back as on, F 0 stays where G94 has cleared it.
+//! M70 to M73: the modal state is saved and restored. Only what differs is restored, by a block of the codes that set it, so that
+//! the machine is commanded in the order and with the quirks of the control: M51 is restored as on, F 0 stays if G94 has cleared it.
 use crate::exec;
 use crate::{
     At, Block, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode, State,
@@ -80,7 +80,7 @@ fn to(engine: &mut Engine, context: &Context, range: TextRange, at: At, sink: &m
         .filter_map(|(group, [wanted, now])| (wanted != now && wanted >= 0).then_some((group, wanted)))
         .collect::<Vec<_>>()
         .into_iter();
-    // one M code finds room in the block of G codes
+    // one M code fits into the block of G codes
     if let Some(block) = block.as_mut().filter(|block| block.m_count == 0)
         && let Some((group, code)) = changed.next()
     {
@@ -151,12 +151,12 @@ fn modes(now: &State, saved: &State, g92: [bool; 2], range: TextRange) -> Option
     any.then_some(block)
 }
 
-/// The control writes the block as text: F with one decimal, S with none. What comes back is rounded like that on the machine, too.
+/// The control writes the block as text: F with one decimal, S with none. Restored values are rounded like that on the machine, too.
 fn rounded(value: f64, decimals: usize) -> f64 {
     format!("{value:.decimals$}").parse().unwrap_or(value)
 }
 
-/// Whether two numbers are not the same; an unknown one is the same as an unknown one.
+/// Whether two numbers differ; two unknown numbers are equal.
 fn differs(a: f64, b: f64) -> bool {
     a != b && !(a.is_nan() && b.is_nan())
 }

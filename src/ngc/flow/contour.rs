@@ -1,5 +1,5 @@
-//! The subprogram of a turning cycle (G70 to G72.2): it is called like any other, but of its blocks only the motion counts, and that is
-//! not made but taken as the contour. Where it returns, the cycle runs.
+//! The subprogram of a turning cycle (G70 to G72.2): it is called like any other, but only the motion of its blocks is used, and taken
+//! as the contour instead of being made. Where it returns, the cycle runs.
 use super::label::Label;
 use super::labels::Style;
 use super::oline::{Keyword, OLine};
@@ -10,7 +10,7 @@ use crate::{Block, Engine, Sink};
 use trunnion_formula::Name;
 
 impl Engine {
-    /// Calls the subprogram of the turning cycle that the line in hand has begun.
+    /// Calls the subprogram of the turning cycle that the current line has begun.
     pub(super) fn call_contour(&mut self, compiled: &Compiled, block: &Block) -> Result<(), Halt> {
         let depth = self.flow.calls.len();
         let Some(turning) = self.turning.as_mut().filter(|turning| turning.is_called()) else {
@@ -45,7 +45,7 @@ impl Engine {
         }
         entered
     }
-    /// Whether the line in hand belongs to a contour.
+    /// Whether the current line belongs to a contour.
     pub(super) fn in_contour(&self) -> bool {
         self.turning
             .as_ref()
@@ -62,7 +62,7 @@ impl Engine {
         }
         Ok(After::Go)
     }
-    /// The cycle whose contour ends with the call in hand.
+    /// The cycle whose contour ends with the current call.
     pub(super) fn take_turning(&mut self) -> Option<Box<Turning>> {
         let depth = self.flow.calls.len();
         let ended = self

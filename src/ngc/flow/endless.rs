@@ -1,4 +1,4 @@
-//! A proof that a program never ends: it goes around without a word to the machine, and all that it depends on is as it was before.
+//! A proof that a program never ends: it repeats without a call to the machine, and everything that it depends on is as before.
 //!
 //! Between two passes of a loop's condition only conditions, loops and assignments ran, so that parameters and names are everything that
 //! can differ. They are compared with those of an earlier pass (Brent's method of finding a cycle: the one kept is renewed after 1024,
@@ -7,7 +7,7 @@ use super::labels::Place;
 use crate::Engine;
 use crate::parameters::Store;
 
-/// So many quiet passes go by before the first is kept.
+/// This many passes without a call are made before the first is kept.
 const FIRST: u64 = 1024;
 
 /// Passes of loops since something was last sent to the machine.
@@ -41,7 +41,7 @@ impl Watch {
 }
 
 impl Engine {
-    /// The outermost loop that never ends, if the run has been at this condition before with everything as it is now. `opener`: the line
+    /// The outermost loop that never ends, if the run was at this condition before in the same state. `opener`: the line
     /// that opens this loop.
     pub(super) fn comes_back(&mut self, place: Place, opener: Place) -> Option<Place> {
         let flow = &mut self.flow;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
 impl Engine {
-    /// Opens the program: blank lines and a first `%` are passed.
+    /// Opens the program: blank lines and a first `%` are skipped.
     pub(super) fn begin(&mut self, sink: &mut dyn Sink) -> Option<Step> {
         exec::start(self, sink);
         let mut place = Place::default();
@@ -40,7 +40,7 @@ impl Engine {
         self.emit(Canon::Reset, At::default(), sink);
         None
     }
-    /// The last line is passed: the end of the program is missing, or what is looked for.
+    /// The last line is passed: the end of the program is missing, or the line that was searched.
     pub(super) fn end_of_file(&mut self, sink: &mut dyn Sink) -> Step {
         match self.flow.seeking {
             Some(Seeking {
@@ -96,7 +96,7 @@ impl Engine {
             }
         }
     }
-    /// The last line of the file in hand.
+    /// The last line of the current file.
     fn last_line(&self) -> (FileId, TextRange) {
         let file = self.flow.here.file();
         let bytes = self.files[file.0 as usize].bytes();
@@ -104,8 +104,8 @@ impl Engine {
         let start = memchr::memrchr(b'\n', &bytes[..end]).map_or(0, |before| before + 1);
         (file, TextRange::new(start as u32, end as u32))
     }
-    /// A file that only defines subprograms is one that another program calls: in a check its missing end is no mistake. Says so,
-    /// and makes the first definition the line in hand.
+    /// A file that only defines subprograms is one that another program calls: in a check its missing end is not a mistake. Reports
+    /// that, and makes the first definition the current line.
     fn only_subprograms(&mut self) -> Option<String> {
         let idle = !self.flow.did && !self.flow.called && !self.flow.percent;
         let name = self
@@ -141,7 +141,7 @@ impl Engine {
         }
         TextRange::new(here.offset, here.offset)
     }
-    /// `%` while lines are skipped: what is looked for will not come.
+    /// `%` while lines are skipped: the line that is searched does not follow.
     pub(super) fn percent_reached(&mut self, sink: &mut dyn Sink) -> Step {
         let (name, opener) = match self.flow.seeking {
             Some(Seeking { goal, opener, .. }) => {

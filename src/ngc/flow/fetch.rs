@@ -1,4 +1,4 @@
-//! From the bytes of a line to its read form, and how lines are kept.
+//! From the bytes of a line to its parsed form, and how lines are kept.
 use super::labels::Place;
 use super::oline::{self, Keyword};
 use super::texts::Key;
@@ -17,13 +17,13 @@ pub(super) struct Head<'s> {
     pub(super) cursor: Cursor<'s>,
     /// The line begins with `/`.
     pub(super) delete: bool,
-    /// There was an N, and where it is no number.
+    /// There was an N, and where it is not a number.
     pub(super) flaw: Option<TextRange>,
     /// The first byte after them, in lower case; `None`: nothing is there.
     pub(super) first: Option<u8>,
 }
 
-/// Looks at how a line begins; `text` is [`trimmed`].
+/// Examines how a line begins; `text` is [`trimmed`].
 pub(super) fn head(source: &[u8], text: TextRange) -> Head<'_> {
     let mut cursor = Cursor::new(source, text);
     let delete = cursor.eat(b'/');
@@ -85,7 +85,7 @@ impl Engine {
     pub(super) fn behind(place: Place, range: TextRange) -> Place {
         place.further(1, range.end)
     }
-    /// The line at `here` in its read form, and whether it runs repeatedly: then where a skip from it ends is remembered.
+    /// The line at `here` in its parsed form, and whether it runs repeatedly: then where a skip from it ends is remembered.
     #[inline]
     pub(super) fn fetch(&mut self) -> (Box<Compiled>, bool) {
         let place = self.flow.here;
@@ -100,7 +100,7 @@ impl Engine {
         }
         (compiled, keep)
     }
-    /// The line at a place in its read form. `keep`: it will run again.
+    /// The line at a place in its parsed form. `keep`: it will run again.
     #[inline]
     pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
         let source = self.files[place.file().0 as usize].bytes();
@@ -129,7 +129,7 @@ impl Engine {
         self.flow.texts.follows(compiled.slot());
         compiled
     }
-    /// Reads the line at a place. What is wrong with it is in what was read.
+    /// Reads the line at a place. Its errors are in the result.
     pub(super) fn compile(&self, place: Place, into: &mut Compiled) {
         self.compile_range(place, self.range_at(place), into);
     }
@@ -199,7 +199,7 @@ fn compile_m(source: &[u8], head: &Head<'_>, text: TextRange, into: &mut Compile
     Line::read(source, words, &mut into.line);
 }
 
-/// What is wrong with a line before its sense counts: comments, N. Lines of words look at these themselves.
+/// Errors of a line apart from its meaning: comments, N. Lines of words check these themselves.
 pub(super) fn text_flaw(source: &[u8], text: TextRange) -> Option<Error> {
     flaw_with(source, text, head(source, text).flaw)
 }

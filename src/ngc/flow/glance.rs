@@ -4,13 +4,13 @@
 use super::label::digits;
 use super::oline::{Keyword, written};
 
-/// Lines up to this length, their line end counted, are looked at here.
+/// Lines up to this length, including their line end, are examined here.
 const LONGEST: usize = 253;
 
-/// What a line is at first sight.
+/// The class of a line by its first characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Look<'s> {
-    /// It counts for nothing.
+    /// It does not matter.
     Nothing,
     /// An O line with this name or number and a keyword that takes part in structures, or (`true`) in calls and returns; no `sub`.
     Label(&'s [u8], bool),
@@ -24,11 +24,11 @@ pub(super) struct Passed {
     pub(super) lines: usize,
     /// Their bytes.
     pub(super) length: usize,
-    /// The line after them is an O line with the label that is looked for.
+    /// The line after them is an O line with the wanted label.
     pub(super) counts: bool,
 }
 
-/// Passes the lines at the start of a text that by their first signs count for nothing, `most` of them at most. What counts is an O line
+/// Skips the lines at the start of a text that do not matter by their first characters, `most` of them at most. What matters is an O line
 /// labelled `wanted` that takes part in calls and returns (`global`), or one that takes part in structures.
 pub(super) fn pass(text: &[u8], wanted: &[u8], global: bool, most: usize) -> Passed {
     let mut passed = Passed::default();
@@ -61,7 +61,7 @@ fn blanks(text: &[u8]) -> usize {
     text.iter().take_while(|byte| matches!(**byte, b' ' | b'\t')).count()
 }
 
-/// How long the first line of a text is, its line end counted, and whether there is a `(` in it.
+/// How long the first line of a text is, including its line end, and whether there is a `(` in it.
 #[inline]
 fn length(text: &[u8]) -> (usize, bool) {
     let line = |end: Option<usize>| end.map_or(text.len(), |end| end + 1);
@@ -131,7 +131,7 @@ mod tests {
     use trunnion_formula::Pool;
     use trunnion_syntax::TextRange;
 
-    /// What the full look makes of a line: its label and whether it takes part in calls; `None` where something is wrong with it or
+    /// The result of the full look at a line: its label and whether it takes part in calls; `None` where something is wrong with it or
     /// it begins a subprogram.
     #[expect(
         clippy::option_option,

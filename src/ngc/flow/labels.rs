@@ -1,4 +1,4 @@
-//! The names of O words and what is known of them: where a structure or a subprogram begins.
+//! The names of O words and what is known about them: where a structure or a subprogram begins.
 //!
 //! As on the control, a label is known from the moment its opening line runs, for the rest of the program. Labels of structures
 //! belong to the subprogram that runs (`o1 if` in two subprograms are two labels); names of subprograms belong to the whole run.
@@ -19,8 +19,8 @@ impl NameId {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LabelId(u32);
 
-/// Where a line is, and the offset of its first byte. File and line are one number: what is written in one piece is read again at once
-/// without waiting.
+/// Where a line is, and the offset of its first byte. File and line are one number: written in one store, it can be read back at
+/// once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Place {
     file_and_line: u64,
@@ -36,7 +36,7 @@ impl Place {
             offset,
         }
     }
-    /// The line so many lines further on in the same file, whose first byte is at `offset`.
+    /// The line this many lines later in the same file, whose first byte is at `offset`.
     #[inline]
     pub(crate) fn further(self, lines: u32, offset: u32) -> Self {
         Self {
@@ -82,9 +82,9 @@ impl Opener {
 pub(crate) struct Structure {
     pub(crate) opener: Opener,
     pub(crate) place: Place,
-    /// Rounds of a repeat that are left, this one included; 0: it starts counting again when it is met again.
+    /// Remaining rounds of a repeat, including this one; 0: it starts counting again when it is met again.
     pub(crate) rounds: i64,
-    /// What was left of the bound on executed lines when it was entered from above; 0: it is not gone through.
+    /// What was left of the bound on executed lines when it was entered from above; 0: it was not entered.
     pub(crate) fuel: u64,
     /// Its line was refused: what is inside runs once.
     pub(crate) once: bool,
@@ -130,7 +130,7 @@ pub(crate) struct Labels {
     names: Arc<Names>,
     subprograms: Vec<Option<Subprogram>>,
     structures: Vec<Option<Structure>>,
-    /// Grows whenever a structure or subprogram becomes known: what was found out before may no longer hold.
+    /// Grows whenever a structure or subprogram becomes known: earlier results may no longer hold.
     pub(crate) generation: u64,
 }
 

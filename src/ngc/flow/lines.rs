@@ -1,11 +1,11 @@
-//! Lines that ran: which ones, and where skips from those that ran more than once ended.
+//! Which lines ran, and where skips from those that ran more than once ended.
 use super::labels::Place;
 use foldhash::HashMap;
 
 /// Where a skip ended, and the generation of labels for which that holds.
 pub(super) type Skip = Option<(u64, Place)>;
 
-/// What is remembered of one file's lines.
+/// What is remembered about the lines of one file.
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
     /// A bit per line that ran.
@@ -18,7 +18,7 @@ pub(crate) struct Lines {
     skips: HashMap<u32, Skip>,
 }
 
-/// A copy finds out again: check-points must not copy what can be computed again.
+/// A copy starts empty: check-points must not copy what can be computed again.
 impl Clone for Lines {
     fn clone(&self) -> Self {
         Self {
@@ -31,7 +31,7 @@ impl Clone for Lines {
 }
 
 impl Lines {
-    /// Whether a line ran before; it is noted that it does now.
+    /// Whether a line ran before; records that it runs now.
     #[inline]
     pub(crate) fn run(&mut self, line: u32) -> bool {
         let word = (line / 64) as usize;
@@ -66,7 +66,7 @@ impl Lines {
     pub(crate) fn glanced(&self) -> u32 {
         self.glanced
     }
-    /// Whether a line that is skipped was skipped or run before; it is noted that it was looked at.
+    /// Whether a line that is skipped was skipped or run before; records that it was examined.
     pub(crate) fn glance(&mut self, line: u32) -> bool {
         let before = line < self.glanced;
         self.glanced = self.glanced.max(line + 1);
@@ -76,11 +76,11 @@ impl Lines {
     pub(super) fn skip(&self, line: u32) -> Skip {
         self.skips.get(&line).copied().flatten()
     }
-    /// Notes that a line runs repeatedly, and where its skip ended.
+    /// Records that a line runs repeatedly, and where its skip ended.
     pub(super) fn keep(&mut self, line: u32, skip: Skip) {
         self.skips.insert(line, skip);
     }
-    /// Notes where the skip from a line ended, if the line runs repeatedly.
+    /// Records where the skip from a line ended, if the line runs repeatedly.
     pub(super) fn skipped(&mut self, line: u32, skip: Skip) {
         if let Some(kept) = self.skips.get_mut(&line) {
             *kept = skip;

@@ -1,6 +1,6 @@
 //! The order of execution: O words, calls, files, `%`, the bounds of a run.
 //!
-//! A line is fetched, read and run. Lines that run again are found in their read form by their text.
+//! A line is fetched, read and run. The parsed form of lines that run again is looked up by their text.
 pub(crate) mod context;
 
 mod call;
@@ -36,7 +36,7 @@ use lines::Lines;
 use oline::OLine;
 use trunnion_syntax::TextRange;
 
-/// A line did not run to its end. That is rare: why is held elsewhere, so that what goes well is handed back in a register.
+/// A line did not run to its end. That is rare: the reason is stored separately, so that success is returned in a register.
 #[derive(Debug)]
 pub(crate) struct Halt(Box<Why>);
 
@@ -67,7 +67,7 @@ impl From<Error> for Halt {
     }
 }
 
-/// What sort of line it is.
+/// The kind of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Kind {
     /// Nothing to run.
@@ -85,7 +85,7 @@ enum Kind {
     ReturnNumbered,
 }
 
-/// A line in its read form.
+/// A line in its parsed form.
 #[derive(Debug, Default)]
 pub(crate) struct Compiled {
     place: Place,
@@ -94,23 +94,23 @@ pub(crate) struct Compiled {
     /// It is one assignment and nothing else.
     only_sets: bool,
     o: Option<Box<OLine>>,
-    /// An O line that it was before, kept for its storage.
+    /// Its former O line, kept for its storage.
     spare: Option<Box<OLine>>,
-    /// What a NUL cuts off, until it was reported.
+    /// The text cut off by a NUL, until it is reported.
     cut: Option<TextRange>,
     /// What is wrong with its text as a whole; it is not read further then.
     flaw: Option<Error>,
     line: Line,
     /// Where skipping from here ended the last time.
     skip: lines::Skip,
-    /// Which text it is the read form of.
+    /// The text of which it is the parsed form.
     origin: texts::Origin,
 }
 
-/// What lines are skipped for.
+/// The goal for which lines are skipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
-    /// The next line that says something about this label.
+    /// The next line that concerns this label.
     Label(LabelId, NameId),
     /// The end of the definition of a subprogram.
     Definition(NameId),
@@ -130,7 +130,7 @@ struct Seeking {
     again: bool,
     /// A branch of this `if` has run.
     satisfied: bool,
-    /// The way does not depend on values.
+    /// The path of the skip does not depend on values.
     fixed: bool,
     /// `here` is where it ends.
     known: bool,
@@ -183,29 +183,29 @@ pub(crate) struct Flow {
     broken: bool,
     labels: Labels,
     chains: Chains,
-    /// The innermost loop is gone into, as far as its lines tell: what runs now will run again and is worth keeping.
+    /// The innermost loop was entered, as far as its lines show: what runs now will run again and is worth keeping.
     looping: bool,
     lines: Vec<Lines>,
     /// Lines that may still run again.
     fuel: u64,
     /// Saved by M70 and M73 outside of calls.
     context: Option<Box<Context>>,
-    /// Passes of loops without a word to the machine.
+    /// Passes of loops without a call to the machine.
     watch: endless::Watch,
-    /// Where the last subprogram was looked for in vain.
+    /// Where the last missing subprogram was searched.
     searched: Vec<crate::Searched>,
     /// What the last refused line named.
     refused: Refused,
-    /// Lines in their read form.
+    /// Lines in their parsed form.
     texts: texts::Texts,
 }
 
 impl Flow {
-    /// A motion of a cycle counts as a line that runs.
+    /// A motion of a cycle counts as an executed line.
     pub(crate) fn spend(&mut self) {
         self.fuel = self.fuel.saturating_sub(1);
     }
-    /// Whether the definition of a subroutine is passed over.
+    /// Whether the definition of a subroutine is skipped.
     pub(crate) fn is_defining(&self) -> bool {
         self.seeking
             .is_some_and(|seeking| matches!(seeking.goal, Goal::Definition(_)))
@@ -264,7 +264,7 @@ impl Flow {
             None => &mut self.context,
         }
     }
-    /// What is remembered of a file's lines.
+    /// What is remembered about a file's lines.
     fn lines(&mut self, file: FileId) -> &mut Lines {
         let at = file.0 as usize;
         if at >= self.lines.len() {

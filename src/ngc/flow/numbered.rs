@@ -48,7 +48,7 @@ impl Engine {
         block.range = block.range.cover(line.keyword_range);
         let (number, rounds) = (block.word(b'P'), block.word(b'L'));
         let (p_range, l_range) = (block.range_of(b'P'), block.range_of(b'L'));
-        // P and L belong to M98; whatever else is there must be right by itself
+        // P and L belong to M98; other words must be correct by themselves
         block.given &= !P_AND_L;
         let Some(number) = number else {
             return Err(Self::refusal(&problems::NO_P, line));
@@ -126,7 +126,7 @@ impl Engine {
             self.leave_call(sink)?;
             return Ok(After::Go);
         };
-        // each round is a call of its own: names are new, and what M73 saved is restored
+        // each round is a separate call: names are new, and what M73 saved is restored
         self.flow.here = body;
         let context = call.context.take();
         self.store.leave();

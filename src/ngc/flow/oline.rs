@@ -5,10 +5,10 @@ use crate::Problem;
 use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, ValueError, Variables};
 use trunnion_syntax::TextRange;
 
-/// What an O line says.
+/// The meaning of an O line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Keyword {
-    /// Nothing: a program number, or the head of a Fanuc-style subprogram.
+    /// Nothing: a program number, or the header of a Fanuc-style subprogram.
     #[default]
     Bare,
     Sub,
@@ -40,7 +40,7 @@ impl Keyword {
     }
 }
 
-/// Longer words before those they begin with.
+/// Longer words before their prefixes.
 const KEYWORDS: [(&str, Keyword); 15] = [
     ("endrepeat", Keyword::EndRepeat),
     ("endwhile", Keyword::EndWhile),
@@ -59,14 +59,14 @@ const KEYWORDS: [(&str, Keyword); 15] = [
     ("continue", Keyword::Continue),
 ];
 
-/// Something on the line that no value can correct.
+/// An error of the line that does not depend on values.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flaw {
     pub(crate) problem: &'static Problem,
     pub(crate) range: TextRange,
 }
 
-/// One O line. What is wrong with a value is inside its formula and comes out when it is evaluated, as on the control.
+/// One O line. Errors of a value are inside its formula and appear when it is evaluated, as on the control.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct OLine {
     pub(crate) keyword: Keyword,
@@ -76,20 +76,20 @@ pub(crate) struct OLine {
     pub(crate) keyword_range: TextRange,
     /// The condition, the count, the arguments or the value that is returned.
     pub(crate) values: Vec<Formula>,
-    /// Where a condition should begin, or what makes the keyword unreadable: found before any value counts.
+    /// Where a condition should begin, or what makes the keyword unreadable: found before any value is evaluated.
     pub(crate) flaw: Option<Flaw>,
     /// What follows the end of the line's meaning.
     pub(crate) tail: Option<Flaw>,
     /// The text after `M98`.
     pub(crate) rest: TextRange,
-    /// What is wrong with the text of its values.
+    /// The errors in the text of its values.
     pub(crate) errors: Vec<FormulaError>,
 }
 
 /// Most arguments of a call: they become #1 to #30.
 const ARGUMENTS: usize = 30;
 
-/// Reads an O line; the cursor is before the O. `line` lends its storage.
+/// Reads an O line; the cursor is before the O. The storage of `line` is reused.
 pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {
     let start = cursor.at();
     cursor.bump();
@@ -120,7 +120,7 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>, pool: &mut Pool) -> Option<OLine
     let start = cursor.at();
     let mut number = *cursor;
     number.bump();
-    // the common M codes go no further
+    // the common M codes end here
     if !matches!(number.peek(), Some(b'9' | b'0' | b'[' | b'+')) {
         return None;
     }
@@ -131,7 +131,7 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>, pool: &mut Pool) -> Option<OLine
         99.0 => Keyword::ReturnNumbered,
         _ => return None,
     };
-    // as on the control, two signs are taken whatever they are: `M098 P1` continues with `8P1`
+    // as on the control, any two characters are taken: `M098 P1` continues with `8P1`
     for _ in 0..3 {
         cursor.bump();
     }
@@ -157,7 +157,7 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>, pool: &mut Pool) -> Option<OLine
     Some(line)
 }
 
-/// An expression that says whether a line is `M98` before the line runs reads nothing.
+/// An expression that decides whether a line is `M98` reads no values before the line runs.
 struct NoVariables;
 
 impl Variables for NoVariables {
@@ -188,7 +188,7 @@ fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
     })
 }
 
-/// The keyword that a word without blanks is, in whatever case.
+/// The keyword of a word without blanks, in any case.
 fn keyword_of(word: &[u8]) -> Option<Keyword> {
     let mut lower = [0u8; 9];
     let letters = lower.get_mut(..word.len())?;
@@ -297,7 +297,7 @@ fn push(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
     line.errors.extend(error);
 }
 
-/// Whether nothing but comments, carriage returns and the line end is left.
+/// Whether only comments, carriage returns and the line end are left.
 fn ends(cursor: &Cursor<'_>) -> bool {
     matches!(cursor.peek(), None | Some(b'(' | b';' | b'\r' | b'\n' | 0))
 }

@@ -68,7 +68,7 @@ pub(crate) const NO_LOOP: Problem = problem(
 pub(crate) const NOT_IN_SUB: Problem = problem(
     Class::Structure,
     "not in a subroutine definition",
-    "endsub and return belong inside a called subprogram; check the number, and check where the call leads.",
+    "endsub and return belong inside a called subprogram; check the number, and check the target of the call.",
 );
 pub(crate) const SEEKING_END: Problem = problem(
     Class::Structure,

@@ -1,11 +1,11 @@
-//! What a refused line names: the control would have stopped there, so the effect is unknown.
+//! The words of a refused line: the control would have stopped there, so their effect is unknown.
 use super::{Compiled, Kind};
 use crate::Block;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Refused {
-    /// Axes with words, bit i for axis i of X Y Z A B C U V W. Polar words lead along X and Y.
+    /// Axes with words, bit i for axis i of X Y Z A B C U V W. Polar words move X and Y.
     pub axes: u16,
     /// M3, M4 or M5, or an M code whose number is unknown.
     pub spindle: bool,
@@ -35,7 +35,7 @@ impl Refused {
     }
 
     /// Of a line in its read form, whose text (up to a NUL) is `text`. Where something is wrong with the text, words are not distinguished
-    /// from the rest, so that each letter outside comments counts.
+    /// from the rest, so each letter outside comments is taken as one.
     pub(super) fn of_line(compiled: &Compiled, text: &[u8]) -> Self {
         let mut refused = Self::default();
         if matches!(compiled.kind, Kind::Label | Kind::Percent) {

@@ -1,14 +1,14 @@
-//! Lines that never ran: their text is read all the same, so that a check reports every mistake of a program.
+//! Lines that never ran: their text is still read, so that a check reports every mistake of a program.
 use super::labels::Place;
 use super::oline::Keyword;
 use super::{Compiled, Kind};
 use crate::{At, Engine, Error, FileId, Sink};
 
 impl Engine {
-    /// Tells the errors of the text of lines that did not run: skipped branches, subprograms that are never called, what follows an
-    /// undecided jump. After the end of the main program only subprograms are read: other text there is no program.
+    /// Reports the errors of the text of lines that did not run: skipped branches, subprograms that are never called, what follows an
+    /// undecided jump. After the end of the main program only subprograms are read: other text there is not part of the program.
     ///
-    /// Values are not computed and codes are not run, so that this is less than what a run finds.
+    /// Values are not computed and codes are not run, so this finds less than a run.
     pub fn read_rest(&mut self, sink: &mut dyn Sink) {
         for file in 0..self.files.len() as u32 {
             self.read_rest_of(FileId(file), sink);
@@ -49,8 +49,8 @@ impl Engine {
 }
 
 impl Engine {
-    /// After lines that all ran, where the line at `place` begins a stretch of them before the end of the program: there is nothing to
-    /// tell of them.
+    /// After lines that all ran, where the line at `place` begins a range of them before the end of the program: there is nothing to
+    /// report.
     fn behind_what_ran(&self, place: Place) -> Option<Place> {
         let stretch = crate::source::STRIDE;
         let next = place.line() + stretch;

@@ -1,7 +1,7 @@
 //! Skipping: from a condition that does not hold, a `break`, a definition or a call to the line that counts next.
 //!
 //! The control looks at every line it skips: comments must be closed, N must be a number, O lines must have a known keyword. Only O
-//! lines with the label that is looked for count. Where a skip ended is kept with the line that began it, until a new label is known.
+//! lines with the wanted label matter. Where a skip ended is kept with the line that began it, until a new label is known.
 use super::fetch::{self, Head};
 use super::glance;
 use super::labels::Place;
@@ -11,11 +11,11 @@ use crate::{Engine, Error, read};
 use trunnion_formula::Pool;
 use trunnion_syntax::TextRange;
 
-/// How a skip went.
+/// The result of a skip.
 pub(super) enum Sought {
-    /// A line that counts; `true`: it is kept.
+    /// A relevant line; `true`: it is kept.
     Landed(Box<Compiled>, Seeking, bool),
-    /// A skipped line is wrong all the same.
+    /// A skipped line has an error.
     Refused(Error),
     /// A label depends on something unknown.
     Undecided(String),
@@ -47,7 +47,7 @@ impl Engine {
             known,
         })
     }
-    /// Skips to the next line that counts.
+    /// Skips to the next relevant line.
     pub(super) fn seek(&mut self) -> Sought {
         let Some(mut seeking) = self.flow.seeking else {
             return Sought::EndOfFile;
@@ -94,7 +94,7 @@ impl Engine {
             }
         }
     }
-    /// The line that counts is made ready to run.
+    /// The relevant line is made ready to run.
     fn land(&mut self, place: Place, next: Place, line: OLine, seeking: Seeking) -> Sought {
         self.landed(place, &seeking);
         let mut compiled = self.flow.texts.nowhere();
@@ -119,7 +119,7 @@ impl Engine {
         self.flow.texts.skip();
         self.flow.lines(place.file()).run(place.line());
     }
-    /// Passes lines whose first characters show that they do not count; whether the line after them counts by its first characters.
+    /// Skips lines whose first characters show that they do not matter; returns whether the line after them does by its first characters.
     fn pass(&mut self, seeking: &Seeking) -> bool {
         let from = self.flow.here;
         let glanced = self.flow.lines(from.file()).glanced();
@@ -129,7 +129,7 @@ impl Engine {
         };
         let wanted = self.flow.labels.name_bytes(wanted);
         let bytes = self.files[from.file().0 as usize].bytes();
-        // lines that were looked at before cost: they are the first ones
+        // lines that were examined before cost time: they are the first ones
         let known = glanced.saturating_sub(from.line());
         let most = if self.flow.fuel < u64::from(known) {
             self.flow.fuel as usize
@@ -153,7 +153,7 @@ impl Engine {
             chain: self.flow.chain,
         };
     }
-    /// Looks at one skipped line.
+    /// Examines one skipped line.
     fn glance(&mut self, place: Place, range: TextRange, seeking: &mut Seeking) -> Glance {
         let file = std::sync::Arc::clone(&self.files[place.file().0 as usize]);
         let source = file.bytes();
@@ -176,7 +176,7 @@ impl Engine {
             _ => Glance::Nothing,
         }
     }
-    /// Looks at a skipped line that begins with M: `M98` is read as a whole, as if it ran.
+    /// Examines a skipped line that begins with M: `M98` is read as a whole, as if it ran.
     fn glance_call(&mut self, place: Place) -> Glance {
         let compiled = self.read(place, false);
         let refused = match compiled.kind {
@@ -186,7 +186,7 @@ impl Engine {
         self.put_back(compiled, false);
         refused.map_or(Glance::Nothing, Glance::Refused)
     }
-    /// Looks at a skipped O line: whether it counts.
+    /// Examines a skipped O line: whether it matters.
     fn glance_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> Glance {
         let mut cursor = head.cursor;
         let mut line = OLine::default();
@@ -199,7 +199,7 @@ impl Engine {
         let nested = || Error::new(&problems::NESTED_SUB, line.label_range.cover(line.keyword_range));
         let name = match self.name_of(&line).map_err(|halt| *halt.0) {
             Ok(name) => name,
-            // observed: in a definition that is passed over a name may have no value
+            // observed: in a definition that is skipped a name may have no value
             Err(Why::Refused(error)) if definition && read::is_not_defined(&error) => {
                 return if opens {
                     Glance::Refused(nested())
@@ -241,7 +241,7 @@ impl Engine {
     }
 }
 
-/// What a skipped line is.
+/// The kind of a skipped line.
 enum Glance {
     Nothing,
     Counts(Box<OLine>),

@@ -1,4 +1,4 @@
-//! One step: a line is fetched and run, or lines are skipped until one counts.
+//! One step: a line is fetched and run, or lines are skipped until one matters.
 use super::labels::Place;
 use super::oline::OLine;
 use super::seek::Sought;
@@ -11,7 +11,7 @@ use trunnion_formula::Formula;
 
 impl Engine {
     /// Runs the next line in the control's order. After [`Step::Refused`] the next step continues as if the refused line had not
-    /// been there; an `if` or `while` that was refused is gone into once, so that the errors inside are found, too.
+    /// been there; an `if` or `while` that was refused is entered once, so that the errors inside are found, too.
     pub fn step(&mut self, sink: &mut dyn Sink) -> Step {
         if self.flow.ended {
             return Step::Ended;
@@ -55,7 +55,7 @@ impl Engine {
         }
         self.finish_line(compiled, None, keep, sink)
     }
-    /// The present line runs: it is where the run is, and what comes next follows it.
+    /// The current line runs: the run is there, and continues after it.
     #[inline]
     fn goes_on_behind(&mut self, compiled: &Compiled) {
         let place = compiled.place;
@@ -178,7 +178,7 @@ impl Engine {
         result
     }
     /// What a refused line would have left active, so that the lines after it are judged as they were meant: they are run in the
-    /// mode of its motion code and not in the one before, and its F is a feed, of which nothing is known.
+    /// mode of its motion code and not in the one before, and its F is an unknown feed.
     #[cold]
     pub(super) fn after_refusal(&mut self, motion: i16, not_modelled: bool, feed: bool) {
         match motion {
@@ -191,7 +191,7 @@ impl Engine {
             self.state.feed_rate = f64::NAN;
         }
     }
-    /// Notes what a line with these values changes in the run, whatever becomes of it.
+    /// Records what a line with these values changes in the run, whether or not it succeeds.
     #[inline]
     pub(super) fn note_values(&mut self, block: &crate::Block, words: bool) {
         self.flow.did |= words && self.flow.calls.is_empty();
@@ -229,7 +229,7 @@ impl Engine {
         if block.m[4] != 99 {
             return Ok(exec::execute(self, block, at, sink)?);
         }
-        // M99 ends the main program like M2; after other words in a subprogram it is no return
+        // M99 ends the main program like M2; after other words in a subprogram it is not a return
         let range = block.m_range(4);
         let inside = !self.flow.calls.is_empty();
         block.m[4] = if inside { -1 } else { 2 };
@@ -243,7 +243,7 @@ impl Engine {
     pub(super) fn apply(&mut self, line: &read::Line) -> Result<(), Error> {
         read::apply(self, line)
     }
-    /// What formulas read from, at the line that runs.
+    /// The source of variables for formulas at the current line.
     #[inline]
     pub(crate) fn values(&self) -> Values<'_> {
         Values::new(self)
@@ -257,7 +257,7 @@ impl Engine {
             .eval(&self.values())
             .map_err(|error| read::formula_error(&error))
     }
-    /// The value of a condition or count: it must be known.
+    /// The value of a condition or count, which must be known.
     pub(super) fn decided(&self, formula: &Formula, line: &OLine) -> Result<f64, Halt> {
         let value = self.value(formula)?;
         if value.is_nan() {
@@ -296,7 +296,7 @@ impl Engine {
         };
         sink.error(&error, at);
     }
-    /// What the line named that the last step refused.
+    /// The words of the line that the last step refused.
     pub fn refused(&self) -> Refused {
         self.flow.refused
     }
@@ -315,7 +315,7 @@ impl Engine {
         self.flow.ended = true;
         Step::OutOfFuel(self.endless())
     }
-    /// The line that opens what does not end: the innermost structure around the line in hand that has used half of the bound since it
+    /// The line that opens what does not end: the innermost structure around the current line that has used half of the bound since it
     /// was entered; else the innermost call; else the line itself.
     fn endless(&self) -> At {
         let here = self.flow.here;

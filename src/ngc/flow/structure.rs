@@ -1,7 +1,7 @@
 //! O lines of structures: if, while, do, repeat and what belongs to them.
 //!
-//! Labels become known when their opening line runs and stay known: an `endwhile` that is met again jumps back again, a repeat that
-//! was left by `return` continues with the rounds that were left. That is what the control does.
+//! Labels become known when their opening line runs and stay known: an `endwhile` that is reached again jumps back again, a repeat that
+//! was left by `return` continues with the remaining rounds. That is what the control does.
 use super::label::{Label, whole};
 use super::labels::{LabelId, NameId, Opener, Structure};
 use super::oline::{Keyword, OLine};
@@ -131,7 +131,7 @@ impl Engine {
         }
         Ok(())
     }
-    /// Makes a label known at its opening line, which must be the only one.
+    /// Registers a label at its opening line, which must be the only one.
     fn open(&mut self, compiled: &Compiled, line: &OLine, label: LabelId, opener: Opener) -> Result<(), Halt> {
         let fuel = self.flow.fuel;
         match self.flow.labels.structure_mut(label) {
@@ -160,7 +160,7 @@ impl Engine {
             }
         }
     }
-    /// A loop is at its end: when it is met again, it starts again.
+    /// A loop is at its end: when it is reached again, it starts again.
     fn left(&mut self, label: LabelId) {
         self.flow.looping = false;
         if let Some(structure) = self.flow.labels.structure_mut(label) {
@@ -230,7 +230,7 @@ impl Engine {
         (label, goal): (LabelId, Goal),
         value: f64,
     ) -> Result<(), Halt> {
-        // its rounds are no parameter
+        // its rounds are not a parameter
         self.flow.watch.stir();
         self.open(compiled, line, label, Opener::Repeat)?;
         let fuel = self.flow.fuel;
@@ -272,8 +272,8 @@ impl Engine {
         (seeking.leaving, seeking.again) = (leaving, again);
         Ok(())
     }
-    /// After a refusal: structures count as opened and are gone through once, so that the lines inside are checked and their ends are
-    /// no new errors.
+    /// After a refusal: structures are taken as opened and are run once, so that the lines inside are checked and their ends are not
+    /// new errors.
     #[cold]
     fn recover(&mut self, compiled: &mut Compiled, line: &OLine, sought: Option<&Seeking>) {
         let opener = match line.keyword {
@@ -282,7 +282,7 @@ impl Engine {
             Keyword::Do => Opener::Do,
             Keyword::Repeat => Opener::Repeat,
             _ => {
-                // what was looked for is still looked for
+                // the search continues
                 if self.flow.seeking.is_none() && line.keyword != Keyword::Bare {
                     self.flow.seeking = sought
                         .copied()

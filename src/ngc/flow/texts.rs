@@ -1,8 +1,8 @@
-//! Lines in their read form, found again by their text: what was read once is not read again when it occurs a second time, in a loop, in
+//! Lines in their parsed form, looked up by their text: a line is not parsed again when it occurs a second time, in a loop, in
 //! another subprogram, or under another O number.
 //!
-//! What a line says depends on its text alone; only its ranges depend on its place, and they are moved. A text is kept from the second
-//! time on, so that programs whose lines all differ fill no memory.
+//! The meaning of a line depends on its text alone; only its ranges depend on its place, and they are moved. A text is kept from the
+//! second time on, so that programs whose lines all differ need no memory for it.
 use super::Compiled;
 use super::fetch::LONGEST;
 use super::label::{Label, digits};
@@ -15,14 +15,14 @@ use std::sync::Arc;
 use trunnion_formula::Name;
 use trunnion_syntax::TextRange;
 
-/// So many texts have a place at most.
+/// At most this many texts are kept.
 const SLOTS: usize = 8192;
 /// The slot of a line that is not kept.
 const NOWHERE: u32 = u32::MAX;
-/// At most this many unused read forms are kept.
+/// At most this many unused parsed forms are kept.
 const SPARE: usize = 64;
 
-/// The part of a line on which its read form depends.
+/// The part of a line on which its parsed form depends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Part {
     #[default]
@@ -33,7 +33,7 @@ enum Part {
     BehindName,
 }
 
-/// What a line is found by.
+/// The key of a line.
 pub(super) struct Key {
     part: Part,
     /// The O and its label, where they are plain and not part of the text.
@@ -44,7 +44,7 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// The key of a line, its line end counted; `None` for a line that is too long to run.
+    /// The key of a line, including its line end; `None` for a line that is too long to run.
     #[inline]
     pub(super) fn of(source: &[u8], line: TextRange) -> Option<Self> {
         let bytes = &source[line.as_usize()];
@@ -95,7 +95,7 @@ fn o_word(line: &[u8]) -> Option<usize> {
     matches!(line.get(start), Some(b'o' | b'O')).then_some(start)
 }
 
-/// Where a read form comes from.
+/// The origin of a parsed form.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Origin {
     slot: u32,
@@ -117,9 +117,9 @@ impl Default for Origin {
 
 #[derive(Debug, Default)]
 struct Slot {
-    /// Of the text that was met last.
+    /// Of the last text.
     hash: u64,
-    /// It was met twice, or runs in a loop.
+    /// It occurred twice, or runs in a loop.
     read: Option<Box<Compiled>>,
     /// Slots of the texts that were read after it the last time: where no line was skipped in between, and where some were.
     after: [u32; 2],
@@ -138,7 +138,7 @@ pub(crate) struct Texts {
     skipped: bool,
 }
 
-/// A copy reads its lines again: check-points must not copy what can be read again.
+/// A copy starts empty: check-points must not copy what can be read again.
 impl Clone for Texts {
     fn clone(&self) -> Self {
         Self::default()
@@ -151,7 +151,7 @@ impl Texts {
     pub(super) fn skip(&mut self) {
         self.skipped = true;
     }
-    /// The line at a place, if it says what came last time after the line that was read before it: then its text need not be looked up.
+    /// The line at a place, if its text is the one that followed last time: then it need not be looked up.
     #[inline]
     pub(super) fn guess(&mut self, source: &[u8], place: Place) -> Option<Box<Compiled>> {
         let at = self.slots.get(self.last as usize)?.after[usize::from(self.skipped)];
@@ -174,7 +174,7 @@ impl Texts {
         let there = source.get(read.origin.text.as_usize())?;
         let here = source.get(behind as usize..)?.get(..there.len())?;
         let end = behind + there.len() as u32;
-        // a text without its line end could go on here
+        // a text without its line end could continue here
         if here != there || there.last() != Some(&b'\n') || end - place.offset > LONGEST {
             return None;
         }
@@ -187,7 +187,7 @@ impl Texts {
         self.skipped = false;
         slot.read.take()
     }
-    /// Notes that the text of this slot follows the one that was read last.
+    /// Records that the text of this slot follows the one that was read last.
     #[inline]
     pub(super) fn follows(&mut self, slot: u32) {
         if (slot as usize) < self.slots.len() {
@@ -198,7 +198,7 @@ impl Texts {
             self.skipped = false;
         }
     }
-    /// The read form of a text, with `true`, to be moved to its present place; otherwise room to read it into. `keep`: it will run again.
+    /// The parsed form of a text, with `true`, to be moved to its present place; otherwise room to parse it into. `keep`: it will run again.
     #[inline]
     pub(super) fn find(
         &mut self,
@@ -228,7 +228,7 @@ impl Texts {
         }
         (self.first_met(key, first, keep), false)
     }
-    /// Room for a text that was not met before.
+    /// Room for a new text.
     fn first_met(&mut self, key: &Key, first: usize, keep: bool) -> Box<Compiled> {
         let is_free = |at: usize| self.slots[at].read.is_none();
         let at = if is_free(first) {
@@ -282,7 +282,7 @@ impl Compiled {
     pub(super) fn slot(&self) -> u32 {
         self.origin.slot
     }
-    /// It was just read at `file` from the text of this key: from now on it serves all lines of that text, unless it says more than that.
+    /// It was just read at `file` from the text of this key: from now on it serves all lines of that text, unless its meaning depends on more than the text.
     pub(super) fn comes_from(&mut self, key: &Key, file: FileId) {
         self.origin.part = key.part;
         self.origin.file = file;
@@ -361,7 +361,7 @@ impl OLine {
         }
         self.label_range = range;
     }
-    /// Moves its ranges by so many bytes (wrapping).
+    /// Moves its ranges by this many bytes (wrapping).
     fn shift(&mut self, by: u32) {
         for range in [&mut self.label_range, &mut self.keyword_range, &mut self.rest] {
             *range = range.shifted(by);

@@ -1,13 +1,13 @@
-//! Why it is unknown what runs next: which values are not known, and where they come from.
+//! Why it is unknown what runs next: which values are unknown, and where they come from.
 use super::oline::{Keyword, OLine};
 use crate::Engine;
 use trunnion_formula::{Formula, Variable, Variables};
 
-/// At most so many names in one sentence.
+/// The most names in one sentence.
 const NAMES: usize = 3;
 
 impl Engine {
-    /// A condition, count or label is not known.
+    /// A condition, count or label is unknown.
     pub(super) fn undecided(&self, formula: &Formula, line: &OLine) -> String {
         let what = match line.keyword {
             Keyword::If | Keyword::ElseIf => "whether this branch runs",
@@ -21,11 +21,11 @@ impl Engine {
         }
         format!("{what} depends on {}", reasons.join(" and "))
     }
-    /// A word is not known.
+    /// A word is unknown.
     pub(super) fn undecided_word(letter: char, what: &str) -> String {
         format!("{what} depends on {letter}, whose value is not known before the program runs")
     }
-    /// The variables of a formula that are not known.
+    /// The variables of a formula that are unknown.
     fn reasons(&self, formula: &Formula) -> Vec<String> {
         let values = self.values();
         let mut reasons: Vec<String> = Vec::new();
@@ -53,7 +53,7 @@ impl Engine {
     }
 }
 
-/// Where a numbered parameter that is not known gets its value.
+/// The source of the value of an unknown numbered parameter.
 fn numbered(index: i64) -> &'static str {
     match index {
         5061..=5069 => "the position where the probe touched",
@@ -68,7 +68,7 @@ fn numbered(index: i64) -> &'static str {
     }
 }
 
-/// The same of a named one.
+/// The same for a named one.
 fn named(name: &str) -> &'static str {
     if name.starts_with("_hal[") {
         "a pin of the machine"

@@ -1,4 +1,4 @@
-//! Names the control sets itself: what is in force, where the program is (values and names observed from `rs274`).
+//! Names the control sets itself: its state and position (values and names observed from `rs274`).
 use super::Values;
 use crate::exec;
 use crate::{DistanceMode, FeedMode, Plane, RetractMode, Side, SpindleMode, Units};
@@ -52,7 +52,7 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_spindle_cw", |v| truth(v.state.turning[0] == 1)),
     ("_spindle_on", |v| truth(v.state.turning[0] != 0)),
     ("_spindle_rpm_mode", |v| truth(!surface_speed(v))),
-    // 1 where motion is carried out: a check asks what the machine will do
+    // 1 where motion is carried out: a check simulates the machine
     ("_task", |v| truth(v.is_check())),
     ("_tool_offset", |v| {
         truth(v.state.tool_offset.iter().any(|offset| *offset != 0.0))
@@ -87,7 +87,7 @@ fn surface_speed(values: &Values<'_>) -> bool {
     matches!(mode, SpindleMode::ConstantSurface(_))
 }
 
-/// 400, 410 or 420; G41.1 and G42.1 count as G41 and G42.
+/// 400, 410 or 420; G41.1 and G42.1 are G41 and G42.
 fn compensation(values: &Values<'_>) -> f64 {
     match values.state.side {
         Side::Off => 400.0,

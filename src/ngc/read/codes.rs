@@ -1,4 +1,4 @@
-//! G and M codes of the control and their modal groups (found by asking `rs274` for each code and each pair of codes).
+//! G and M codes of the control and their modal groups (found by running `rs274` with each code and each pair of codes).
 
 /// The modal group of a G code, given as ten times its number; `None`: the control does not know it.
 #[inline]
@@ -80,5 +80,5 @@ pub(super) fn m_group(code: i32) -> Option<usize> {
     })
 }
 
-/// G80: gives way to any other motion code of the line, whichever comes first.
+/// G80: any other motion code of the line overrides it, whichever comes first.
 pub(super) const CANCEL: i16 = 800;

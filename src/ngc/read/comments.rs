@@ -3,10 +3,10 @@ use super::problems;
 use crate::Error;
 use trunnion_syntax::TextRange;
 
-/// The first error of the line's comments: the control looks at them before anything else. `text` is the line without its end.
+/// The first error of the line's comments: the control checks them before anything else. `text` is the line without its end.
 pub(crate) fn flaw(source: &[u8], text: TextRange) -> Option<Error> {
     let bytes = &source[text.as_usize()];
-    // without one nothing can be wrong
+    // without one there can be no error
     memchr::memchr(b'(', bytes)?;
     let mut open = None;
     for (at, byte) in bytes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! From a read line to values in their places. The control computes while it reads: the first error in reading order is its error.
+//! From a parsed line to values in their places. The control computes while it reads: the first error in reading order is its error.
 use super::codes::{CANCEL, g_group, m_group};
 use super::line::{Assignment, Item, Line, WordText};
 use super::problems;
@@ -30,7 +30,7 @@ pub(crate) fn evaluate(line: &Line, values: &Values<'_>, block: &mut Block) -> R
     Ok(())
 }
 
-/// All errors of a line in reading order: of the text, of values and of codes. What is undecided is none.
+/// All errors of a line in reading order: of the text, of values and of codes. Undecided values are not errors.
 #[cold]
 pub(crate) fn errors(line: &Line, values: &Values<'_>, block: &mut Block) -> Vec<Error> {
     block.clear(line.range);
@@ -60,7 +60,7 @@ pub(crate) fn errors(line: &Line, values: &Values<'_>, block: &mut Block) -> Vec
 /// Sets the parameters of a line, all at once: each right side has the values from before the line.
 ///
 /// # Errors
-/// A name that programs only read: the control finds it when it sets it, after its checks of the block.
+/// A name that programs can only read: the control detects it when it sets it, after its checks of the block.
 pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
     match &line.assignments[..] {
         [] => Ok(()),
@@ -85,11 +85,23 @@ pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
     }
 }
 
+/// Whether a name is that of a number in the INI file; one that is not there is a parameter like others.
+fn is_of_ini(engine: &Engine, name: &str) -> bool {
+    let inside = name.strip_prefix("_ini[").and_then(|inside| inside.split_once(']'));
+    inside.is_some_and(|(section, key)| {
+        let number = engine
+            .setup
+            .ini
+            .number(&section.to_ascii_uppercase(), &key.to_ascii_uppercase());
+        number.is_some()
+    })
+}
+
 fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: f64) -> Result<(), Error> {
     match (&assignment.target, slot) {
         (Target::Numbered(_), Some(slot)) => engine.store.set(slot, value),
         (Target::Numbered(_), None) => engine.store.forget(),
-        (Target::Named(name), _) if Values::is_system(name) => {
+        (Target::Named(name), _) if Values::is_system(name) || is_of_ini(engine, name) => {
             let text = format!("Cannot assign to read-only parameter #<{name}>");
             return Err(Error::with(&problems::READ_ONLY_NAME, assignment.target_range, text));
         }
@@ -98,7 +110,7 @@ fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: 
     Ok(())
 }
 
-/// The values as the control sees them at an item of a line: names that are set before it on the same line exist, with zero, and so does
+/// The values for the control at an item of a line: names that are set before it on the same line exist, with zero, and so does
 /// the one that is being set.
 struct Created<'a> {
     values: &'a Values<'a>,
@@ -150,7 +162,7 @@ fn value(formula: &Formula, variables: &impl Variables) -> Result<f64, Error> {
     formula.eval(variables).map_err(|error| problems::formula(&error))
 }
 
-/// Where a numbered assignment goes; `None` for a name, and where the number is not known.
+/// The target of a numbered assignment; `None` for a name, and where the number is unknown.
 fn slot(assignment: &Assignment, values: &Created<'_>) -> Result<Option<Slot>, Error> {
     let Target::Numbered(number) = &assignment.target else {
         return Ok(None);
@@ -171,7 +183,7 @@ fn slot(assignment: &Assignment, values: &Created<'_>) -> Result<Option<Slot>, E
     }
 }
 
-/// A whole number within 1e-4, as parameter numbers and codes have it.
+/// A whole number within 1e-4, as for parameter numbers and codes.
 fn integer(value: f64) -> Option<i64> {
     let below = value.floor();
     let fraction = value - below;
@@ -305,7 +317,7 @@ fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
     if code < 0 {
         return Err(Error::new(&problems::NEGATIVE_M, range));
     }
-    // a number of which ten times is no number any more is no code of any machine
+    // a number that overflows when multiplied by ten is not a code of any machine
     let tenths = code.unsigned_abs().checked_mul(10);
     if m_group(code).is_none() && tenths.is_some_and(|tenths| own(b'M', tenths, range, values, block)) {
         return Ok(());
@@ -326,7 +338,7 @@ fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
     Ok(())
 }
 
-/// Takes a code of the machine's own; whether it is one.
+/// Takes one of the machine's own codes; returns whether it is one.
 #[cold]
 fn own(letter: u8, tenths: u32, range: TextRange, values: &Values<'_>, block: &mut Block) -> bool {
     let owns = values.owns(letter, tenths);

@@ -1,4 +1,4 @@
-//! The line reader: bytes of one line to words, assignments and comments, with all that is wrong about the text.
+//! The line reader: bytes of one line to words, assignments and comments, with all errors of the text.
 use super::{comments, problems, recovery};
 use crate::Error;
 use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Pool, Target, target};
@@ -23,7 +23,7 @@ pub(crate) struct Assignment {
     pub(crate) value: Formula,
 }
 
-/// What is on the line, in the order in which the control reads it.
+/// The contents of the line, in the order in which the control reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Item {
     /// Index of a word.
@@ -34,7 +34,7 @@ pub(crate) enum Item {
     Error(u32),
 }
 
-/// A line in its read form.
+/// A line in its parsed form.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Line {
     /// Its bytes without the line end.
@@ -46,15 +46,15 @@ pub(crate) struct Line {
     pub(crate) items: Vec<Item>,
     pub(crate) words: Vec<WordText>,
     pub(crate) assignments: Vec<Assignment>,
-    /// The last comment in parentheses, parentheses included: the one that counts.
+    /// The last comment in parentheses, including the parentheses: the active one.
     pub(crate) comment: Option<TextRange>,
-    /// The comment after `;`, that sign included.
+    /// The comment after `;`, including that character.
     pub(crate) remark: Option<TextRange>,
-    /// All that is wrong with the text. The first one the control reports, unless a value before it has none.
+    /// All errors of the text. The control reports the first one, unless a value before it has none.
     pub(crate) errors: Vec<Error>,
     /// Storage for formulas.
     pub(crate) pool: Pool,
-    /// The words there are, to find those that are there twice: bit per letter, then `$`.
+    /// The words seen so far, to find repeated ones: bit per letter, then `$`.
     seen: u32,
 }
 
@@ -63,7 +63,7 @@ const SPINDLE: u32 = 1 << 26;
 
 impl Line {
     /// Reads one line. `text` is the line without its end, and without what a NUL cuts off; a line that begins with an O word (after
-    /// `/` and N) is not for this reader.
+    /// `/` and N) is handled elsewhere.
     pub(crate) fn read(source: &[u8], text: TextRange, into: &mut Self) {
         into.clear(text);
         if let Some(error) = comments::flaw(source, text) {
@@ -163,7 +163,7 @@ impl Line {
         }
     }
 
-    /// A sign that begins nothing. Letters of several bytes and the rest of a word are reported once.
+    /// A character that begins nothing. Multi-byte letters and the rest of a word are reported once.
     fn stray(&mut self, cursor: &mut Cursor<'_>) {
         let start = cursor.at();
         let Some(first) = cursor.bump() else {
@@ -181,7 +181,7 @@ impl Line {
             &problems::BAD_CHARACTER
         };
         self.fail(Error::with(problem, range, bad_character(first)));
-        // its own value goes with it
+        // its own value is lost with it
         while cursor
             .peek()
             .is_some_and(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'+' | b'-' | b']' | b')'))
@@ -200,7 +200,7 @@ impl Line {
             self.fail(error);
         }
         if matches!(letter, b'P' | b'Q') && !value.number().is_some_and(|number| number > -1.0) {
-            // the control takes a P or Q of -1 or less for none; where it is not written as a number, the value decides
+            // the control takes a P or Q of -1 or less as absent; where it is not written as a number, the value decides
             self.seen &= !(1 << (letter - b'A'));
         }
         self.items.push(Item::Word(self.words.len() as u32));
@@ -208,7 +208,7 @@ impl Line {
         self.recover(error, start, source, cursor);
     }
 
-    /// A word that may be there once and is there twice. G and M go by groups; of `@` and `^` the last one counts.
+    /// A word that may occur once and occurs twice. G and M are checked by groups; of `@` and `^` the last one is used.
     #[inline]
     fn repeated(&mut self, letter: u8, range: TextRange) -> Option<Error> {
         let bit = match letter {
@@ -233,7 +233,7 @@ impl Line {
         let left = match target(cursor, Grammar::Rs274) {
             Ok(left) => left,
             Err(error) => {
-                // what is wrong about a name begins at its `#`
+                // an error of a name begins at its `#`
                 let range = TextRange::new(error.range.start.min(cursor.at()), error.range.end);
                 self.fail(problems::formula(&FormulaError { range, ..error }));
                 return self.skip(start, source, cursor);
@@ -260,7 +260,7 @@ impl Line {
         });
     }
 
-    /// After a value: where it is wrong, the error is kept and reading continues where the next word may begin.
+    /// After a value: if it has an error, that is kept and reading continues where the next word may begin.
     #[inline]
     fn recover(&mut self, error: Option<FormulaError>, start: u32, source: &[u8], cursor: &mut Cursor<'_>) {
         if let Some(error) = error {
@@ -270,13 +270,13 @@ impl Line {
         }
     }
 
-    /// Goes on where the next word may begin. `start` is where the value begins that is wrong. Blanks have no say in it.
+    /// Continues where the next word may begin. `start` is where the wrong value begins. Blanks do not matter.
     fn skip(&mut self, start: u32, source: &[u8], cursor: &mut Cursor<'_>) {
         cursor.skip_to(recovery::next_item(source, start, cursor.at(), self.range.end));
     }
 }
 
-/// A word that may be there once is there a second time.
+/// A word that may occur once occurs a second time.
 pub(super) fn twice_there(letter: u8, range: TextRange) -> Error {
     let lower = letter.to_ascii_lowercase();
     // as the control writes them
@@ -292,7 +292,7 @@ pub(super) fn twice_there(letter: u8, range: TextRange) -> Error {
     )
 }
 
-/// The letter of a word is an axis that the machine has not.
+/// The letter of a word is an axis that the machine does not have.
 pub(super) fn no_word(word: &WordText) -> Error {
     let range = TextRange::new(word.range.start, word.range.start + 1);
     Error::with(
@@ -302,7 +302,7 @@ pub(super) fn no_word(word: &WordText) -> Error {
     )
 }
 
-/// The control's message about a sign: as it is, or in octal.
+/// The control's message about a character: as it is, or in octal.
 fn bad_character(byte: u8) -> String {
     if (b'!'..=b'z').contains(&byte) {
         format!("Bad character '{}' used", char::from(byte))

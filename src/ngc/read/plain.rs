@@ -1,4 +1,4 @@
-//! The line that programs are full of, words with plain numbers, straight into a block: no read form in between.
+//! The most frequent line, words with plain numbers, read directly into a block without a parsed form.
 //!
 //! It accepts only lines that the line reader and [`super::evaluate`] would read in the same way without an error; all others it leaves
 //! to them (a test compares both).
@@ -28,8 +28,8 @@ const fn bit(letter: u8) -> u32 {
     1 << (letter - b'A')
 }
 
-/// Reads the line that begins at byte `start` into `block`; one past its line end. `None` where it is not plain: then the block holds
-/// nothing of use.
+/// Reads the line that begins at byte `start` into `block`; one past its line end. `None` if it is not plain: then the contents of the
+/// block are undefined.
 #[inline(never)]
 pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut Block) -> Option<u32> {
     let from = start as usize;
@@ -42,7 +42,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         (block.number, at) = sequence_number(text)?;
     }
     if let Some(&[b'G', code @ (b'0' | b'1'), b' ']) = text.get(at..)?.first_chunk() {
-        // what most lines begin with
+        // how most lines begin
         stop = at + 2;
         let range = TextRange::new(start + at as u32, start + stop as u32);
         block.put_g(MOTION, i16::from(code - b'0') * 10, range);

@@ -1,4 +1,4 @@
-//! What can be wrong with the text of a line and with its values, as the control says it (messages observed from `rs274`).
+//! Errors of the text of a line and of its values, in the words of the control (messages observed from `rs274`).
 use crate::{Class, Error, Problem};
 use trunnion_formula::{FormulaError, FormulaErrorKind as Kind};
 
@@ -68,7 +68,7 @@ pub(crate) fn is_not_defined(error: &Error) -> bool {
     error.problem == &NOT_DEFINED
 }
 
-/// What is wrong with an expression, as an error of the line.
+/// An error of an expression as an error of the line.
 #[cold]
 pub(crate) fn formula(error: &FormulaError) -> Error {
     let problem = match &error.kind {
@@ -95,7 +95,7 @@ pub(crate) fn formula(error: &FormulaError) -> Error {
         Kind::NegativePower => &POWER,
         Kind::Infinite => &INFINITE,
         Kind::Undefined => &NO_RESULT,
-        // the position under compensation: nothing else has a reason here
+        // the position under compensation: the only one with a reason
         Kind::NotReadable(_) => &NOT_READABLE,
         // Macro B's own
         Kind::MissingComma | Kind::TooDeep { .. } | Kind::NotDecimalCoded => &UNREADABLE,

@@ -3,7 +3,7 @@ use std::fmt::Write;
 
 use super::{Ini, Parameters, ToolEntry, ToolTable};
 
-/// A line of a setup file that means nothing.
+/// A line of a setup file without meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadLine {
     /// From 1.
@@ -20,7 +20,7 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, String)> {
 }
 
 impl Ini {
-    /// Reads `[SECTION]` and `KEY = value`; `#` and `;` begin a comment at the start of a line. The first of equal keys counts.
+    /// Reads `[SECTION]` and `KEY = value`; `#` and `;` begin a comment at the start of a line. The first of equal keys is used.
     pub fn parse(bytes: &[u8]) -> Self {
         let mut values = std::collections::BTreeMap::new();
         let mut section = String::new();
@@ -43,9 +43,9 @@ impl Ini {
 
 impl ToolTable {
     /// Reads lines of words: T number, P pocket, X Y Z A B C U V W offsets, D diameter, I and J angles, Q orientation; `;` begins a
-    /// comment. Lines that are no row are reported with the rows. Each P takes a row, also a second P of one line and those of a line that
-    /// is no row (so `rs274`): tools after it move down. A row without P is that of the spindle, as a run starts, and takes no other; a
-    /// tool that is there and in a later row has that row's values in both (observed).
+    /// comment. Lines that are not rows are reported with the rows. Each P takes a row, including a second P of one line and those of a line
+    /// that is not a row (as in `rs274`): tools after it move down. A row without P is that of the spindle at the start of a run, and takes no other;
+    /// a tool that is there and in a later row has the later values in both (observed).
     pub fn parse(bytes: &[u8]) -> (Self, Vec<BadLine>) {
         let mut rows = Vec::new();
         let mut spindle: Option<ToolEntry> = None;
@@ -94,7 +94,7 @@ impl ToolTable {
     }
 }
 
-/// How many P words with a number a line has, whatever else it contains.
+/// How many P words with a number a line has, regardless of its other contents.
 fn pockets(words: &str) -> usize {
     let is_pocket = |word: &&str| {
         let number = word
@@ -142,7 +142,7 @@ impl Parameters {
     /// Reads lines of a number and a value, ascending.
     ///
     /// # Errors
-    /// The first line that is none, or whose number is out of order or range.
+    /// The first invalid line, or one whose number is out of order or range.
     pub fn parse(bytes: &[u8]) -> Result<Self, BadLine> {
         let mut values: Vec<(u32, f64)> = Vec::new();
         for (line, text) in lines(bytes) {
@@ -156,7 +156,7 @@ impl Parameters {
             let mut words = text.split_whitespace();
             let index = words.next().and_then(|word| word.parse::<u32>().ok());
             let value = words.next().and_then(|word| word.parse::<f64>().ok());
-            // rs274 passes over lines that are no pair
+            // rs274 skips lines that are not pairs
             let (Some(index), Some(value)) = (index, value) else {
                 continue;
             };

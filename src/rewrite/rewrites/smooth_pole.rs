@@ -79,7 +79,7 @@ struct Smoothed {
     steps: (f64, f64),
 }
 
-/// What was worked out for one window and serves the next.
+/// Values computed for one window that the next one reuses.
 #[derive(Default)]
 struct Memory {
     chain: Vec<Station>,
@@ -268,7 +268,7 @@ impl Task<'_> {
         ))
     }
 
-    /// Smooths the window round one flip.
+    /// Smooths the window around one flip.
     fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, String> {
         let point = &self.points[flip];
         if let Some(obstacle) = obstacle(point) {
@@ -288,7 +288,7 @@ impl Task<'_> {
         };
         let stations = &stations[left..=right];
         let writer = self.writer(point, ball_radius, &mut memory.styles);
-        // a hair less than allowed, so that the last bit of a double decides nothing
+        // slightly less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let q = straighten(self.machine, stations, room)
             .ok_or_else(|| "the rotary axis is already outside its limits".to_string())?;

@@ -24,7 +24,7 @@
 //!
 //! # Claim
 //! Every motion ends in the same pose, and rotary positions differ by full turns only. Where the number of turns is the same at
-//! both ends of a motion, its path is the same too. Where it changes, the axis now takes the shorter way, and the certificate states
+//! both ends of a motion, its path is the same too. Where it changes, the axis now takes the shorter path, and the certificate states
 //! by how much the paths differ there.
 //!
 //! # Traps

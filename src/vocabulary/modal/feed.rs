@@ -1,6 +1,6 @@
 //! F: what it means, and its value.
 
-/// How F is meant.
+/// What F means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMode {
     /// G94.
@@ -11,7 +11,7 @@ pub enum FeedMode {
     InverseTime,
 }
 
-/// F in force.
+/// F in effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeedWord {
     mode: FeedMode,

@@ -6,6 +6,7 @@ pub struct Spindle {
     on: Option<bool>,
     rpm: Option<f64>,
     surface_speed: bool,
+    cutting_speed_m_min: Option<f64>,
     limit_rpm: Option<f64>,
     speed_programmed: bool,
     is_unread: bool,
@@ -24,6 +25,10 @@ impl Spindle {
     /// G96: S is a cutting speed.
     pub fn surface_speed(&self) -> bool {
         self.surface_speed
+    }
+    /// The cutting speed of G96, m/min; `None` where it is off or its value is unknown.
+    pub fn cutting_speed_m_min(&self) -> Option<f64> {
+        self.cutting_speed_m_min
     }
     /// The highest speed that the program allows (G50 S, G92 S), 1/min; NaN where its value could not be read.
     pub fn limit_rpm(&self) -> Option<f64> {
@@ -60,6 +65,12 @@ impl Spindle {
         if std::mem::replace(&mut self.surface_speed, on) || on {
             self.rpm = None;
         }
+        self.cutting_speed_m_min = None;
+    }
+    /// S under constant cutting speed, m/min; `None`: its value is unknown.
+    pub fn set_cutting_speed(&mut self, m_min: Option<f64>) {
+        self.speed_programmed = true;
+        self.cutting_speed_m_min = m_min;
     }
     /// The program limits the speed, 1/min.
     pub fn limit(&mut self, rpm: f64) {
@@ -85,11 +96,13 @@ impl Spindle {
     pub(super) fn is_alike(&self, other: &Self) -> bool {
         let without_numbers = |spindle: &Self| Self {
             rpm: None,
+            cutting_speed_m_min: None,
             limit_rpm: None,
             ..*spindle
         };
         without_numbers(self) == without_numbers(other)
             && super::alike(self.rpm, other.rpm)
+            && super::alike(self.cutting_speed_m_min, other.cutting_speed_m_min)
             && super::alike(self.limit_rpm, other.limit_rpm)
     }
 }

@@ -1,15 +1,15 @@
 //! The tool in the spindle and its length.
 use crate::{Tool, ToolShape};
 
-/// Whose length is compensated. It distinguishes lengths that are not declared.
+/// Which tool's length is compensated. It distinguishes lengths that are not declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum LengthOf {
-    /// None is in force.
+    /// None is in effect.
     #[default]
     Nothing,
     /// That of the tool with this number; `None`: of a tool in use whose number is not known.
     Tool(Option<u32>),
-    /// One that is no tool's own (another edge than the first, a sum of several), or whose number could not be read.
+    /// One that belongs to no tool (another edge than the first, a sum of several), or whose number could not be read.
     Other,
 }
 
@@ -74,7 +74,7 @@ impl ToolInUse {
     }
 }
 
-/// The tool length in force.
+/// The active tool length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToolLength {
     mm: Option<f64>,
@@ -83,7 +83,7 @@ pub struct ToolLength {
 }
 
 impl ToolLength {
-    /// mm; `None`: none is in force.
+    /// mm; `None`: none is in effect.
     pub fn mm(&self) -> Option<f64> {
         self.mm
     }
@@ -95,7 +95,7 @@ impl ToolLength {
     pub fn is_undeclared(&self) -> bool {
         self.is_undeclared
     }
-    /// A length is in force, mm.
+    /// A length is in effect, mm.
     pub fn set(&mut self, mm: Option<f64>, of: LengthOf) {
         (self.mm, self.of, self.is_undeclared) = (mm, of, false);
     }

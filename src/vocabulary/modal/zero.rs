@@ -2,7 +2,7 @@
 use crate::{AXIS_LETTERS, Undeclared};
 use std::sync::Arc;
 
-/// The zero point in force.
+/// The zero point in effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zero {
     offset: Option<Arc<str>>,
@@ -25,7 +25,7 @@ impl Default for Zero {
 }
 
 impl Zero {
-    /// Name of the work offset in force.
+    /// Name of the active work offset.
     pub fn offset(&self) -> Option<&str> {
         self.offset.as_deref()
     }

@@ -227,7 +227,7 @@ fn a_post_of_ones_own_is_read_and_its_mistakes_are_placed() {
         text(&output.stderr)
     );
     assert!(
-        text(&output.stderr).contains("no positioning"),
+        text(&output.stderr).contains("is not a positioning move"),
         "{}",
         text(&output.stderr)
     );

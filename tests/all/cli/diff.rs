@@ -35,18 +35,18 @@ fn text_alone_is_no_difference() {
     );
 }
 
-/// Neither length is declared: that another one is in force is seen by its number.
+/// Neither length is declared: that another one is in effect is seen by its number.
 #[test]
 fn the_length_of_another_tool_is_a_difference() {
     let folder = TempDir::new().expect("works");
     let with = |number: u32| BEFORE.replace("N10 G0", &format!("N10 G43 H{number} G0"));
     let (code, shown) = differ(&folder, &with(1), &with(5), &[]);
     assert_eq!(code, 1);
-    let told = "tool length in force that of tool 1 -> that of tool 5";
+    let told = "active tool length that of tool 1 -> that of tool 5";
     assert!(shown.contains(told), "{shown}");
 }
 
-/// What is not known of a motion is compared by its words: where a probe met, an arc from a place that nobody knows.
+/// What is not known of a motion is compared by its words: where a probe met, an arc from an unknown position.
 #[test]
 fn what_is_not_known_is_compared_by_its_words() {
     let folder = TempDir::new().expect("works");
@@ -183,7 +183,7 @@ fn with_a_machine_joints_are_compared() {
     assert_eq!(status(&output), 1);
     let shown = text(&output.stdout);
     assert!(
-        shown.contains("on mikron-ucp710, coordinates are its joints"),
+        shown.contains("on mikron-ucp710; coordinates are the positions of its axes"),
         "{shown}"
     );
     assert!(shown.contains("C 52.595 -> 50.595 deg"), "{shown}");

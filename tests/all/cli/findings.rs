@@ -1,4 +1,4 @@
-//! How findings are worded on the command line, how they are silenced, and dialect tables of one's own.
+//! How findings are worded on the command line, how they are silenced, and dialect tables of your own.
 
 use super::tools::{json, status, str, text, trunnion, write};
 use std::path::Path;

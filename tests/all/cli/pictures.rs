@@ -130,7 +130,7 @@ fn an_stl_is_a_surface_too() {
     ]);
     let document = json(&output);
     let errors = document["errors"].clone();
-    // the plunge starts 6 mm above and is no part of the surface
+    // the plunge starts 6 mm above and is not part of the surface
     assert_eq!(
         (document["apart"].as_u64(), document["farthest_apart_mm"].as_f64()),
         (Some(1), Some(6.0))
@@ -140,7 +140,7 @@ fn an_stl_is_a_surface_too() {
     assert!(errors["same_place"].is_null());
 }
 
-/// The tip of a tool whose length is not in force is elsewhere than X Y Z say: nothing is judged from them.
+/// The tip of a tool whose length is not in effect is elsewhere than X Y Z say: nothing is judged from them.
 #[test]
 fn a_tool_of_another_length_is_not_held_against_a_surface() {
     let folder = TempDir::new().expect("works");

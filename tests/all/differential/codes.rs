@@ -2,7 +2,7 @@
 //! control tells.
 use super::generate::Program;
 
-/// What is in force before.
+/// What is in effect before.
 const BEFORE: [&str; 40] = [
     "F10",
     "S100 M3",

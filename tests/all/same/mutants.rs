@@ -181,7 +181,7 @@ impl Base {
             .collect()
     }
 
-    /// Blocks put before a line that moves: those of the base's list, and each M code that is not in force already.
+    /// Blocks put before a line that moves: those of the base's list, and each M code that is not in effect already.
     fn insertions(&self, at: usize) -> Vec<Pair> {
         if !self.moves(at) {
             return Vec::new();
@@ -198,7 +198,7 @@ impl Base {
         let effective = |id: &str| match self.group(id) {
             _ if idle(id) => false,
             None | Some("stopping") => true,
-            // what is in force at power-on is not written down in the table
+            // what is in effect at power-on is not written down in the table
             Some(group) => in_force(group).is_some_and(|code| code != id),
         };
         let m_codes = self.dialect.codes().iter().filter(|code| code.kind == CodeKind::M);

@@ -188,7 +188,7 @@ fn two_sides(line: &str, place: &str) -> (String, String) {
     (blocks(before), blocks(after))
 }
 
-/// The parts `--- before`, `--- after` and `--- file NAME` of a section. `--- both` is a program beside itself.
+/// The parts `--- before`, `--- after` and `--- file NAME` of a section. `--- both` is a program compared with itself.
 fn parts(body: &str, place: &str) -> [Vec<(String, String)>; 3] {
     let mut found: [Vec<(String, String)>; 3] = Default::default();
     let mut into: Vec<usize> = Vec::new();

@@ -8,7 +8,7 @@ use trunnion_workspace::{Overrides, resolve};
 #[derive(Default)]
 pub(super) struct Known {
     pub(super) programs: u64,
-    pub(super) known: u64,
+    pub(super) in_full: u64,
     /// Motions whose end is unknown for a reason that lies outside the program, by that reason.
     pub(super) outside: BTreeMap<&'static str, u64>,
     /// All other motions with an unknown end, by the last fault before.
@@ -19,7 +19,7 @@ impl Known {
     /// Per cent of the motions whose end does not rest on something outside the program.
     pub(super) fn per_cent(&self) -> f64 {
         let open: u64 = self.open.values().sum();
-        100.0 * self.known as f64 / (self.known + open).max(1) as f64
+        100.0 * self.in_full as f64 / (self.in_full + open).max(1) as f64
     }
 }
 
@@ -33,6 +33,8 @@ struct Watch<'k> {
     /// Why an axis is not known, since it was known last.
     why: [Option<String>; 3],
     last_fault: Option<String>,
+    /// The tool of the last motion, and whether there was one.
+    tool: Option<Option<u32>>,
 }
 
 impl Sink for Watch<'_> {
@@ -41,6 +43,9 @@ impl Sink for Watch<'_> {
             return;
         }
         let known = motion.end.known & self.tip;
+        if self.tool.replace(motion.tool).is_some_and(|last| last != motion.tool) {
+            self.last_fault = Some("tool change".to_owned());
+        }
         for axis in 0..3 {
             let bit = 1 << axis;
             if known & bit != 0 {
@@ -54,7 +59,7 @@ impl Sink for Watch<'_> {
             }
         }
         if known == self.tip && motion.kind != MotionKind::Unknown {
-            self.into.known += 1;
+            self.into.in_full += 1;
             return;
         }
         let causes: Vec<&str> = self.why.iter().flatten().map(String::as_str).collect();
@@ -84,6 +89,8 @@ fn outside(cause: &str) -> Option<&'static str> {
     match cause {
         "start" => Some("the start is not programmed"),
         "reference point" => Some("a reference point"),
+        // the axes stand where the machine changes tools, which is a reference point
+        "tool change" => Some("a reference point (the tool change)"),
         _ if cause.contains("the probed position") => Some("a probe"),
         _ => None,
     }
@@ -124,6 +131,7 @@ pub(super) fn count(path: &Path, into: &mut Known) -> bool {
         ever: 0,
         why: [None, None, None],
         last_fault: None,
+        tool: None,
     };
     run(&program, resolved.dialect, &resolved.setup, &mut watch);
     true

@@ -238,7 +238,7 @@ fn codes_that_nobody_names_are_left_with_a_remark() {
     let cases = [
         (
             with_keys("trunnion-3plus2", ["", ""]),
-            "the machine file names no codes",
+            "the machine file does not name its codes",
         ),
         // coolant, to this control
         (
@@ -246,7 +246,7 @@ fn codes_that_nobody_names_are_left_with_a_remark() {
                 "trunnion-3plus2",
                 ["{ on = \"M8\", off = \"M9\" }", "{ on = \"M8\", off = \"M9\" }"],
             ),
-            "this control has no word for its codes",
+            "the target control has no such codes",
         ),
     ];
     for (machine, why) in cases {

@@ -25,7 +25,7 @@ pub(crate) fn around(dialect: &str, blocks: &str) -> String {
     format!("{head}{blocks}\n{tail}")
 }
 
-/// Each is refused in line 6, by name.
+/// Each is refused on line 6, by name.
 fn refused(dialect: &str, targets: &[&str], all: &[(&str, &str)]) {
     for (blocks, name) in all {
         for target in targets {

@@ -61,7 +61,10 @@ fn a_machine_that_always_leads_the_tip() {
     let written = text(linuxcnc("linuxcnc-max5", true));
     assert!(!written.contains("M428") && !written.contains("M429"), "{written}");
     let refused = refusal(linuxcnc("linuxcnc-max5", false));
-    assert!(refused.message.contains("names no code that ends it"), "{refused}");
+    assert!(
+        refused.message.contains("names no code that switches it off"),
+        "{refused}"
+    );
 }
 
 /// An axis that the kinematics are not solved for is told where it stands, once.

@@ -42,7 +42,7 @@ fn programs_that_say_too_little_or_too_much() {
         ("DWELL/1\n", "sinumerik-840d", five, 5, "DELAY"),
         ("AUXFUN/MANY\n", "sinumerik-840d", five, 5, "AUXFUN takes"),
         ("COOLNT/THRU\n", "sinumerik-840d", five, 5, "coolant-thru"),
-        ("SPINDL/ON\n", "sinumerik-840d", five, 5, "speed that is not known"),
+        ("SPINDL/ON\n", "sinumerik-840d", five, 5, "unknown speed"),
         ("GOTO/1,1\n", "sinumerik-840d", five, 5, "not understood"),
     ] {
         let text = format!("{head}{tail}FINI\n");
@@ -70,7 +70,7 @@ fn what_a_control_lacks_is_said_before_anything_is_read() {
         ("grbl", &Options::default(), "--no-tcp"),
         ("haas-ngc", &vectors, "tool vectors"),
         ("linuxcnc", &vectors, "tool vectors"),
-        ("sinumerik-840d", &both, "leave --no-tcp out"),
+        ("sinumerik-840d", &both, "remove --no-tcp"),
     ] {
         let (_, message) = refused((text, "apt", ""), dialect, "mikron-ucp710", options);
         assert!(message.contains(why), "{dialect}: {message}");
@@ -114,7 +114,7 @@ fn g_code_needs_what_it_does_not_say() {
             "sinumerik-840d",
             "",
             Some((1, 1)),
-            "without number",
+            "without a number",
         ),
         (
             "G0 X0. Y0. Z5.\nG28 G91 Z0.\nG90 G1 X5. F100.\nM30\n",

@@ -108,7 +108,7 @@ proptest! {
         let always = on.control.tcp_codes.as_ref().is_some_and(|codes| codes.at_start && codes.off.is_empty());
         let never = family && on.control.tcp_codes.is_none();
         let kind = if never { 1 } else if (family && kind == 2) || (always && kind == 1) { 0 } else { kind };
-        // vectors leave out the words of further axes, so that nobody knows where those stand
+        // vectors leave out the words of further axes, so that it is unknown where those stand
         let more = on.axes.len() > 5;
         let kind = if more && kind == 2 { 0 } else { kind };
         let dialect = if family { "linuxcnc" } else { "sinumerik-840d" };

@@ -247,6 +247,10 @@ fn cycles_and_coordinate_systems() {
     let source = "FEDRAT/1\nCSYS/1,0,0,0,0,1,0,0,0,0,1,0\nGOTO/1,2,3\nCSYS/0,0,1,0,1,0,0,0,0,1,0,0\nGOTO/1,2,3\nCSYS/1,0,0,0,0,1,0,0,0,0,1,0\nGOTO/1,2,4\n";
     assert_eq!(
         lines("apt", source),
-        ["L X1 Y2 Z3 F1 tcp <0 0 1>", "L - F1 tcp", "L X1 Y2 Z4 F1 tcp <0 0 1>"]
+        [
+            "L X1 Y2 Z3 F1 tcp <0 0 1>",
+            "L X3 Y1 Z2 F1 tcp <1 0 0>",
+            "L X1 Y2 Z4 F1 tcp <0 0 1>"
+        ]
     );
 }

@@ -70,7 +70,7 @@ fn cycles_of_fanuc() {
                 ],
             ),
             (
-                "behind G80 the motion code from before the cycle is in force",
+                "behind G80 the motion code from before the cycle is in effect",
                 "G1X0.Y0.Z10.F50.\nG99G81Z-1.R1.\nG80\nX5.\n",
                 &[
                     "L X0 Y0 Z10 F50",

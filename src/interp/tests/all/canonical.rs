@@ -1,4 +1,4 @@
-//! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
+//! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in effect with it.
 use crate::support::{faults, line, lines, run_bytes};
 use std::sync::Arc;
 use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, ProgramRun, Searched, Setup, Tool};

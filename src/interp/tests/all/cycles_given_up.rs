@@ -42,7 +42,7 @@ fn a_pattern_that_is_given_up_joins_on() {
     }
 }
 
-/// Increments of a cycle whose start is not known have an unknown end, and that is reported.
+/// Increments of a cycle whose start is unknown have an unknown end, and that is reported.
 #[test]
 fn levels_that_count_from_an_unknown_place_are_told() {
     let said = faults("fanuc-30i", "G0 X1. Y2.\nG91 G81 X5. Z-3. R-1. F100.\nG80\nM30\n");

@@ -20,7 +20,7 @@ fn unknown_codes_and_words() {
         ["1: FROBNICATE: UnknownCode { machine_builder: false }"]
     );
     assert_eq!(faults("fanuc-30i", "G0 X1. CR=5\n"), ["1: CR=5: UnknownWord"]);
-    // without a point the size of a coordinate depends on a parameter of the control; zero is zero
+    // without a decimal point the size of a coordinate depends on a parameter of the control; zero is zero
     assert_eq!(faults("fanuc-30i", "G0 X0 Y5\n"), ["1: Y5: AmbiguousDecimal"]);
     assert_eq!(faults("linuxcnc", "G0 X0 Y5\nM2\n"), Vec::<String>::new());
 }

@@ -29,7 +29,7 @@ fn setting_the_position_shifts_all_offsets() {
     assert_eq!(got[1], ("R X3 Y20 Z1".to_owned(), [8.0, 0.0, 0.0]));
     assert_eq!(got[2], ("R X0 Y20 Z1".to_owned(), [8.0, 0.0, 0.0]));
     assert_eq!(got[3], ("R X1 Y20 Z1".to_owned(), [0.0; 3]));
-    // a point that is not known cannot be named
+    // a point that is unknown cannot be named
     assert_eq!(
         faults("fanuc-30i", "G92 X0.\nG0 X1.\n"),
         [r#"1: G92: NotModelled { what: "G92" }"#]

@@ -2,6 +2,7 @@
 #![expect(clippy::print_stderr, reason = "a test that finds no data says so")]
 #![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
+mod apt_holes;
 mod arcs;
 mod by_hand;
 mod by_hand_paths;
@@ -13,6 +14,7 @@ mod cycles;
 mod cycles_given_up;
 mod cycles_steps;
 mod directives;
+mod drawing;
 mod faults;
 mod files;
 mod fold_samples;
@@ -22,6 +24,7 @@ mod macro_flow;
 mod macro_programs;
 mod macro_values;
 mod motions;
+mod one_block;
 mod orientation;
 mod own_codes;
 mod properties;

@@ -133,7 +133,7 @@ fn axis_words_without_a_motion_code() {
     assert_eq!(
         lines("sinumerik-840d", "X1 F100\n"),
         ["L X1 F100"],
-        "G1 is in force at the start"
+        "G1 is in effect at the start"
     );
 }
 
@@ -203,7 +203,7 @@ fn machine_coordinates_hold_for_one_block() {
     let machine = &log.motions[1];
     assert_eq!(
         (machine.start.get(0), machine.machine_coordinates, machine.zero[0]),
-        // the work offset stays in force, though these words are not meant from it
+        // the work offset stays in effect, though these words are not meant from it
         (Some(101.0), true, 100.0)
     );
 }

@@ -209,7 +209,7 @@ fn patterns_with_unknown_lengths_are_unknown() {
     }
 }
 
-/// An unknown programmed lift is not the one before; R500 is half a millimetre where numbers without a point count increments.
+/// An unknown programmed lift is not the one before; R500 is half a millimetre where numbers without a decimal point count increments.
 #[test]
 fn the_lift_of_a_groove() {
     let control = trunnion_interp::ControlData {

@@ -107,7 +107,7 @@ fn contours_that_are_not_of_type_one() {
         (["", FIRST, "G71 P1 Q1 F.3", "N1 G0 X20.\n"], "one block"),
         (["", FIRST, SECOND, "N1 G0 X20.\nN2 G1 X50.\n"], "start along one axis"),
         // other axes, rapids
-        (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. C5.\nN2 X50.\n"], "other axes"),
+        (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. Y5.\nN2 X50.\n"], "other axes"),
         (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. Y5.\nN2 X50.\n"], "other axes"),
         (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. Y0.\nN2 X50.\n"], "other axes"),
         (

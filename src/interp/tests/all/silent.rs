@@ -96,7 +96,7 @@ fn a_lathe_without_y_has_corners_too() {
         ["L X10 Z-18 F0.1/rev", "A? X12 Z-20 F0.1/rev", "L X20 Z-20 F0.1/rev"]
     );
     assert_eq!(faults("fanuc-30i-lathe-a", source), [""; 0]);
-    // what is not known is no mistake
+    // what is unknown is no mistake
     let unknown = faults("fanuc-30i-lathe-a", "G1 Z-20. R2. F.1\nX40.\n");
     assert!(unknown.len() == 1 && unknown[0].contains("NotModelled"), "{unknown:?}");
 }
@@ -113,7 +113,7 @@ fn h_and_d_are_modal() {
         tools: vec![tool(1, 100.0), tool(2, 150.0)],
         ..Setup::default()
     };
-    // H2 alone changes the length in force: the same place is 50 mm lower in the words
+    // H2 alone changes the length in effect: the same place is 50 mm lower in the words
     let (_, log) = run_bytes("fanuc-30i", b"G43 H1\nG0 Z200.\nH2\nG91 Z0.\nM30\n", &setup);
     assert_eq!(log.motions.iter().map(line).collect::<Vec<_>>(), ["R Z200", "R Z150"]);
     assert_eq!(log.motions[1].tool_length_mm, 150.0);

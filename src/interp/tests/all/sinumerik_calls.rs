@@ -88,7 +88,7 @@ fn what_repeat_does_not_say_is_not_decided() {
         ),
         (
             "LA: X1\nREPEAT LA\nLA: X2\nM30\n",
-            "3 `LA` not decided: LA: the label stands before and after REPEAT",
+            "3 `LA` not decided: LA: the label is defined both before and after REPEAT",
         ),
         ("REPEAT LA\nX1\nLA: X2\nM30\n", "2 `LA` not decided: which blocks"),
         (

@@ -111,7 +111,7 @@ fn for_counts_by_one_and_leaves_one_more() {
         "{:?}",
         said(changes)
     );
-    assert!(said("G0\nFOR R1=0.5 TO 3\nX1\nENDFOR\nM30\n")[0].contains("no whole number"));
+    assert!(said("G0\nFOR R1=0.5 TO 3\nX1\nENDFOR\nM30\n")[0].contains("not a whole number"));
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn a_label_is_looked_for_in_the_direction_of_the_jump() {
         ["1"],
         "then backward"
     );
-    // the nearest in front of the jump, not the first of the program
+    // the nearest before the jump, not the first of the program
     let nearest = "G0\nGOTOF IN\nLA: X1\nM30\nLA: X2\nM30\nIN: GOTO LA\nM30\n";
     assert_eq!(places(nearest), ["2"]);
     assert_eq!(
@@ -190,7 +190,7 @@ fn case_goes_to_the_label_of_its_value() {
     assert_eq!(places(&source("2", "")), ["2"]);
     assert_eq!(places(&source("5", "")), ["9"]);
     assert_eq!(places(&source("5", " DEFAULT GOTOF LC")), ["3"]);
-    assert!(said(&source("0.3", ""))[0].contains("no whole number"));
+    assert!(said(&source("0.3", ""))[0].contains("not a whole number"));
     assert_eq!(
         places("G0\nR1=2\nCASE R1 OF 1 GOTOF LBL1 2 GOTOF LBL2\nX9\nLBL1: X1\nLBL2: X2\nM30\n"),
         ["2"]
@@ -202,7 +202,7 @@ fn what_depends_on_the_unknown_is_not_decided() {
     for (source, what) in [
         (
             "IF R5>1 GOTOF LA\nX2\nLA: M30\n",
-            "2 `R5>1` not decided: R5: its value is not known here",
+            "2 `R5>1` not decided: R5: its value is unknown here",
         ),
         (
             "IF $AA_IM[X]>1\nX2\nENDIF\nM30\n",

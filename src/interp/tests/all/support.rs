@@ -62,7 +62,7 @@ pub(crate) fn position(position: &Position) -> String {
     if text.is_empty() { "-".to_owned() } else { text }
 }
 
-/// `L X1 Y2 F100 tcp <0 0 1>`: kind, end, feed, what else is in force.
+/// `L X1 Y2 F100 tcp <0 0 1>`: kind, end, feed, what else is in effect.
 pub(crate) fn line(motion: &Motion) -> String {
     let mut text = match motion.kind {
         MotionKind::Rapid => "R".to_owned(),

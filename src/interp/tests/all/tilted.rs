@@ -105,7 +105,7 @@ fn what_is_not_modelled_says_so_and_hides_the_position() {
         let last = log.motions.last().expect("a motion");
         assert_eq!((last.end.xyz(), last.tilt.normal), (None, None), "{text}");
     }
-    // 30 without a point is 30 deg or 0.030 deg, as a parameter says
+    // 30 without a decimal point is 30 deg or 0.030 deg, as a parameter says
     assert_eq!(
         faults("fanuc-30i", "G68.2 X0. Y0. Z0. I0 J30 K0\n"),
         ["1: J30: AmbiguousDecimal"]

@@ -118,7 +118,7 @@ fn a_change_of_length_moves_the_words_along_the_tool() {
     assert_eq!(got, want);
 }
 
-/// Whether T alone changes tools is machine data of a Sinumerik; where M6 does, its length is not in force.
+/// Whether T alone changes tools is machine data of a Sinumerik; where M6 does, its length is not in effect.
 #[test]
 fn a_tool_that_nothing_brings_is_said() {
     let said = |source: &str| {

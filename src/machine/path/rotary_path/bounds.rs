@@ -11,7 +11,7 @@ pub(crate) struct RotaryPathBounds {
     pub(crate) bend: [f64; 2],
 }
 
-/// What is known of a piece, all of them upper bounds of absolute values unless they say otherwise.
+/// What is known about a piece, all of them upper bounds of absolute values unless stated otherwise.
 pub(super) struct Piece {
     /// Angle of the whole block, rad.
     w: f64,
@@ -28,11 +28,11 @@ pub(super) struct Piece {
     off: f64,
 }
 
-/// What rounding may take from a bound.
+/// Room for rounding in a bound.
 const UP: f64 = 1.0 + 1e-9;
 
 impl GreatCircle<'_> {
-    /// Bounds over a piece: of two ways to them, each is the nearer one somewhere.
+    /// Bounds over a piece: of two derivations, each is the tighter one somewhere.
     pub(crate) fn bounds(&self, from: f64, to: f64) -> RotaryPathBounds {
         let piece = self.piece(from, to);
         let (one, other) = (self.by_reach(&piece), self.by_azimuth(&piece));

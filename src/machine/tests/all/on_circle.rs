@@ -124,7 +124,7 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     let (start, end) = (leg.start.expect("known"), leg.end.as_ref().expect("known"));
     let path = Path::new(machine, &start.joints, start.branch, &circle);
     if path.as_ref().is_some_and(|path| path.fastest > 0.5) {
-        // half a radian in a step, close to the pole: the number of full turns of the axis is not known here
+        // half a radian in a step, close to the pole: the number of full turns of the axis is unknown here
         return;
     }
     let reaches = |path: &Path<'_>| {

@@ -98,7 +98,7 @@ fn a_block_far_below_the_tolerance_is_settled_at_once() {
     assert!(found.sampled == 0.0 && found.bound > 0.0 && found.bound <= rad(0.1));
 }
 
-/// Half a turn of C at a tilt of 60 deg, by vectors: the tool axis goes round the cone, the great circle over the pole is 60 deg away.
+/// Half a turn of C at a tilt of 60 deg, by vectors: the tool axis goes around the cone, the great circle over the pole is 60 deg away.
 #[test]
 fn half_way_round_a_cone_is_as_far_as_its_tilt() {
     let (tilt, half) = (rad(60.0), rad(89.5));

@@ -318,7 +318,7 @@ fn in_a_tilted_plane_what_is_not_named_stays() {
         near(last("G0 X12. Y5. Z30.\nG69\nG0 Z100.\n"), [12.0, 5.0, 100.0]);
         // the normal does not tell on which side of the plane it moves
         assert_eq!(last("G1 X14. F500.\n"), None);
-        // a value that is not known is not a word that is missing
+        // a value that is unknown is not a word that is missing
         assert_eq!(last("G1 X12. Y5. Z#500 F500.\n"), None);
         if !turn.is_empty() {
             near(last(""), [10.0, 20.0, 50.0]);

@@ -1,11 +1,11 @@
-//! The contour as the blocks of a subprogram describe it: only their motion counts.
+//! The contour as the blocks of a subprogram describe it: only their motion is used.
 use super::problems;
 use super::segment::{NEAR, Point, Round, Segment, cross, distance};
 use crate::{Block, DistanceMode, Error, Problem, State};
 use trunnion_geometry::math;
 use trunnion_syntax::TextRange;
 
-/// What is done with the corner after a piece.
+/// The treatment of the corner after a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Corner {
     Sharp,
@@ -15,7 +15,7 @@ enum Corner {
     Chamfer(f64),
 }
 
-/// A contour in the making.
+/// A contour that is being built.
 #[derive(Clone, Debug)]
 pub(crate) struct Contour {
     at: Point,
@@ -62,7 +62,7 @@ impl Contour {
         }
         Ok(())
     }
-    /// Where a block leads.
+    /// The end of a block.
     fn end(&self, state: &State, block: &Block) -> Result<Point, Error> {
         let radius = if state.lathe_diameter { 0.5 } else { 1.0 };
         let incremental = state.distance == DistanceMode::Incremental;
@@ -83,7 +83,7 @@ impl Contour {
         }
         Ok(to)
     }
-    /// Centre and sense of an arc: I and K count from its start whatever G90.1 says.
+    /// Centre and sense of an arc: I and K are relative to its start whatever G90.1 says.
     fn round(&self, block: &Block, to: Point, counter: bool) -> Result<Round, Error> {
         let centre_given = block.has(b'I') || block.has(b'K');
         let centre = match block.word(b'R') {
@@ -140,7 +140,7 @@ impl Contour {
                         if travels.iter().any(|&place| is_fine(&middle, place)) {
                             return Err(Error::new(&problems::FINE, range));
                         }
-                        // beside arcs the control was seen to take some for a step back that is none
+                        // next to arcs the control was seen to take some for a step back that are none
                         if last.is_arc() || piece.is_arc() {
                             return Err(Error::new(&problems::DOUBTFUL, range));
                         }
@@ -165,7 +165,7 @@ impl Contour {
         if doubtful {
             return Err(Error::new(&problems::DOUBTFUL, range));
         }
-        // either coordinate may be the travel: which one the control takes depends on arcs that lead there and back
+        // either coordinate may be the travel: which one the control takes depends on arcs that go there and back
         let back = |piece: &Segment| travels.iter().any(|&place| piece.turns_back(place));
         if travels.len() > 1 && done.iter().any(back) {
             return Err(Error::new(&problems::ARC, range));
@@ -174,7 +174,7 @@ impl Contour {
     }
 }
 
-/// Whether a block says where to go.
+/// Whether a block has coordinates.
 fn describes(block: &Block) -> bool {
     block.g[1] >= 0 || b"XZUWIKR".iter().any(|&letter| block.has(letter))
 }

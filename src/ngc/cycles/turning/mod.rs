@@ -103,13 +103,13 @@ pub(super) fn begin(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     Ok(())
 }
 
-/// Where the tool is in X and Z is not known.
+/// The position of the tool in X and Z is unknown.
 fn lose(engine: &mut Engine) {
     engine.state.current[0] = f64::NAN;
     engine.state.current[2] = f64::NAN;
 }
 
-/// Tells the moves of a cycle.
+/// Emits the moves of a cycle.
 struct Out<'a> {
     engine: &'a mut Engine,
     block: Block,
@@ -219,8 +219,8 @@ impl Turning {
     }
 }
 
-/// Whether a contour never turns back along a coordinate: 0 is Z, 1 is X; its sense then. Where it does so by a little, the control was seen
-/// to accept it.
+/// Whether a contour never turns back along a coordinate: 0 is Z, 1 is X; its sense then. A very small step back was seen to be accepted by
+/// the control.
 fn monotonic(contour: &[Segment], place: usize) -> Result<Option<f64>, &'static Problem> {
     let exactly = goes_on(contour, place, [1e-9, 1e-6]);
     if exactly.is_none() && goes_on(contour, place, [2.0 * NEAR, 0.05]).is_some() {
@@ -229,7 +229,7 @@ fn monotonic(contour: &[Segment], place: usize) -> Result<Option<f64>, &'static 
     Ok(exactly)
 }
 
-/// The same with so much allowed: a step back (program units), and the part of an arc's direction that leads back.
+/// The same with a tolerance: a step back (program units), and the part of an arc's direction that goes back.
 fn goes_on(contour: &[Segment], place: usize, [step_back, lean]: [f64; 2]) -> Option<f64> {
     let (first, last) = (contour.first()?, contour.last()?);
     let sign = if last.to[place] > first.from[place] { 1.0 } else { -1.0 };
@@ -290,7 +290,7 @@ fn with_allowance(
     Ok(offset::offset(contour, allowance)?)
 }
 
-/// G70: along the contour, P times, ever nearer.
+/// G70: along the contour, P times, each time nearer.
 fn finishing(
     out: &mut Out<'_>,
     start: Point,
@@ -299,7 +299,7 @@ fn finishing(
     words: &Words,
 ) -> Result<(), Stopped> {
     let along = match (contour, monotonic(contour, 0)?) {
-        // observed: a contour of one block against Z counts along X alone
+        // observed: a contour of one block against Z is taken along X only
         ([only], Some(sign)) if sign > 0.0 && only.round.is_some() => None,
         (_, Some(sign)) if sign < 0.0 || contour.len() > 1 => Some((0, sign)),
         _ => monotonic(contour, 1)?.map(|sign| (1, sign)),
@@ -349,7 +349,7 @@ fn roughing(
     let (Some(first), Some(last)) = (contour.first(), contour.last()) else {
         return Ok(());
     };
-    // a contour at one level counts as falling for G72, as rising for G71
+    // a contour at one level is taken as falling for G72, as rising for G71
     let fall = first.from[1 - place] - last.to[1 - place];
     let deeper = fall > 0.0 || (swapped && fall == 0.0);
     let frame = Frame {

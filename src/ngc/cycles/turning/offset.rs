@@ -4,7 +4,7 @@ use super::problems;
 use super::segment::{NEAR, Point, Round, Segment, cross, distance};
 use crate::Problem;
 
-/// How far beside the contour.
+/// Distance from the contour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowance {
     /// To its left; negative: to its right.
@@ -90,7 +90,7 @@ fn moved(contour: &[Segment], allowance: Allowance) -> Result<(Vec<Segment>, boo
     }
 }
 
-/// Whether the control leaves a piece out: by its length, arcs by how far they lead along the cut (observed by bisection, arcs at slopes of
+/// Whether the control leaves a piece out: by its length, arcs by how far they extend along the cut (observed by bisection, arcs at slopes of
 /// 7 to 83 degrees).
 fn is_tiny(piece: &Segment, place: usize) -> bool {
     let way = if piece.is_arc() {

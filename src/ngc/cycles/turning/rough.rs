@@ -1,7 +1,7 @@
 //! G71 and G72: cuts along the travel at one level after the other, down to the contour with its allowance.
 //!
 //! All is described in one frame: the first coordinate falls along the cut, the second is the level, and the contour ends no deeper
-//! than it begins. [`Frame`] leads there and back.
+//! than it begins. [`Frame`] converts in both directions.
 use super::problems;
 use super::segment::{Point, Round, Segment, distance};
 use crate::Problem;
@@ -61,17 +61,17 @@ pub(super) enum Pockets {
     Cut,
     /// .1: passed over.
     Skip,
-    /// .2: nothing but the pockets.
+    /// .2: only the pockets.
     Only,
 }
 
-/// What the words say.
+/// The values of the words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rough {
     pub(super) pockets: Pockets,
     /// Depth of a cut.
     pub(super) depth: f64,
-    /// Way back after a cut.
+    /// Retract distance after a cut.
     pub(super) retract: f64,
     /// Most moves.
     pub(super) limit: u64,
@@ -132,7 +132,7 @@ pub(super) fn run(
     walk.go(start)
 }
 
-/// What an allowance made level up to rounding is level.
+/// A piece that an allowance made level up to rounding is level.
 fn falls(piece: &Segment) -> bool {
     piece.to[1] < piece.from[1] - 1e-9
 }
@@ -273,7 +273,7 @@ impl Walk<'_> {
         }
         Ok(())
     }
-    /// .2: the levels of a pocket count from its top.
+    /// .2: the levels of a pocket start at its top.
     fn pockets_only(&mut self, mut index: usize) -> Result<(), Stopped> {
         let mut top: Option<f64> = None;
         while index < self.path.len() {

@@ -4,7 +4,7 @@ use trunnion_geometry::math;
 /// A point: two coordinates, program units. As programmed: Z, X.
 pub(super) type Point = [f64; 2];
 
-/// The control takes points nearer than this as one (program units).
+/// The control takes points nearer than this as the same (program units).
 pub(super) const NEAR: f64 = 1e-3;
 
 pub(super) fn distance(a: Point, b: Point) -> f64 {
@@ -49,7 +49,7 @@ impl Segment {
     pub(super) fn radius(&self) -> f64 {
         self.round.map_or(0.0, |round| distance(self.from, round.centre))
     }
-    /// How small it is: its chord, or the radius where that is less.
+    /// Its size: its chord, or the radius where that is less.
     pub(super) fn size(&self) -> f64 {
         let chord = distance(self.from, self.to);
         self.round.map_or(chord, |_| chord.min(self.radius()))

@@ -71,7 +71,7 @@ fn turning_cycles_are_those_of_the_control() {
     compare("turning.txt");
 }
 
-/// In a check the start is not known: the cycle ends in one refusal where it would begin, and nothing hangs.
+/// In a check the start is unknown: the cycle ends in one refusal where it would begin, and nothing hangs.
 #[test]
 fn a_turning_cycle_from_an_unknown_start_is_not_modelled() {
     let setup = trunnion_ngc::Setup {

@@ -87,3 +87,41 @@ fn a_parameter_file_is_in_order_and_in_range() {
         (1, "Parameter number out of range")
     );
 }
+
+/// Answers of rs274 to the same INI files.
+#[test]
+fn an_ini_file_turns_m19_and_its_numbers_are_read_only() {
+    let with = |ini: &str, source: &str| {
+        let setup = Setup {
+            ini: Ini::parse(ini.as_bytes()),
+            ..Setup::default()
+        };
+        crate::listing::list_with(source, &setup)
+    };
+    for (offset, angles) in [
+        ("90", ["100", "449", "90"]),
+        ("-400.5", ["-390.5", "-41.5", "-400.5"]),
+        ("90 ; x", ["10", "359", "0"]),
+        ("1e2", ["110", "459", "100"]),
+    ] {
+        let listed = with(
+            &format!("[RS274NGC]\nORIENT_OFFSET={offset}\n"),
+            "M19 R10\nM19 R359 P1\nM19 P1\nM2\n",
+        );
+        let lines = listed.lines();
+        for (angle, mode) in angles.iter().zip([0, 1, 1]) {
+            let angle: f64 = angle.parse().expect("a number");
+            let line = format!("ORIENT_SPINDLE(0, {angle:.4}, {mode})");
+            assert!(lines.contains(&line), "{offset}: {line}: {lines:?}");
+        }
+    }
+    let ini = "[TRAJ]\nSPINDLES=2\nNAME=abc\n";
+    let listed = with(ini, "#<_ini[traj]spindles>=5\nM2\n");
+    assert_eq!(
+        listed.errors,
+        ["Cannot assign to read-only parameter #<_ini[traj]spindles>"]
+    );
+    for free in ["#<_ini[traj]name>=5\nM2\n", "#<_ini[traj]nothing>=5\nM2\n"] {
+        assert_eq!(with(ini, free).errors, [""; 0], "{free}");
+    }
+}

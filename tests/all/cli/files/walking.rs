@@ -33,13 +33,13 @@ fn nothing_in_a_folder_is_passed_over_in_silence() {
     assert_eq!(document["summary"]["files"], 4, "{document} {said}");
     for (name, why) in [
         ("README", "no extension"),
-        ("notes.txt", "extension names no program"),
+        ("notes.txt", "extension is not one of a program"),
         ("old.nc", ".gitignore"),
         (".hidden", "hidden"),
-        ("out.nc", "leads out of the folder"),
-        ("again.nc", "taken already"),
-        ("round", "walked already"),
-        ("broken.nc", "leads nowhere"),
+        ("out.nc", "a link to outside the folder"),
+        ("again.nc", "in the list already"),
+        ("round", "searched already"),
+        ("broken.nc", "a broken link"),
         ("pipe.nc", "FIFO"),
     ] {
         assert!(

@@ -1,0 +1,118 @@
+//! Machines with two linear axes: lathes and lasers have a path, a time and a verdict.
+use super::tools::{json, status, text, trunnion_in, write};
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// Facing at constant cutting speed, roughing, finishing; the part's zero and the machine are declared.
+const PLAIN: &str = "%
+O0001
+G21 G18 G40 G99
+G28 U0 W0
+T0101
+G50 S2500
+G96 S180 M3
+G0 X62. Z2.
+G71 U2. R1.
+G71 P10 Q20 U0.4 W0.1 F0.25
+N10 G0 X20.
+G1 Z-20. F0.1
+X30. Z-30.
+G2 X40. Z-35. R5.
+G1 Z-50.
+N20 X62.
+G70 P10 Q20
+G0 X100. Z50.
+G97 S1000
+G28 U0 W0
+M5
+M30
+%
+";
+
+fn folder(settings: &str, program: &str) -> TempDir {
+    let folder = TempDir::new().expect("a folder");
+    write(&folder, "trunnion.toml", settings);
+    write(&folder, "a.nc", program);
+    folder
+}
+
+const DECLARED: &str = "machine = \"lathe-2axis\"\n[work_offsets]\nG54 = { X = -180, Z = -400 }\n";
+
+#[test]
+fn a_plain_lathe_program_with_a_declared_offset_passes() {
+    let folder = folder(DECLARED, PLAIN);
+    let output = trunnion_in(folder.path(), &["check", "a.nc"]);
+    let told = text(&output.stdout);
+    assert_eq!((status(&output), told.starts_with("PASS")), (0, true), "{told}");
+    // out of the travel it does not: 180 mm from the axis there are 40 mm left
+    let far = PLAIN.replace("X100. Z50.", "X500. Z50.");
+    write(&folder, "a.nc", &far);
+    let output = trunnion_in(folder.path(), &["check", "a.nc"]);
+    assert!(text(&output.stdout).contains("axis-limit"), "{}", text(&output.stdout));
+    // and Y is no axis of it
+    write(&folder, "a.nc", &PLAIN.replace("G0 X100. Z50.", "G0 X100. Y5. Z50."));
+    let output = trunnion_in(folder.path(), &["check", "a.nc"]);
+    assert!(
+        text(&output.stdout).contains("missing-axis"),
+        "{}",
+        text(&output.stdout)
+    );
+}
+
+#[test]
+fn trace_plot_and_stats_have_the_path_and_the_time() {
+    let folder = folder(DECLARED, PLAIN);
+    let csv = text(&trunnion_in(folder.path(), &["trace", "a.nc"]).stdout);
+    let mut rows = csv.lines();
+    let names: Vec<&str> = rows.next().expect("a head").split(',').collect();
+    assert!(names.ends_with(&["joint_x", "joint_z", "open_posture"]), "{names:?}");
+    let duration = names.iter().position(|name| *name == "duration_s").expect("a column");
+    for row in rows.skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        assert!(
+            !cells[4].is_empty() && !cells[6].is_empty() && !cells[duration].is_empty(),
+            "{row}"
+        );
+    }
+    let picture = trunnion_in(folder.path(), &["plot", "--kind", "path", "a.nc"]);
+    assert!(text(&picture.stdout).contains("<polyline"), "a picture of the path");
+    let stats = json(&trunnion_in(folder.path(), &["stats", "--format", "json", "a.nc"]));
+    let file = &stats["files"][0];
+    assert_eq!(
+        file["extents"].as_object().expect("axes").keys().collect::<Vec<_>>(),
+        ["x_mm", "z_mm"]
+    );
+    assert_ne!(file["feed_length_mm"], Value::Null);
+}
+
+/// At 180 m/min and 0.1 mm per turn a cut of 10 mm along the diameter 20 takes 100 turns at 180000 / (20 pi) per minute.
+#[test]
+fn constant_cutting_speed_has_a_time() {
+    let program =
+        "%\nO1\nG21 G18 G99 T0101\nG50 S5000\nG96 S180 M3\nG0 X20. Z0.\nG1 Z-10. F0.1\nG0 X50.\nG97 S1000 M5\nM30\n%\n";
+    let folder = folder(DECLARED, program);
+    let csv = text(&trunnion_in(folder.path(), &["trace", "a.nc"]).stdout);
+    let cut = csv.lines().find(|line| line.contains("linear")).expect("the cut");
+    let duration: f64 = cut
+        .split(',')
+        .nth(11)
+        .and_then(|cell| cell.parse().ok())
+        .expect("a time");
+    let wanted = 100.0 / (180_000.0 / (20.0 * core::f64::consts::PI)) * 60.0;
+    assert!((duration - wanted).abs() < 1e-6, "{duration} {wanted}");
+}
+
+/// No word names Z, so nothing of the path depends on it.
+#[test]
+fn a_program_in_two_dimensions_has_a_length_and_a_time() {
+    let program =
+        "(trunnion: dialect grbl)\nG21 G90\nM3 S100\nG0 X0 Y0\nG1 X10 F600\nG1 Y10\nG2 X20 Y20 I10 J0\nM5\nM2\n";
+    let folder = folder("", program);
+    let stats = text(&trunnion_in(folder.path(), &["stats", "a.nc"]).stdout);
+    // 20 mm and a quarter of a circle of radius 10, at 600 mm/min
+    assert!(stats.contains("feed 35.708 mm"), "{stats}");
+    assert!(stats.contains("at the programmed feed 3.6 s"), "{stats}");
+    let check = json(&trunnion_in(folder.path(), &["check", "--format", "json", "a.nc"]));
+    let coverage = &check["files"][0]["coverage"];
+    assert_eq!(coverage["motions"], coverage["motions_known"], "{coverage}");
+}

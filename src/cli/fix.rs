@@ -2,7 +2,7 @@
 use super::{
     Done,
     args::{Fix, Global},
-    failure::{Failure, remark},
+    failure::{Failure, remark, shown},
     load::{self, Loaded},
 };
 use crate::cli::out::Out;
@@ -159,7 +159,7 @@ pub(super) fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), 
     let diff = TextDiff::from_lines(before, after);
     let mut diff = diff.unified_diff();
     diff.context_radius(2)
-        .header(&format!("a/{name}"), &format!("b/{name}"));
+        .header(&shown(&format!("a/{name}")), &shown(&format!("b/{name}")));
     let mut out = Out::standard();
     if std::io::stdout().is_terminal() {
         let mut text = Vec::new();

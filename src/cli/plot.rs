@@ -4,7 +4,7 @@ mod gather;
 use super::{
     Done,
     args::Global,
-    failure::{Failure, remark},
+    failure::{Failure, remark, shown},
     load::{self, Loaded},
 };
 use std::path::{Path, PathBuf};
@@ -183,12 +183,13 @@ pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header 
     let name = file
         .file_name()
         .map_or(loaded.name.as_str().into(), |name| name.to_string_lossy());
+    let subtitle = format!(
+        "machine {} ({}), dialect {}",
+        machine.name, machine.id, loaded.resolved.dialect.name
+    );
     Header {
-        title: format!("{title}: {name}"),
-        subtitle: format!(
-            "machine {} ({}), dialect {}",
-            machine.name, machine.id, loaded.resolved.dialect.name
-        ),
+        title: shown(&format!("{title}: {name}")).into_owned(),
+        subtitle: shown(&subtitle).into_owned(),
     }
 }
 

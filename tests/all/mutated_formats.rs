@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 use trunnion::{certify::Certificate, check::Config, dialect::Dialect, machine, ngc, surface};
 
 /// Mutations of each format; `TRUNNION_MUTATIONS` sets another number.
-fn mutations() -> usize {
+pub(crate) fn mutations() -> usize {
     std::env::var("TRUNNION_MUTATIONS")
         .ok()
         .and_then(|n| n.parse().ok())
@@ -14,7 +14,7 @@ fn mutations() -> usize {
 
 impl Random {
     /// One to four places changed: a byte, a scrap put in, a stretch taken out or said twice.
-    fn mutate(&mut self, source: &[u8]) -> Vec<u8> {
+    pub(crate) fn mutate(&mut self, source: &[u8]) -> Vec<u8> {
         const SCRAPS: [&str; 16] = [
             "\"",
             "[",

@@ -76,8 +76,9 @@ fn mutated_real_programs_end_with_a_status_and_valid_json() {
         for mutation in first..first + number {
             let (path, source) = &programs[random.below(programs.len())];
             let bytes = mutate(&mut random, source);
-            let ending = path.extension().unwrap_or_default().to_string_lossy();
-            let name = format!("m{mutation}.{ending}");
+            // with its whole name: `part.ncl.8` is a version of a program
+            let own = path.file_name().unwrap_or_default().to_string_lossy();
+            let name = format!("m{mutation}-{own}");
             fs::write(folder.path().join(&name), &bytes).expect("written");
             one(folder.path(), &name, &bytes, mutation);
         }

@@ -1,6 +1,9 @@
 //! The tree of a program: blocks, their items with addresses and values, expressions by their parts, and problems.
 use super::expression::{Part, parts};
-use crate::cli::{failure::Failure, load::Loaded};
+use crate::cli::{
+    failure::{Failure, is_hidden},
+    load::Loaded,
+};
 use serde_json::{Value, json};
 use std::io::Write;
 use trunnion_syntax::{Address, AptArg, Block, Item, LineIndex, TextRange, Value as Said, Word};
@@ -74,7 +77,7 @@ fn row(out: &mut impl Write, range: TextRange, depth: u32, text: &str) -> Result
     let text: String = text
         .chars()
         .flat_map(|c| {
-            if c.is_control() {
+            if c == '\n' || c == '\t' || is_hidden(c) {
                 c.escape_default().collect()
             } else {
                 vec![c]

@@ -97,6 +97,12 @@ pub(super) fn inputs() -> Vec<Input> {
         Input::new("g-codes", |n| cut(&lines(n, |i| format!("G{}.{}", i % 1000, i % 10)))),
         Input::new("m-codes", |n| cut(&lines(n, |i| format!("M{i}")))),
         Input::new("tools", |n| cut(&lines(n, |i| format!("T{i} M6 D1 H{i}")))),
+        Input::new("lengths-of-many-tools", |n| {
+            cut(&lines(n / 3, |i| format!("T{i} M6\nG43 H{i}\nG1 Z{}.", i % 7)))
+        }),
+        Input::new("conditions-of-one-line", |n| {
+            cut(&format!("{}#5221=7.", repeat("IF[#1EQ1]THEN ", n)))
+        }),
         Input::new("offsets", |n| {
             cut(&lines(n, |i| {
                 format!("G10 L2 P{} X{i}. Y1.\nG54.1 P{}", i % 400, i % 400)

@@ -56,6 +56,152 @@ fn closed_and_full_streams_keep_the_status_of_the_verdict() {
     }
 }
 
+/// Every command, with arguments that it can work with; `P` and `Q` are programs.
+const COMMANDS: [&str; 36] = [
+    "check P",
+    "check --format json P",
+    "check --format pretty P",
+    "check nothing.nc",
+    "trace P",
+    "trace --format json P",
+    "canon P",
+    "fix P",
+    "certify P P",
+    "certify P Q",
+    "convert P --to apt",
+    "convert P --to sinumerik-840d",
+    "fmt --check P",
+    "fmt --diff P",
+    "fmt --stdout P",
+    "diff P Q",
+    "diff P P",
+    "diff --format json P Q",
+    "stats P",
+    "stats --format json P",
+    "explain pole-flip",
+    "rules",
+    "rules --format json",
+    "machine list",
+    "machine show mikron-ucp710",
+    "machine check mikron-ucp710",
+    "plot P --kind joints",
+    "plot P --kind path",
+    "surface P --required r.toml",
+    "sample grid",
+    "parse P",
+    "parse --format json P",
+    "parse --tokens P",
+    "lsp",
+    "--help",
+    "bogus",
+];
+
+/// A folder with the programs P and Q, whose names and texts hold what a terminal obeys, and what the commands need beside them.
+fn programs() -> tempfile::TempDir {
+    const HOSTILE: &str = "\u{1b}[31m\u{9b}2J\u{202e}";
+    let folder = folder();
+    let program = |x: u32| {
+        format!(
+            "(c {HOSTILE})\nG21 G90 G17 G54 G94\nT1 M6\nS100 M3\nG43 H1\nG0 X0 Y0 Z0 A0 C0\nG1 X{x} F100\nG1 X1 A30 C{x}0\n(MSG, {HOSTILE})\nM2\n"
+        )
+    };
+    write(&folder, "p\u{1b}[2J.ngc", &program(10));
+    write(&folder, "q\u{1b}[2J.ngc", &program(11));
+    let required =
+        "schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [100, 0, 0]], [[0, 100, 0], [100, 100, 0]]]\n";
+    write(&folder, "r.toml", required);
+    let settings = "machine = \"mikron-ucp710\"\n[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n[[tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 10\nlength = 100\n";
+    write(&folder, "trunnion.toml", settings);
+    folder
+}
+
+fn words(command: &str) -> Vec<&str> {
+    let names = |word| match word {
+        "P" => "p\u{1b}[2J.ngc",
+        "Q" => "q\u{1b}[2J.ngc",
+        word => word,
+    };
+    command.split(' ').map(names).collect()
+}
+
+#[test]
+fn no_command_minds_a_stream_that_is_closed_or_full() {
+    let folder = programs();
+    // `T` in the folder, with the command's words as arguments
+    let run = |words: &[&str], script: &str| {
+        let output = Command::new("bash")
+            .args(["-c", script, "bash"])
+            .args(words)
+            .env("T", env!("CARGO_BIN_EXE_trunnion"))
+            .current_dir(folder.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("bash runs");
+        assert!(
+            !text(&output.stderr).contains("panicked"),
+            "{words:?}: {}",
+            text(&output.stderr)
+        );
+        output.status.code().expect("not killed")
+    };
+    for command in COMMANDS {
+        let words = words(command);
+        let expected = run(&words, "\"$T\" \"$@\" >/dev/null 2>/dev/null");
+        assert!((0..=2).contains(&expected), "{command}: {expected}");
+        for gone in [
+            "\"$T\" \"$@\" 2>/dev/null | true; exit ${PIPESTATUS[0]}",
+            "\"$T\" \"$@\" 2>&1 >/dev/null | true; exit ${PIPESTATUS[0]}",
+            "\"$T\" \"$@\" >&- 2>&-",
+            "\"$T\" \"$@\" >/dev/null 2>/dev/full",
+        ] {
+            assert_eq!(run(&words, gone), expected, "{command} with {gone}");
+        }
+        // lost data are an error of the commands that write data
+        for full in ["\"$T\" \"$@\" >/dev/full", "\"$T\" \"$@\" >/dev/full 2>/dev/full"] {
+            let status = run(&words, full);
+            assert!(status == expected || status == 2, "{command} with {full}: {status}");
+        }
+    }
+}
+
+#[test]
+fn no_command_shows_a_control_character() {
+    let folder = programs();
+    for command in COMMANDS {
+        // what they write is a program's own text, or data: JSON, and the canonical calls as the control prints them
+        let is_data = ["convert", "fmt --stdout", "fmt --diff", "canon", "json", "lsp"]
+            .iter()
+            .any(|data| command.contains(data));
+        let output = Command::new(env!("CARGO_BIN_EXE_trunnion"))
+            .args(words(command))
+            .current_dir(folder.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("runs");
+        for (stream, is_data) in [(text(&output.stdout), is_data), (text(&output.stderr), false)] {
+            let hidden = |c: &char| c.is_control() && !matches!(c, '\n' | '\t') || *c == '\u{202e}';
+            let found = stream.chars().find(hidden).filter(|_| !is_data);
+            assert_eq!(found, None, "{command}: {stream}");
+        }
+    }
+}
+
+#[test]
+fn the_header_of_a_diff_shows_the_file_name() {
+    let folder = folder();
+    write(&folder, "x\u{1b}[2J.ngc", "g1   x1 f100\nm2\n");
+    let output = Command::new(env!("CARGO_BIN_EXE_trunnion"))
+        .args(["fmt", "--diff", "--dialect", "linuxcnc", "x\u{1b}[2J.ngc"])
+        .current_dir(folder.path())
+        .output()
+        .expect("runs");
+    let header: String = text(&output.stdout).lines().take(2).collect();
+    assert!(
+        header.contains("x\\x1b[2J.ngc") && !header.contains('\u{1b}'),
+        "{header:?}"
+    );
+}
+
 #[test]
 fn output_that_is_lost_is_an_error_of_commands_that_write_data() {
     let folder = folder();

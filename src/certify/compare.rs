@@ -97,7 +97,7 @@ impl Pair<'_> {
             path_axis_bound_deg: deg(way.bound_axis),
         };
         self.judge_end(&change)?;
-        self.judge_way(&way, start, (was, is))?;
+        self.judge_path(&way, start, (was, is))?;
         Ok(Compared::Changed(Box::new(change)))
     }
 
@@ -211,7 +211,7 @@ impl Pair<'_> {
                 Err(self.unknown("the position before is unknown"))
             };
         };
-        if self.same_way((was, is), end) {
+        if self.same_full_turns((was, is), end) {
             return Ok(Apart::default());
         }
         let height = self.claim.point_height_mm();
@@ -224,7 +224,7 @@ impl Pair<'_> {
     }
 
     /// Programmed alike but for the same whole turns of rotary axes at both ends: then the path is the same whatever its shape.
-    fn same_way(&self, start: Both<'_>, end: Both<'_>) -> bool {
+    fn same_full_turns(&self, start: Both<'_>, end: Both<'_>) -> bool {
         let turned_only = |(was, is): Both<'_>| {
             let off = |&joint: &usize| off_whole_turns(deg(is.joints[joint] - was.joints[joint]));
             (was.tip - is.tip).norm() <= 1e-9 && self.machine.rotary.iter().all(|joint| off(joint) <= 1e-9)
@@ -279,7 +279,7 @@ impl Pair<'_> {
     }
 
     /// Compares what is between the ends with the claim.
-    fn judge_way(&self, way: &Apart, start: Option<Both<'_>>, end: Both<'_>) -> Result<(), Outcome> {
+    fn judge_path(&self, way: &Apart, start: Option<Both<'_>>, end: Both<'_>) -> Result<(), Outcome> {
         let claimed = match self.claim {
             Claim::SameBallCentre { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),

@@ -23,5 +23,5 @@ pub use certificate::{
     WorstChanges,
 };
 pub use claim::Claim;
-pub use recheck::{certify, certify_across, certify_beside, recheck};
+pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
 pub use verdict::{Gap, Outcome, Witness};

@@ -36,11 +36,11 @@ pub fn certify_across(
     setup: &Setup,
     claim: &Claim,
 ) -> Outcome {
-    certify_beside([before, after], dialects, machine, (setup, &setup.library), claim)
+    certify_with_libraries([before, after], dialects, machine, (setup, &setup.library), claim)
 }
 
 /// The same where the changed program has its own called programs. Such a certificate can be checked again only where both call the same.
-pub fn certify_beside(
+pub fn certify_with_libraries(
     [before, after]: [&[u8]; 2],
     dialects: [&Dialect; 2],
     machine: &Machine,

@@ -31,9 +31,9 @@ pub(crate) trait Watch {
 }
 
 /// Nobody looks on.
-struct Nobody;
+struct NoObserver;
 
-impl Watch for Nobody {
+impl Watch for NoObserver {
     fn pause(&mut self, _: u64, _: &Interpreter<'static>, _: Option<&Follower<'_>>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -51,7 +51,7 @@ pub fn check_on(program: &Program, settings: &Settings<'_>, threads: usize) -> R
     if threads > 1 && program.block_count() >= apart::WORTH {
         check_apart(program, settings)
     } else {
-        judge(program, settings, &mut Nobody).unwrap_or_default()
+        judge(program, settings, &mut NoObserver).unwrap_or_default()
     }
 }
 
@@ -74,7 +74,7 @@ pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl
             read(pass);
             match first.take() {
                 Some(watch) => run(program, interpreter, pass, watch),
-                None => run(program, interpreter, pass, &mut Nobody),
+                None => run(program, interpreter, pass, &mut NoObserver),
             }
         })
     })
@@ -104,7 +104,7 @@ fn with_both(
 fn not_read(program: &Program, settings: &Settings<'_>, foreign: Foreign) -> Report {
     let suppressions = Suppressions::default();
     let mut pass = Pass::new(program, settings, &suppressions);
-    pass.tell_foreign(foreign);
+    pass.report_foreign(foreign);
     pass.finish(&settings.interpreter())
 }
 
@@ -146,7 +146,7 @@ fn analyse(
     };
     let interpreter = settings.interpreter();
     if is_utf16(program.source()) {
-        if !pass.tell_unreadable() {
+        if !pass.report_unreadable() {
             pass.read_whole(&overview);
         }
         return Some(pass.finish(&interpreter));

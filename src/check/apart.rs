@@ -20,7 +20,7 @@ const BATCH: usize = 2048;
 const BATCHES: usize = 16;
 
 /// What a run emitted, in order.
-enum Told {
+enum RunEvent {
     /// The next of [`Batch::motions`].
     Motion,
     /// The next item of [`Batch::courses`] belongs to the line after it.
@@ -87,7 +87,7 @@ fn bits(mut mask: u16) -> impl Iterator<Item = usize> {
 /// out again.
 #[derive(Default)]
 struct Batch {
-    order: Vec<Told>,
+    order: Vec<RunEvent>,
     motions: Vec<(Motion, InForce)>,
     courses: Vec<Course>,
     places: Vec<f64>,
@@ -96,27 +96,27 @@ struct Batch {
 }
 
 /// Records what a run emits.
-struct Teller<'m> {
+struct EventRecorder<'m> {
     batch: Batch,
     /// The end of the last emitted motion, in this batch or before it, and the last emitted course.
     last: Option<([f64; AXIS_LETTERS.len()], Option<Course>)>,
     foresight: Option<Lookahead<'m>>,
 }
 
-impl Teller<'_> {
+impl EventRecorder<'_> {
     /// A block has run.
     #[inline]
     fn ran(&mut self, ran: BlockId) {
         match self.batch.order.last_mut() {
-            Some(Told::Line { block, last, .. }) if *block == ran && !*last => *last = true,
-            _ => self.batch.order.push(Told::Ran(ran)),
+            Some(RunEvent::Line { block, last, .. }) if *block == ran && !*last => *last = true,
+            _ => self.batch.order.push(RunEvent::Ran(ran)),
         }
     }
 }
 
-impl Sink for Teller<'_> {
+impl Sink for EventRecorder<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        self.batch.order.push(Told::Motion);
+        self.batch.order.push(RunEvent::Motion);
         self.batch.motions.push((*motion, InForce::of(state)));
         self.last = Some((motion.end.values, None));
         if let Some(foresight) = &mut self.foresight {
@@ -132,7 +132,7 @@ impl Sink for Teller<'_> {
         let own = Course::of(motion);
         if *course != Some(own) {
             *course = Some(own);
-            batch.order.push(Told::Course);
+            batch.order.push(RunEvent::Course);
             batch.courses.push(own);
         }
         let mut moved = 0;
@@ -150,7 +150,7 @@ impl Sink for Teller<'_> {
                 batch.sines.push(sine);
             });
         }
-        batch.order.push(Told::Line {
+        batch.order.push(RunEvent::Line {
             block: motion.block,
             moved,
             foreseen,
@@ -158,7 +158,7 @@ impl Sink for Teller<'_> {
         });
     }
     fn fault(&mut self, fault: Fault) {
-        self.batch.order.push(Told::Fault);
+        self.batch.order.push(RunEvent::Fault);
         self.batch.faults.push(fault);
     }
 }
@@ -172,14 +172,14 @@ impl Batch {
         let mut course = None;
         for told in self.order.drain(..) {
             match told {
-                Told::Motion => {
+                RunEvent::Motion => {
                     if let Some((motion, in_force)) = motions.next() {
                         pass.take_motion(motion, *in_force);
                         *last = Some(*motion);
                     }
                 }
-                Told::Course => course = courses.next(),
-                Told::Line {
+                RunEvent::Course => course = courses.next(),
+                RunEvent::Line {
                     block,
                     moved,
                     foreseen,
@@ -195,15 +195,15 @@ impl Batch {
                         motion.end.values[axis] = *place;
                     }
                     for (index, sine) in bits(foreseen.into()).zip(&mut sines) {
-                        pass.foresee(index, *sine);
+                        pass.set_predicted_sine(index, *sine);
                     }
                     pass.take_line(motion);
                     if ends {
                         pass.ran(block);
                     }
                 }
-                Told::Fault => faults.by_ref().take(1).for_each(|fault| pass.fault(fault)),
-                Told::Ran(block) => _ = pass.ran(block),
+                RunEvent::Fault => faults.by_ref().take(1).for_each(|fault| pass.fault(fault)),
+                RunEvent::Ran(block) => _ = pass.ran(block),
             }
         }
         drop(faults);
@@ -257,7 +257,7 @@ fn tell(
     full: &SyncSender<Batch>,
     emptied: &Receiver<Batch>,
 ) {
-    let mut teller = Teller {
+    let mut teller = EventRecorder {
         batch: Batch::default(),
         last: None,
         foresight,

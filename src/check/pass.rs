@@ -8,7 +8,7 @@ use crate::report::Summary;
 use crate::sink::{Active, Reporter, active};
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
-use crate::told::text_has_told;
+use crate::told::text_rule_reported;
 use crate::trail::{Trail, axes_chord};
 use crate::view::{InForce, LegView, MotionView, Overview};
 use crate::visited::Visited;
@@ -137,7 +137,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Reports that the file is not read: it is for an unsupported control, or is not a program.
-    pub(crate) fn tell_foreign(&mut self, foreign: Foreign) {
+    pub(crate) fn report_foreign(&mut self, foreign: Foreign) {
         ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
             if let Wake::Foreign(rule) = wake {
                 rule(&foreign, out);
@@ -146,7 +146,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Reports that the file is not text; false where the rules that report it are allowed.
-    pub(crate) fn tell_unreadable(&mut self) -> bool {
+    pub(crate) fn report_unreadable(&mut self) -> bool {
         ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
             if let Wake::Unreadable(rule) = wake {
                 rule(out);
@@ -186,9 +186,10 @@ impl<'a> Pass<'a> {
                 rule.wake.read_leg(&view, &mut self.reporter);
                 self.reporter.leave();
             }
-            self.legs.see_silent(&mut self.reporter, (block, number), |wake, out| {
-                wake.read_leg(&view, out);
-            });
+            self.legs
+                .assert_silent(&mut self.reporter, (block, number), |wake, out| {
+                    wake.read_leg(&view, out);
+                });
             self.time.add(&view);
         }
         match &leg.end {
@@ -199,7 +200,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Whether a rule was checked, so that its silence means something.
-    fn looked_for(&self, name: &str) -> bool {
+    fn was_checked(&self, name: &str) -> bool {
         let has = |rules: &[Active]| rules.iter().any(|rule| rule.name == name);
         let asked = |rule: &Active| match rule.wake {
             Wake::End(_) | Wake::Coverage(_) => false,
@@ -217,9 +218,9 @@ impl<'a> Pass<'a> {
         } else {
             None
         };
-        let looked_for = |name: &str| self.looked_for(name);
+        let was_checked = |name: &str| self.was_checked(name);
         let ending = Ending {
-            unused: self.suppressions.unused(&looked_for),
+            unused: self.suppressions.unused(&was_checked),
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
@@ -311,7 +312,7 @@ impl Sink for Pass<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        if text_has_told(self.reporter.program(), &fault) {
+        if text_rule_reported(self.reporter.program(), &fault) {
             return;
         }
         if let (true, Some(Lacks::Radius(number))) = (self.assume.tool_length, fault.kind.lacks()) {
@@ -345,9 +346,9 @@ impl Pass<'_> {
 
     /// Sets the predicted sine of a rotary axis.
     #[inline]
-    pub(crate) fn foresee(&mut self, index: usize, sine: Sine) {
+    pub(crate) fn set_predicted_sine(&mut self, index: usize, sine: Sine) {
         if let Some(follower) = &mut self.follower {
-            follower.foresee(index, sine);
+            follower.set_predicted_sine(index, sine);
         }
     }
 
@@ -379,7 +380,7 @@ impl Pass<'_> {
             self.reporter.leave();
         }
         self.motions
-            .see_silent(&mut self.reporter, (block, number), |wake, out| {
+            .assert_silent(&mut self.reporter, (block, number), |wake, out| {
                 wake.read_motion(&view, out);
             });
         if let Some(follower) = &mut self.follower {

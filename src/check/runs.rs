@@ -85,7 +85,7 @@ pub(crate) struct Kept {
 }
 
 /// A run that has ended and has no message yet.
-pub(crate) struct Unworded {
+pub(crate) struct PendingRun {
     pub(crate) rule: &'static str,
     pub(crate) key: u64,
     pub(crate) status: Status,
@@ -110,7 +110,7 @@ pub(crate) struct Repeat {
 pub(crate) struct Log {
     open: Open<Run>,
     closed: Vec<Diagnostic>,
-    ended: Vec<Unworded>,
+    ended: Vec<PendingRun>,
     /// Per rule: how many are listed, and the rest.
     listed: BTreeMap<&'static str, (u32, Option<Diagnostic>)>,
     passes: Passes,
@@ -150,7 +150,7 @@ impl Log {
             unworded: None,
             later: None,
         };
-        if let Some(slot) = self.told_before(&diagnostic, merge.key) {
+        if let Some(slot) = self.reported_before(&diagnostic, merge.key) {
             self.passes.add(slot, diagnostic);
             run.later = Some(slot);
         } else {
@@ -167,7 +167,7 @@ impl Log {
 
     /// Adds a finding that is never merged with others.
     fn add_event(&mut self, diagnostic: Diagnostic) {
-        if let Some(slot) = self.told_before(&diagnostic, 0) {
+        if let Some(slot) = self.reported_before(&diagnostic, 0) {
             self.passes.add(slot, diagnostic);
         } else if let Some(mut diagnostic) = self.list(diagnostic) {
             self.passes.told(&mut diagnostic, 0);
@@ -176,7 +176,7 @@ impl Log {
     }
 
     /// In a later pass: the counter of the finding that an earlier pass reported at this place.
-    fn told_before(&self, diagnostic: &Diagnostic, key: u64) -> Option<u32> {
+    fn reported_before(&self, diagnostic: &Diagnostic, key: u64) -> Option<u32> {
         if self.again {
             self.passes.find(diagnostic, key)
         } else {
@@ -248,7 +248,7 @@ impl Log {
         match run.unworded.take() {
             Some(kept) => {
                 let status = if place.2 { Status::Unknown } else { Status::Fail };
-                self.ended.push(Unworded {
+                self.ended.push(PendingRun {
                     rule: place.0,
                     key: place.1,
                     status,
@@ -261,7 +261,7 @@ impl Log {
     }
 
     /// Ends all runs; those without a message are handed out, and come back through [`Self::worded`].
-    pub(crate) fn end(&mut self, program: &Program) -> Vec<Unworded> {
+    pub(crate) fn end(&mut self, program: &Program) -> Vec<PendingRun> {
         for (place, run) in self.open.take() {
             self.close(place, run, program);
         }
@@ -269,7 +269,7 @@ impl Log {
     }
 
     /// Takes the message of a run's worst leg.
-    pub(crate) fn worded(&mut self, unworded: Unworded, words: Option<Diagnostic>, program: &Program) {
+    pub(crate) fn worded(&mut self, unworded: PendingRun, words: Option<Diagnostic>, program: &Program) {
         let mut run = unworded.run;
         if let (Some(words), [(_, whole)]) = (words, run.items.as_mut_slice()) {
             run.worst = words.range;

@@ -69,12 +69,12 @@ impl Suppressions {
     }
 
     /// Comments that have silenced nothing, of rules that `looked_for` says were looked for.
-    pub(crate) fn unused(&self, looked_for: &dyn Fn(&str) -> bool) -> Vec<(TextRange, &str)> {
+    pub(crate) fn unused(&self, was_checked: &dyn Fn(&str) -> bool) -> Vec<(TextRange, &str)> {
         let all = self
             .everywhere
             .iter()
             .chain(self.in_block.iter().map(|(_, entry)| entry));
-        let unused = all.filter(|entry| !entry.used.get() && looked_for(&entry.rule));
+        let unused = all.filter(|entry| !entry.used.get() && was_checked(&entry.rule));
         unused.map(|entry| (entry.range, entry.rule.as_str())).collect()
     }
 }

@@ -3,7 +3,7 @@ use trunnion_interp::{Fault, FaultKind, Refusal};
 use trunnion_syntax::{Program, SyntaxError, SyntaxErrorKind};
 
 /// Whether the rules of the text have already reported this place.
-pub(crate) fn text_has_told(program: &Program, fault: &Fault) -> bool {
+pub(crate) fn text_rule_reported(program: &Program, fault: &Fault) -> bool {
     let refused = matches!(
         fault.kind,
         FaultKind::Rejected {

@@ -214,7 +214,7 @@ impl<'a> LegView<'a> {
             RotaryFeed::Family => matches!(control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
             RotaryFeed::Parameter | RotaryFeed::Diameters => false,
         };
-        self.feed_is_by_way() && !says_which && control.feed.is_none()
+        self.feed_is_along_path() && !says_which && control.feed.is_none()
     }
 
     /// Whether only rotary axes turn on a Haas, where F is the speed along circles whose diameters are its settings 34 and 79, so that they
@@ -223,11 +223,11 @@ impl<'a> LegView<'a> {
         let only_turns = self.feed_in_degrees() && self.motion().is_feed() && self.rotary_turns();
         let by_diameter =
             self.dialect.advice.rotary_feed == RotaryFeed::Diameters && self.machine.control.feed.is_none();
-        by_diameter && only_turns && self.feed_is_by_way()
+        by_diameter && only_turns && self.feed_is_along_path()
     }
 
     /// Whether F is a speed along a path: neither a duration nor unknown.
-    fn feed_is_by_way(&self) -> bool {
+    fn feed_is_along_path(&self) -> bool {
         matches!(self.motion().feed, Feed::PerMinute(_) | Feed::PerRevolution(_))
     }
 

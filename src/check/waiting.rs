@@ -25,7 +25,7 @@ impl Waiting {
     }
 
     /// A debug build also asks the rules that were not woken, and checks that they are silent.
-    pub(crate) fn see_silent(
+    pub(crate) fn assert_silent(
         &self,
         reporter: &mut Reporter<'_>,
         at: (BlockId, u64),

@@ -297,7 +297,7 @@ fn sequence_number(line: &[u8]) -> Vec<u8> {
 
 impl<W: Write> Sink for Printer<W> {
     fn call(&mut self, call: &Canon, at: At, state: &State) {
-        self.print(call, state.told_by.unwrap_or(at));
+        self.print(call, state.emitting_line.unwrap_or(at));
     }
     fn error(&mut self, error: &Error, at: At) {
         if std::mem::replace(&mut self.refused, true) {

@@ -7,7 +7,7 @@ use super::{
     load,
 };
 use crate::cli::out::Out;
-use trunnion_certify::{Certificate, Claim, Outcome, certify_beside, recheck};
+use trunnion_certify::{Certificate, Claim, Outcome, certify_with_libraries, recheck};
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
@@ -48,7 +48,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             .as_ref()
             .filter(|_| command.before.parent() != command.after.parent())
             .map_or(&setup.library, |second| &second.resolved.setup.library);
-        certify_beside([before, &after], [dialect, other], machine, (setup, library), &claim)
+        certify_with_libraries([before, &after], [dialect, other], machine, (setup, library), &claim)
     };
     let mut out = Out::standard();
     let shared = || {

@@ -1,5 +1,5 @@
 //! One conversion: read, plan, write, read back, prove.
-use crate::emit::{parts, parts_beside};
+use crate::emit::{parts, parts_without};
 use crate::emit_code::Written;
 use crate::events::{job, refusal};
 use crate::plan::{Out, Planner};
@@ -267,7 +267,7 @@ fn prove(
         )));
     }
     let parts = if setting.post.is_some() {
-        parts_beside(outs, &after, moved)
+        parts_without(outs, &after, moved)
     } else {
         parts(outs)
     };

@@ -19,7 +19,7 @@ pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
 }
 
 /// The same, with the motions that templates of the post make: those whose line is not one of `moved` (ascending).
-pub(crate) fn parts_beside(outs: &[Out], after: &Reading, moved: &[u32]) -> Vec<Part> {
+pub(crate) fn parts_without(outs: &[Out], after: &Reading, moved: &[u32]) -> Vec<Part> {
     let source = after.program.source();
     let index = LineIndex::new(source);
     let line = |block| index.line_column(source, after.program.block(block).range().start).0;

@@ -8,7 +8,7 @@ use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange,
 
 /// What a block contains apart from its motions.
 #[derive(Debug, Default)]
-pub(crate) struct Said {
+pub(crate) struct BlockEvents {
     /// Comments and messages.
     pub(crate) before: Vec<Event>,
     /// A tool is changed.
@@ -34,7 +34,7 @@ pub(crate) fn job(
             "the program calls another file, whose M codes and comments are not carried over: convert a single file";
         return Err(Refused::at(program, block, message));
     }
-    let mut teller = Teller {
+    let mut teller = EventCollector {
         program,
         job: Job {
             name: options.program_name.clone(),
@@ -85,7 +85,7 @@ enum Spindle {
     On(bool, f64),
 }
 
-struct Teller<'p> {
+struct EventCollector<'p> {
     program: &'p Program,
     job: Job,
     spindle: Spindle,
@@ -93,7 +93,7 @@ struct Teller<'p> {
     work_offset: Option<String>,
 }
 
-impl Teller<'_> {
+impl EventCollector<'_> {
     /// What is requested apart from motions: events before and after those of the block. What cannot be carried over is refused by name, or
     /// left out where the user wants it.
     fn asked(
@@ -132,7 +132,7 @@ impl Teller<'_> {
         &mut self,
         reading: &Reading,
         ran: &Ran,
-        said: Said,
+        said: BlockEvents,
         (asked, after): (Vec<Event>, Vec<Event>),
         first: usize,
     ) -> Result<(), Refused> {
@@ -254,9 +254,9 @@ pub(crate) const ACTIVE: &[&str] = &[
 ];
 
 /// The events of an ISO block.
-fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
+fn said(block: &Block<'_>, dialect: &Dialect) -> Result<BlockEvents, Cannot> {
     let program = block.program();
-    let mut said = Said::default();
+    let mut said = BlockEvents::default();
     for item in block.items() {
         match item {
             Item::Comment(found) => {

@@ -1,12 +1,12 @@
 //! What an APT record contains apart from motions.
 use crate::Options;
-use crate::events::{Cannot, Said, comment};
+use crate::events::{BlockEvents, Cannot, comment};
 use crate::job::Event;
 use trunnion_syntax::{AptArg, Block, Record};
 
 /// The events of a record.
-pub(crate) fn said(block: &Block<'_>, options: &Options) -> Result<Said, Cannot> {
-    let mut said = Said::default();
+pub(crate) fn said(block: &Block<'_>, options: &Options) -> Result<BlockEvents, Cannot> {
+    let mut said = BlockEvents::default();
     let program = block.program();
     for found in block.comments() {
         said.before.extend(comment(&program.text(found.inner)));

@@ -1,7 +1,7 @@
 //! From motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
 use crate::job::{Event, Job};
 use crate::known::Known;
-use crate::posture::{Never, Wish, choose};
+use crate::posture::{TargetPose, WhyUnreachable, choose};
 use crate::sample::{Between, Frame, PartEnd, joints, words};
 use crate::{Options, Refused};
 use std::cell::OnceCell;
@@ -138,7 +138,7 @@ impl Planner<'_> {
             if let (Ok(pose), MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_)) =
                 (&posed.end, posed.motion.kind)
             {
-                wishes.push(Wish {
+                wishes.push(TargetPose {
                     axis: pose.axis,
                     cuts: posed.motion.kind != MotionKind::Rapid && posed.start.is_some(),
                 });
@@ -150,12 +150,12 @@ impl Planner<'_> {
             let axis = wishes[at].axis;
             let tells = format!("the tool axis ({:.6}, {:.6}, {:.6})", axis.x, axis.y, axis.z);
             let message = match never {
-                Never::Unreachable(off) => format!(
+                WhyUnreachable::Unreachable(off) => format!(
                     "{} cannot point the tool along {tells}: the nearest it reaches is {:.4} deg away",
                     machine.id,
                     deg(off)
                 ),
-                Never::Limits => format!(
+                WhyUnreachable::Limits => format!(
                     "{} reaches {tells} only outside the travel of its rotary axes",
                     machine.id
                 ),

@@ -12,7 +12,7 @@ impl Planner<'_> {
         let Some(moved) = moved_axes(posed).filter(|moved| !moved.is_empty()) else {
             return Ok(Out::Left);
         };
-        if !self.leads_in(index) {
+        if !self.is_approach(index) {
             return Ok(Out::Left);
         }
         let target = match self.mode {
@@ -37,7 +37,7 @@ impl Planner<'_> {
     }
 
     /// Whether no position of the tool is known before.
-    fn leads_in(&self, index: usize) -> bool {
+    fn is_approach(&self, index: usize) -> bool {
         let motions = &self.reading.motions;
         let tool = motions[index].motion.tool;
         let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));

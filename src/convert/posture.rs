@@ -8,7 +8,7 @@ use trunnion_machine::{Machine, Orientations, orientations, windings};
 
 /// A pose to be reached.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wish {
+pub(crate) struct TargetPose {
     /// Unit tool axis.
     pub(crate) axis: Vec3,
     /// It is reached in a cut.
@@ -26,7 +26,7 @@ pub(crate) struct Chosen {
 
 /// Why a pose cannot be reached.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Never {
+pub(crate) enum WhyUnreachable {
     /// By this angle, rad.
     Unreachable(f64),
     /// Every posture breaks the limits of a rotary axis.
@@ -53,7 +53,7 @@ struct State {
 ///
 /// # Errors
 /// The index of the first pose that cannot be reached, and why.
-pub(crate) fn choose(machine: &Machine, wishes: &[Wish]) -> Result<Vec<Chosen>, (usize, Never)> {
+pub(crate) fn choose(machine: &Machine, wishes: &[TargetPose]) -> Result<Vec<Chosen>, (usize, WhyUnreachable)> {
     let slowness = slowness(machine);
     let mut steps: Vec<Vec<State>> = Vec::with_capacity(wishes.len());
     let home = [State {
@@ -64,9 +64,9 @@ pub(crate) fn choose(machine: &Machine, wishes: &[Wish]) -> Result<Vec<Chosen>, 
         parent: 0,
     }];
     let ahead = ahead(machine, wishes);
-    for (index, wish) in wishes.iter().enumerate() {
+    for (index, target_pose) in wishes.iter().enumerate() {
         let before: &[State] = steps.last().map_or(&home, Vec::as_slice);
-        let found = successors(machine, before, wish, ahead[index], slowness).map_err(|never| (index, never))?;
+        let found = successors(machine, before, target_pose, ahead[index], slowness).map_err(|never| (index, never))?;
         steps.push(found);
     }
     let mut chosen = Vec::with_capacity(wishes.len());
@@ -85,12 +85,12 @@ pub(crate) fn choose(machine: &Machine, wishes: &[Wish]) -> Result<Vec<Chosen>, 
 
 /// For each pose the first rotary axis of the postures at the next pose off the pole: at the pole the axis is free, and may turn there
 /// already. None where no such pose follows.
-fn ahead(machine: &Machine, wishes: &[Wish]) -> Vec<[Option<f64>; 2]> {
+fn ahead(machine: &Machine, wishes: &[TargetPose]) -> Vec<[Option<f64>; 2]> {
     let mut next = [None; 2];
     let mut all: Vec<[Option<f64>; 2]> = Vec::with_capacity(wishes.len());
-    for wish in wishes.iter().rev() {
+    for target_pose in wishes.iter().rev() {
         all.push(next);
-        if let Orientations::Postures(postures) = orientations(machine, &wish.axis) {
+        if let Orientations::Postures(postures) = orientations(machine, &target_pose.axis) {
             next = [0, 1].map(|index| postures.get(index).map(|one| one.q[0]));
         }
     }
@@ -116,13 +116,13 @@ type Posture = ([Option<f64>; 2], i8);
 fn successors(
     machine: &Machine,
     before: &[State],
-    wish: &Wish,
+    target_pose: &TargetPose,
     ahead: [Option<f64>; 2],
     slowness: [f64; 2],
-) -> Result<Vec<State>, Never> {
+) -> Result<Vec<State>, WhyUnreachable> {
     let mut found: Vec<State> = Vec::new();
-    let postures: Vec<Posture> = match orientations(machine, &wish.axis) {
-        Orientations::Unreachable(off) => return Err(Never::Unreachable(off)),
+    let postures: Vec<Posture> = match orientations(machine, &target_pose.axis) {
+        Orientations::Unreachable(off) => return Err(WhyUnreachable::Unreachable(off)),
         // at the pole the first axis is free: it stays, or turns to where it will be needed
         Orientations::Pole(q2) => {
             let early = ahead.into_iter().flatten().map(|q1| ([Some(q1), Some(q2)], 0));
@@ -142,7 +142,7 @@ fn successors(
                     parent as u8,
                     values,
                     (*branch, &postures),
-                    wish.cuts,
+                    target_pose.cuts,
                     slowness,
                 );
                 match found.iter_mut().find(|known| same(known, &state)) {
@@ -157,7 +157,7 @@ fn successors(
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     found.truncate(BEAM);
     if found.is_empty() {
-        Err(Never::Limits)
+        Err(WhyUnreachable::Limits)
     } else {
         Ok(found)
     }
@@ -241,12 +241,12 @@ mod tests {
     use trunnion_geometry::{deg, rad};
     use trunnion_machine::{builtin, tool_axis_at};
 
-    fn wishes(machine: &Machine, joints: &[[f64; 2]]) -> Vec<Wish> {
+    fn wishes(machine: &Machine, joints: &[[f64; 2]]) -> Vec<TargetPose> {
         let axis = |q: &[f64; 2]| tool_axis_at(machine, q.map(rad));
         joints
             .iter()
             .enumerate()
-            .map(|(index, q)| Wish {
+            .map(|(index, q)| TargetPose {
                 axis: axis(q),
                 cuts: index > 0,
             })
@@ -290,20 +290,23 @@ mod tests {
     #[test]
     fn what_is_out_of_reach_is_told_with_its_place() {
         let mikron = builtin("mikron-ucp710").expect("built in");
-        let down = Wish {
+        let down = TargetPose {
             axis: -Vec3::z(),
             cuts: true,
         };
-        let up = Wish {
+        let up = TargetPose {
             axis: Vec3::z(),
             cuts: true,
         };
-        assert_eq!(choose(mikron, &[up, down]), Err((1, Never::Limits)));
+        assert_eq!(choose(mikron, &[up, down]), Err((1, WhyUnreachable::Limits)));
         let mill = builtin("mill-3axis").expect("built in");
-        let tilted = Wish {
+        let tilted = TargetPose {
             axis: Vec3::x(),
             cuts: true,
         };
-        assert!(matches!(choose(mill, &[up, tilted]), Err((1, Never::Unreachable(_)))));
+        assert!(matches!(
+            choose(mill, &[up, tilted]),
+            Err((1, WhyUnreachable::Unreachable(_)))
+        ));
     }
 }

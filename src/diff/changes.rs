@@ -190,7 +190,7 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
             tolerance_deg,
         }
     };
-    let outcome = trunnion_certify::certify_beside(
+    let outcome = trunnion_certify::certify_with_libraries(
         [pair.before.program.source(), pair.after.program.source()],
         [pair.before.dialect, pair.after.dialect],
         machine,

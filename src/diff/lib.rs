@@ -11,4 +11,4 @@ mod run;
 
 pub use changes::{Change, Found, Pair, TechChange, compare};
 pub use event::{Body, Tech};
-pub use point::{Point, Tolerance, Way};
+pub use point::{PathKind, Point, Tolerance};

@@ -16,7 +16,7 @@ pub struct Tolerance {
 
 /// The kind of a motion, with what its path needs in addition to its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
+pub enum PathKind {
     /// A rapid motion.
     Rapid,
     /// A feed along a line.
@@ -29,7 +29,7 @@ pub enum Way {
     Unknown,
 }
 
-impl Way {
+impl PathKind {
     /// Whether something moves.
     pub fn is_a_move(self) -> bool {
         !matches!(self, Self::Dwell(_))
@@ -51,7 +51,7 @@ impl Way {
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
     /// How.
-    pub way: Way,
+    pub way: PathKind,
     /// mm or deg; 0 where it is unknown.
     pub values: [f64; 9],
     /// Bit mask of those that are known.
@@ -146,12 +146,12 @@ impl Point {
             axis.map(|part| grid(part, tolerance.deg.to_radians())).hash(state);
         }
         match self.way {
-            Way::Arc(Some((centre, normal, sweep))) => {
+            PathKind::Arc(Some((centre, normal, sweep))) => {
                 centre.map(|part| grid(part, tolerance.mm)).hash(state);
                 normal.map(|part| (part * 1e6).round() as i64).hash(state);
                 grid(sweep, tolerance.deg.max(1e-6)).hash(state);
             }
-            Way::Dwell(Some(seconds)) => seconds.to_bits().hash(state),
+            PathKind::Dwell(Some(seconds)) => seconds.to_bits().hash(state),
             _ => {}
         }
     }
@@ -159,7 +159,7 @@ impl Point {
     /// Whether both end at the same position along the same path.
     pub fn same(&self, other: &Self, tolerance: Tolerance) -> bool {
         let ways = match (self.way, other.way) {
-            (Way::Arc(Some(a)), Way::Arc(Some(b))) => {
+            (PathKind::Arc(Some(a)), PathKind::Arc(Some(b))) => {
                 let near = |a: [f64; 3], b: [f64; 3], limit: f64| (0..3).all(|i| (a[i] - b[i]).abs() <= limit);
                 // an arc that is off by the tolerance in its middle turns farther than the tolerance's angle
                 near(a.0, b.0, tolerance.mm) && near(a.1, b.1, 1e-6) && (a.2 - b.2).abs() <= tolerance.deg.max(0.1)
@@ -206,15 +206,15 @@ pub(crate) fn step(axis: usize, tolerance: Tolerance) -> f64 {
     }
 }
 
-fn way(motion: &Motion) -> Way {
+fn way(motion: &Motion) -> PathKind {
     match &motion.kind {
-        MotionKind::Rapid => Way::Rapid,
-        MotionKind::Linear => Way::Linear,
-        MotionKind::Arc(arc) => Way::Arc(
+        MotionKind::Rapid => PathKind::Rapid,
+        MotionKind::Linear => PathKind::Linear,
+        MotionKind::Arc(arc) => PathKind::Arc(
             arc.as_ref()
                 .map(|arc| (arc.centre.into(), arc.normal.into(), deg(arc.sweep))),
         ),
-        MotionKind::Dwell(seconds) => Way::Dwell(*seconds),
-        MotionKind::Unknown => Way::Unknown,
+        MotionKind::Dwell(seconds) => PathKind::Dwell(*seconds),
+        MotionKind::Unknown => PathKind::Unknown,
     }
 }

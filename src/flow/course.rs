@@ -31,7 +31,7 @@ pub enum Ends {
 
 /// A call that is about to run. `L`: what the language keeps for the caller.
 #[derive(Clone, Debug)]
-pub struct Going<L> {
+pub struct PendingCall<L> {
     /// The block that calls.
     pub from: u32,
     /// The block that runs after the call.
@@ -76,7 +76,7 @@ struct Turns {
 
 /// Whether a run may continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fuel {
+pub enum BlockBudget {
     /// It may.
     Left,
     /// A loop runs forever, or the bound of executed blocks is reached.
@@ -164,10 +164,10 @@ impl<L> Course<L> {
     }
 
     /// Counts a block that is about to run, and says whether it may: at most `limit` do.
-    pub fn count(&mut self, limit: u64) -> Fuel {
+    pub fn count(&mut self, limit: u64) -> BlockBudget {
         self.executed += 1;
         if self.executed <= limit && self.endless.is_none() {
-            return Fuel::Left;
+            return BlockBudget::Left;
         }
         #[expect(
             clippy::disallowed_methods,
@@ -175,7 +175,7 @@ impl<L> Course<L> {
         )]
         let most = self.turns.iter();
         let most = most.max_by_key(|(place, turns)| (turns.count, std::cmp::Reverse(**place)));
-        Fuel::Out {
+        BlockBudget::Out {
             most: self.endless.or(most.map(|most| *most.0)),
             proved: self.endless.is_some(),
             blocks: self.executed - 1,
@@ -227,7 +227,7 @@ impl<L> Course<L> {
     /// Begins a call in the chain `chain`; `range` is the text of the calling block. Returns the chain of the call.
     pub fn enter(
         &mut self,
-        going: Going<L>,
+        going: PendingCall<L>,
         chain: ChainId,
         range: TextRange,
         frame: impl FnOnce() -> Frame,

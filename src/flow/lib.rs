@@ -12,7 +12,7 @@ mod ran;
 mod transfer;
 
 pub use chains::Chains;
-pub use course::{Call, Course, Ends, Fuel, Going, Place};
+pub use course::{BlockBudget, Call, Course, Ends, PendingCall, Place};
 pub use index::{Index, Key, Search};
 pub use library::{Called, Library};
 pub use loops::{Loop, Loops};

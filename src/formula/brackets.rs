@@ -137,7 +137,7 @@ impl Compiler<'_, '_> {
     }
 
     /// After a whole value inside a bracket: an operator (true: an operand must follow) or the end of the bracket.
-    pub(crate) fn behind_operand(&mut self) -> Result<bool, FormulaError> {
+    pub(crate) fn after_operand(&mut self) -> Result<bool, FormulaError> {
         let Some(open) = self.open.last() else {
             return Ok(true);
         };

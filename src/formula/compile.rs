@@ -168,7 +168,7 @@ impl Compiler<'_, '_> {
                 if self.open.is_empty() {
                     return Ok(());
                 }
-                if self.behind_operand()? {
+                if self.after_operand()? {
                     break;
                 }
             }

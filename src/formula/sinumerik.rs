@@ -130,9 +130,9 @@ impl<'s> Reader<'s> {
                 }
                 self.blanks();
                 match self.operator()? {
-                    Behind::Operand => break,
-                    Behind::Closed => {}
-                    Behind::End => return Ok(()),
+                    NextToken::Operand => break,
+                    NextToken::Closed => {}
+                    NextToken::End => return Ok(()),
                 }
             }
         }
@@ -175,7 +175,7 @@ impl<'s> Reader<'s> {
     }
 
     /// What follows a whole operand.
-    fn operator(&mut self) -> Result<Behind, Kind> {
+    fn operator(&mut self) -> Result<NextToken, Kind> {
         match self.peek() {
             Some(b')') => return self.close(b')'),
             Some(b']') => return self.close(b']'),
@@ -192,7 +192,7 @@ impl<'s> Reader<'s> {
                     if let Some(Waiting::Two(_, second)) = self.waiting.last_mut() {
                         *second = true;
                     }
-                    return Ok(Behind::Operand);
+                    return Ok(NextToken::Operand);
                 }
             }
             _ => {}
@@ -206,12 +206,12 @@ impl<'s> Reader<'s> {
                 return Err(Kind::UnclosedBracket);
             }
             self.reduce(0);
-            return Ok(Behind::End);
+            return Ok(NextToken::End);
         };
         self.reduce(rank);
         self.take(length);
         self.waiting.push(Waiting::Binary(binary, rank));
-        Ok(Behind::Operand)
+        Ok(NextToken::Operand)
     }
 
     /// Emits the operators inside the innermost bracket that bind at least as strongly as `rank`.
@@ -226,11 +226,11 @@ impl<'s> Reader<'s> {
         }
     }
 
-    fn close(&mut self, sign: u8) -> Result<Behind, Kind> {
+    fn close(&mut self, sign: u8) -> Result<NextToken, Kind> {
         self.reduce(0);
         let step = match (self.waiting.last(), sign) {
             // the bracket belongs to the text around the expression
-            (None, _) => return Ok(Behind::End),
+            (None, _) => return Ok(NextToken::End),
             (Some(Waiting::Group), b')') => None,
             (Some(Waiting::Index), b']') => Some(Op::ReadAt),
             (Some(&Waiting::One(unary)), b')') => Some(Op::Unary(unary)),
@@ -246,7 +246,7 @@ impl<'s> Reader<'s> {
         if let Some(op) = step {
             self.step(op);
         }
-        Ok(Behind::Closed)
+        Ok(NextToken::Closed)
     }
 
     /// The operator at the cursor, its rank and its length.
@@ -285,7 +285,7 @@ impl<'s> Reader<'s> {
 }
 
 /// What follows an operand.
-enum Behind {
+enum NextToken {
     /// An operator: an operand must follow.
     Operand,
     /// The end of a bracket, which is an operand as a whole.

@@ -3,7 +3,7 @@ use crate::codes::{BlockCodes, Found, dwell_reads, not_modelled};
 use crate::core::LINEAR;
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, FeedMode, ImplicitDecimals};
 use trunnion_dialect::{Action, Role};
 
@@ -69,15 +69,15 @@ impl Iso<'_> {
             }
             let bit = 1 << axis;
             match words.letter(letter) {
-                Said::Nothing => {}
-                Said::Number(number) => {
+                WordValue::Nothing => {}
+                WordValue::Number(number) => {
                     words.axes.values[axis] = number.value;
                     words.axes.given |= bit;
                     words.axes.incremental |= bit;
                     words.axes.point |= u16::from(number.has_point) << axis;
                     words.first = words.first.or(Some(number.range));
                 }
-                Said::Name(_) | Said::Unread => words.axes.unread |= bit,
+                WordValue::Name(_) | WordValue::Unread => words.axes.unread |= bit,
             }
         }
     }
@@ -99,8 +99,8 @@ impl Iso<'_> {
             }
             words.centre.point |= whole;
         }
-        let scale = |said: &mut Said, divisor: f64| {
-            if let Said::Number(number) = said
+        let scale = |said: &mut WordValue, divisor: f64| {
+            if let WordValue::Number(number) = said
                 && !number.has_point
             {
                 number.value /= divisor;

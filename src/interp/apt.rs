@@ -124,7 +124,7 @@ impl Apt<'_> {
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         let Some(record) = block.record() else { return };
         self.core.last_content = Some(block.id());
-        let mut does_more = false;
+        let mut has_other_effects = false;
         if self.core.effects.wanted() {
             self.record_effects(&record, block);
         }
@@ -134,7 +134,7 @@ impl Apt<'_> {
                 block: block.id(),
                 record: Some(record.range),
                 faults: &mut |fault| {
-                    does_more |= crate::effects::does_more(&fault.kind);
+                    has_other_effects |= crate::effects::has_other_effects(&fault.kind);
                     sink.fault(fault);
                 },
             };
@@ -142,8 +142,8 @@ impl Apt<'_> {
         };
         if self.core.effects.wanted() {
             let motion = motion.or(self.more.last().copied());
-            self.late_record_effects(&record, block, motion.as_ref(), does_more);
-            self.core.hand_on_effects(sink);
+            self.late_record_effects(&record, block, motion.as_ref(), has_other_effects);
+            self.core.emit_effects(sink);
         }
         for motion in self.more.drain(..).chain(motion) {
             sink.motion(&motion, &self.core.state);

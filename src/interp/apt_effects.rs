@@ -102,7 +102,7 @@ impl Apt<'_> {
         record: &Record<'_>,
         view: &Block<'_>,
         motion: Option<&Motion>,
-        does_more: bool,
+        has_other_effects: bool,
     ) {
         if record.is("GOTO") {
             let block = self.core.main_block(view.id());
@@ -122,7 +122,7 @@ impl Apt<'_> {
         ];
         let known = held.iter().chain(&modelled).chain(&NEUTRAL).any(|name| record.is(name));
         let cutcom = record.is("CUTCOM") || record.is("CYCLE");
-        if does_more || unknown || !known || cutcom {
+        if has_other_effects || unknown || !known || cutcom {
             let block = self.core.main_block(view.id());
             let words = vec![Argument::text("", &written_record(record, view))];
             self.core.effects.add(block, Effect::Unmodelled(words));

@@ -37,7 +37,7 @@ pub(crate) fn arc(setting: &ArcSetting<'_>, words: &Words) -> Outcome {
     let by_centre = axes[..2]
         .iter()
         .any(|&axis| (words.centre.given | words.centre.unread) & (1 << axis) != 0);
-    match (words.radius.is_said(), by_centre) {
+    match (words.radius.is_given(), by_centre) {
         (true, true) => (
             None,
             Some(FaultKind::NotModelled {

@@ -5,7 +5,7 @@ use crate::frames::Return;
 use crate::iso::Iso;
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, FeedMode, LengthOf, TcpMistake};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
@@ -101,10 +101,10 @@ impl<'d> Iso<'d> {
         for found in rest {
             self.apply_code(found, words, &mut block, report);
         }
-        if words.edge.is_said() {
+        if words.edge.is_given() {
             self.edge_word(words.edge, report);
         }
-        if words.length_offset.is_said() {
+        if words.length_offset.is_given() {
             self.length_word_alone(codes, words, report);
         }
         if self.core.dialect.quirks.offset_compensation && self.core.state.compensation == 0 {
@@ -116,7 +116,7 @@ impl<'d> Iso<'d> {
 
     fn apply_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         let state = &mut self.core.state;
-        self.core.unknown.known_again(found.code);
+        self.core.unknown.restore_known(found.code);
         match found.code.action {
             motion @ (Action::Rapid
             | Action::Linear
@@ -242,10 +242,10 @@ impl<'d> Iso<'d> {
     fn tcp_code(&mut self, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
         let unread = tcp_variant(found, words, report);
         let wants_number = found.code.words.iter().any(|word| word == "H");
-        if wants_number && !words.length_offset.is_said() && self.lacks_length_number() {
+        if wants_number && !words.length_offset.is_given() && self.lacks_length_number() {
             report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
         }
-        if words.length_offset.is_said() || wants_number {
+        if words.length_offset.is_given() || wants_number {
             self.length_on(words.length_offset, found.range, report);
         }
         self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
@@ -268,7 +268,7 @@ impl<'d> Iso<'d> {
             self.core.state.feed.set(None);
             self.core.feed_unread = false;
         }
-        if !words.feed.is_said() || dwell_reads(codes, "F") {
+        if !words.feed.is_given() || dwell_reads(codes, "F") {
             return;
         }
         let unit = if self.core.state.feed.mode() == FeedMode::InverseTime {
@@ -291,7 +291,7 @@ impl<'d> Iso<'d> {
             _ => false,
         };
         let limit = || codes.iter().any(limits);
-        if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
+        if words.speed.is_given() && !dwell_reads(codes, "S") && !limit() {
             let value = words.speed.number().map(|number| number.value);
             let state = &mut self.core.state;
             if state.spindle.surface_speed() {
@@ -343,7 +343,7 @@ fn conflicts(codes: &[Found<'_>], report: &mut Report<'_>) {
     }
 }
 
-impl Said {
+impl WordValue {
     /// A whole number that is not negative, as numbers of tools and offsets are.
     pub(crate) fn index(self) -> Option<u32> {
         let value = self.number()?.value;

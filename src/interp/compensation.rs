@@ -16,7 +16,7 @@ use element::{Element, Point};
 use trunnion_dialect::Plane;
 
 /// A motion and the modal state after its block.
-pub(crate) type Told = (Motion, ModalState);
+pub(crate) type PendingMotion = (Motion, ModalState);
 
 /// The state of the compensation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub(crate) enum Stage {
 /// A motion that waits for the next.
 #[derive(Clone, Debug)]
 struct Held {
-    told: Told,
+    pending: PendingMotion,
     element: Element,
     /// Where its compensated path begins.
     from: Point,
@@ -58,9 +58,9 @@ pub(crate) struct Compensation {
     plane: Option<Plane>,
     held: Option<Box<Held>>,
     /// Motions without a path in the plane, after the held one.
-    between: Vec<Told>,
+    between: Vec<PendingMotion>,
     /// Motions that can be emitted now.
-    pub(crate) ready: Vec<Told>,
+    pub(crate) ready: Vec<PendingMotion>,
 }
 
 impl Compensation {
@@ -71,8 +71,8 @@ impl Compensation {
 }
 
 /// The motion with its path in the plane replaced.
-fn moved(told: &Told, element: &Element, from: Point, to: Point) -> Option<Told> {
-    let (motion, state) = told;
+fn moved(pending: &PendingMotion, element: &Element, from: Point, to: Point) -> Option<PendingMotion> {
+    let (motion, state) = pending;
     let mut motion = *motion;
     element.put(&mut motion.start, from);
     element.put(&mut motion.end, to);
@@ -83,9 +83,9 @@ fn moved(told: &Told, element: &Element, from: Point, to: Point) -> Option<Told>
 }
 
 /// A motion at a corner, at the height where the motion before it ends, with its feed.
-fn link(told: &Told, element: &Element, from: Point, link: Link) -> Told {
+fn link(pending: &PendingMotion, element: &Element, from: Point, link: Link) -> PendingMotion {
     let to = link.to;
-    let (motion, state) = told;
+    let (motion, state) = pending;
     let mut motion = *motion;
     motion.start = motion.end;
     element.put(&mut motion.start, from);
@@ -100,24 +100,24 @@ fn link(told: &Told, element: &Element, from: Point, link: Link) -> Told {
 
 impl Iso<'_> {
     /// Takes a motion of the program while compensation is busy.
-    pub(crate) fn compensate(&mut self, told: Told, report: &mut Report<'_>) {
-        let motion = &told.0;
-        let now = told.1.compensation;
+    pub(crate) fn compensate(&mut self, pending: PendingMotion, report: &mut Report<'_>) {
+        let motion = &pending.0;
+        let now = pending.1.compensation;
         let plane = *self
             .memory
             .compensation
             .plane
             .get_or_insert(self.core.state.coordinates.plane());
         let Some(element) = Element::of(motion, plane) else {
-            self.without_way(told, report);
+            self.motion_out_of_plane(pending, report);
             return;
         };
         if let Some(held) = &self.memory.compensation.held
-            && !held.element.meets(&element, &held.told.0, motion)
+            && !held.element.meets(&element, &held.pending.0, motion)
         {
             self.lose("part of the path is unknown", report);
         }
-        if told.1.coordinates.plane() != plane && now != 0 && self.memory.compensation.stage == Stage::On {
+        if pending.1.coordinates.plane() != plane && now != 0 && self.memory.compensation.stage == Stage::On {
             self.reject(
                 "the plane changes during cutter compensation: cancel it with G40 first",
                 "plane-change",
@@ -127,16 +127,16 @@ impl Iso<'_> {
         }
         let cancels = now == 0;
         match (self.memory.compensation.stage, cancels) {
-            (Stage::Start, false) => self.start(told, element, report),
-            (Stage::On, false) => self.follow(told, element, report),
-            (_, true) => self.cancel(told, &element, report),
-            (Stage::Off | Stage::Lost, false) => self.memory.compensation.ready.push(told),
+            (Stage::Start, false) => self.start(pending, element, report),
+            (Stage::On, false) => self.follow(pending, element, report),
+            (_, true) => self.cancel(pending, &element, report),
+            (Stage::Off | Stage::Lost, false) => self.memory.compensation.ready.push(pending),
         }
     }
 
     /// A motion that does not move in the plane, or whose path is unknown.
-    fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
-        let motion = &told.0;
+    fn motion_out_of_plane(&mut self, pending: PendingMotion, report: &mut Report<'_>) {
+        let motion = &pending.0;
         let still = Element::rests(
             motion,
             self.memory
@@ -145,16 +145,16 @@ impl Iso<'_> {
                 .unwrap_or(self.core.state.coordinates.plane()),
         );
         if still && self.memory.compensation.held.is_some() {
-            self.memory.compensation.between.push(told);
+            self.memory.compensation.between.push(pending);
             return;
         }
         if !still {
             self.lose("part of the path is unknown", report);
         }
-        self.memory.compensation.ready.push(told);
+        self.memory.compensation.ready.push(pending);
     }
 
-    fn start(&mut self, told: Told, element: Element, report: &mut Report<'_>) {
+    fn start(&mut self, pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         self.memory.compensation.stage = Stage::On;
         if element.is_arc() {
             self.reject(
@@ -162,13 +162,13 @@ impl Iso<'_> {
                 "arc-start-or-cancel",
                 report,
             );
-            self.memory.compensation.ready.push(told);
+            self.memory.compensation.ready.push(pending);
             self.lose("it starts with an arc", report);
             return;
         }
         self.memory.compensation.held = Some(Box::new(Held {
             from: element.start,
-            told,
+            pending,
             element,
             leads: true,
         }));
@@ -189,13 +189,13 @@ impl Iso<'_> {
     }
 
     /// The next motion of the contour: the held one can be emitted.
-    fn follow(&mut self, told: Told, element: Element, report: &mut Report<'_>) {
+    fn follow(&mut self, pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         let offset = self.side() * self.memory.compensation.radius;
         let Some(held) = self.memory.compensation.held.take() else {
             // after a start-up that was already emitted
             self.memory.compensation.held = Some(Box::new(Held {
                 from: element.start,
-                told,
+                pending,
                 element,
                 leads: true,
             }));
@@ -213,15 +213,15 @@ impl Iso<'_> {
         };
         let joined = result.and_then(|join| {
             let end = join.end;
-            let told = if held.leads {
-                moved(&held.told, &held.element, held.from, end)
+            let pending = if held.leads {
+                moved(&held.pending, &held.element, held.from, end)
             } else {
                 held.element
                     .keeps_direction(offset, held.from, end)
-                    .then(|| moved(&held.told, &held.element, held.from, end))
+                    .then(|| moved(&held.pending, &held.element, held.from, end))
                     .flatten()
             };
-            told.map(|told| (told, join)).ok_or(Trouble::Interference)
+            pending.map(|pending| (pending, join)).ok_or(Trouble::Interference)
         });
         match joined {
             Ok((ready, join)) => {
@@ -229,12 +229,12 @@ impl Iso<'_> {
                 self.release(ready, &held.element, join.end, unsure, report);
                 let mut from = join.end;
                 for next in join.links {
-                    let told = link(&held.told, &held.element, from, next);
-                    self.memory.compensation.ready.push(told);
+                    let pending = link(&held.pending, &held.element, from, next);
+                    self.memory.compensation.ready.push(pending);
                     from = next.to;
                 }
                 self.memory.compensation.held = Some(Box::new(Held {
-                    told,
+                    pending,
                     element,
                     from: join.start,
                     leads: false,
@@ -245,20 +245,27 @@ impl Iso<'_> {
                 self.reject(text, alarm, report);
                 self.memory.compensation.held = Some(held);
                 self.lose("it has no path here", report);
-                self.memory.compensation.ready.push(told);
+                self.memory.compensation.ready.push(pending);
             }
         }
     }
 
     /// Emits a motion, and after it, at its end, those without a path in the plane.
-    fn release(&mut self, mut told: Told, element: &Element, end: Point, unsure: bool, report: &mut Report<'_>) {
+    fn release(
+        &mut self,
+        mut pending: PendingMotion,
+        element: &Element,
+        end: Point,
+        unsure: bool,
+        report: &mut Report<'_>,
+    ) {
         let between = std::mem::take(&mut self.memory.compensation.between);
         if unsure {
             let what = "cutter radius compensation: a corner after several motions out of the plane".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
-            element.forget(&mut told.0.end);
+            element.forget(&mut pending.0.end);
         }
-        self.memory.compensation.ready.push(told);
+        self.memory.compensation.ready.push(pending);
         for (mut motion, state) in between {
             element.put(&mut motion.start, end);
             element.put(&mut motion.end, end);
@@ -280,24 +287,24 @@ impl Iso<'_> {
             held.element.beside_end(offset)
         };
         let fits = held.leads || held.element.keeps_direction(offset, held.from, end);
-        if let Some(told) = moved(&held.told, &held.element, held.from, end).filter(|_| fits) {
-            self.release(told, &held.element, end, false, report);
+        if let Some(pending) = moved(&held.pending, &held.element, held.from, end).filter(|_| fits) {
+            self.release(pending, &held.element, end, false, report);
         } else {
             let (text, alarm) = Trouble::Interference.words();
             self.reject(text, alarm, report);
-            let told = held.told.clone();
-            self.release(told, &held.element, held.element.end, false, report);
+            let pending = held.pending.clone();
+            self.release(pending, &held.element, held.element.end, false, report);
         }
         Some(end)
     }
 
     /// The first motion in the plane after G40 leaves the contour.
-    fn cancel(&mut self, told: Told, element: &Element, report: &mut Report<'_>) {
+    fn cancel(&mut self, pending: PendingMotion, element: &Element, report: &mut Report<'_>) {
         let from = self.settle(report);
         self.memory.compensation.stage = Stage::Off;
         self.memory.compensation.plane = None;
         let Some(from) = from else {
-            self.memory.compensation.ready.push(told);
+            self.memory.compensation.ready.push(pending);
             return;
         };
         if element.is_arc() {
@@ -307,8 +314,8 @@ impl Iso<'_> {
                 report,
             );
         }
-        let ready = moved(&told, element, from, element.end).filter(|_| !element.is_arc());
-        self.memory.compensation.ready.push(ready.unwrap_or(told));
+        let ready = moved(&pending, element, from, element.end).filter(|_| !element.is_arc());
+        self.memory.compensation.ready.push(ready.unwrap_or(pending));
     }
 
     /// Stops compensating until G40: motions are the programmed ones.

@@ -316,7 +316,7 @@ impl<'d> Core<'d> {
     }
 
     /// Emits the effects that were collected.
-    pub(crate) fn hand_on_effects(&mut self, sink: &mut impl Sink) {
+    pub(crate) fn emit_effects(&mut self, sink: &mut impl Sink) {
         for effect in self.effects.take() {
             sink.effect(effect);
         }

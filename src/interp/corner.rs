@@ -1,11 +1,11 @@
 //! `,R` and `,C`: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering and corner R).
 use crate::arc::plane_axes;
-use crate::compensation::Told;
+use crate::compensation::PendingMotion;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::values::number;
-use crate::words::{Number, Said, Words};
+use crate::words::{Number, WordValue, Words};
 use crate::{FaultKind, Motion, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
@@ -16,7 +16,7 @@ use trunnion_syntax::{TextRange, Value, Word};
 /// A corner that needs the motion after it.
 #[derive(Clone, Debug)]
 struct Waiting {
-    told: Told,
+    pending: PendingMotion,
     /// `R` or `C`.
     letter: u8,
     /// mm.
@@ -82,7 +82,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let (true, Value::Number(decimal)) = (self.dialect.quirks.corner_words, word.value) else {
             return false;
         };
-        let Said::Number(number) = number(decimal, word.range) else {
+        let WordValue::Number(number) = number(decimal, word.range) else {
             return false;
         };
         self.words.has_values = true;
@@ -114,30 +114,30 @@ impl Iso<'_> {
     }
 
     /// Takes a motion of the block; what can be emitted is pushed to `on`.
-    pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<Told>, report: &mut Report<'_>) {
-        let mut told = (*motion, self.core.state.clone());
+    pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<PendingMotion>, report: &mut Report<'_>) {
+        let mut pending = (*motion, self.core.state.clone());
         if let Some(waiting) = self.memory.corners.waiting.take() {
-            self.cut_corner(*waiting, &mut told, on, report);
+            self.cut_corner(*waiting, &mut pending, on, report);
         }
         match self.memory.corners.word.take() {
             Some((letter, size)) if motion.is_feed() => {
-                self.memory.corners.waiting = Some(Box::new(Waiting { told, letter, size }));
+                self.memory.corners.waiting = Some(Box::new(Waiting { pending, letter, size }));
             }
             word => {
                 if word.is_some() {
                     self.no_corner("a corner word needs a feed motion", "corner-no-move", report);
                 }
-                on.push(told);
+                on.push(pending);
             }
         }
     }
 
     /// Nothing follows the corner.
-    pub(crate) fn end_corners(&mut self, on: &mut Vec<Told>, report: &mut Report<'_>) {
+    pub(crate) fn end_corners(&mut self, on: &mut Vec<PendingMotion>, report: &mut Report<'_>) {
         self.memory.corners.word = None;
         if let Some(waiting) = self.memory.corners.waiting.take() {
             self.no_corner("no motion follows the corner", "corner-no-move", report);
-            on.push(waiting.told);
+            on.push(waiting.pending);
         }
     }
 
@@ -150,8 +150,14 @@ impl Iso<'_> {
         report.fault(report.whole(), kind);
     }
 
-    fn cut_corner(&mut self, waiting: Waiting, next: &mut Told, on: &mut Vec<Told>, report: &mut Report<'_>) {
-        let mut before = waiting.told;
+    fn cut_corner(
+        &mut self,
+        waiting: Waiting,
+        next: &mut PendingMotion,
+        on: &mut Vec<PendingMotion>,
+        report: &mut Report<'_>,
+    ) {
+        let mut before = waiting.pending;
         let axes = plane_axes(before.1.coordinates.plane());
         let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
         let known = is_known(&before.0, axes) && is_known(&next.0, axes);
@@ -206,7 +212,7 @@ impl Iso<'_> {
 }
 
 impl Cut {
-    fn apply(&self, mut before: Told, round: bool, next: &mut Told, on: &mut Vec<Told>) {
+    fn apply(&self, mut before: PendingMotion, round: bool, next: &mut PendingMotion, on: &mut Vec<PendingMotion>) {
         let Some(corner) = point(&before.0.end, self.axes) else {
             on.push(before);
             return;

@@ -25,7 +25,7 @@ impl Iso<'_> {
         let code = codes.iter().find(|found| found.code.action == Action::Dwell);
         let reads = |word: &str| code.is_some_and(|found| found.code.words.iter().any(|known| known == word));
         let mut time = 0;
-        if !words.p.is_said() || !reads("P") {
+        if !words.p.is_given() || !reads("P") {
             time |= u16::from(reads("X"));
             time |= u16::from(reads("U")) << 6;
         }

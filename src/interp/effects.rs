@@ -9,7 +9,7 @@ mod sort;
 
 use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::written::{Keep, written};
 use crate::{Argument, Effect, Reach};
 use crate::{FaultKind, Motion, MotionKind};
@@ -27,7 +27,7 @@ use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
 
 /// Whether a fault means that its block does more than its motions and the modal state contain.
-pub(crate) fn does_more(kind: &FaultKind) -> bool {
+pub(crate) fn has_other_effects(kind: &FaultKind) -> bool {
     !matches!(
         kind,
         FaultKind::MissingFeed { .. }
@@ -103,7 +103,7 @@ impl Iso<'_> {
         } else {
             free |= unread & !held;
         }
-        if !self.core.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_said() {
+        if !self.core.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_given() {
             let to = [said("D", words.letter(b'D'))];
             self.core.effects.add(block, Effect::set("radius offset", to));
             free &= !letter_bit(b'D');
@@ -205,16 +205,16 @@ impl Iso<'_> {
         let limits = codes
             .iter()
             .any(|found| matches!(sort(found, words), Sort::Setting("speed limit")));
-        if words.speed.is_said() && !limits && !dwell_reads(codes, "S") {
+        if words.speed.is_given() && !limits && !dwell_reads(codes, "S") {
             self.core
                 .effects
                 .add(block, Effect::set("speed", [said("S", words.speed)]));
         }
-        if words.tool.is_said() {
+        if words.tool.is_given() {
             let to = [chosen(self.core.tools.prepared()), said("T", words.tool)];
             self.core.effects.add(block, Effect::set("tool prepared", to));
         }
-        if words.tool.is_said() || codes.iter().any(|found| found.code.action == Action::ToolChange) {
+        if words.tool.is_given() || codes.iter().any(|found| found.code.action == Action::ToolChange) {
             let to = [chosen(self.core.tools.in_spindle())];
             self.core.effects.add(block, Effect::set("tool in use", to));
         }
@@ -222,10 +222,10 @@ impl Iso<'_> {
             let change = vec![Argument::code("tool change")];
             self.core.effects.add(block, Effect::Event(change));
         }
-        if words.edge.is_said() {
+        if words.edge.is_given() {
             self.core.effects.add(block, Effect::set("D", [said("D", words.edge)]));
         }
-        if words.length_offset.is_said() {
+        if words.length_offset.is_given() {
             self.core
                 .effects
                 .add(block, Effect::set("H", [said("H", words.length_offset)]));
@@ -261,7 +261,7 @@ impl Iso<'_> {
         codes: &[Found<'_>],
         words: &Words,
         motions: &[Motion],
-        (does_more, ambiguous): (bool, bool),
+        (has_other_effects, ambiguous): (bool, bool),
     ) {
         let block = self.core.main_block(view.id());
         let named = words.axes.given | words.axes.unread;
@@ -278,13 +278,13 @@ impl Iso<'_> {
         self.core.effects.release_frames(block, unknown_end);
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
         let unclear = words.p.number().is_some_and(|p| p.has_point) && self.core.dialect.quirks.macros == Macros::Fanuc
-            || words.feed.is_said() && !self.core.dialect.quirks.user_names();
+            || words.feed.is_given() && !self.core.dialect.quirks.user_names();
         let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
         if ambiguous {
             self.core.effects.ambiguous_number(block);
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
-        if does_more || unknown_end || unknown_frame || unread {
+        if has_other_effects || unknown_end || unknown_frame || unread {
             let keep = if moved && !frame && !words.forgets_all {
                 Keep::BesideMotion
             } else {
@@ -297,7 +297,7 @@ impl Iso<'_> {
                     .cycle
                     .call
                     .as_ref()
-                    .filter(|_| does_more)
+                    .filter(|_| has_other_effects)
                     .map(|call| call.said.clone()),
             );
             if !arguments.is_empty()
@@ -382,8 +382,8 @@ fn has_unread(words: &Words) -> bool {
         .copied()
         .filter(|letter| words.letters & letter_bit(*letter) != 0);
     words.axes.unread | words.centre.unread | words.vector.unread != 0
-        || letters.any(|letter| matches!(words.letter(letter), Said::Unread))
-        || values.iter().any(|said| matches!(said, Said::Unread))
+        || letters.any(|letter| matches!(words.letter(letter), WordValue::Unread))
+        || values.iter().any(|said| matches!(said, WordValue::Unread))
 }
 
 /// Whether a motion has no known path, or no known end in one of the axes that its block names (bits).

@@ -7,7 +7,7 @@ use crate::frames::XYZ;
 use crate::iso::Iso;
 use crate::tools::Chosen;
 use crate::travel::Travel;
-use crate::words::{Places, Said, Words};
+use crate::words::{Places, WordValue, Words};
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::Turning;
@@ -215,7 +215,7 @@ impl Iso<'_> {
     /// Further full turns: TURN= counts them; P, where the arc codes read it, counts all turns begun.
     fn turns(&self, words: &Words) -> Option<u32> {
         let limit = |turns: &u32| *turns <= 1_000_000;
-        if words.turns.is_said() {
+        if words.turns.is_given() {
             return words.turns.index().filter(limit);
         }
         let reads_p = || {
@@ -225,7 +225,7 @@ impl Iso<'_> {
                 .is_some_and(|code| code.words.iter().any(|word| word == "P"))
         };
         match words.p {
-            Said::Nothing => Some(0),
+            WordValue::Nothing => Some(0),
             p if reads_p() => p.index().and_then(|turns| turns.checked_sub(1)).filter(limit),
             _ => Some(0),
         }

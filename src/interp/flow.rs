@@ -3,16 +3,16 @@
 //! A language reads its statements and leaves a [`Transfer`]; [`crate::Interpreter::advance`] does it. While a program has no such
 //! statement, nothing here runs: [`Flow::trail`] stays empty.
 mod call;
+mod reported;
 mod run;
 mod through;
-mod told;
 mod transfer;
 
 use crate::macro_b::{self, Deep, Mistake};
 use crate::sinumerik;
+use reported::ReportedFaults;
 pub(crate) use run::Running;
 use std::sync::Arc;
-use told::Told;
 use trunnion_dialect::Language;
 use trunnion_flow::{Course, Key, Library};
 use trunnion_syntax::{Program, TextRange};
@@ -39,7 +39,7 @@ pub(crate) struct Trail {
     pub(crate) library: Library,
     /// Targets of jumps, by file.
     indexes: Vec<Option<Arc<Index>>>,
-    told: Told,
+    reported: ReportedFaults,
 }
 
 /// What a language stores for a call.

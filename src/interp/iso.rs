@@ -34,7 +34,7 @@ impl<'d> Iso<'d> {
         }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
-        let (mut does_more, mut ambiguous) = (false, false);
+        let (mut has_other_effects, mut ambiguous) = (false, false);
         let mut words = Words::default();
         let motion = {
             let mut report = Report {
@@ -42,7 +42,7 @@ impl<'d> Iso<'d> {
                 block: block.id(),
                 record: None,
                 faults: &mut |fault| {
-                    does_more |= crate::effects::does_more(&fault.kind);
+                    has_other_effects |= crate::effects::has_other_effects(&fault.kind);
                     ambiguous |= fault.kind == FaultKind::AmbiguousDecimal;
                     sink.fault(fault);
                 },
@@ -62,7 +62,13 @@ impl<'d> Iso<'d> {
             }
         };
         if self.core.effects.wanted() && words.has_content {
-            self.collect(block, (&codes, &words), motion.as_ref(), (does_more, ambiguous), sink);
+            self.collect(
+                block,
+                (&codes, &words),
+                motion.as_ref(),
+                (has_other_effects, ambiguous),
+                sink,
+            );
         }
         self.put_out(motion.as_ref(), block, sink);
         self.codes = codes;
@@ -75,13 +81,13 @@ impl<'d> Iso<'d> {
         block: &Block<'_>,
         (codes, words): (&[Found<'d>], &Words),
         motion: Option<&Motion>,
-        (does_more, ambiguous): (bool, bool),
+        (has_other_effects, ambiguous): (bool, bool),
         sink: &mut impl Sink,
     ) {
         let motions: Vec<Motion> = self.memory.out.iter().chain(motion).copied().collect();
-        let does_more = does_more || self.memory.frames.entering_data && codes.is_empty();
-        self.late_effects(block, codes, words, &motions, (does_more, ambiguous));
-        self.core.hand_on_effects(sink);
+        let has_other_effects = has_other_effects || self.memory.frames.entering_data && codes.is_empty();
+        self.late_effects(block, codes, words, &motions, (has_other_effects, ambiguous));
+        self.core.emit_effects(sink);
     }
 
     /// Whether a block belongs to the contour of the turning cycle before it, which has run it.
@@ -254,7 +260,7 @@ impl<'d> Iso<'d> {
         }
         let modal = self.core.state.motion;
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
-        let begins = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
+        let begins = is_arc && (words.centre.any() || words.radius.is_given()) && block.motion.is_some();
         let circle = begins || self.circle_goes_on(codes, words, block);
         if let Some(repeated) = block.repeated {
             if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() && repeated.has_coordinates(words) {
@@ -266,7 +272,7 @@ impl<'d> Iso<'d> {
         if block.returns.is_some() || block.pattern.is_some() || block.pocket {
             return self.special_motion(words, block, report);
         }
-        if words.radius.is_said()
+        if words.radius.is_given()
             && modal.is_some_and(Action::is_hole_cycle)
             && !block.takes_coordinates
             && !block.not_modelled

@@ -9,7 +9,7 @@ pub(crate) struct Memory<'d> {
     /// Tool centre point control was on since the tool came into the spindle.
     pub(crate) tcp_used: bool,
     /// The tool for which a missing length under tool centre point control was reported.
-    pub(crate) tcp_length_said: Option<u32>,
+    pub(crate) tcp_length_reported: Option<u32>,
     /// The group of the code that switched tool centre point control on.
     pub(crate) tcp_group: Option<&'d str>,
     /// How the axes run between positions under a transformation.
@@ -21,7 +21,7 @@ pub(crate) struct Memory<'d> {
     /// The contour of a turning cycle is read.
     pub(crate) in_contour: bool,
     /// First blocks of contours whose faults were reported.
-    pub(crate) contours_told: Vec<u32>,
+    pub(crate) contours_reported: Vec<u32>,
     /// X by G10.9: a diameter, or a radius.
     pub(crate) diameter: Option<bool>,
     /// A tool vector has turned the rotary axes.

@@ -4,7 +4,7 @@ use crate::core::Report;
 use crate::frames::OffsetValues;
 use crate::iso::Iso;
 use crate::tools::Chosen;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, LengthOf, Tool, Undeclared};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
@@ -64,18 +64,20 @@ impl Iso<'_> {
     }
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
-    pub(crate) fn length_on(&mut self, offset: Said, range: TextRange, report: &mut Report<'_>) {
+    pub(crate) fn length_on(&mut self, offset: WordValue, range: TextRange, report: &mut Report<'_>) {
         if let Some(number) = offset.index() {
             self.memory.length_offset = Some(number);
         }
         let (tool, key, of) = match (offset, self.memory.length_offset) {
-            (Said::Nothing, None) => (
+            (WordValue::Nothing, None) => (
                 self.core.state.tool.data(),
                 self.core.tools.name(),
                 LengthOf::Tool(self.core.state.tool.number()),
             ),
-            (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0), LengthOf::Nothing),
-            (Said::Nothing | Said::Number(_), Some(number)) => {
+            (WordValue::Nothing | WordValue::Number(_), Some(0)) => {
+                return self.set_length(Some(0.0), LengthOf::Nothing);
+            }
+            (WordValue::Nothing | WordValue::Number(_), Some(number)) => {
                 let of = LengthOf::Tool(Some(number));
                 if let Some(length) = self.written_length(number) {
                     return self.set_length(Some(length), of);
@@ -122,7 +124,7 @@ impl Iso<'_> {
     }
 
     /// D: the active cutting edge. Edge 1 has the tool's declared length, 0 none.
-    pub(crate) fn edge_word(&mut self, edge: Said, report: &mut Report<'_>) {
+    pub(crate) fn edge_word(&mut self, edge: WordValue, report: &mut Report<'_>) {
         let range = edge.number().map_or(TextRange::default(), |number| number.range);
         self.memory.edge = edge.index();
         match edge.index() {

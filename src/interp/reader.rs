@@ -4,7 +4,7 @@ use crate::macro_b::Macros;
 use crate::own::Own;
 use crate::system::{SystemWrite, system_write};
 use crate::values::{number, tenths};
-use crate::words::{Said, Words, put};
+use crate::words::{WordValue, Words, put};
 use crate::{AXIS_LETTERS, AllClampCodes, Clamps, FaultKind};
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
 use trunnion_syntax::{Address, BlockId, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
@@ -198,8 +198,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             return;
         }
         match self.dialect.role(letter) {
-            Some(Role::Speed) => self.words.speed = Said::Unread,
-            Some(Role::Tool) => self.words.tool = Said::Unread,
+            Some(Role::Speed) => self.words.speed = WordValue::Unread,
+            Some(Role::Tool) => self.words.tool = WordValue::Unread,
             Some(Role::M) => self.words.other_spindle = true,
             Some(Role::ArcRadius | Role::Parameter | Role::Variable) => {
                 self.words.has_values = true;
@@ -262,7 +262,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 let said = match word.value {
                     Value::Number(decimal) => number(decimal, word.range),
                     Value::Expression(range) => self.macro_value(word, range),
-                    _ => Said::Unread,
+                    _ => WordValue::Unread,
                 };
                 self.words.by_letter.keep(letter, said);
             }

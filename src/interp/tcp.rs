@@ -61,9 +61,9 @@ impl Iso<'_> {
             }
             let without =
                 motion.is_feed() && state.length.mm().is_none() && state.tool.number().is_some_and(|tool| tool > 0);
-            let news = without && self.memory.tcp_length_said != state.tool.number();
+            let news = without && self.memory.tcp_length_reported != state.tool.number();
             if news {
-                self.memory.tcp_length_said = state.tool.number();
+                self.memory.tcp_length_reported = state.tool.number();
             }
             return news.then_some(TcpMistake::NoLength);
         }

@@ -2,7 +2,7 @@
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::reported::Reported;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{LengthOf, Setup, Tool};
 use std::sync::Arc;
 use trunnion_syntax::Program;
@@ -161,15 +161,15 @@ impl Tools {
 impl Iso<'_> {
     pub(crate) fn tool_word(&mut self, words: &Words, report: &mut Report<'_>) {
         let chosen = match words.tool {
-            Said::Nothing => return,
-            Said::Name(range) => {
+            WordValue::Nothing => return,
+            WordValue::Name(range) => {
                 let text = report.program.text(range);
                 Chosen::Named(text.trim_matches('"').into())
             }
-            Said::Number(_) => words.tool.index().map_or(Chosen::Unread, |number| {
+            WordValue::Number(_) => words.tool.index().map_or(Chosen::Unread, |number| {
                 Chosen::Number(self.core.dialect.quirks.tool_word.tool(number))
             }),
-            Said::Unread => Chosen::Unread,
+            WordValue::Unread => Chosen::Unread,
         };
         self.core.state.tool.prepare(if let Chosen::Number(number) = chosen {
             Some(number)

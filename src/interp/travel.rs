@@ -5,7 +5,7 @@ use crate::core::Report;
 use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::values::number;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, Motion, MotionKind, Posture, Swivel};
 use trunnion_dialect::Action;
 use trunnion_syntax::{TextRange, Value, Word};
@@ -50,7 +50,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// The bits of STAT or TU: a number, `'B101'` or `'H1F'`.
     pub(crate) fn bits(&mut self, word: &Word) -> Option<u16> {
         if let Value::Number(decimal) = word.value
-            && let Said::Number(number) = number(decimal, word.range)
+            && let WordValue::Number(number) = number(decimal, word.range)
         {
             let whole = number.value.fract() == 0.0 && (0.0..=f64::from(u16::MAX)).contains(&number.value);
             return whole.then_some(number.value as u16);

@@ -66,7 +66,7 @@ impl<'d> Unknown<'d> {
     }
     /// A modelled code of a group makes known again what another code of the group made unknown.
     #[inline]
-    pub(crate) fn known_again(&mut self, code: &Code) {
+    pub(crate) fn restore_known(&mut self, code: &Code) {
         if !self.frames.is_empty() && !matches!(code.action, Action::NotModelled | Action::FrameChange) {
             let key = code.group.as_deref();
             self.frames
@@ -90,13 +90,13 @@ mod tests {
         let (length, rapid) = (dialect.g(490).expect("G49"), dialect.g(0).expect("G0"));
         let mut unknown = Unknown::default();
         unknown.begin(length, true);
-        unknown.known_again(rapid);
+        unknown.restore_known(rapid);
         assert!(unknown.any() && !unknown.hides_rotary());
-        unknown.known_again(length);
+        unknown.restore_known(length);
         assert!(!unknown.any());
         unknown.begin(length, false);
         unknown.turns_axes(length);
-        unknown.known_again(length);
+        unknown.restore_known(length);
         assert!(unknown.hides_rotary(), "only a reset ends it");
         assert!(unknown.end(length) && !unknown.end(length) && !unknown.any());
     }
@@ -107,7 +107,7 @@ mod tests {
         let mut unknown = Unknown::default();
         unknown.for_good();
         for code in dialect.codes() {
-            unknown.known_again(code);
+            unknown.restore_known(code);
             unknown.end(code);
         }
         assert!(unknown.any() && unknown.hides_rotary());

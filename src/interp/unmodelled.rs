@@ -72,7 +72,7 @@ impl<'d> Iso<'d> {
             self.core.forget_if(ended);
             return;
         }
-        if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {
+        if !words.axes.any() && words.speed.is_given() && found.code.words.iter().any(|word| word == "S") {
             return;
         }
         not_modelled(found, report);

@@ -60,7 +60,7 @@ impl Iso<'_> {
                 continue;
             };
             // a vacant variable: the word counts as not written
-            if left & bit(letter) == 0 || !words.letter(letter).is_said() {
+            if left & bit(letter) == 0 || !words.letter(letter).is_given() {
                 continue;
             }
             let kind = match self.core.dialect.alarm("unused-word") {

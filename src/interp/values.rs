@@ -1,7 +1,7 @@
 //! Values of words: numbers, names, targets such as IC(5), and expressions where the dialect has them.
 use crate::FaultKind;
 use crate::reader::{LARGEST, Reader};
-use crate::words::{Number, Reading, Said};
+use crate::words::{Number, Reading, WordValue};
 use trunnion_syntax::{Decimal, TextRange, Value, Word};
 
 /// Ten times the number of a code, where that is whole: G43.4 is 434.
@@ -22,46 +22,46 @@ pub(crate) fn tenths(decimal: Decimal) -> Option<u32> {
 }
 
 /// A number, unless it is beyond what can be reckoned with.
-pub(crate) fn number(decimal: Decimal, range: TextRange) -> Said {
+pub(crate) fn number(decimal: Decimal, range: TextRange) -> WordValue {
     let value = decimal.to_f64();
     if value.abs() <= LARGEST {
-        Said::Number(Number {
+        WordValue::Number(Number {
             value,
             has_point: decimal.has_point,
             range,
         })
     } else {
-        Said::Unread
+        WordValue::Unread
     }
 }
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// A word that knows only numbers and names, kept by its letter too.
-    pub(crate) fn kept(&mut self, letter: u8, word: &Word) -> Said {
+    pub(crate) fn kept(&mut self, letter: u8, word: &Word) -> WordValue {
         let said = self.said(word);
         self.words.by_letter.keep(letter, said);
         said
     }
 
     /// A word that knows only numbers and names.
-    fn said(&mut self, word: &Word) -> Said {
+    fn said(&mut self, word: &Word) -> WordValue {
         match word.value {
             Value::Number(decimal) => number(decimal, word.range),
-            Value::Text(range) => Said::Name(range),
-            Value::Missing | Value::Bad => Said::Unread,
+            Value::Text(range) => WordValue::Name(range),
+            Value::Missing | Value::Bad => WordValue::Unread,
             Value::Expression(range) if self.macros.is_some() => self.macro_value(word, range),
             Value::Expression(_) | Value::Call(..) => {
                 if let Some(number) = self.own_number(word.value_range) {
-                    return Said::Number(number);
+                    return WordValue::Number(number);
                 }
                 self.not_modelled(word.value_range);
-                Said::Unread
+                WordValue::Unread
             }
         }
     }
 
     /// A word that also knows AC(), IC(), DC(), ACP(), ACN().
-    pub(crate) fn said_place(&mut self, word: &Word) -> (Said, Reading) {
+    pub(crate) fn said_place(&mut self, word: &Word) -> (WordValue, Reading) {
         if let Value::Call(name, decimal) = word.value {
             let name = self.program.source().get(name.as_usize()).unwrap_or_default();
             let reading = READINGS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known));

@@ -11,7 +11,7 @@ pub(crate) struct Number {
 
 /// What a word says.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) enum Said {
+pub(crate) enum WordValue {
     /// There is no such word.
     #[default]
     Nothing,
@@ -23,7 +23,7 @@ pub(crate) enum Said {
     Unread,
 }
 
-impl Said {
+impl WordValue {
     pub(crate) fn number(self) -> Option<Number> {
         if let Self::Number(number) = self {
             Some(number)
@@ -31,7 +31,7 @@ impl Said {
             None
         }
     }
-    pub(crate) fn is_said(self) -> bool {
+    pub(crate) fn is_given(self) -> bool {
         !matches!(self, Self::Nothing)
     }
 }
@@ -107,34 +107,34 @@ pub(crate) struct Letters {
 
 impl Letters {
     /// Keeps what the word of an upper-case letter says; other addresses have no place here.
-    pub(crate) fn keep(&mut self, letter: u8, said: Said) {
+    pub(crate) fn keep(&mut self, letter: u8, said: WordValue) {
         let place = usize::from(letter.wrapping_sub(b'A'));
         if place >= self.values.len() {
             return;
         }
         match said {
-            Said::Nothing => {}
-            Said::Number(number) => {
+            WordValue::Nothing => {}
+            WordValue::Number(number) => {
                 self.values[place] = number.value;
                 self.ranges[place] = number.range;
                 self.given |= 1 << place;
                 self.point |= u32::from(number.has_point) << place;
             }
-            Said::Name(_) | Said::Unread => self.unread |= 1 << place,
+            WordValue::Name(_) | WordValue::Unread => self.unread |= 1 << place,
         }
     }
-    fn get(&self, place: usize) -> Said {
+    fn get(&self, place: usize) -> WordValue {
         let bit = 1u32 << place;
         if self.given & bit != 0 {
-            Said::Number(Number {
+            WordValue::Number(Number {
                 value: self.values[place],
                 has_point: self.point & bit != 0,
                 range: self.ranges[place],
             })
         } else if self.unread & bit != 0 {
-            Said::Unread
+            WordValue::Unread
         } else {
-            Said::Nothing
+            WordValue::Nothing
         }
     }
 }
@@ -145,17 +145,17 @@ pub(crate) struct Words {
     pub(crate) axes: Places<9>,
     pub(crate) centre: Places<3>,
     pub(crate) vector: Places<3>,
-    pub(crate) radius: Said,
-    pub(crate) turns: Said,
+    pub(crate) radius: WordValue,
+    pub(crate) turns: WordValue,
     /// STAT and TU.
     pub(crate) posture: crate::travel::PostureWords,
-    pub(crate) feed: Said,
-    pub(crate) speed: Said,
-    pub(crate) tool: Said,
-    pub(crate) length_offset: Said,
-    pub(crate) edge: Said,
+    pub(crate) feed: WordValue,
+    pub(crate) speed: WordValue,
+    pub(crate) tool: WordValue,
+    pub(crate) length_offset: WordValue,
+    pub(crate) edge: WordValue,
     /// P: dwell, turns of an arc, number of a work offset.
-    pub(crate) p: Said,
+    pub(crate) p: WordValue,
     /// Words by letter: parameters of codes (L, P, Q, R, K ...) and all others that are no axes.
     pub(crate) by_letter: Letters,
     /// The first word that is a coordinate, centre, radius or vector component.
@@ -195,26 +195,26 @@ pub(crate) struct Words {
 impl Words {
     /// What the word of an upper-case letter says, whatever its role: L, P, Q, K of a cycle as well as X. G, M, N and O are not
     /// kept. The range of a coordinate is not kept: it is empty.
-    pub(crate) fn letter(&self, letter: u8) -> Said {
+    pub(crate) fn letter(&self, letter: u8) -> WordValue {
         let Some(place) = letter.checked_sub(b'A').filter(|place| *place < 26) else {
-            return Said::Nothing;
+            return WordValue::Nothing;
         };
         let kept = self.by_letter.get(usize::from(place));
-        if kept.is_said() {
+        if kept.is_given() {
             return kept;
         }
         let Some(axis) = crate::AxisLetter::new(letter).map(|axis| usize::from(axis.0)) else {
-            return Said::Nothing;
+            return WordValue::Nothing;
         };
         let bit = 1u16 << axis;
         match self.axes.get(axis) {
-            Some(value) => Said::Number(Number {
+            Some(value) => WordValue::Number(Number {
                 value,
                 has_point: self.axes.point & bit != 0,
                 range: TextRange::default(),
             }),
-            None if self.axes.unread & bit != 0 => Said::Unread,
-            None => Said::Nothing,
+            None if self.axes.unread & bit != 0 => WordValue::Unread,
+            None => WordValue::Nothing,
         }
     }
 }
@@ -231,10 +231,10 @@ pub(crate) enum Reading {
 }
 
 /// Puts a word into its place.
-pub(crate) fn put<const N: usize>(places: &mut Places<N>, place: usize, (said, reading): (Said, Reading)) {
+pub(crate) fn put<const N: usize>(places: &mut Places<N>, place: usize, (said, reading): (WordValue, Reading)) {
     let bit = 1u16 << place;
     match said {
-        Said::Number(number) => {
+        WordValue::Number(number) => {
             places.put(place, number);
             match reading {
                 Reading::Modal => {}
@@ -246,7 +246,7 @@ pub(crate) fn put<const N: usize>(places: &mut Places<N>, place: usize, (said, r
             }
         }
         // a variable that is vacant: the word counts as not written
-        Said::Nothing => {}
+        WordValue::Nothing => {}
         _ => places.unread |= bit,
     }
 }

@@ -1,7 +1,7 @@
 //! The words of a block as they are compared where the block's effect is not known: numbers by value, codes and names in one spelling,
 //! and expressions with the known variables in them replaced.
 use crate::Argument;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use trunnion_dialect::{Dialect, Role};
 use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 
@@ -130,11 +130,11 @@ fn word_argument(view: &Block<'_>, run: &impl Values, words: &Words, word: &Word
     };
     let letter = match word.address {
         Address::Letter(letter) => words.letter(letter.to_ascii_uppercase()),
-        _ => Said::Nothing,
+        _ => WordValue::Nothing,
     };
     Some(match (word.value, letter) {
         (Value::Number(decimal), _) => Argument::number(name, decimal.to_f64()),
-        (_, Said::Number(number)) => Argument::number(name, number.value),
+        (_, WordValue::Number(number)) => Argument::number(name, number.value),
         _ => {
             let text = program.text(word.value_range);
             match run.value(&text) {

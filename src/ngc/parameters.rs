@@ -31,7 +31,7 @@ impl Slot {
 
 /// What a call saves of its caller.
 #[derive(Clone, Debug)]
-struct Aside {
+struct SavedCaller {
     /// `#1` to `#30`, too, which are the last ones saved; a call with M98 shares them.
     numbers: bool,
     names: Names,
@@ -47,7 +47,7 @@ pub(crate) struct Store {
     /// Other names: local to the current call.
     locals: Names,
     /// Callers, outermost first.
-    aside: Vec<Aside>,
+    aside: Vec<SavedCaller>,
     /// Their numbers.
     numbers_aside: Vec<f64>,
     /// Names of calls that ended, kept for their storage.
@@ -156,12 +156,12 @@ impl Store {
             *place = *argument;
         }
         let names = self.fresh_names();
-        self.aside.push(Aside { numbers: true, names });
+        self.aside.push(SavedCaller { numbers: true, names });
     }
     /// A Fanuc-style subprogram is called: its names are its own, `#1` to `#30` are the caller's.
     pub(crate) fn enter_sharing(&mut self) {
         let names = self.fresh_names();
-        self.aside.push(Aside { numbers: false, names });
+        self.aside.push(SavedCaller { numbers: false, names });
     }
     /// Begins with no names; the ones there were.
     fn fresh_names(&mut self) -> Names {

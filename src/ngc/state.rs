@@ -153,7 +153,7 @@ pub struct State {
     /// Whether A, B, C are wrapped rotary axes: absolute words are 0 to below 360 deg, their sign gives the direction.
     pub wrapped: [bool; 3],
     /// The position assumed by the receiver of the calls.
-    pub told: Told,
+    pub told: ReceiverPosition,
     /// Override switches (M48-M53).
     pub feed_override: bool,
     /// See above.
@@ -165,7 +165,7 @@ pub struct State {
     /// Axes with words in the current block: bit i is axis i of a [`Pose`].
     pub named_axes: u16,
     /// The line that runs while compensation emits what it has held back: the listing uses its number for calls.
-    pub told_by: Option<crate::At>,
+    pub emitting_line: Option<crate::At>,
     /// The spindle's row of the tool table before the last change.
     pub(crate) spindle_row_before: Option<crate::ToolEntry>,
     /// The motions of the current block end at points given in machine coordinates (G53, G28, G30).
@@ -204,7 +204,7 @@ pub struct CycleWords {
 /// The tool position assumed by the receiver of the canonical calls, which knows only the calls. `rs274` queries it after a tool change,
 /// and it does not know that rotation and tool offset move the program's coordinates.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Told {
+pub struct ReceiverPosition {
     /// Program coordinates.
     pub position: Pose,
     origin: Pose,
@@ -212,7 +212,7 @@ pub struct Told {
     inch: bool,
 }
 
-impl Told {
+impl ReceiverPosition {
     /// At the start of a program.
     pub(crate) fn at(position: Pose, origin: Pose, axis_offset: Pose) -> Self {
         Self {
@@ -326,13 +326,13 @@ impl State {
             selected_row: 0,
             current_row: 1,
             wrapped: [false; 3],
-            told: Told::default(),
+            told: ReceiverPosition::default(),
             feed_override: true,
             speed_override: true,
             adaptive_feed: false,
             feed_hold: true,
             named_axes: 0,
-            told_by: None,
+            emitting_line: None,
             spindle_row_before: None,
             machine_frame: false,
             motion_only: false,

@@ -5,7 +5,7 @@ use crate::scale::{range, short};
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::Vec3;
-use trunnion_surface::{Errors, Found, Spot};
+use trunnion_surface::{Errors, Found, PictureSample};
 
 /// Cells of the map across its longer side.
 const CELLS: usize = 150;
@@ -159,7 +159,7 @@ struct Map {
 }
 
 impl Map {
-    fn new(spots: &[Spot], view: &View) -> Self {
+    fn new(spots: &[PictureSample], view: &View) -> Self {
         let places: Vec<(f64, f64)> = spots.iter().map(|spot| view.see(&spot.place)).collect();
         let bounds = places.iter().fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |b, p| {
             [b[0].min(p.0), b[1].min(p.1), b[2].max(p.0), b[3].max(p.1)]
@@ -179,7 +179,7 @@ impl Map {
     }
 
     /// Grows the spots outwards ring by ring, so that each cell takes the spot nearest to it (within a tenth of the map).
-    fn spread(&mut self, spots: &[Spot], places: &[(f64, f64)]) {
+    fn spread(&mut self, spots: &[PictureSample], places: &[(f64, f64)]) {
         let reach = 0.1 * CELLS as f64 * self.cell;
         let mut owner: Vec<Option<(f64, usize)>> = vec![None; self.values.len()];
         let mut open = std::collections::VecDeque::new();
@@ -218,7 +218,7 @@ impl Map {
         column: usize,
         row: usize,
         index: usize,
-        spots: &[Spot],
+        spots: &[PictureSample],
         places: &[(f64, f64)],
         reach: f64,
         owner: &mut [Option<(f64, usize)>],
@@ -277,9 +277,9 @@ impl Map {
 mod tests {
     use super::*;
 
-    fn spot(x: f64, y: f64, error: f64) -> Spot {
+    fn spot(x: f64, y: f64, error: f64) -> PictureSample {
         let place = Vec3::new(x, y, 0.0);
-        Spot {
+        PictureSample {
             leg: 0,
             place,
             tip: place,

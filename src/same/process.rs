@@ -72,7 +72,7 @@ impl Process {
     }
 
     /// Whether the spindle is known to be stopped: then its speed does not matter.
-    fn spindle_stands(&self) -> bool {
+    fn spindle_is_stopped(&self) -> bool {
         matches!(self.get("spindle"), [only] if only.name == "M5")
     }
 
@@ -94,7 +94,7 @@ impl Process {
             .settings
             .keys()
             .chain(other.settings.keys().filter(|key| !self.settings.contains_key(*key)));
-        let idle = self.spindle_stands() && other.spindle_stands();
+        let idle = self.spindle_is_stopped() && other.spindle_is_stopped();
         keys.filter(|key| *key != MESSAGE && self.get(key) != other.get(key))
             .filter(|key| !(idle && (key.starts_with("speed") && !key.contains('$'))))
             .map(|key| (key.as_ref(), shown(self.get(key)), shown(other.get(key))))

@@ -101,7 +101,7 @@ impl Tally {
         let program = input.program;
         let lines = LineIndex::new(program.source());
         let mut tally = Self {
-            blocks: program.blocks().filter(|block| holds_something(block)).count() as u64,
+            blocks: program.blocks().filter(|block| has_content(block)).count() as u64,
             calls: calls(program, &lines),
             ..Self::default()
         };
@@ -145,7 +145,7 @@ impl Tally {
 }
 
 /// Whether a block has anything but blanks and comments.
-fn holds_something(block: &trunnion_syntax::Block<'_>) -> bool {
+fn has_content(block: &trunnion_syntax::Block<'_>) -> bool {
     block.items().any(|item| !matches!(item, Item::Comment(_)))
 }
 
@@ -280,7 +280,7 @@ impl Sink for Counting<'_> {
 
     fn block_done(&mut self, block: BlockId, run: &dyn ProgramRun) {
         self.stops.block_done();
-        self.tally.run += u64::from(holds_something(&self.input.program.block(block)));
+        self.tally.run += u64::from(has_content(&self.input.program.block(block)));
         if run.state().tool.number() != self.tool {
             self.tool = run.state().tool.number();
             self.tally.tool_changes += 1;

@@ -39,7 +39,7 @@ pub struct Found {
 
 /// One sample for a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
+pub struct PictureSample {
     /// Running number of the judged block.
     pub leg: u32,
     /// Where the error is reported: the required point (same place) or the surface's nearest point, mm.
@@ -75,7 +75,7 @@ pub struct Errors {
     /// Feed blocks with a same place.
     pub placed: u32,
     /// Samples for a picture.
-    pub spots: Vec<Spot>,
+    pub spots: Vec<PictureSample>,
 }
 
 /// Samples of all blocks of a run together. Where they are used up, bounds stay sound but are loose, and the verdict may be unknown.
@@ -192,7 +192,7 @@ impl<'a> Judge<'a> {
                 }
                 None => (self.required.nearest(&tip).point, near.sample(t).1),
             };
-            self.errors.spots.push(Spot { leg, place, tip, error });
+            self.errors.spots.push(PictureSample { leg, place, tip, error });
         }
     }
 

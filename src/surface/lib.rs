@@ -10,6 +10,6 @@ mod search;
 mod sheet;
 
 pub use file::{SurfaceError, required, required_stl};
-pub use judge::{Errors, Found, Judge, Options, Spot};
+pub use judge::{Errors, Found, Judge, Options, PictureSample};
 pub use mesh::{Nearest, Required, Uv};
 pub use sheet::Sheet;

@@ -39,8 +39,9 @@ impl Proof<'_> {
             on => new.motion.spindle_on == on,
         };
         let turns = old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(true);
-        let same_way = !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
-        if !same_turning || !same_speed || !same_way {
+        let same_full_turns =
+            !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
+        if !same_turning || !same_speed || !same_full_turns {
             return self.refute(is, "the spindle differs".to_owned());
         }
         let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();

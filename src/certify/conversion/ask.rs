@@ -175,7 +175,7 @@ pub(super) fn asks(
         before = one.motions;
     }
     if let Some(one) = ran.last()
-        && let Some(range) = starts_again(program, dialect, one.block)
+        && let Some(range) = runs_again(program, dialect, one.block)
     {
         all.push(Asked {
             block: one.block,
@@ -193,7 +193,7 @@ pub(super) fn asks(
 }
 
 /// M99 as the last block that runs: the program starts again, or returns to its caller.
-fn starts_again(program: &Program, dialect: &Dialect, block: BlockId) -> Option<TextRange> {
+fn runs_again(program: &Program, dialect: &Dialect, block: BlockId) -> Option<TextRange> {
     let is_iso = program.options().format == Format::Iso;
     let is = |word: &Word| match (word.address, word.value) {
         (Address::Letter(b'M'), Value::Number(number)) => number.to_integer() == Some(99),

@@ -5,7 +5,7 @@ use crate::cli::{
     render::counted,
 };
 use std::fmt::Write;
-use trunnion_diff::{Body, Change, Found, Point, TechChange, Tolerance, Way};
+use trunnion_diff::{Body, Change, Found, PathKind, Point, TechChange, Tolerance};
 use trunnion_interp::AXIS_LETTERS;
 use trunnion_same::Verdict;
 use trunnion_syntax::{BlockId, LineIndex};
@@ -169,7 +169,7 @@ pub(super) fn moved(a: &Point, b: &Point) -> String {
         }
     }
     match (a.way, b.way) {
-        (Way::Arc(Some(from)), Way::Arc(Some(to))) if from != to => {
+        (PathKind::Arc(Some(from)), PathKind::Arc(Some(to))) if from != to => {
             let _ = write!(
                 text,
                 " centre {} -> {} mm, sweep {} -> {} deg",
@@ -179,7 +179,7 @@ pub(super) fn moved(a: &Point, b: &Point) -> String {
                 short(to.2)
             );
         }
-        (Way::Dwell(from), Way::Dwell(to)) => {
+        (PathKind::Dwell(from), PathKind::Dwell(to)) => {
             let seconds = |time: Option<f64>| time.map_or("unknown".to_owned(), |time| format!("{} s", short(time)));
             let _ = write!(text, " {} -> {}", seconds(from), seconds(to));
         }

@@ -1,5 +1,5 @@
 //! Calls, repeated sections and bounds.
-use super::{Course, Ends, Fuel, Going};
+use super::{BlockBudget, Course, Ends, PendingCall};
 use crate::{ChainId, Frame};
 use trunnion_syntax::TextRange;
 
@@ -12,8 +12,8 @@ fn frame() -> Frame {
     }
 }
 
-fn going(from: u32, file: u16, start: u32, times: u32, ends: Ends) -> Going<&'static str> {
-    Going {
+fn going(from: u32, file: u16, start: u32, times: u32, ends: Ends) -> PendingCall<&'static str> {
+    PendingCall {
         from,
         back: from + 1,
         file,
@@ -33,10 +33,10 @@ fn a_loop_without_a_change_is_endless() {
     assert!(course.is_again(2));
     course.open_loop(2);
     course.close_loop(9, 2, 6);
-    assert_eq!(course.count(100), Fuel::Left, "something has changed");
+    assert_eq!(course.count(100), BlockBudget::Left, "something has changed");
     course.open_loop(2);
     course.close_loop(9, 2, 6);
-    let out = Fuel::Out {
+    let out = BlockBudget::Out {
         most: Some((0, 2)),
         proved: true,
         blocks: 1,
@@ -51,8 +51,8 @@ fn the_bound_names_the_loop_that_ran_most() {
         course.jump_back(9, 2, changes);
     }
     course.jump_back(9, 7, 0);
-    assert_eq!(course.count(1), Fuel::Left);
-    let out = Fuel::Out {
+    assert_eq!(course.count(1), BlockBudget::Left);
+    let out = BlockBudget::Out {
         most: Some((0, 2)),
         proved: false,
         blocks: 1,

@@ -95,7 +95,7 @@ fn items(record: &Record<'_>) -> Option<Vec<Item>> {
 
 /// What the words of a record say, in its own unit.
 #[derive(Default)]
-struct Said {
+struct WordValue {
     depth: Option<f64>,
     clear: Option<f64>,
     rapid_to: Option<f64>,
@@ -160,8 +160,8 @@ pub(crate) fn hole(record: &Record<'_>, unit: f64) -> Result<Hole, String> {
 }
 
 /// Reads words with the number after each, and numbers by their places.
-fn said(items: &[Item], kind: &str, unit: f64) -> Result<Said, String> {
-    let mut said = Said::default();
+fn said(items: &[Item], kind: &str, unit: f64) -> Result<WordValue, String> {
+    let mut said = WordValue::default();
     let mut rest = items.iter().peekable();
     // numbers before the first word
     let mut places = Vec::new();
@@ -224,7 +224,7 @@ fn said(items: &[Item], kind: &str, unit: f64) -> Result<Said, String> {
 }
 
 /// z, f and the unit of f, then r (of a tap after its threads per inch) and the step of a deep hole.
-fn by_places(said: &mut Said, places: &[f64], unit: Option<(FeedMode, f64)>, kind: &str) -> Result<(), String> {
+fn by_places(said: &mut WordValue, places: &[f64], unit: Option<(FeedMode, f64)>, kind: &str) -> Result<(), String> {
     let unit = unit.ok_or("a feed without its unit")?;
     let (&[depth, value], more) = places.split_first_chunk::<2>().ok_or("too few numbers")?;
     said.depth = Some(depth);

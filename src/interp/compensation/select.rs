@@ -4,7 +4,7 @@ use crate::FaultKind;
 use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 
 impl<'d> Iso<'d> {
     /// G41 (41) or G42 (42).
@@ -21,11 +21,11 @@ impl<'d> Iso<'d> {
         }
         let d = words.letter(b'D');
         let old = self.memory.compensation.d;
-        if d.is_said() {
+        if d.is_given() {
             self.memory.compensation.d = d.index();
         }
         let d = match d {
-            Said::Nothing => old,
+            WordValue::Nothing => old,
             said => said.index(),
         };
         if before != 0 {
@@ -62,7 +62,7 @@ impl<'d> Iso<'d> {
     /// D in a block of its own, while compensation is on.
     pub(crate) fn cutter_number(&mut self, words: &Words, report: &mut Report<'_>) {
         let d = words.letter(b'D');
-        if !d.is_said() || self.core.state.compensation == 0 || d.index() == self.memory.compensation.d {
+        if !d.is_given() || self.core.state.compensation == 0 || d.index() == self.memory.compensation.d {
             return;
         }
         self.memory.compensation.d = d.index();

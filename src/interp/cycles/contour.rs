@@ -5,7 +5,7 @@
 use crate::Sink;
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
 use trunnion_flow::{Key, Search};
 use trunnion_syntax::{BlockId, Item, Program};
@@ -58,8 +58,8 @@ impl Iso<'_> {
         let here = report.block.0;
         let follows = is_next(program, here, first);
         let mut found = self.run_blocks(program, first, last, None);
-        if !self.memory.contours_told.contains(&first) {
-            self.memory.contours_told.push(first);
+        if !self.memory.contours_reported.contains(&first) {
+            self.memory.contours_reported.push(first);
             for fault in std::mem::take(&mut found.faults) {
                 (report.faults)(fault);
             }
@@ -144,7 +144,7 @@ impl Iso<'_> {
 
     /// First and last block of the contour.
     fn contour_blocks(&mut self, program: &Program, words: &Words, report: &mut Report<'_>) -> Option<(u32, u32)> {
-        let number = |said: Said| said.index();
+        let number = |said: WordValue| said.index();
         let numbers = (number(words.p), number(words.letter(b'Q')));
         let (Some(first), Some(last)) = numbers else {
             let message = format!(

@@ -90,7 +90,7 @@ impl Iso<'_> {
         let z_said = (words.axes.given | words.axes.unread) & (1 << axis) != 0;
         let bottom = stored(z_said, z, incremental);
         let r = words.radius.number().map(|number| number.value * unit);
-        let r = stored(words.radius.is_said(), r, incremental);
+        let r = stored(words.radius.is_given(), r, incremental);
         let q = self.length_word(words, b'Q');
         // P of a call is a program
         let p = words.p.number().filter(|_| !words.flow);

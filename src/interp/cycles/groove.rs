@@ -6,7 +6,7 @@
 //! described differently, so that is unknown.
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 
@@ -35,14 +35,14 @@ struct GrooveWords {
     letters: [u8; 2],
     /// mm.
     steps: [Option<f64>; 2],
-    relief: Said,
+    relief: WordValue,
 }
 
 impl Iso<'_> {
     /// G74 and G75: the first of two blocks says the lift, the second the rest.
     pub(super) fn peck_groove(&mut self, action: Action, words: &Words, report: &mut Report<'_>) {
         if !words.axes.any() {
-            if words.radius.is_said() {
+            if words.radius.is_given() {
                 self.memory.cycle.kept.lift = self.length_word(words, b'R').map(f64::abs);
             }
             return;
@@ -62,8 +62,9 @@ impl Iso<'_> {
             steps,
             relief,
         } = self.groove_words(action, words);
-        let unread = in_one && (0..2).any(|place| steps[place].is_none() && words.letter(letters[place]).is_said());
-        if !named(axes[0]) || !unread && steps[0].is_none_or(|step| step == 0.0) && words.letter(letters[0]).is_said() {
+        let unread = in_one && (0..2).any(|place| steps[place].is_none() && words.letter(letters[place]).is_given());
+        if !named(axes[0]) || !unread && steps[0].is_none_or(|step| step == 0.0) && words.letter(letters[0]).is_given()
+        {
             let message = format!(
                 "{} without the end of its cut, or with a step of 0",
                 self.memory.cycle.id
@@ -76,7 +77,7 @@ impl Iso<'_> {
         let known = axes
             .iter()
             .all(|&axis| start.get(axis).is_some() && end.get(axis).is_some());
-        let relieved = relief.is_said() && relief.number().is_none_or(|number| number.value != 0.0);
+        let relieved = relief.is_given() && relief.number().is_none_or(|number| number.value != 0.0);
         let control = self.core.setup.control.chip_break_retract_mm;
         let lift = if in_one { control } else { self.memory.cycle.kept.lift };
         let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
@@ -101,7 +102,7 @@ impl Iso<'_> {
         if let Some(why) = why {
             let what = format!("{} {why}", self.memory.cycle.id);
             if known {
-                return self.somehow_back(&what, start, report);
+                return self.unknown_path_to_start(&what, start, report);
             }
             report.fault(report.whole(), FaultKind::NotModelled { what });
             return self.nowhere(start, report);
@@ -120,7 +121,7 @@ impl Iso<'_> {
     /// Two blocks: P and Q, a radius and a length; in one block (Haas; Fanuc Series 10/11 format) I is the step of X as a radius, K that
     /// of Z, D the relief.
     fn groove_words(&self, action: Action, words: &Words) -> GrooveWords {
-        let in_one = [b'I', b'K', b'D'].iter().any(|&letter| words.letter(letter).is_said());
+        let in_one = [b'I', b'K', b'D'].iter().any(|&letter| words.letter(letter).is_given());
         let mut letters = if in_one { [b'I', b'K'] } else { [b'P', b'Q'] };
         if action == Action::FacePeckCycle {
             letters.reverse();

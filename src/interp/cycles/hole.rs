@@ -3,7 +3,7 @@ use super::data::Stored;
 use crate::arc::plane_axes;
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 
@@ -31,8 +31,8 @@ impl Iso<'_> {
         self.store_hole(words, axis);
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
-            _ if words.flow && words.p.is_said() => Some(1),
-            Said::Nothing => Some(1),
+            _ if words.flow && words.p.is_given() => Some(1),
+            WordValue::Nothing => Some(1),
             said => said.index().filter(|&count| count <= MOST_REPEATS),
         };
         let Some(repeats) = repeats else {

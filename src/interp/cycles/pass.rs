@@ -100,7 +100,7 @@ impl Iso<'_> {
                 };
             }
         }
-        if words.radius.is_said() {
+        if words.radius.is_given() {
             let taper = words
                 .radius
                 .number()
@@ -117,7 +117,7 @@ impl Iso<'_> {
         let (Some(leads), Feed::PerRevolution(lead)) = (self.core.setup.control.thread_pull_out, lead) else {
             let why =
                 "whether the tool pulls out before the end of the thread (declare [control] thread_pull_out, in leads)";
-            return self.not_worked_out(why, report);
+            return self.report_not_modelled(why, report);
         };
         let [((x0, z0), _), ((x, z), _), _, (start, _)] = corners[..] else {
             return;
@@ -131,7 +131,7 @@ impl Iso<'_> {
             ((x + (x0 - x) * share, z + (z0 - z) * share), MotionKind::Linear),
             (start, MotionKind::Unknown),
         ];
-        self.not_worked_out(
+        self.report_not_modelled(
             "the shape of its pull-out (parameter 5131), and the return after it",
             report,
         );

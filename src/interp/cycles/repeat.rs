@@ -44,7 +44,7 @@ impl Repeated {
     /// Whether all of X, Z, U, W and R in a block of the cycle are lengths (R of the first block of G73 counts).
     pub(crate) fn has_coordinates(self, words: &Words) -> bool {
         match self.action {
-            Action::PatternRepeatCycle => words.p.is_said(),
+            Action::PatternRepeatCycle => words.p.is_given(),
             Action::FinishCycle => false,
             _ => true,
         }
@@ -72,7 +72,7 @@ impl Iso<'_> {
             Action::FacePeckCycle | Action::GroovePeckCycle => self.peck_groove(repeated.action, words, report),
             Action::ThreadRepeatCycle => self.thread_repeat(words, report),
             Action::FinishCycle => self.along_contour(repeated.action, words, report),
-            _ if !words.p.is_said() && !words.letter(b'Q').is_said() => self.keep_repeat(repeated.action, words),
+            _ if !words.p.is_given() && !words.letter(b'Q').is_given() => self.keep_repeat(repeated.action, words),
             _ => self.along_contour(repeated.action, words, report),
         }
     }
@@ -134,7 +134,7 @@ impl Iso<'_> {
     /// G73: along the contour, each run nearer by the same step.
     fn pattern_repeat(&mut self, contour: &Contour, start: Position, words: &Words, report: &mut Report<'_>) {
         let kept = self.memory.cycle.kept;
-        let in_one = words.letter(b'D').is_said();
+        let in_one = words.letter(b'D').is_given();
         let (relief, runs) = if in_one {
             self.pattern_in_one(words)
         } else {
@@ -150,17 +150,17 @@ impl Iso<'_> {
                     "U, W and at least two passes (R of its first block)"
                 }
             );
-            return self.somehow_back(&what, start, report);
+            return self.unknown_path_to_start(&what, start, report);
         };
         let Some(allowance) = self.allowance(words) else {
             let what = format!("{} with an unknown allowance", self.memory.cycle.id);
-            return self.somehow_back(&what, start, report);
+            return self.unknown_path_to_start(&what, start, report);
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);
         for run in 0..runs {
             if self.is_full() {
                 let what = format!("{}: {}", self.memory.cycle.id, self.full());
-                return self.somehow_back(&what, start, report);
+                return self.unknown_path_to_start(&what, start, report);
             }
             let left = 1.0 - f64::from(run) / f64::from(runs - 1);
             let by = [allowance[0] + x * left, allowance[1] + z * left];
@@ -176,7 +176,7 @@ impl Iso<'_> {
     /// G73 in one block (Haas; Fanuc Series 10/11 format): I and K the distance of the first run from the last, D the number of runs.
     fn pattern_in_one(&self, words: &Words) -> (Option<[f64; 2]>, Option<u32>) {
         let length = |letter| match self.length_word(words, letter) {
-            None if words.letter(letter).is_said() => None,
+            None if words.letter(letter).is_given() => None,
             length => Some(length.unwrap_or(0.0)),
         };
         let relief = length(b'I').zip(length(b'K')).map(|(x, z)| [x, z]);
@@ -208,14 +208,14 @@ impl Iso<'_> {
     /// U and W, mm; 0 where they are not programmed, `None` where one of them is unknown.
     fn lengths(&self, words: &Words) -> Option<[f64; 2]> {
         let length = |letter| match self.length_word(words, letter) {
-            None if words.letter(letter).is_said() => None,
+            None if words.letter(letter).is_given() => None,
             length => Some(length.unwrap_or(0.0)),
         };
         Some([length(b'U')?, length(b'W')?])
     }
 
     /// The path of a cycle is unknown; it ends where it began.
-    pub(super) fn somehow_back(&mut self, what: &str, start: Position, report: &mut Report<'_>) {
+    pub(super) fn unknown_path_to_start(&mut self, what: &str, start: Position, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
         let orientation = self.core.held_orientation();
         // a cycle that stops half way has already moved the tool

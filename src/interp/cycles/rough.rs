@@ -54,7 +54,7 @@ impl Iso<'_> {
     pub(super) fn keep_roughing(&mut self, action: Action, words: &Words) {
         let depth = if action == Action::RoughFaceCycle { b'W' } else { b'U' };
         for (letter, escape) in [(depth, false), (b'R', true)] {
-            if words.letter(letter).is_said() {
+            if words.letter(letter).is_given() {
                 let value = self.length_word(words, letter);
                 let roughing = &mut self.memory.cycle.kept.roughing;
                 if escape {
@@ -84,7 +84,7 @@ impl Iso<'_> {
                     "cuts of {}: {why}; the cycle is taken to end where it started",
                     self.memory.cycle.id
                 );
-                self.somehow_back(&what, start, report);
+                self.unknown_path_to_start(&what, start, report);
             }
         }
     }
@@ -180,13 +180,13 @@ impl Iso<'_> {
     fn roughing_data(&self, words: &Words) -> Result<(f64, f64), &'static str> {
         let set = self.core.setup.control.roughing_retract_mm;
         let kept = self.memory.cycle.kept.roughing;
-        if words.letter(b'R').is_said() {
+        if words.letter(b'R').is_given() {
             return Err("R in the block with P and Q");
         }
-        if [b'I', b'K'].iter().any(|&letter| words.letter(letter).is_said()) {
+        if [b'I', b'K'].iter().any(|&letter| words.letter(letter).is_given()) {
             return Err("with an allowance for a cut before the last (I, K)");
         }
-        if words.letter(b'D').is_said() {
+        if words.letter(b'D').is_given() {
             let depth = self.one_block_length(words, b'D').filter(|depth| *depth > 0.0);
             let depth =
                 depth.ok_or("the format in one block: its depth of cut (D) is not above 0, or has no decimal point")?;
@@ -261,7 +261,7 @@ impl Iso<'_> {
         while cut * plan.depth < plan.full - 1e-4 {
             if self.is_full() {
                 let what = format!("{}: {}", self.memory.cycle.id, self.full());
-                return self.somehow_back(&what, start, report);
+                return self.unknown_path_to_start(&what, start, report);
             }
             let depth = cut * plan.depth;
             cut += 1.0;
@@ -289,11 +289,11 @@ impl Iso<'_> {
         self.rapid_straight(start, report);
         if missed {
             let why = "cuts that miss its contour, run along part of it, or are shorter than the escape";
-            self.not_worked_out(why, report);
+            self.report_not_modelled(why, report);
         }
         if lifted && lift == MotionKind::Unknown {
             let why = "whether the tool leaves its cuts at feed or in rapid (declare [control] roughing_escape)";
-            self.not_worked_out(why, report);
+            self.report_not_modelled(why, report);
         }
     }
 
@@ -313,7 +313,7 @@ impl Iso<'_> {
     }
 
     /// Reports what is unknown about a cycle.
-    pub(super) fn not_worked_out(&self, why: &str, report: &mut Report<'_>) {
+    pub(super) fn report_not_modelled(&self, why: &str, report: &mut Report<'_>) {
         let what = format!("{}: {why}", self.memory.cycle.id);
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }

@@ -78,13 +78,13 @@ impl Iso<'_> {
                     "passes of {}: {why}; the cycle is taken to end where it started",
                     self.memory.cycle.id
                 );
-                self.somehow_back(&what, start, report);
+                self.unknown_path_to_start(&what, start, report);
             }
         }
     }
 
     fn keep_thread(&mut self, words: &Words) {
-        if words.p.is_said() {
+        if words.p.is_given() {
             let digits = words
                 .p
                 .number()
@@ -96,10 +96,10 @@ impl Iso<'_> {
                 [value / 10_000, value / 100 % 100, value % 100]
             });
         }
-        if words.letter(b'Q').is_said() {
+        if words.letter(b'Q').is_given() {
             self.memory.cycle.kept.thread.least = self.increment_word(words, b'Q');
         }
-        if words.radius.is_said() {
+        if words.radius.is_given() {
             self.memory.cycle.kept.thread.allowance = self.length_word(words, b'R').filter(|value| *value >= 0.0);
         }
     }
@@ -108,7 +108,7 @@ impl Iso<'_> {
     fn plan_thread(&self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
         let data = if [b'A', b'D', b'I', b'K']
             .iter()
-            .any(|&letter| words.letter(letter).is_said())
+            .any(|&letter| words.letter(letter).is_given())
         {
             self.thread_in_one(words)?
         } else {
@@ -176,7 +176,7 @@ impl Iso<'_> {
             return Err("no finishing pass, or an angle other than 0, 29, 30, 55, 60 or 80");
         }
         let taper = match self.length_word(words, b'R') {
-            None if words.radius.is_said() => return Err("its taper (R) is unknown"),
+            None if words.radius.is_given() => return Err("its taper (R) is unknown"),
             taper => taper.unwrap_or(0.0),
         };
         let size = |letter| self.increment_word(words, letter).filter(|size| *size > 0.0);
@@ -199,7 +199,7 @@ impl Iso<'_> {
     /// beginning less that at the end, A the angle of the tool, P the way of cutting. One pass at the whole height ends it where the
     /// control leaves an allowance.
     fn thread_in_one(&self, words: &Words) -> Result<Data, &'static str> {
-        if words.p.is_said() && words.p.index() != Some(1) {
+        if words.p.is_given() && words.p.index() != Some(1) {
             return Err("a way of cutting (P) other than 1");
         }
         let size = |letter| self.one_block_length(words, letter).filter(|size| *size > 0.0);
@@ -209,12 +209,12 @@ impl Iso<'_> {
             );
         };
         let taper = match self.length_word(words, b'I') {
-            None if words.letter(b'I').is_said() => return Err("its taper (I) is unknown"),
+            None if words.letter(b'I').is_given() => return Err("its taper (I) is unknown"),
             taper => taper.unwrap_or(0.0),
         };
         let angle = words.letter(b'A');
         let angle = match angle.number() {
-            None if angle.is_said() => return Err("the angle of its tool (A) is unknown"),
+            None if angle.is_given() => return Err("the angle of its tool (A) is unknown"),
             angle => angle.map_or(0.0, |angle| angle.value),
         };
         let control = &self.core.setup.control;
@@ -274,13 +274,13 @@ impl Iso<'_> {
             }
         }
         if plan.flank {
-            self.not_worked_out(
+            self.report_not_modelled(
                 "where in Z its cuts start, which feed in along the flank (tool angle greater than 0)",
                 report,
             );
         }
         if plan.pull_out > 0.0 {
-            self.not_worked_out(
+            self.report_not_modelled(
                 "the shape of its pull-out (parameter 5131), and the return after it",
                 report,
             );

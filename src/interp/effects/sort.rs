@@ -1,7 +1,7 @@
 //! The purpose of a code in a comparison, and the words that belong to it.
 use crate::codes::Found;
 use crate::tools::Chosen;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::written::call_argument;
 use crate::{Argument, Value};
 use trunnion_dialect::{Action, CodeKind};
@@ -89,7 +89,7 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         Action::CompensationLeft | Action::CompensationRight | Action::CompensationOff => Sort::Setting("compensation"),
         // a limit of the spindle's speed
         Action::PositionSet | Action::NotFollowed | Action::FrameChange
-            if !words.axes.any() && words.speed.is_said() =>
+            if !words.axes.any() && words.speed.is_given() =>
         {
             Sort::Setting("speed limit")
         }
@@ -161,15 +161,15 @@ pub(super) fn arguments(words: &Words, letters: u32) -> impl Iterator<Item = Arg
 pub(super) fn all_arguments(words: &Words) -> impl Iterator<Item = Argument> {
     LETTERS.iter().filter_map(|letter| {
         let value = words.letter(letter.as_bytes()[0]);
-        (value.is_said() && !matches!(*letter, "S" | "T")).then(|| said(letter, value))
+        (value.is_given() && !matches!(*letter, "S" | "T")).then(|| said(letter, value))
     })
 }
 
-pub(super) fn said(name: &'static str, said: Said) -> Argument {
+pub(super) fn said(name: &'static str, said: WordValue) -> Argument {
     match said {
-        Said::Nothing => Argument::code(name),
-        Said::Number(number) => Argument::number(name, number.value),
-        Said::Name(_) | Said::Unread => Argument::text(name, "unknown"),
+        WordValue::Nothing => Argument::code(name),
+        WordValue::Number(number) => Argument::number(name, number.value),
+        WordValue::Name(_) | WordValue::Unread => Argument::text(name, "unknown"),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::iso::Iso;
 use crate::macro_b::ProgramName;
 use crate::{Argument, Sink};
 use crate::{FaultKind, Frame, sinumerik};
-use trunnion_flow::{Ends, Going, Key};
+use trunnion_flow::{Ends, Key, PendingCall};
 use trunnion_syntax::{BlockId, TextRange};
 
 /// Where a called program was found: file and block; else the folders that were searched.
@@ -112,7 +112,7 @@ impl Iso<'_> {
     fn push_call(&mut self, level: Level, times: u32, (file, start): (u16, u32), running: &Running<'_>, from: u32) {
         let (chain, back) = (self.core.chain, self.flow.next);
         let Some(trail) = &mut self.flow.trail else { return };
-        let going = Going {
+        let going = PendingCall {
             from,
             back,
             file,

@@ -5,7 +5,7 @@ use crate::Sink;
 use crate::iso::Iso;
 use crate::{Fault, FaultKind, Frame};
 use std::sync::Arc;
-use trunnion_flow::{Called, Fuel};
+use trunnion_flow::{BlockBudget, Called};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// The program that runs: the main one, or one that it calls from another file.
@@ -40,7 +40,7 @@ impl Iso<'_> {
         let called = trail.called();
         let block = if called.is_none() { BlockId(next) } else { place.main };
         let fuel = trail.course.count(limit);
-        if fuel != Fuel::Left {
+        if fuel != BlockBudget::Left {
             self.out_of_fuel(fuel, main, sink);
             return Some(block);
         }
@@ -51,7 +51,7 @@ impl Iso<'_> {
         self.flow.next = next + 1;
         let content = self.core.last_content;
         let mut through = Through {
-            told: std::mem::take(&mut trail.told),
+            reported: std::mem::take(&mut trail.reported),
             again: called.is_none() && trail.course.has_run(next),
             place,
             called: running.called,
@@ -64,9 +64,9 @@ impl Iso<'_> {
         }
         self.step_iso(&running.program().block(BlockId(next)), &mut through);
         self.core.chain = calls;
-        let (told, moved) = (through.told, through.moved);
+        let (reported, moved) = (through.reported, through.moved);
         if let Some(trail) = &mut self.flow.trail {
-            trail.told = told;
+            trail.reported = reported;
         }
         if running.called.is_some() {
             self.core.last_content = content;
@@ -154,7 +154,7 @@ impl Iso<'_> {
     ) {
         let Some(trail) = &mut self.flow.trail else { return };
         let mut through = Through {
-            told: std::mem::take(&mut trail.told),
+            reported: std::mem::take(&mut trail.reported),
             again: false,
             place: trail.course.place(),
             called: running.called,
@@ -166,13 +166,13 @@ impl Iso<'_> {
             range,
             kind,
         });
-        trail.told = through.told;
+        trail.reported = through.reported;
     }
 
     /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that was repeated most often does not end.
-    fn out_of_fuel(&mut self, fuel: Fuel, main: &Program, sink: &mut impl Sink) {
+    fn out_of_fuel(&mut self, fuel: BlockBudget, main: &Program, sink: &mut impl Sink) {
         self.stop();
-        if let (Some(trail), Fuel::Out { most, proved, blocks }) = (&self.flow.trail, fuel) {
+        if let (Some(trail), BlockBudget::Out { most, proved, blocks }) = (&self.flow.trail, fuel) {
             let place = trail.course.place();
             let block = match most {
                 Some((0, block)) => BlockId(block),

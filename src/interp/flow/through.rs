@@ -1,13 +1,13 @@
 //! The sink between a block that runs in a call or a loop and the sink of the run: it reports each fault once, and gives events in
 //! another file a place in the main program.
-use super::told::{Told, is_textual};
+use super::reported::{ReportedFaults, is_textual};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Sink};
 use trunnion_flow::{Called, Place};
 
 /// See the module.
 pub(crate) struct Through<'s, S> {
     pub(crate) sink: &'s mut S,
-    pub(crate) told: Told,
+    pub(crate) reported: ReportedFaults,
     pub(crate) place: Place,
     /// The file that contains the block, unless it is the main program's.
     pub(crate) called: Option<&'s Called>,
@@ -28,7 +28,7 @@ impl<S: Sink> Sink for Through<'_, S> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        if !self.told.is_new(self.place.file, &fault, self.again) {
+        if !self.reported.is_new(self.place.file, &fault, self.again) {
             return;
         }
         let Some(called) = self.called else {

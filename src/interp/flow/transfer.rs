@@ -5,7 +5,7 @@ use crate::iso::Iso;
 use crate::macro_b::{Mistake, rejected};
 use crate::{FaultKind, Refusal, sinumerik};
 use std::sync::Arc;
-use trunnion_flow::{Ends, Going, Key, Search};
+use trunnion_flow::{Ends, Key, PendingCall, Search};
 use trunnion_syntax::{Program, TextRange};
 
 impl Iso<'_> {
@@ -181,7 +181,7 @@ impl Iso<'_> {
         let (chain, back) = (self.core.chain, self.flow.next);
         let Some(trail) = &mut self.flow.trail else { return };
         let place = trail.course.place();
-        let going = Going {
+        let going = PendingCall {
             from,
             back,
             file: place.file,

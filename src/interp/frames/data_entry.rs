@@ -2,7 +2,7 @@
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, Refusal, Setup, Undeclared};
 use trunnion_dialect::Action;
 
@@ -68,7 +68,7 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         block.takes_coordinates = true;
-        let unread = words.axes.unread != 0 || matches!(words.p, Said::Unread);
+        let unread = words.axes.unread != 0 || matches!(words.p, WordValue::Unread);
         let (l, p) = (words.letter(b'L').index(), words.p.index());
         match (l, p) {
             (Some(2), Some(0..=6)) if !unread => self.write_offset(words, p.unwrap_or(0), false),

@@ -102,7 +102,7 @@ impl<'d> Iso<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        if words.speed.is_said() {
+        if words.speed.is_given() {
             let limit = words.speed.number().map_or(f64::NAN, |number| number.value);
             self.core.state.spindle.limit(limit);
             if !words.axes.any() {

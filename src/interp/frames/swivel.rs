@@ -4,7 +4,7 @@ use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::core::{LINEAR, ROTARY};
 use crate::iso::Iso;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, Feed, ImplicitDecimals, Motion, MotionKind, Orientation, Posture, RollPitchYaw, Swivel};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
@@ -86,7 +86,7 @@ impl<'d> Iso<'d> {
     fn plane_turns(&self, words: &Words, report: &mut Report<'_>) -> Option<[(usize, f64); 3]> {
         let implicit = self.core.setup.control.implicit_decimals;
         let angle = |letter| match words.letter(letter) {
-            Said::Nothing => Some(0.0),
+            WordValue::Nothing => Some(0.0),
             said => said.number().map(|number| match implicit {
                 Some(ImplicitDecimals::LeastIncrement) if !number.has_point => number.value / 1000.0,
                 _ => number.value,
@@ -99,22 +99,22 @@ impl<'d> Iso<'d> {
         if let (None, Some(whole)) = (implicit, said.find(|number| !number.has_point && number.value != 0.0)) {
             report.fault(whole.range, FaultKind::AmbiguousDecimal);
         }
-        if words.radius.is_said() {
+        if words.radius.is_given() {
             return None;
         }
         match words.letter(b'P') {
-            Said::Nothing => {}
+            WordValue::Nothing => {}
             said => match said.index()? {
                 0 => {}
                 1 => return self.roll_pitch_yaw([i, j, k], words.letter(b'Q')),
                 _ => return None,
             },
         }
-        (!words.letter(b'Q').is_said()).then_some([(2, i), (0, j), (2, k)])
+        (!words.letter(b'Q').is_given()).then_some([(2, i), (0, j), (2, k)])
     }
 
     /// G68.2 P1: turns about X, Y, Z by I, J, K in the order that Q gives (Q123: first X).
-    fn roll_pitch_yaw(&self, angles: [f64; 3], order: Said) -> Option<[(usize, f64); 3]> {
+    fn roll_pitch_yaw(&self, angles: [f64; 3], order: WordValue) -> Option<[(usize, f64); 3]> {
         let turn = |axis: usize| (axis, angles[axis]);
         if angles.iter().filter(|angle| **angle != 0.0).count() <= 1 {
             return Some([turn(0), turn(1), turn(2)]);
@@ -141,7 +141,7 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let posture = match words.letter(b'P') {
-            Said::Nothing => Some(Posture::ByRule),
+            WordValue::Nothing => Some(Posture::ByRule),
             // the machine file declares which of the solutions a number means
             said => said
                 .index()

@@ -105,7 +105,7 @@ impl<'d> Iso<'d> {
     fn scale_factors(&self, words: &Words) -> Option<[f64; 3]> {
         let plain = self.core.dialect.quirks.plain_scale_factor;
         let factor = |letter: u8| match words.letter(letter) {
-            crate::words::Said::Nothing => Some(None),
+            crate::words::WordValue::Nothing => Some(None),
             said => {
                 let number = said.number().filter(|number| plain || number.has_point)?;
                 (number.value != 0.0).then_some(Some(number.value))

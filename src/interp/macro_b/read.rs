@@ -8,7 +8,7 @@ use super::{Deep, FlowCode};
 use crate::flow::{Label, Transfer};
 use crate::frames::Frames;
 use crate::reader::{LARGEST, Reader};
-use crate::words::{Number, Said};
+use crate::words::{Number, WordValue};
 use crate::{FaultKind, ModalState, Refusal, Setup};
 use std::cell::Cell;
 use trunnion_dialect::{Action, Code, CodeKind, Dialect};
@@ -110,13 +110,13 @@ impl Macros<'_> {
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// The value of a word that is an expression; `Nothing` where it is `<vacant>`: the control then takes the word as not written.
-    pub(crate) fn macro_value(&mut self, word: &Word, range: TextRange) -> Said {
+    pub(crate) fn macro_value(&mut self, word: &Word, range: TextRange) -> WordValue {
         let Some(macros) = &mut self.macros else {
-            return Said::Unread;
+            return WordValue::Unread;
         };
         match macros.value(self.dialect, self.program, range, Form::Value) {
-            Ok((None, _)) => Said::Nothing,
-            Ok((Some(value), _)) if value.abs() <= LARGEST => Said::Number(Number {
+            Ok((None, _)) => WordValue::Nothing,
+            Ok((Some(value), _)) if value.abs() <= LARGEST => WordValue::Number(Number {
                 value,
                 // a variable is taken as written with a decimal point; P has none
                 has_point: word.address != Address::Letter(b'P') || value.fract() != 0.0,
@@ -126,11 +126,11 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 if let Some(what) = reason {
                     (self.report)(word.value_range, FaultKind::NotModelled { what });
                 }
-                Said::Unread
+                WordValue::Unread
             }
             Err((range, kind)) => {
                 (self.report)(range, kind);
-                Said::Unread
+                WordValue::Unread
             }
         }
     }
@@ -138,8 +138,8 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// A code whose number is an expression, in tenths: `G#1`. `None`: `<vacant>`, unknown, or not a code number.
     pub(crate) fn macro_code(&mut self, word: &Word, range: TextRange) -> Option<u32> {
         match self.macro_value(word, range) {
-            Said::Nothing => None,
-            Said::Number(number) if number.value >= 0.0 => {
+            WordValue::Nothing => None,
+            WordValue::Number(number) if number.value >= 0.0 => {
                 let tenths = (number.value * 10.0).round();
                 ((tenths - number.value * 10.0).abs() < 1e-6 && tenths < 1e5).then_some(tenths as u32)
             }

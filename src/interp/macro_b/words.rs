@@ -10,7 +10,7 @@ use crate::core::Report;
 use crate::flow::{Back, Calling, Transfer, With as Handed};
 use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::words::{Said, Words};
+use crate::words::{WordValue, Words};
 use crate::{FaultKind, Refusal};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_flow::Key;
@@ -184,13 +184,13 @@ impl<'d> Iso<'d> {
             }
             FlowCode::Call | FlowCode::CallLocal | FlowCode::CallExternal => {
                 let l = words.letter(b'L');
-                if matches!(words.p, Said::Unread) || matches!(l, Said::Unread) {
+                if matches!(words.p, WordValue::Unread) || matches!(l, WordValue::Unread) {
                     let what = "the numbers of the call".to_owned();
                     report.fault(range, FaultKind::NotDecided { what });
                     deep.pending = Some(Transfer::End);
                     return;
                 }
-                let times = l.is_said().then(|| l.number().map(|number| number.value));
+                let times = l.is_given().then(|| l.number().map(|number| number.value));
                 (words.p.number().map(|number| number.value), times, None)
             }
         };

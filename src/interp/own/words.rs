@@ -2,7 +2,7 @@
 use crate::FaultKind;
 use crate::reader::Reader;
 use crate::values::READINGS;
-use crate::words::{Number, Reading, Said};
+use crate::words::{Number, Reading, WordValue};
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
@@ -71,7 +71,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     }
 
     /// `IC(R1+2)`.
-    pub(crate) fn own_place(&self, word: &Word) -> Option<(Said, Reading)> {
+    pub(crate) fn own_place(&self, word: &Word) -> Option<(WordValue, Reading)> {
         let Value::Expression(_) = word.value else { return None };
         let own = self.own.as_ref()?;
         let text = self.text(word.value_range);
@@ -84,6 +84,6 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             has_point: true,
             range: word.range,
         };
-        Some((Said::Number(number), *reading))
+        Some((WordValue::Number(number), *reading))
     }
 }

@@ -1,8 +1,8 @@
 //! Canonical calls of LinuxCNC's interpreter become motions and modal state.
+use super::call_state::CallState;
 use super::chords::chords;
 use super::faults::{fault_of, placed};
 use super::frames::Shift;
-use super::told::Told;
 use crate::core::Core;
 use crate::{Fault, FaultKind, Feed, Motion, MotionKind, Orientation, Position, Sink};
 use trunnion_geometry::Vec3;
@@ -19,7 +19,7 @@ const SPLINE_TOLERANCE_MM: f64 = 0.001;
 /// Receives canonical calls.
 pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
     pub(super) core: &'i mut Core<'d>,
-    pub(super) told: &'i mut Told,
+    pub(super) calls: &'i mut CallState,
     pub(super) program: &'p Program,
     pub(super) sink: &'i mut S,
 }
@@ -29,18 +29,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn block(&self, at: At) -> BlockId {
         if at.file == FileId::MAIN {
             let last = (self.program.block_count() as u32).saturating_sub(1);
-            let block = match &self.told.blocks {
+            let block = match &self.calls.blocks {
                 None => at.line.min(last),
                 Some(blocks) => blocks.get(at.line as usize).copied().unwrap_or(last),
             };
             return BlockId(block);
         }
-        self.told.places.caller(at.chain)
+        self.calls.places.caller(at.chain)
     }
 
     /// The offsets that the machine knows.
     pub(super) fn shift(&self, state: &State) -> Shift {
-        Shift::of(state, &self.told.g92, &self.told.tool_offset)
+        Shift::of(state, &self.calls.g92, &self.calls.tool_offset)
     }
 
     pub(super) fn fault(&mut self, at: At, range: TextRange, kind: FaultKind) {
@@ -50,8 +50,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         } else {
             self.program.block(block).range()
         };
-        self.told.does_more |= crate::effects::does_more(&kind);
-        let kind = match self.told.paths.get(at.file.0 as usize) {
+        self.calls.has_other_effects |= crate::effects::has_other_effects(&kind);
+        let kind = match self.calls.paths.get(at.file.0 as usize) {
             Some(path) if at.file != FileId::MAIN => placed(kind, format!("{path}, line {}", at.line + 1)),
             _ => kind,
         };
@@ -67,7 +67,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// Reports compensation that begins with a radius of zero, because the tool is not declared.
     pub(super) fn radius_unset(&mut self, state: &State, at: At) {
         let on = state.side != trunnion_ngc::Side::Off;
-        let was = std::mem::replace(&mut self.told.compensated, on);
+        let was = std::mem::replace(&mut self.calls.compensated, on);
         if on && !was && state.radius == 0.0 && !state.radius_given {
             let what = "cutter radius compensation: the diameter of the tool is not declared and is taken as zero";
             self.not_modelled(at, 410..=422, what.to_owned());
@@ -92,10 +92,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if self.core.effects.wanted() {
             self.machine_frame(state.machine_frame, at);
         }
-        self.told.moved = true;
-        self.told.strayed |= state.machine_frame;
+        self.calls.moved = true;
+        self.calls.strayed |= state.machine_frame;
         let block = self.block(at);
-        let start = shift.programmed(&self.told.machine);
+        let start = shift.programmed(&self.calls.machine);
         let [mut end, mut machine] = ends;
         let mut kind = kind;
         if self.core.state.tool_axis.tcp() && state.machine_frame {
@@ -106,7 +106,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             machine = shift.machine(&end);
         }
-        if self.told.is_hidden() {
+        if self.calls.is_hidden() {
             for axis in LINEAR_AXES {
                 end.forget(axis);
             }
@@ -115,10 +115,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 *arc = None;
             }
         }
-        self.told.machine = machine;
+        self.calls.machine = machine;
         let core = &mut *self.core;
         core.state.position = end;
-        core.chain = self.told.places.chain(at);
+        core.chain = self.calls.places.chain(at);
         super::modal::refresh(&mut core.state, state, shift);
         let modal = &core.state;
         let motion = Motion {
@@ -158,14 +158,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             kind,
             MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
         );
-        self.told.unknown_end |= named || no_path;
+        self.calls.unknown_end |= named || no_path;
         self.sink.motion(&motion, &self.core.state);
         motion
     }
 
     /// Where an arc ends, and the arc as far as its start is known.
     fn arc(&self, call: ArcCall, shift: &Shift, state: &State) -> (Option<Arc>, Position) {
-        let start = shift.programmed(&self.told.machine);
+        let start = shift.programmed(&self.calls.machine);
         let order = match state.plane {
             trunnion_ngc::Plane::Xy => [0, 1, 2],
             trunnion_ngc::Plane::Xz => [2, 0, 1],
@@ -217,7 +217,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 
     fn call(&mut self, call: &Canon, at: At, state: &State) {
         if !matches!(call, Canon::Traverse(_) | Canon::Feed(_) | Canon::FeedRate(_)) {
-            self.told.steady = None;
+            self.calls.steady = None;
         }
         if self.core.effects.wanted() {
             self.effect_of_call(call, at, state);
@@ -251,7 +251,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::RigidTap(to, back) => self.tap(*to, *back, at, state),
             Canon::Dwell(seconds) => {
                 let shift = self.shift(state);
-                let end = shift.programmed(&self.told.machine);
+                let end = shift.programmed(&self.calls.machine);
                 // it is not known what a machine does with a negative time, which the interpreter accepts
                 let is_time = seconds.is_finite() && *seconds >= 0.0;
                 let kind = MotionKind::Dwell(is_time.then_some(*seconds));
@@ -274,7 +274,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     }
 
     fn error(&mut self, error: &Error, at: At) {
-        self.told.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
+        self.calls.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
         let kind = fault_of(error);
         if kind == FaultKind::MissingProgramEnd {
             self.missing_end();
@@ -287,9 +287,9 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     #[inline]
     fn straight_motion(&mut self, rapid: bool, end: &Pose, at: At, state: &State) {
-        let only = state.motion_only && !self.told.is_hidden();
+        let only = state.motion_only && !self.calls.is_hidden();
         if !only {
-            self.told.steady = None;
+            self.calls.steady = None;
         }
         self.line(rapid, end, only, at, state);
     }
@@ -341,7 +341,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn probe(&mut self, kind: u8, pose: &Pose, at: At, state: &State) {
         let shift = self.shift(state);
         let target = shift.coordinates(pose);
-        let start = shift.programmed(&self.told.machine);
+        let start = shift.programmed(&self.calls.machine);
         let mut end = target;
         for axis in 0..9 {
             if start.get(axis) != target.get(axis) {

@@ -28,9 +28,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// Neither the kinematics nor the position is known from here on.
     fn lose_kinematics(&mut self) {
-        self.told.kinematics_unknown = true;
-        self.told.lost = true;
-        self.told.lost_rotary = true;
+        self.calls.kinematics_unknown = true;
+        self.calls.lost = true;
+        self.calls.lost_rotary = true;
         self.core.state.zero.lose(true);
     }
 
@@ -62,8 +62,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             // motions before it in the text come after it
             let what = format!("{} under cutter radius compensation", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
-            self.told.kinematics_unknown = true;
-            self.told.lost_rotary = true;
+            self.calls.kinematics_unknown = true;
+            self.calls.lost_rotary = true;
             self.core.state.zero.lose(true);
             return;
         }
@@ -71,27 +71,27 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             // the words are arguments of the remap, or a motion with it: the interpreter does not run them
             let what = format!("{} with axis words in its block", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
-            self.told.lost = true;
-            self.told.lost_rotary = true;
+            self.calls.lost = true;
+            self.calls.lost_rotary = true;
         }
         match code.action {
             Action::TcpOn => self.tcp(true),
             Action::TcpOff => self.tcp(false),
             Action::Kinematics => self.kinematics(&code.id, own, at),
             Action::NoMotion | Action::PathMode | Action::ProgramStop => {}
-            Action::FrameReset => self.told.lost |= std::mem::take(&mut self.told.hidden),
+            Action::FrameReset => self.calls.lost |= std::mem::take(&mut self.calls.hidden),
             action => {
                 let what = code.id.clone();
                 self.fault(at, own.range, FaultKind::NotModelled { what });
-                self.told.lost = true;
+                self.calls.lost = true;
                 if action == Action::FrameChange {
-                    self.told.hidden = true;
+                    self.calls.hidden = true;
                 } else {
-                    self.told.lost_rotary = true;
+                    self.calls.lost_rotary = true;
                 }
             }
         }
-        self.core.state.zero.lose(self.told.is_hidden());
+        self.core.state.zero.lose(self.calls.is_hidden());
     }
 
     /// Takes a code that closes or opens a clamp; whether it is one.
@@ -114,7 +114,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn kinematics(&mut self, code: &str, own: OwnCode, at: At) {
         let declared = self.core.setup.control.tcp_codes.as_ref();
         if let Some(on) = declared.and_then(|codes| codes.meaning(code)) {
-            self.told.lost |= std::mem::take(&mut self.told.kinematics_unknown);
+            self.calls.lost |= std::mem::take(&mut self.calls.kinematics_unknown);
             self.tcp(on);
             return;
         }
@@ -122,8 +122,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             format!("{code}: the machine file does not declare which kinematics it selects ([control] tcp_codes)");
         self.fault(at, own.range, FaultKind::NotModelled { what });
         self.tcp(false);
-        self.told.lost = true;
-        self.told.kinematics_unknown = true;
+        self.calls.lost = true;
+        self.calls.kinematics_unknown = true;
     }
 
     /// G53, G28 or G30 while tool centre point control is on.
@@ -132,7 +132,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                     machine's kinematics define";
         let range = self.code_range(at, b'G', |code| matches!(code, 280 | 300 | 530));
         self.fault(at, range, FaultKind::NotModelled { what: what.to_owned() });
-        self.told.lost = true;
+        self.calls.lost = true;
     }
 
     /// The first code of the current block that `is` says, ten times its number; the whole block where it is not written as a number.
@@ -152,7 +152,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn tcp(&mut self, on: bool) {
         if self.core.state.tool_axis.tcp() != on {
             self.core.state.tool_axis.set_tcp(on);
-            self.told.lost = true;
+            self.calls.lost = true;
         }
     }
 
@@ -160,30 +160,30 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let unit = state.units.mm();
         match *call {
             Canon::FeedRate(rate) => {
-                self.told.rate = Some(Rate {
+                self.calls.rate = Some(Rate {
                     mm: rate * unit,
                     deg: rate,
                 });
                 self.core.state.feed.set(Some(rate * unit));
             }
-            Canon::FeedMode(_, mode) => self.told.per_revolution = mode == 1,
+            Canon::FeedMode(_, mode) => self.calls.per_revolution = mode == 1,
             Canon::StartSync(synced) => {
                 let deg = synced.per_revolution;
-                self.told.synced = Some(Rate { mm: deg * unit, deg });
+                self.calls.synced = Some(Rate { mm: deg * unit, deg });
             }
-            Canon::SpindleMode(0, ceiling) => self.told.surface_speed = ceiling != 0.0,
+            Canon::SpindleMode(0, ceiling) => self.calls.surface_speed = ceiling != 0.0,
             Canon::G92Offset(ref offset) => {
-                self.told.g92 = Shift::metric(offset, unit);
-                self.core.state.zero.set_here(self.told.g92 != [0.0; 9]);
+                self.calls.g92 = Shift::metric(offset, unit);
+                self.core.state.zero.set_here(self.calls.g92 != [0.0; 9]);
             }
-            Canon::StopSync => self.told.synced = None,
+            Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {
                 self.core.state.spindle.switch(turn != SpindleTurn::Stop);
             }
             // which spindle holds the tool is not known
             Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.spindle.may_start(),
             Canon::SpindleSpeed(0, speed) => {
-                let surface = self.told.surface_speed;
+                let surface = self.calls.surface_speed;
                 self.core
                     .state
                     .spindle
@@ -203,21 +203,21 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 // the change may move the machine: the interpreter has forgotten X Y Z too
                 if matches!(call, Canon::ChangeTool { .. }) {
                     for axis in LINEAR_AXES {
-                        self.told.machine.forget(axis);
+                        self.calls.machine.forget(axis);
                     }
                 }
             }
             Canon::ToolOffset(ref offset) => {
-                self.told.strayed |= self.told.moved;
+                self.calls.strayed |= self.calls.moved;
                 self.tool_offset(offset, at, state);
             }
             Canon::G5xOffset(index, ref offset) => {
-                self.told.strayed |= self.told.moved;
+                self.calls.strayed |= self.calls.moved;
                 self.work_offset(index, offset, at);
             }
             Canon::Units(units) => {
                 // the first one is the control's own, before the program
-                let own = !std::mem::replace(&mut self.told.own_units, true);
+                let own = !std::mem::replace(&mut self.calls.own_units, true);
                 let unit = if units == Units::Inch { 25.4 } else { 1.0 };
                 if own {
                     self.core.state.own_units(unit, unit);
@@ -238,8 +238,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
         let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
-        self.told.tool_offset = Shift::metric(offset, state.units.mm());
-        let length = self.told.tool_offset[2];
+        self.calls.tool_offset = Shift::metric(offset, state.units.mm());
+        let length = self.calls.tool_offset[2];
         let of = match state.length_of {
             Some(0) => LengthOf::Tool(self.core.state.tool.number()),
             Some(number) => u32::try_from(number).map_or(LengthOf::Other, |number| LengthOf::Tool(Some(number))),

@@ -21,9 +21,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.hand_on();
         }
         if let Canon::G92Offset(offset) = call
-            && Shift::metric(offset, state.units.mm()) != self.told.g92
+            && Shift::metric(offset, state.units.mm()) != self.calls.g92
             // after motions that all depend on one offset and length, no undeclared value matters
-            && (self.told.strayed || !self.told.moved)
+            && (self.calls.strayed || !self.calls.moved)
         {
             self.core.set_from_here(self.block(at));
             self.hand_on();
@@ -33,7 +33,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// Rigid tapping: in along the thread and back to where it began.
     pub(super) fn tap(&mut self, to: [f64; 3], back: f64, at: At, state: &State) {
         let shift = self.shift(state);
-        let start = shift.programmed(&self.told.machine);
+        let start = shift.programmed(&self.calls.machine);
         let point = shift.point(to);
         let mut end = start;
         for axis in 0..3 {
@@ -44,7 +44,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
         }
         let feed = self
-            .told
+            .calls
             .synced
             .map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
         if self.core.effects.wanted() {
@@ -68,7 +68,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// A motion in machine coordinates (G53), or the first one after it.
     pub(super) fn machine_frame(&mut self, is_on: bool, at: At) {
-        if std::mem::replace(&mut self.told.machine_frame, is_on) != is_on {
+        if std::mem::replace(&mut self.calls.machine_frame, is_on) != is_on {
             let block = self.block(at);
             let to: Vec<Argument> = is_on.then(|| Argument::code("G53")).into_iter().collect();
             self.core.effects.add(block, Effect::set("coordinates", to));
@@ -77,7 +77,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     fn hand_on(&mut self) {
-        self.core.hand_on_effects(self.sink);
+        self.core.emit_effects(self.sink);
     }
 }
 

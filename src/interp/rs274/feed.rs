@@ -30,7 +30,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn any_moves(&self, axes: &[usize], end: &Position, state: &State) -> Option<bool> {
         let mut found = Some(false);
         for &axis in axes {
-            match (self.told.machine.get(axis), end.get(axis)) {
+            match (self.calls.machine.get(axis), end.get(axis)) {
                 (Some(from), Some(to)) if (from - to).abs() > ROUNDING => return Some(true),
                 (Some(_), Some(_)) => {}
                 // an axis that was unknown and is not named stays where it is
@@ -53,12 +53,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// The feed of a feed motion to `end` (machine coordinates) as the control set it; `curve`: along an arc or a spline, which runs
     /// on also where it ends in the place where it began.
     pub(super) fn feed(&mut self, end: &Position, curve: bool, at: At, state: &State) -> Feed {
-        let rate = match (self.told.synced, self.told.rate) {
+        let rate = match (self.calls.synced, self.calls.rate) {
             (Some(pitch), _) => Some(pitch),
             (None, rate) => rate,
         };
         let Some(rate) = rate else { return Feed::Unknown };
-        let per_revolution = self.told.synced.is_some() || self.told.per_revolution;
+        let per_revolution = self.calls.synced.is_some() || self.calls.per_revolution;
         let inverse_time = state.feed_mode == trunnion_ngc::FeedMode::InverseTime && !per_revolution;
         // the rate is that of the contour: the path of the cutter's centre takes longer or shorter than 1/F
         let slowest = rate.deg <= SLOWEST_INVERSE_TIME;

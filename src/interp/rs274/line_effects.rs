@@ -14,8 +14,8 @@ impl Ngc<'_> {
     #[cold]
     pub(super) fn line_effect(&mut self, program: &Program, block: BlockId, at: At, sink: &mut impl Sink) {
         let Some(run) = &mut self.run else { return };
-        let does_more = std::mem::take(&mut run.told.does_more);
-        let unknown_end = std::mem::take(&mut run.told.unknown_end);
+        let has_other_effects = std::mem::take(&mut run.calls.has_other_effects);
+        let unknown_end = std::mem::take(&mut run.calls.unknown_end);
         let text = run.engine.text_of(at.file, at.line);
         let codes = Codes::of(run.engine.block_at(at));
         let upper = crate::written::packed(&text);
@@ -36,14 +36,14 @@ impl Ngc<'_> {
         }
         let lost = codes.shifts && (codes.ninth || self.core.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.is_unknown(name));
-        if !(does_more || unknown_end || unknown) {
+        if !(has_other_effects || unknown_end || unknown) {
             return;
         }
         if names
             .iter()
             .any(|name| name.to_ascii_lowercase().starts_with("#<_value"))
         {
-            let returned = self.run.as_mut().and_then(|run| run.told.returned.take());
+            let returned = self.run.as_mut().and_then(|run| run.calls.returned.take());
             self.unmodelled(block, returned.unwrap_or_default(), sink);
         }
         let words = if in_main {
@@ -81,7 +81,7 @@ impl Ngc<'_> {
         }
         let Some(run) = &mut self.run else { return };
         // in the main program it starts again, or ends, as the control is set up
-        if (codes.returns || is_return(upper)) && run.told.places.chain(at) == crate::ChainId::MAIN {
+        if (codes.returns || is_return(upper)) && run.calls.places.chain(at) == crate::ChainId::MAIN {
             self.core.effects.add(block, Effect::End(vec![Argument::code("M99")]));
             self.hand_on(sink);
         }
@@ -129,7 +129,7 @@ impl Ngc<'_> {
                 // the control sets it in a definition that is skipped, too; it matters where the program reads it
                 let returned = self.is_unknown("#<_value>").then_some(words);
                 if let Some(run) = &mut self.run {
-                    run.told.returned = returned;
+                    run.calls.returned = returned;
                 }
             }
         }

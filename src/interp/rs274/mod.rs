@@ -1,5 +1,6 @@
 //! Programs for LinuxCNC: run by its own interpreter (`trunnion-ngc`), whose canonical calls become motions.
 mod bridge;
+mod call_state;
 mod calls;
 mod chords;
 mod effects;
@@ -13,16 +14,15 @@ mod places;
 mod setup;
 mod steady;
 mod stored;
-mod told;
 
 use crate::core::Core;
 use crate::engine::Engine;
 use crate::written::Values;
 use crate::{FaultKind, Frame, Sink};
 use bridge::{Bridge, LINEAR_AXES};
+use call_state::CallState;
 use frames::Shift;
 use std::sync::Arc;
-use told::Told;
 use trunnion_dialect::Dialect;
 use trunnion_ngc::{FileId, Source, Step};
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -31,7 +31,7 @@ use trunnion_syntax::{BlockId, Program, TextRange};
 #[derive(Clone)]
 pub(crate) struct Rs274 {
     engine: trunnion_ngc::Engine,
-    told: Told,
+    calls: CallState,
     /// Nothing is left to run.
     done: bool,
 }
@@ -55,15 +55,15 @@ fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
 
 impl Rs274 {
     fn begin(program: &Program, core: &Core<'_>) -> Self {
-        let mut told = setup::told(&core.setup, core.tools.declared(), core.dialect);
+        let mut calls = setup::at_start(&core.setup, core.tools.declared(), core.dialect);
         // as for all controls, the blocks of the text itself are not counted
-        told.limits.blocks = told.limits.blocks.saturating_add(program.block_count() as u64);
+        calls.limits.blocks = calls.limits.blocks.saturating_add(program.block_count() as u64);
         let source = Source::shared(String::new(), program.shared_source());
         Self {
-            engine: trunnion_ngc::Engine::new(Arc::new(source), &told),
-            told: Told {
+            engine: trunnion_ngc::Engine::new(Arc::new(source), &calls),
+            calls: CallState {
                 blocks: blocks_of_lines(program),
-                ..Told::default()
+                ..CallState::default()
             },
             done: false,
         }
@@ -82,7 +82,7 @@ impl Rs274 {
     }
     /// The calls of a chain.
     pub(crate) fn chain(&self, id: crate::ChainId) -> Vec<Frame> {
-        let place = self.told.places.place(id);
+        let place = self.calls.places.place(id);
         let calls = self.engine.chain(place.chain).into_iter();
         let mut frames: Vec<Frame> = calls
             .map(|frame| Frame {
@@ -179,26 +179,26 @@ impl Ngc<'_> {
     fn hand_on(&mut self, sink: &mut impl Sink) {
         if let Some(run) = &mut self.run {
             // the next motion states again how many effects came before it
-            run.told.steady = None;
+            run.calls.steady = None;
         }
-        self.core.hand_on_effects(sink);
+        self.core.emit_effects(sink);
     }
 
     fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
-        let Rs274 { engine, told, done } = run;
+        let Rs274 { engine, calls, done } = run;
         // a line of a file runs in a step after the one that opened it
-        if told.paths.len() != engine.file_count() {
-            told.paths = (0..engine.file_count() as u32)
+        if calls.paths.len() != engine.file_count() {
+            calls.paths = (0..engine.file_count() as u32)
                 .map(|file| engine.path(FileId(file)).into())
                 .collect();
         }
         let mut bridge = Bridge {
             core: &mut self.core,
-            told,
+            calls,
             program,
             sink,
         };
-        if let Some(steady) = &mut bridge.told.steady {
+        if let Some(steady) = &mut bridge.calls.steady {
             steady.settled = false;
         }
         bridge.core.state.clamps.begin_block();
@@ -209,13 +209,13 @@ impl Ngc<'_> {
         let block = bridge.block(at);
         let ran = matches!(step, Step::Line);
         let in_main = (at.file == FileId::MAIN).then_some(block);
-        bridge.told.places.ran(at.chain, in_main);
+        bridge.calls.places.ran(at.chain, in_main);
         match step {
             Step::Line => {}
             Step::Refused => {
                 let refused = engine.refused();
                 let named: Vec<usize> = (0..9).filter(|axis| refused.axes & (1 << axis) != 0).collect();
-                forget(engine, bridge.told, &named);
+                forget(engine, bridge.calls, &named);
                 if refused.spindle {
                     bridge.core.state.spindle.lose();
                 }
@@ -243,20 +243,20 @@ impl Ngc<'_> {
             self.core.state.ended = true;
         }
         self.core.last_content = Some(block);
-        let lost = [std::mem::take(&mut told.lost), std::mem::take(&mut told.lost_rotary)];
-        let settled = told.steady.as_ref().is_some_and(|steady| steady.settled);
+        let lost = [std::mem::take(&mut calls.lost), std::mem::take(&mut calls.lost_rotary)];
+        let settled = calls.steady.as_ref().is_some_and(|steady| steady.settled);
         if ran && settled && lost == [false; 2] {
             return Some(block);
         }
-        told.steady = None;
+        calls.steady = None;
         if lost[0] {
-            forget(engine, told, &LINEAR_AXES);
+            forget(engine, calls, &LINEAR_AXES);
         }
         if lost[1] {
-            forget(engine, told, &[3, 4, 5]);
+            forget(engine, calls, &[3, 4, 5]);
             self.core.state.clamps.lose();
         }
-        let shift = Shift::of(&engine.state, &told.g92, &told.tool_offset);
+        let shift = Shift::of(&engine.state, &calls.g92, &calls.tool_offset);
         modal::refresh(&mut self.core.state, &engine.state, &shift);
         self.core.state.position = shift.coordinates(&engine.state.current);
         (!nothing_ran).then_some(block)
@@ -288,10 +288,10 @@ impl Codes {
 }
 
 /// Axes become unknown.
-fn forget(engine: &mut trunnion_ngc::Engine, told: &mut Told, axes: &[usize]) {
+fn forget(engine: &mut trunnion_ngc::Engine, calls: &mut CallState, axes: &[usize]) {
     for &axis in axes {
         engine.state.current[axis] = f64::NAN;
         engine.state.compensated[axis] = f64::NAN;
-        told.machine.forget(axis);
+        calls.machine.forget(axis);
     }
 }

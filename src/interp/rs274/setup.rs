@@ -1,7 +1,7 @@
 //! The setup of a run for LinuxCNC's interpreter.
 use crate::{LengthUnit, Setup, Tool};
 use trunnion_dialect::{Code, CodeKind, Dialect};
-use trunnion_ngc::{Ini, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
+use trunnion_ngc::{Ini, Parameters, Setup as CallState, Start, ToolEntry, ToolTable, Units};
 
 /// First parameter of the coordinate systems: X of G54; 20 further on that of G55 (LinuxCNC documentation, Parameters).
 pub(super) const FIRST_SYSTEM: u32 = 5221;
@@ -44,7 +44,7 @@ fn row(tool: &Tool, units: Units) -> ToolEntry {
 
 /// The setup of the interpreter: declared offsets as parameters, declared tools as its table, further codes of the dialect's table as
 /// the machine's own codes. Offsets that are not declared are zero.
-pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told {
+pub(super) fn at_start(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> CallState {
     let units = match setup.control.units {
         Some(LengthUnit::Inch) => Units::Inch,
         Some(LengthUnit::Millimetre) | None => Units::Millimetre,
@@ -94,7 +94,7 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     let coordinates = "XYZABC".chars().chain(further).collect();
     ini.values
         .insert(("TRAJ".to_owned(), "COORDINATES".to_owned()), coordinates);
-    Told {
+    CallState {
         start: Start::Unknown,
         ini,
         machine_units: units,
@@ -110,6 +110,6 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
         parameters: Parameters { values },
         files: setup.library.0.clone(),
         limits: setup.limits,
-        ..Told::default()
+        ..CallState::default()
     }
 }

@@ -18,11 +18,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// A straight motion; `only`: its line is this motion and nothing else.
     #[inline]
     pub(super) fn line(&mut self, rapid: bool, pose: &Pose, only: bool, at: At, state: &State) {
-        if let Some(mut steady) = self.told.steady.take() {
+        if let Some(mut steady) = self.calls.steady.take() {
             let on = self.next_line(&mut steady, rapid, pose, at, state);
             steady.settled = true;
             // what follows is emitted as differences, unless an offset is not known
-            self.told.steady = Some(steady).filter(|_| on);
+            self.calls.steady = Some(steady).filter(|_| on);
             return;
         }
         let shift = self.shift(state);
@@ -31,7 +31,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let feed = self.line_feed(rapid, &machine, at, state);
         let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
         let motion = self.motion_to(kind, [end, machine], &shift, feed, at, state);
-        self.told.steady = (only && goes_on(&motion, &machine)).then(|| {
+        self.calls.steady = (only && goes_on(&motion, &machine)).then(|| {
             Box::new(Steady {
                 shift,
                 motion,
@@ -53,7 +53,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     #[inline]
     fn next_line(&mut self, steady: &mut Steady, rapid: bool, pose: &Pose, at: At, state: &State) -> bool {
         let Steady { shift, motion, .. } = steady;
-        let mut machine = self.told.machine;
+        let mut machine = self.calls.machine;
         motion.start = motion.end;
         // axes without a word stay where the line before it moved them
         if !shift.reach(pose, state.named_axes, &mut motion.end, &mut machine) {
@@ -73,9 +73,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let block = self.block(at);
         let core = &mut *self.core;
         core.state.position = motion.end;
-        core.chain = self.told.places.chain(at);
+        core.chain = self.calls.places.chain(at);
         modal::refresh_motion(&mut core.state, state);
-        self.told.machine = machine;
+        self.calls.machine = machine;
         motion.block = block;
         motion.chain = core.chain;
         // the larger kinds need not be written

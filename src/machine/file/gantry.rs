@@ -8,11 +8,11 @@ use core::ops::Range;
 /// The mirroring axes of a file.
 #[derive(Default)]
 pub(crate) struct Rails {
-    found: Vec<Rail>,
+    found: Vec<MirroredAxis>,
 }
 
 /// One axis that mirrors another one.
-struct Rail {
+struct MirroredAxis {
     gantry: Gantry,
     axis: Axis,
     /// Where the file names the leader.
@@ -38,7 +38,7 @@ impl Rails {
             letter: axis.letter,
             leader: named,
         };
-        self.found.push(Rail {
+        self.found.push(MirroredAxis {
             gantry,
             axis,
             span: leader.span(),
@@ -92,7 +92,7 @@ impl Rails {
     }
 }
 
-impl Rail {
+impl MirroredAxis {
     /// The follower's limits in terms of its leader: both move one body, so if a positive value moves it in the opposite direction (sign times
     /// direction), the follower has the leader's value with the opposite sign.
     fn limits_for(&self, leader: &Axis) -> Limits {

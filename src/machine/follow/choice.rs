@@ -106,7 +106,7 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
         open = chosen
             .open_turn(before)
             .or_else(|| unfiltered(machine, &postures, before, chosen))
-            .or_else(|| found.torn(taken, before));
+            .or_else(|| found.rule_conflict(taken, before));
     }
     Ok(Chosen {
         q: chosen.candidate.q,
@@ -239,7 +239,7 @@ impl Found {
 
     /// On a great circle away from the pole the posture cannot change; if the control's rule takes the other one, its documentation does
     /// not say which of the two it ignores.
-    fn torn(&self, taken: usize, before: &Before) -> Option<Open> {
+    fn rule_conflict(&self, taken: usize, before: &Before) -> Option<Open> {
         let (chosen, other) = (self.items.get(taken)?, self.items.get(1 - taken.min(1))?);
         let stays = before.continuous && before.known && before.sign != 0 && other.branch == before.sign;
         (self.count > 1 && stays && chosen.branch != before.sign).then_some(Open {

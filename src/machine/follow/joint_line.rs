@@ -52,7 +52,7 @@ impl Follower<'_> {
 
     /// Sets the predicted sine of a rotary axis, 0 being that nearest the workpiece.
     #[inline]
-    pub fn foresee(&mut self, index: usize, sine: Sine) {
+    pub fn set_predicted_sine(&mut self, index: usize, sine: Sine) {
         if let Some(own) = self.sines.get_mut(index) {
             *own = sine;
         }

@@ -124,7 +124,7 @@ mod tests {
                     told.follow_into(&motion, &mut told_leg);
                     alone.follow_into(&motion, &mut alone_leg);
                 } else {
-                    foresight.line(&to, |axis, sine| told.foresee(axis, sine));
+                    foresight.line(&to, |axis, sine| told.set_predicted_sine(axis, sine));
                     told.follow_line_into(&motion, &mut told_leg);
                     alone.follow_line_into(&motion, &mut alone_leg);
                     let end = told_leg.as_ref().and_then(|leg| leg.end.clone().ok()).expect("words of all joints");

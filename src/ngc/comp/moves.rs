@@ -112,7 +112,7 @@ pub(crate) fn along(
         centre = here.centre;
     } else {
         let found = corner::corner(engine.state.side, here.normal, direction, bulging(engine));
-        let coming = Coming {
+        let coming = NextMove {
             kind,
             direction,
             way: Way::Line(here.beside(direction), way),
@@ -192,7 +192,7 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
         let found = corner::corner(engine.state.side, here.normal, direction, outward > 0.0);
         // the control fits the corner to the radius at the end of the arc, as if the contour reached that circle
         let fitted = plane::length(plane::sub(target, arc.centre));
-        let coming = Coming {
+        let coming = NextMove {
             kind: Kind::Feed,
             direction,
             way: Way::Circle(arc.centre, fitted + outward * here.radius, arc.turns > 0),
@@ -276,7 +276,7 @@ fn entry(engine: &mut Engine, arc: &Arc, here: &Here, end: Point, at: At) -> que
 }
 
 /// The move after a corner.
-struct Coming {
+struct NextMove {
     kind: Kind,
     /// From the contour to the cutter, at its start.
     direction: Point,
@@ -291,12 +291,12 @@ fn turn(
     engine: &mut Engine,
     found: Corner,
     here: &Here,
-    coming: &Coming,
+    coming: &NextMove,
     block: &Block,
     at: At,
     sink: &mut dyn Sink,
 ) -> Result<(), Error> {
-    let Coming {
+    let NextMove {
         kind,
         direction,
         way: new,

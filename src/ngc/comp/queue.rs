@@ -266,9 +266,9 @@ fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
     };
     engine.state.told.follow(&call);
     let now = modes.map(|modes| modes.swap(&mut engine.state));
-    engine.state.told_by = Some(engine.at());
+    engine.state.emitting_line = Some(engine.at());
     sink.call(&call, at, &engine.state);
-    engine.state.told_by = None;
+    engine.state.emitting_line = None;
     if let Some(now) = now {
         now.swap(&mut engine.state);
     }

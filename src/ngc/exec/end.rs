@@ -37,7 +37,7 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
         engine.state.compensated = engine.state.current;
     }
     tools::start(engine);
-    engine.state.told = crate::state::Told::at(
+    engine.state.told = crate::state::ReceiverPosition::at(
         engine.state.current,
         engine.state.origin_offset,
         engine.state.axis_offset,

@@ -207,7 +207,7 @@ impl Engine {
         let passed = matches!(sought, Some(seeking) if matches!(seeking.goal, Goal::Definition(_)));
         let value = line.values.first().map(|formula| {
             if passed {
-                self.value_in_passing(formula)
+                self.value_in_definition(formula)
             } else {
                 self.value(formula)
             }
@@ -246,8 +246,8 @@ impl Engine {
         self.leave_call(sink)
     }
     /// A value in a definition that is skipped: names that are not defined there are not a mistake, but have no value either.
-    fn value_in_passing(&self, formula: &Formula) -> Result<f64, Error> {
-        let value = formula.eval(&InPassing(self.values()));
+    fn value_in_definition(&self, formula: &Formula) -> Result<f64, Error> {
+        let value = formula.eval(&DefinitionValues(self.values()));
         value.map_err(|error| crate::read::formula_error(&error))
     }
     /// `endsub` and `return` in the main program.
@@ -303,9 +303,9 @@ impl Engine {
 }
 
 /// The source of variables for formulas in a definition that is skipped.
-struct InPassing<'a>(Values<'a>);
+struct DefinitionValues<'a>(Values<'a>);
 
-impl Variables for InPassing<'_> {
+impl Variables for DefinitionValues<'_> {
     fn numbered(&self, index: i64) -> Result<f64, ValueError> {
         self.0.numbered(index)
     }

@@ -43,7 +43,7 @@ impl Watch {
 impl Engine {
     /// The outermost loop that never ends, if the run was at this condition before in the same state. `opener`: the line
     /// that opens this loop.
-    pub(super) fn comes_back(&mut self, place: Place, opener: Place) -> Option<Place> {
+    pub(super) fn find_endless(&mut self, place: Place, opener: Place) -> Option<Place> {
         let flow = &mut self.flow;
         let watch = &mut flow.watch;
         if !core::mem::replace(&mut watch.quiet, true) {

@@ -121,7 +121,7 @@ impl Engine {
         };
         let (mut compiled, known) = self.flow.texts.find(&key, source, &self.files, keep);
         if known {
-            compiled.stands_for(place, key);
+            compiled.move_to_key(place, key);
         } else {
             self.compile_range(place, range, &mut compiled);
             compiled.comes_from(&key, place.file());

@@ -21,7 +21,7 @@ impl Engine {
         let mut place = Place::new(file, 0, 0);
         let mut inside = true;
         while (place.offset as usize) < length {
-            if let Some(next) = self.behind_what_ran(place) {
+            if let Some(next) = self.after_executed(place) {
                 place = next;
                 continue;
             }
@@ -51,7 +51,7 @@ impl Engine {
 impl Engine {
     /// After lines that all ran, where the line at `place` begins a range of them before the end of the program: there is nothing to
     /// report.
-    fn behind_what_ran(&self, place: Place) -> Option<Place> {
+    fn after_executed(&self, place: Place) -> Option<Place> {
         let stretch = crate::source::STRIDE;
         let next = place.line() + stretch;
         let source = &self.files[place.file().0 as usize];

@@ -12,7 +12,7 @@ use trunnion_formula::Pool;
 use trunnion_syntax::TextRange;
 
 /// The result of a skip.
-pub(super) enum Sought {
+pub(super) enum SkipResult {
     /// A relevant line; `true`: it is kept.
     Landed(Box<Compiled>, Seeking, bool),
     /// A skipped line has an error.
@@ -48,27 +48,27 @@ impl Engine {
         })
     }
     /// Skips to the next relevant line.
-    pub(super) fn seek(&mut self) -> Sought {
+    pub(super) fn seek(&mut self) -> SkipResult {
         let Some(mut seeking) = self.flow.seeking else {
-            return Sought::EndOfFile;
+            return SkipResult::EndOfFile;
         };
         if seeking.known {
             if self.flow.fuel == 0 {
-                return Sought::OutOfFuel;
+                return SkipResult::OutOfFuel;
             }
             self.flow.seeking = None;
             self.flow.texts.skip();
             let (compiled, keep) = self.fetch();
-            return Sought::Landed(compiled, seeking, keep);
+            return SkipResult::Landed(compiled, seeking, keep);
         }
         loop {
             let counts = self.pass(&seeking);
             let place = self.flow.here;
             if place.offset as usize >= self.files[place.file().0 as usize].bytes().len() {
-                return Sought::EndOfFile;
+                return SkipResult::EndOfFile;
             }
             if self.flow.fuel == 0 {
-                return Sought::OutOfFuel;
+                return SkipResult::OutOfFuel;
             }
             let lines = self.flow.lines(place.file());
             if lines.glance(place.line()) {
@@ -79,23 +79,23 @@ impl Engine {
             if counts {
                 self.landed(place, &seeking);
                 let compiled = self.read(place, false);
-                return Sought::Landed(compiled, seeking, false);
+                return SkipResult::Landed(compiled, seeking, false);
             }
             match self.glance(place, range, &mut seeking) {
-                Glance::Counts(line) => return self.land(place, next, *line, seeking),
-                Glance::Percent if self.flow.percent => return Sought::Percent,
-                Glance::Nothing | Glance::Percent => self.flow.here = next,
-                Glance::Refused(error) => {
+                SkippedLine::Counts(line) => return self.land(place, next, *line, seeking),
+                SkippedLine::Percent if self.flow.percent => return SkipResult::Percent,
+                SkippedLine::Nothing | SkippedLine::Percent => self.flow.here = next,
+                SkippedLine::Refused(error) => {
                     self.flow.here = next;
                     self.note(place);
-                    return Sought::Refused(error);
+                    return SkipResult::Refused(error);
                 }
-                Glance::Undecided(why) => return Sought::Undecided(why),
+                SkippedLine::Undecided(why) => return SkipResult::Undecided(why),
             }
         }
     }
     /// The relevant line is made ready to run.
-    fn land(&mut self, place: Place, next: Place, line: OLine, seeking: Seeking) -> Sought {
+    fn land(&mut self, place: Place, next: Place, line: OLine, seeking: Seeking) -> SkipResult {
         self.landed(place, &seeking);
         let mut compiled = self.flow.texts.nowhere();
         compiled.place = place;
@@ -105,7 +105,7 @@ impl Engine {
         compiled.flaw = None;
         compiled.skip = None;
         compiled.o = Some(Box::new(line));
-        Sought::Landed(compiled, seeking, false)
+        SkipResult::Landed(compiled, seeking, false)
     }
     /// A skip ends at this line, which runs now.
     fn landed(&mut self, place: Place, seeking: &Seeking) {
@@ -154,40 +154,40 @@ impl Engine {
         };
     }
     /// Examines one skipped line.
-    fn glance(&mut self, place: Place, range: TextRange, seeking: &mut Seeking) -> Glance {
+    fn glance(&mut self, place: Place, range: TextRange, seeking: &mut Seeking) -> SkippedLine {
         let file = std::sync::Arc::clone(&self.files[place.file().0 as usize]);
         let source = file.bytes();
         if let Some(error) = fetch::too_long(range) {
-            return Glance::Refused(error);
+            return SkippedLine::Refused(error);
         }
         let text = fetch::trimmed(source, range);
         if text.start == text.end {
-            return Glance::Nothing;
+            return SkippedLine::Nothing;
         }
         if let Some(error) = fetch::text_flaw(source, text) {
-            return Glance::Refused(error);
+            return SkippedLine::Refused(error);
         }
         let head = fetch::head(source, text);
         match head.first {
-            _ if head.delete && self.setup.block_delete => Glance::Nothing,
-            Some(b'%') if fetch::is_percent(source, text) => Glance::Percent,
-            Some(b'o') => self.glance_label(&head, seeking),
-            Some(b'm') => self.glance_call(place),
-            _ => Glance::Nothing,
+            _ if head.delete && self.setup.block_delete => SkippedLine::Nothing,
+            Some(b'%') if fetch::is_percent(source, text) => SkippedLine::Percent,
+            Some(b'o') => self.classify_label(&head, seeking),
+            Some(b'm') => self.classify_call(place),
+            _ => SkippedLine::Nothing,
         }
     }
     /// Examines a skipped line that begins with M: `M98` is read as a whole, as if it ran.
-    fn glance_call(&mut self, place: Place) -> Glance {
+    fn classify_call(&mut self, place: Place) -> SkippedLine {
         let compiled = self.read(place, false);
         let refused = match compiled.kind {
             Kind::CallNumbered => self.skipped_call_flaw(&compiled),
             _ => None,
         };
         self.put_back(compiled, false);
-        refused.map_or(Glance::Nothing, Glance::Refused)
+        refused.map_or(SkippedLine::Nothing, SkippedLine::Refused)
     }
     /// Examines a skipped O line: whether it matters.
-    fn glance_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> Glance {
+    fn classify_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> SkippedLine {
         let mut cursor = head.cursor;
         let mut line = OLine::default();
         oline::read(&mut cursor, &mut Pool::default(), &mut line);
@@ -202,47 +202,47 @@ impl Engine {
             // observed: in a definition that is skipped a name may have no value
             Err(Why::Refused(error)) if definition && read::is_not_defined(&error) => {
                 return if opens {
-                    Glance::Refused(nested())
+                    SkippedLine::Refused(nested())
                 } else {
-                    Glance::Nothing
+                    SkippedLine::Nothing
                 };
             }
-            Err(Why::Refused(error)) => return Glance::Refused(error),
-            Err(Why::Undecided(why)) => return Glance::Undecided(why),
-            Err(Why::Told | Why::Endless(_)) => return Glance::Nothing,
+            Err(Why::Refused(error)) => return SkippedLine::Refused(error),
+            Err(Why::Undecided(why)) => return SkippedLine::Undecided(why),
+            Err(Why::Told | Why::Endless(_)) => return SkippedLine::Nothing,
         };
         if let Some(flaw) = line.flaw
             && flaw.problem == &problems::UNKNOWN_KEYWORD
         {
             if definition {
-                return Glance::Nothing;
+                return SkippedLine::Nothing;
             }
-            return Glance::Refused(Error::new(flaw.problem, flaw.range));
+            return SkippedLine::Refused(Error::new(flaw.problem, flaw.range));
         }
         if line.keyword == Keyword::Bare && self.flow.no_fanuc {
-            return Glance::Refused(Error::new(&problems::FANUC_HEAD_OFF, line.label_range));
+            return SkippedLine::Refused(Error::new(&problems::FANUC_HEAD_OFF, line.label_range));
         }
         let is_global = line.keyword.is_global();
         let counts = match seeking.goal {
             Goal::Label(_, wanted) => !is_global && name == wanted,
             Goal::Definition(wanted) => {
                 if opens {
-                    return Glance::Refused(nested());
+                    return SkippedLine::Refused(nested());
                 }
                 is_global && name == wanted
             }
             Goal::Subprogram(wanted, _) => is_global && name == wanted,
         };
         if counts {
-            Glance::Counts(Box::new(line))
+            SkippedLine::Counts(Box::new(line))
         } else {
-            Glance::Nothing
+            SkippedLine::Nothing
         }
     }
 }
 
 /// The kind of a skipped line.
-enum Glance {
+enum SkippedLine {
     Nothing,
     Counts(Box<OLine>),
     Percent,

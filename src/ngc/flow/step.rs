@@ -1,7 +1,7 @@
 //! One step: a line is fetched and run, or lines are skipped until one matters.
 use super::labels::Place;
 use super::oline::OLine;
-use super::seek::Sought;
+use super::seek::SkipResult;
 use super::{Compiled, Halt, Kind, Refused, Seeking, Why, problems};
 use crate::exec::{self, After};
 use crate::parameters::Values;
@@ -25,12 +25,12 @@ impl Engine {
         }
         if self.flow.seeking.is_some() {
             return match self.seek() {
-                Sought::Landed(compiled, seeking, keep) => self.finish_line(compiled, Some(seeking), keep, sink),
-                Sought::Refused(error) => self.refuse(&error, sink),
-                Sought::Undecided(why) => self.give_up(why),
-                Sought::EndOfFile => self.end_of_file(sink),
-                Sought::Percent => self.percent_reached(sink),
-                Sought::OutOfFuel => self.out_of_fuel(),
+                SkipResult::Landed(compiled, seeking, keep) => self.finish_line(compiled, Some(seeking), keep, sink),
+                SkipResult::Refused(error) => self.refuse(&error, sink),
+                SkipResult::Undecided(why) => self.give_up(why),
+                SkipResult::EndOfFile => self.end_of_file(sink),
+                SkipResult::Percent => self.percent_reached(sink),
+                SkipResult::OutOfFuel => self.out_of_fuel(),
             };
         }
         let here = self.flow.here;
@@ -46,7 +46,7 @@ impl Engine {
             return self.out_of_fuel();
         }
         if compiled.only_sets && self.turning.is_none() {
-            self.goes_on_behind(&compiled);
+            self.continue_after(&compiled);
             // what is refused is evaluated again by the general path
             if self.apply(&compiled.line).is_ok() {
                 self.put_back(compiled, keep);
@@ -57,7 +57,7 @@ impl Engine {
     }
     /// The current line runs: the run is there, and continues after it.
     #[inline]
-    fn goes_on_behind(&mut self, compiled: &Compiled) {
+    fn continue_after(&mut self, compiled: &Compiled) {
         let place = compiled.place;
         self.flow.at = At {
             file: place.file(),
@@ -96,7 +96,7 @@ impl Engine {
         keep: bool,
         sink: &mut dyn Sink,
     ) -> Step {
-        self.goes_on_behind(&compiled);
+        self.continue_after(&compiled);
         if let Some(range) = compiled.cut.take() {
             sink.cut(range, self.flow.at);
         }

@@ -96,7 +96,7 @@ impl Engine {
                 let opener = self.flow.labels.structure(label).map(|known| known.place);
                 if sought.is_none()
                     && value != 0.0
-                    && let Some(outermost) = self.comes_back(compiled.place, opener.unwrap_or(compiled.place))
+                    && let Some(outermost) = self.find_endless(compiled.place, opener.unwrap_or(compiled.place))
                 {
                     return Err(Why::Endless(outermost).into());
                 }

@@ -178,7 +178,7 @@ impl Texts {
         if here != there || there.last() != Some(&b'\n') || end - place.offset > LONGEST {
             return None;
         }
-        read.stands_at(place, TextRange::new(behind, end));
+        read.move_to_line(place, TextRange::new(behind, end));
         if let (Some((start, number)), Some(line)) = (label, &mut read.o) {
             line.label_stands_at(TextRange::new(start, behind));
             line.label = Label::Number(number);
@@ -305,7 +305,7 @@ impl Compiled {
     }
     /// Moves it from where its text was run last to a line where the text is at `text`.
     #[inline]
-    pub(super) fn stands_at(&mut self, place: Place, text: TextRange) {
+    pub(super) fn move_to_line(&mut self, place: Place, text: TextRange) {
         self.place = place;
         self.next = place.further(1, text.end);
         self.skip = None;
@@ -317,8 +317,8 @@ impl Compiled {
         }
     }
     /// The same of the line of this key.
-    pub(super) fn stands_for(&mut self, place: Place, key: Key) {
-        self.stands_at(place, key.text);
+    pub(super) fn move_to_key(&mut self, place: Place, key: Key) {
+        self.move_to_line(place, key.text);
         if let (Some((range, label)), Some(line)) = (key.label, &mut self.o) {
             line.label_stands_at(range);
             line.label = label;

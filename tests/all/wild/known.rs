@@ -33,8 +33,9 @@ struct Watch<'k> {
     /// Why an axis is not known, since it was known last.
     why: [Option<String>; 3],
     last_fault: Option<String>,
-    /// The tool of the last motion, and whether there was one.
-    tool: Option<Option<u32>>,
+    /// There was a motion, with this tool.
+    moved: bool,
+    tool: Option<u32>,
 }
 
 impl Sink for Watch<'_> {
@@ -43,7 +44,8 @@ impl Sink for Watch<'_> {
             return;
         }
         let known = motion.end.known & self.tip;
-        let changed = self.tool.replace(motion.tool).is_some_and(|last| last != motion.tool);
+        let last = std::mem::replace(&mut self.tool, motion.tool);
+        let changed = std::mem::replace(&mut self.moved, true) && last != motion.tool;
         for axis in 0..3 {
             let bit = 1 << axis;
             if known & bit != 0 {
@@ -130,6 +132,7 @@ pub(super) fn count(path: &Path, into: &mut Known) -> bool {
         ever: 0,
         why: [None, None, None],
         last_fault: None,
+        moved: false,
         tool: None,
     };
     run(&program, resolved.dialect, &resolved.setup, &mut watch);

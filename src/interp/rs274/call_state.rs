@@ -8,7 +8,7 @@ use trunnion_ngc::Pose;
 /// What calls have set that a motion needs and [`State`] does not set in step with them: compensation of the cutter radius holds
 /// calls back while the state runs ahead.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Told {
+pub(super) struct CallState {
     /// The control has reported its own unit of lengths.
     pub(super) own_units: bool,
     /// Where the machine is, mm and deg, as far as it is known.
@@ -41,7 +41,7 @@ pub(super) struct Told {
     /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
     pub(super) steady: Option<Box<Steady>>,
     /// Of the current line: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
-    pub(super) does_more: bool,
+    pub(super) has_other_effects: bool,
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).
     pub(super) machine_frame: bool,
@@ -54,7 +54,7 @@ pub(super) struct Told {
     pub(super) kinematics_unknown: bool,
 }
 
-impl Told {
+impl CallState {
     /// X Y Z say nothing about the machine.
     pub(super) fn is_hidden(&self) -> bool {
         self.hidden || self.kinematics_unknown

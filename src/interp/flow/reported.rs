@@ -8,12 +8,12 @@ type Key = (u16, u32, u32, Discriminant<FaultKind>);
 
 /// Faults that were reported.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Told(HashSet<Key>);
+pub(crate) struct ReportedFaults(HashSet<Key>);
 
 /// Faults kept: a program of noise must not fill the memory.
 const KEPT: usize = 100_000;
 
-impl Told {
+impl ReportedFaults {
     /// Whether the fault is new. `again`: its block has run before, so that facts of its text alone were reported then.
     pub(crate) fn is_new(&mut self, file: u16, fault: &Fault, again: bool) -> bool {
         if again && is_textual(&fault.kind) {

@@ -140,7 +140,7 @@ impl Cuts {
 }
 
 /// Asks the rules about each stretch. `started`: something started a spindle, or may have.
-pub(crate) fn tell_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: bool) {
+pub(crate) fn report_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: bool) {
     for still in cuts.finish(reporter.part(), started) {
         reporter.origin(false, still.chain);
         ask(rules, reporter, (Some(still.first), 0), |wake, out| {

@@ -1,7 +1,7 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
 use crate::config::Scope;
 use crate::coverage::Tally;
-use crate::cuts::{Cuts, tell_still};
+use crate::cuts::{Cuts, report_still};
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
@@ -227,12 +227,8 @@ impl<'a> Pass<'a> {
         let assumptions = listed.chain(self.assumed_radii).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
-            tell_still(
-                cuts,
-                &self.rules,
-                &mut reporter,
-                interpreter.state().spindle.was_started(),
-            );
+            let was_started = interpreter.state().spindle.was_started();
+            report_still(cuts, &self.rules, &mut reporter, was_started);
         }
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
@@ -246,16 +242,12 @@ impl<'a> Pass<'a> {
         if let Some(datum) = &self.datum {
             for overrun in datum.overruns() {
                 reporter.origin(false, overrun.chain);
-                ask(
-                    &self.legs.rules,
-                    &mut reporter,
-                    (Some(overrun.block), 0),
-                    |wake, out| {
-                        if let Wake::Overrun(rule) = wake {
-                            rule(overrun, out);
-                        }
-                    },
-                );
+                let block = (Some(overrun.block), 0);
+                ask(&self.legs.rules, &mut reporter, block, |wake, out| {
+                    if let Wake::Overrun(rule) = wake {
+                        rule(overrun, out);
+                    }
+                });
             }
             for open in datum.open() {
                 reporter.origin(false, open.chain);

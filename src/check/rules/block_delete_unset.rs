@@ -116,7 +116,7 @@ mod tests {
         );
         let own = one("block-delete-unset");
         assert!(
-            own.message.starts_with("2 blocks begin with or contain a /, and"),
+            own.message.starts_with("2 blocks begin with or contain a /, but"),
             "{}",
             own.message
         );

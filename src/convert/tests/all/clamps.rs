@@ -253,7 +253,10 @@ fn codes_that_nobody_names_are_left_with_a_remark() {
         let made = haas(INDEXED, &machine);
         assert_eq!(made.clamps, ['C', 'A']);
         for letter in made.clamps {
-            let remark = format!("({letter} HAS A CLAMP. IT IS NOT WRITTEN HERE: {})", why.to_uppercase());
+            let remark = format!(
+                "({letter} HAS A CLAMP. THIS PROGRAM DOES NOT OPERATE IT: {})",
+                why.to_uppercase()
+            );
             assert!(made.text.contains(&remark), "{}", made.text);
         }
         assert!(!made.text.contains("M8\n"), "{}", made.text);

@@ -224,7 +224,10 @@ fn what_depends_on_the_unknown_is_not_decided() {
             "3 `R1==0.3` not decided: R1==0.3: the control",
         ),
         ("IF 1 GOTOF LA X5\nLA: M30\n", "2 `X5` not decided"),
-        ("R1=1\nX5 GOTOF LA\nLA: M30\n", "3 `GOTOF LA` not decided: words beside"),
+        (
+            "R1=1\nX5 GOTOF LA\nLA: M30\n",
+            "3 `GOTOF LA` not decided: other words in",
+        ),
     ] {
         let got = said(&format!("G0 X1\n{source}"));
         assert!(got.len() == 1 && got[0].starts_with(what), "{source}: {got:?}");

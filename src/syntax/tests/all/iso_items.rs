@@ -38,10 +38,10 @@ fn words() {
 #[test]
 fn subprograms_with_a_number_may_have_arguments() {
     check(&[
-        (SINUMERIK, "L140(1)", "L140(1)", ""),
-        (SINUMERIK, "N10 L140 (1,R2) ", "N=10 L140(1,R2)", ""),
+        (SINUMERIK, "L140(1)", "call:L140(1)", ""),
+        (SINUMERIK, "N10 L140 (1,R2) ", "N=10 call:L140(1,R2)", ""),
         (SINUMERIK, "L140 P2", "L=140 P=2", ""),
-        (CORE, "L140(1)", "L=140 (1)", ""),
+        (CORE, "L140(1)", "L=140 comment[1]", ""),
     ]);
 }
 

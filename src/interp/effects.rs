@@ -211,7 +211,9 @@ impl Iso<'_> {
                 .add(block, Effect::set("speed", [said("S", words.speed)]));
         }
         if words.tool.is_given() {
-            let to = [chosen(self.core.tools.prepared()), said("T", words.tool)];
+            // the word counts beside the tool where it says more: T0101
+            let mut to = vec![chosen(self.core.tools.prepared()), said("T", words.tool)];
+            to.dedup();
             self.core.effects.add(block, Effect::set("tool prepared", to));
         }
         if words.tool.is_given() || codes.iter().any(|found| found.code.action == Action::ToolChange) {

@@ -92,7 +92,14 @@ fn mutated_real_programs_end_with_a_status_and_valid_json() {
 
 fn one(folder: &Path, name: &str, bytes: &[u8], mutation: usize) {
     let tokens = trunnion_in(folder, &["parse", "--tokens", "--format", "json", name]);
-    assert!(matches!(status(&tokens), 0..=1), "{name}: {}", text(&tokens.stderr));
+    let said = text(&tokens.stderr);
+    if status(&tokens) == 2 {
+        // a mutated comment of the program may name a machine or a dialect that does not exist
+        let names = ["unknown machine", "unknown dialect"];
+        assert!(names.iter().any(|what| said.contains(what)), "{name}: {said}");
+        return;
+    }
+    assert!(matches!(status(&tokens), 0..=1), "{name}: {said}");
     let document = json(&tokens);
     let mut at = 0;
     for token in document["tokens"].as_array().expect("a list") {

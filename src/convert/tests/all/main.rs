@@ -3,6 +3,7 @@
 mod clamps;
 mod code;
 mod guide_vane;
+mod holes;
 mod kept;
 mod machines;
 mod places;

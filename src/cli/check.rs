@@ -82,12 +82,13 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
     let mut tally = Tally::default();
     for failure in &found.failures {
         failure.print();
-        tally.failed += 1;
+        tally.not_checked.push(json::NotChecked::of(failure));
     }
     let mut out = Out::standard();
     if format == CheckFormat::Json {
         json::write(&mut out, |put| {
             each(global, command, format, &found.files, &bar, &mut tally, put);
+            tally.not_checked.as_slice()
         })?;
     } else {
         let mut last_lines = Vec::new();
@@ -108,7 +109,7 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
     }
     bar.finish_and_clear();
     out.flush()?;
-    if tally.failed > 0 {
+    if !tally.not_checked.is_empty() {
         return Err(Failure::new("not every file could be checked (see above)"));
     }
     Ok(if tally.found { Done::Found } else { Done::Clean })
@@ -121,7 +122,7 @@ struct Tally {
     pass: u64,
     fail: u64,
     unknown: u64,
-    failed: u64,
+    not_checked: Vec<json::NotChecked>,
     found: bool,
 }
 
@@ -142,13 +143,12 @@ impl Tally {
             pass,
             fail,
             unknown,
-            failed,
+            not_checked,
             ..
         } = self;
-        let failed = if *failed == 0 {
-            String::new()
-        } else {
-            format!(", {failed} not checked")
+        let failed = match not_checked.len() {
+            0 => String::new(),
+            failed => format!(", {failed} not checked"),
         };
         let noun = if *files == 1 { "file" } else { "files" };
         format!("{files} {noun}: {pass} pass, {fail} fail, {unknown} unknown{failed}")
@@ -185,7 +185,7 @@ fn each(
                 }
                 Err(failure) => {
                     bar.suspend(|| failure.print());
-                    tally.failed += 1;
+                    tally.not_checked.push(json::NotChecked::of(&failure));
                 }
             }
         }

@@ -45,6 +45,14 @@ impl Failure {
     pub(crate) fn is_broken_pipe(&self) -> bool {
         self.broken_pipe
     }
+    /// The file, with the line where it is known; empty without a place.
+    pub(crate) fn place(&self) -> &str {
+        self.place.strip_suffix(": ").unwrap_or(&self.place)
+    }
+    /// What is wrong, and what to do.
+    pub(crate) fn message(&self) -> &str {
+        &self.message
+    }
     /// Prints it.
     pub(crate) fn print(&self) {
         // a closed standard error must not stop the program

@@ -214,8 +214,30 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome
     }
 }
 
+/// A file or folder that could not be checked; the exit status is 2.
+#[derive(Serialize)]
+pub(super) struct NotChecked {
+    /// Path, with the line where it is known.
+    place: String,
+    /// What is wrong, and what to do.
+    message: String,
+}
+
+impl NotChecked {
+    pub(super) fn of(failure: &Failure) -> Self {
+        Self {
+            place: failure.place().to_owned(),
+            message: failure.message().to_owned(),
+        }
+    }
+}
+
 /// Writes the document of all files, one after the other as `each` hands them over, and their summary after them.
-pub(super) fn write(out: &mut impl Write, each: impl FnOnce(&mut dyn FnMut(Checked))) -> Result<(), Failure> {
+/// `each` returns what could not be checked.
+pub(super) fn write<'n>(
+    out: &mut impl Write,
+    each: impl FnOnce(&mut dyn FnMut(Checked)) -> &'n [NotChecked],
+) -> Result<(), Failure> {
     let mut summary = Summary::default();
     let mut machine = None;
     let mut error = None;
@@ -224,7 +246,7 @@ pub(super) fn write(out: &mut impl Write, each: impl FnOnce(&mut dyn FnMut(Check
         "{{\n  \"schema\": \"trunnion-check/1\",\n  \"version\": \"{}\",\n  \"files\": [",
         env!("CARGO_PKG_VERSION")
     )?;
-    each(&mut |file| {
+    let not_checked = each(&mut |file| {
         let s = file.summary;
         if summary.files == 0 {
             machine.clone_from(&file.machine);
@@ -253,8 +275,9 @@ pub(super) fn write(out: &mut impl Write, each: impl FnOnce(&mut dyn FnMut(Check
     if let Some(error) = error {
         return Err(error.into());
     }
-    let rest = serde_json::to_string_pretty(&json!({ "machine": machine, "summary": summary }))
-        .map_err(std::io::Error::from)?;
+    let rest =
+        serde_json::to_string_pretty(&json!({ "machine": machine, "not_checked": not_checked, "summary": summary }))
+            .map_err(std::io::Error::from)?;
     // its opening brace is that of the document
     writeln!(out, "\n  ],{}", &rest[1..])?;
     Ok(())

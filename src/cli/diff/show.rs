@@ -240,8 +240,8 @@ pub(super) fn shared(found: &Found) -> String {
     };
     let paired = found.motions[0].saturating_sub(moved + only(false) + found.not_compared);
     format!(
-        "{paired} of {} follow the same path, {moved} differ in their path, {state} in their settings; motions and statements only before: \
-         {removed}, only after: {added}; `trunnion diff` lists them",
+        "{paired} of {} follow the same path, {moved} differ in their path, {state} in their settings; motions and statements only in the original \
+         program: {removed}, only in the changed one: {added}; `trunnion diff` lists them",
         counted(found.motions[0], "motion")
     )
 }

@@ -65,4 +65,18 @@ fn an_unreadable_file_of_a_folder_counts_as_not_checked() {
     let said = text(&output.stderr);
     assert!(said.contains("b.nc: is larger than 1 MB"), "{said}");
     assert!(said.contains("1 not checked"), "{said}");
+    // who reads the JSON alone sees it, too
+    let output = trunnion(&["check", "--max-file-mb", "1", "--format", "json", str(folder.path())]);
+    assert_eq!(status(&output), 2);
+    let document = json(&output);
+    assert_eq!(document["files"].as_array().map(Vec::len), Some(1));
+    let [left] = document["not_checked"].as_array().expect("a list").as_slice() else {
+        panic!("{document}");
+    };
+    let place = left["place"].as_str().unwrap_or_default();
+    let message = left["message"].as_str().unwrap_or_default();
+    assert!(
+        place.ends_with("b.nc") && message.contains("is larger than 1 MB"),
+        "{left}"
+    );
 }

@@ -43,6 +43,9 @@ pub struct Certificate {
     pub worst: WorstChanges,
     /// What the rotary axes do, before and after, workpiece side first.
     pub rotary: Vec<RotaryChange>,
+    /// What the postures cost, where the claim is that no others cost less.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub postures: Option<PostureCosts>,
     /// Each motion that differs.
     pub changes: Vec<MotionChange>,
     /// SHA-256 of the canonical encoding of all fields above, so that an altered claim is noticed too.
@@ -145,6 +148,22 @@ pub struct RotaryChange {
     pub travel_after_deg: f64,
 }
 
+/// What the sequence of postures costs, in the unit of the claim's cost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PostureCosts {
+    /// Positions of the rotary axes one after the other.
+    pub stations: u64,
+    /// Changes of posture before.
+    pub switches_before: u64,
+    /// Changes of posture after.
+    pub switches_after: u64,
+    /// Cost before.
+    pub before: f64,
+    /// Cost after, which is the least: of the exact angles, before rounding to the digits of the program.
+    pub after: f64,
+}
+
 /// One motion that differs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -196,6 +215,7 @@ impl Certificate {
         let (mm, degrees) = self.claim.tolerances();
         let claim = match self.claim {
             Claim::SamePoses { .. } => "same poses at all block ends",
+            Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",

@@ -1,9 +1,10 @@
 //! What a rewrite claims about the programs before and after it.
+use crate::postures::PostureCost;
 use serde::{Deserialize, Serialize};
 
 /// The claim. Lengths mm, angles deg (certificates are read by people).
 ///
-/// The first two are claims of rewrites: beside the poses, everything else must be as before (kinds of motion, feeds, spindle,
+/// The first three are claims of rewrites: beside the poses, everything else must be as before (kinds of motion, feeds, spindle,
 /// tools, and every byte that is not a number of a coordinate word).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
@@ -28,6 +29,20 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
+    /// Every motion ends in the same pose, in any posture and with any number of whole turns (`switch-angles`), and no other choice of
+    /// postures and turns inside the travel of the axes costs less ([`crate::postures`]). No cut changes the posture away from the pole, or
+    /// turns a rotary axis by more than half a turn, where it did not before. Nothing is claimed of the paths between the ends (the
+    /// certificate says by how much they differ there).
+    LeastPostures {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// What a sequence of postures costs.
+        cost: PostureCost,
+        /// The least cost of reaching each state of the graph, in billionths of the cost's unit; none where it cannot be reached.
+        labels: Vec<Option<u64>>,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -51,7 +66,9 @@ impl Claim {
     pub fn point_height_mm(&self) -> f64 {
         match self {
             Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
-            Self::SamePoses { .. } | Self::SameToolPath { .. } | Self::SamePath { .. } => 0.0,
+            Self::SamePoses { .. } | Self::LeastPostures { .. } | Self::SameToolPath { .. } | Self::SamePath { .. } => {
+                0.0
+            }
         }
     }
 
@@ -63,6 +80,11 @@ impl Claim {
                 tolerance_deg,
             }
             | Self::SameBallCentre {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
+            | Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,
                 ..

@@ -281,7 +281,7 @@ impl Pair<'_> {
     /// Compares what is between the ends with the claim.
     fn judge_path(&self, way: &Apart, start: Option<Both<'_>>, end: Both<'_>) -> Result<(), Outcome> {
         let claimed = match self.claim {
-            Claim::SameBallCentre { .. } => false,
+            Claim::SameBallCentre { .. } | Claim::LeastPostures { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
             Claim::SameToolPath { .. } | Claim::SamePath { .. } => true,
         };

@@ -4,6 +4,7 @@
 //! It knows neither rules nor rewrites nor any search: what it trusts is floors 0 to 3 and itself.
 mod canonical;
 mod certificate;
+mod chosen;
 mod claim;
 mod compare;
 pub mod conversion;
@@ -12,6 +13,7 @@ mod difference;
 mod digest;
 mod library;
 mod path;
+pub mod postures;
 mod proof;
 mod recheck;
 mod text;
@@ -19,8 +21,8 @@ mod unlike;
 mod verdict;
 
 pub use certificate::{
-    Certificate, MotionChange, MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextChange, TextDigest, Worst,
-    WorstChanges,
+    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, SCHEMA, TextChange, TextDigest,
+    Worst, WorstChanges,
 };
 pub use claim::Claim;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};

@@ -1,5 +1,6 @@
 //! The proof so far: what comparing pairs of motions has found.
-use crate::certificate::{MotionCounts, RotaryChange, Worst, WorstChanges};
+use crate::certificate::{MotionCounts, PostureCosts, RotaryChange, Worst, WorstChanges};
+use crate::chosen::Chosen;
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
@@ -17,6 +18,8 @@ pub(crate) struct Proof<'a> {
     pub(crate) worst: WorstChanges,
     pub(crate) rotary: Vec<RotaryChange>,
     pub(crate) changes: Vec<crate::certificate::MotionChange>,
+    /// Positions of the rotary axes, where the claim is about postures.
+    chosen: Option<Chosen<'a>>,
     /// What ended the proof, where that was a pair of motions.
     pub(crate) failed: Option<Outcome>,
 }
@@ -69,6 +72,7 @@ impl<'a> Proof<'a> {
             worst: WorstChanges::default(),
             rotary: machine.rotary.iter().map(axis).collect(),
             changes: Vec::new(),
+            chosen: matches!(claim, Claim::LeastPostures { .. }).then(|| Chosen::new(machine)),
             failed: None,
         }
     }
@@ -102,6 +106,22 @@ impl<'a> Proof<'a> {
         }
     }
 
+    /// Whether the postures are the cheapest, where that is claimed.
+    pub(crate) fn postures(&mut self) -> Result<Option<PostureCosts>, Outcome> {
+        match (self.chosen.take(), self.claim) {
+            (
+                Some(chosen),
+                Claim::LeastPostures {
+                    tolerance_deg,
+                    cost,
+                    labels,
+                    ..
+                },
+            ) => chosen.judge(*cost, labels, *tolerance_deg).map(Some),
+            _ => Ok(None),
+        }
+    }
+
     fn line(&self, block: BlockId) -> u32 {
         self.lines
             .line_column(self.after.source(), self.after.block(block).range().start)
@@ -116,6 +136,9 @@ impl<'a> Proof<'a> {
         let (Some(old), Some(new)) = (&was.leg, &is.leg) else {
             return Err(Outcome::unknown("no machine is named"));
         };
+        if let Some(chosen) = &mut self.chosen {
+            chosen.add(old, new);
+        }
         let residuals = [
             forward_residual(self.machine, at, old)?,
             forward_residual(self.machine, at, new)?,

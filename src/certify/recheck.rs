@@ -199,6 +199,7 @@ fn prove(
     if text.rest_identical && claim.is_rewrite() {
         every_change_ran(&sides, (&old, new))?;
     }
+    let postures = proof.postures()?;
     Ok(Certificate {
         schema: SCHEMA.into(),
         tool_version: env!("CARGO_PKG_VERSION").into(),
@@ -223,6 +224,7 @@ fn prove(
         motions: proof.motions,
         worst: proof.worst,
         rotary: proof.rotary,
+        postures,
         changes: proof.changes,
         seal_sha256: String::new(),
     }

@@ -54,9 +54,9 @@ impl Assume {
         true
     }
 
-    /// Which values of a motion are undeclared.
+    /// Which values of a motion are undeclared, and not assumed either.
     #[inline]
-    pub(crate) fn leaves(self, undeclared: Undeclared) -> Undeclared {
+    pub fn leaves(self, undeclared: Undeclared) -> Undeclared {
         Undeclared {
             zero: if self.work_offset { 0 } else { undeclared.zero },
             length: undeclared.length && !self.tool_length,

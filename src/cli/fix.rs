@@ -1,7 +1,7 @@
 //! `fix`: proposes rewrites, has them proved, applies them.
 use super::{
     Done,
-    args::{Fix, Global},
+    args::{CostOf, Fix, Global},
     failure::{Failure, remark, shown},
     load::{self, Loaded},
 };
@@ -9,6 +9,7 @@ use crate::cli::out::Out;
 use similar::TextDiff;
 use std::{io::IsTerminal, path::PathBuf};
 use trunnion_certify::Certificate;
+use trunnion_certify::postures::PostureCost;
 use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite, rewrites};
 
 /// The result of all rewrites together.
@@ -88,6 +89,11 @@ fn options(command: &Fix) -> Result<Options, Failure> {
     let options = Options {
         tolerance_mm: command.tolerance_mm.unwrap_or(defaults.tolerance_mm),
         tolerance_deg: command.tolerance_deg.unwrap_or(defaults.tolerance_deg),
+        cost: match command.cost {
+            CostOf::Travel => PostureCost::Travel,
+            CostOf::Time => PostureCost::Time,
+            CostOf::Deviation => PostureCost::Deviation,
+        },
     };
     let good = |value: f64| value.is_finite() && value > 0.0;
     if !good(options.tolerance_mm) || !good(options.tolerance_deg) {

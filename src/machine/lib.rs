@@ -32,7 +32,7 @@ pub use kinematics::selftest::{SelfTest, self_test};
 pub use kinematics::uncertainty::{AxisUncertainty, pivot_sensitivity_between};
 pub use kinematics::windings::{Windings, pole_angle, solution_s, windings};
 pub use path::block_path::{BlockPath, Moment};
-pub use path::deviation::{Deviation, tip_deviation};
+pub use path::deviation::{Deviation, joint_line_deviation, tip_deviation};
 pub use path::limits::{Excess, LIMIT_SLACK, limit_excess};
 pub use path::orientation::{OrientationDeviation, orientation_deviation};
 pub use path::quick_bounds::{Allowances, QuickBounds, quick_bounds};

@@ -1,5 +1,6 @@
 //! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name appears in two lists here.
 mod smooth_pole;
+mod switch_angles;
 mod unwind_rotary;
 
 use crate::{Options, Proposal, Rewrite};
@@ -34,7 +35,7 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![smooth_pole, unwind_rotary];
+static REWRITES: &[&Rewrite] = table![smooth_pole, switch_angles, unwind_rotary];
 
 /// All rewrites, by name.
 pub fn rewrites() -> &'static [&'static Rewrite] {

@@ -7,6 +7,8 @@ use trunnion_syntax::{Address, AptArg, Block, Format, Program, TextEdit, TextRan
 pub(crate) enum Scheme {
     /// ISO words X, Y, Z and this rotary letter.
     Rotary(u8),
+    /// ISO words X, Y, Z and these rotary letters; 0 for one that the machine lacks.
+    Rotaries([u8; 2]),
     /// ISO words X, Y, Z and A3= B3= C3=.
     IndexedVector,
     /// ISO words X, Y, Z and I, J, K.
@@ -52,6 +54,9 @@ impl Scheme {
         let vector = match (self, address) {
             (_, Address::Letter(letter @ b'X'..=b'Z')) => return Some(usize::from(letter - b'X')),
             (Self::Rotary(rotary), Address::Letter(letter)) => return (letter == rotary).then_some(3),
+            (Self::Rotaries(rotaries), Address::Letter(letter)) => {
+                return rotaries.iter().position(|&rotary| rotary == letter).map(|at| 3 + at);
+            }
             (Self::IndexedVector, Address::Indexed(letter, 3)) => letter.checked_sub(b'A'),
             (Self::LetterVector, Address::Letter(letter)) => letter.checked_sub(b'I'),
             _ => None,
@@ -61,7 +66,11 @@ impl Scheme {
 
     /// Number of coordinates.
     pub(crate) fn count(self) -> usize {
-        if matches!(self, Self::Rotary(_)) { 4 } else { 6 }
+        match self {
+            Self::Rotary(_) => 4,
+            Self::Rotaries(_) => 5,
+            Self::IndexedVector | Self::LetterVector | Self::Goto => 6,
+        }
     }
 
     /// The axis letter of a coordinate; `None` for components of a vector.
@@ -70,6 +79,7 @@ impl Scheme {
             (Self::Goto, _) => None,
             (_, 0..=2) => Some(b"XYZ"[index]),
             (Self::Rotary(letter), _) => Some(letter),
+            (Self::Rotaries(letters), 3..=4) => Some(letters[index - 3]),
             _ => None,
         }
     }
@@ -79,6 +89,7 @@ impl Scheme {
         match (self, index) {
             (_, 0..=2) => char::from(b"XYZ"[index]).to_string(),
             (Self::Rotary(letter), _) => char::from(letter).to_string(),
+            (Self::Rotaries(letters), _) => char::from(letters[(index - 3).min(1)]).to_string(),
             (Self::IndexedVector, _) => format!("{}3", char::from(b"ABC"[(index - 3).min(2)])),
             _ => char::from(b"IJK"[(index - 3).min(2)]).to_string(),
         }
@@ -191,8 +202,18 @@ pub(crate) fn insert_word(program: &Program, block: &Block<'_>, letter: u8, numb
     })
 }
 
-/// One blank where the word at `start` has one before it.
+/// One blank where the word at `start` has one before it; at the start of a line, where axis words of the program have one.
 fn blank_before(program: &Program, start: u32) -> &'static str {
-    let before = (start as usize).checked_sub(1).and_then(|at| program.source().get(at));
-    if matches!(before, Some(b' ' | b'\t')) { " " } else { "" }
+    let source = program.source();
+    let before = (start as usize).checked_sub(1).and_then(|at| source.get(at));
+    let separated = || {
+        source
+            .windows(2)
+            .any(|pair| pair[0] == b' ' && b"XYZABC".contains(&pair[1]))
+    };
+    match before {
+        Some(b' ' | b'\t') => " ",
+        None | Some(b'\n' | b'\r') if separated() => " ",
+        _ => "",
+    }
 }

@@ -176,6 +176,7 @@ fn rewrites_of_mutated_strips_are_certified_or_refused() {
                 &Options {
                     tolerance_mm: 0.001,
                     tolerance_deg: 0.08,
+                    ..Options::default()
                 },
             ) {
                 Attempt::NothingToDo => {}

@@ -4,4 +4,5 @@ mod mutants;
 mod random;
 mod smoothing;
 mod strategy_2;
+mod switching;
 mod unwinding;

@@ -1,7 +1,8 @@
 //! A certificate without its seal, and its claim.
 use super::{CanonicalV1, Encode};
 use crate::certificate::{
-    Certificate, MotionChange, MotionCounts, NamedDigest, RotaryChange, TextChange, TextDigest, Worst, WorstChanges,
+    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, TextChange, TextDigest, Worst,
+    WorstChanges,
 };
 use crate::claim::Claim;
 
@@ -9,7 +10,7 @@ use crate::claim::Claim;
 record! {
     Certificate {
         schema = 1, tool_version = 2, before = 3, after = 4, dialect = 5, machine = 6, setup_sha256 = 7, library = 8,
-        claim = 9, text = 10, motions = 11, worst = 12, rotary = 13, changes = 14, after_dialect = 15,
+        claim = 9, text = 10, motions = 11, worst = 12, rotary = 13, changes = 14, after_dialect = 15, postures = 16,
     } without {
         seal_sha256,
     }
@@ -59,6 +60,12 @@ record! {
 }
 
 record! {
+    PostureCosts {
+        stations = 1, switches_before = 2, switches_after = 3, before = 4, after = 5,
+    }
+}
+
+record! {
     MotionChange {
         motion = 1, line = 2, point_shift_mm = 3, tip_shift_mm = 4, axis_change_deg = 5, rotary_change_deg = 6,
         path_sampled_mm = 7, path_bound_mm = 8, path_axis_bound_deg = 9,
@@ -95,6 +102,18 @@ impl Encode for Claim {
                 tolerance_deg,
             } => out.variant(4, |fields| {
                 fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
+            Self::LeastPostures {
+                tolerance_mm,
+                tolerance_deg,
+                cost,
+                labels,
+            } => out.variant(5, |fields| {
+                fields
+                    .field(1, tolerance_mm)
+                    .field(2, tolerance_deg)
+                    .field(3, cost)
+                    .field(4, labels);
             }),
         }
     }

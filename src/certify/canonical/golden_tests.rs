@@ -230,6 +230,7 @@ fn a_certificate_without_its_seal() {
             travel_before_deg: 3.0,
             travel_after_deg: 4.0,
         }],
+        postures: None,
         changes: vec![MotionChange {
             motion: 1,
             line: 2,

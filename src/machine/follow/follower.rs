@@ -2,9 +2,8 @@
 use crate::follow::choice::cheapest_in_posture;
 use crate::follow::line_cache::LineCache;
 use crate::follow::words::{Words, XYZ, zero_point};
-use crate::kinematics::forward::{Turn, segment_shifts};
 use crate::kinematics::held_axes::settle_held;
-use crate::kinematics::inverse::{inverse_turned, place};
+use crate::kinematics::inverse::inverse_turned;
 use crate::kinematics::pole;
 use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Sine, Stance};
 use core::f64::consts::FRAC_PI_2;
@@ -302,52 +301,8 @@ impl<'m> Follower<'m> {
     /// A stance with the given joints (without `tip`) or with the given rotary joints and tip (linear joints left to be solved).
     #[inline]
     pub(crate) fn stand(&self, motion: &Motion, joints: &Joints, start: Option<&Stance>, tip: Option<Vec3>) -> Stance {
-        let machine = self.machine;
-        let constants = &machine.constants;
-        let mut turns = [Turn::NONE; 2];
-        for (index, rotary) in constants.rotary().iter().enumerate() {
-            turns[index] = match start {
-                // a rotary axis that does not move needs no sine
-                Some(before) if before.joints[rotary.joint] == joints[rotary.joint] => {
-                    let (sin, cos) = before.turns[index];
-                    Turn {
-                        axis: rotary.direction,
-                        sin,
-                        cos,
-                    }
-                }
-                _ => Turn::new(constants, index, joints[rotary.joint]),
-            };
-        }
-        // the tool is in the spindle even if the words are machine coordinates
-        let tool_length = motion.tool_length_mm;
-        let point = tip.unwrap_or_else(|| {
-            let tool = machine.gauge_point - machine.tool_axis * tool_length;
-            place(constants, &turns, &segment_shifts(constants, joints), &tool)
-        });
-        let (axis, s, branch, pole_angle) = if let Some(pair) = &constants.pair {
-            let w = turns[1].apply(&machine.tool_axis);
-            let (s, branch) = pole::posture(pair, &w);
-            (
-                turns[0].apply(&w),
-                s,
-                branch,
-                pole::pole_angle(constants, pair, &w, joints[constants.rotary[1].joint]),
-            )
-        } else {
-            (turns[0].apply(&machine.tool_axis), 0.0, 0, FRAC_PI_2)
-        };
-        Stance {
-            joints: *joints,
-            tip: point - Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]),
-            axis,
-            s,
-            branch,
-            pole_angle,
-            tool_length,
-            point,
-            turns: turns.map(|turn| (turn.sin, turn.cos)),
-        }
+        let zero = Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]);
+        Stance::of_joints(self.machine, joints, (motion.tool_length_mm, &zero), start, tip)
     }
 
     /// What happens between start and end.

@@ -1,6 +1,9 @@
 //! The position of the machine between two blocks, and what it does in one.
-use crate::kinematics::forward::Turn;
+use crate::kinematics::forward::{Turn, segment_shifts};
+use crate::kinematics::inverse::place;
+use crate::kinematics::pole;
 use crate::{Joints, Machine};
+use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
 use trunnion_interp::Motion;
 
@@ -28,6 +31,66 @@ pub struct Stance {
 }
 
 impl Stance {
+    /// With the given joints (mm, rad; all of them), a tool of this length (mm) and the work offset's X Y Z (mm, workpiece frame).
+    pub fn at(machine: &Machine, joints: &Joints, tool_length: f64, zero: &Vec3) -> Self {
+        Self::of_joints(machine, joints, (tool_length, zero), None, None)
+    }
+
+    /// With the given joints (without `tip`) or with the given rotary joints and tip (linear joints left to be solved). `start`: the stance
+    /// before, whose sines are taken where an axis does not move. The tool is in the spindle even if the words are machine coordinates.
+    #[inline]
+    pub(crate) fn of_joints(
+        machine: &Machine,
+        joints: &Joints,
+        (tool_length, zero): (f64, &Vec3),
+        start: Option<&Self>,
+        tip: Option<Vec3>,
+    ) -> Self {
+        let constants = &machine.constants;
+        let mut turns = [Turn::NONE; 2];
+        for (index, rotary) in constants.rotary().iter().enumerate() {
+            turns[index] = match start {
+                // a rotary axis that does not move needs no sine
+                Some(before) if before.joints[rotary.joint] == joints[rotary.joint] => {
+                    let (sin, cos) = before.turns[index];
+                    Turn {
+                        axis: rotary.direction,
+                        sin,
+                        cos,
+                    }
+                }
+                _ => Turn::new(constants, index, joints[rotary.joint]),
+            };
+        }
+        let point = tip.unwrap_or_else(|| {
+            let tool = machine.gauge_point - machine.tool_axis * tool_length;
+            place(constants, &turns, &segment_shifts(constants, joints), &tool)
+        });
+        let (axis, s, branch, pole_angle) = if let Some(pair) = &constants.pair {
+            let w = turns[1].apply(&machine.tool_axis);
+            let (s, branch) = pole::posture(pair, &w);
+            (
+                turns[0].apply(&w),
+                s,
+                branch,
+                pole::pole_angle(constants, pair, &w, joints[constants.rotary[1].joint]),
+            )
+        } else {
+            (turns[0].apply(&machine.tool_axis), 0.0, 0, FRAC_PI_2)
+        };
+        Self {
+            joints: *joints,
+            tip: point - zero,
+            axis,
+            s,
+            branch,
+            pole_angle,
+            tool_length,
+            point,
+            turns: turns.map(|turn| (turn.sin, turn.cos)),
+        }
+    }
+
     /// The rotary turns of this stance.
     #[inline]
     pub(crate) fn turns(&self, machine: &Machine) -> [Turn; 2] {

@@ -3,7 +3,7 @@ use crate::follow::follower::leads_path;
 use crate::path::curve_distance::CurveDistance;
 use crate::path::peak::{Piece, SAMPLES, peak};
 use crate::path::tip_path::{Run, TipPath};
-use crate::{Leg, Machine, RapidPath};
+use crate::{Leg, Machine, RapidPath, Stance};
 use trunnion_interp::MotionKind;
 
 /// Deviation of the tip path from the programmed segment.
@@ -110,6 +110,19 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         bound_mm: bound + path.rounding,
         at,
     })
+}
+
+/// Largest distance found of the tip from the segment between its ends, mm, while all joints run linearly from one stance to the other:
+/// what [`tip_deviation`] samples of a line without tool centre point control.
+pub fn joint_line_deviation(machine: &Machine, start: &Stance, end: &Stance) -> f64 {
+    let path = TipPath::new(Run::new(machine, start, end), None);
+    let search = Search { room: 0.0, open: 0.0 };
+    let found = peak(
+        |t| from_chord(&path, t),
+        |piece: &Piece| piece.below_parabola(path.bend),
+        |bound, sampled, samples| search.ends(bound, sampled, samples),
+    );
+    found.sampled
 }
 
 /// When the search for the largest distance ends.

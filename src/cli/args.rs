@@ -232,7 +232,7 @@ pub(crate) struct Fix {
     pub(crate) tolerance_deg: Option<f64>,
     /// switch-angles: what the postures of the whole program are chosen by.
     #[arg(long, value_enum, default_value = "travel")]
-    pub(crate) cost: CostOf,
+    pub(crate) cost: super::fix::CostOf,
     /// Print a unified diff (the default).
     #[arg(long)]
     pub(crate) diff: bool,
@@ -248,17 +248,6 @@ pub(crate) struct Fix {
     /// Write the certificates (JSON) to this file.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) certificate: Option<PathBuf>,
-}
-
-/// What `switch-angles` chooses postures by.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CostOf {
-    /// Travel of the rotary axes.
-    Travel,
-    /// Time of the slowest rotary axis.
-    Time,
-    /// How far the tip is off its line.
-    Deviation,
 }
 
 /// `certify`

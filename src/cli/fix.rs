@@ -1,7 +1,7 @@
 //! `fix`: proposes rewrites, has them proved, applies them.
 use super::{
     Done,
-    args::{CostOf, Fix, Global},
+    args::{Fix, Global},
     failure::{Failure, remark, shown},
     load::{self, Loaded},
 };
@@ -11,6 +11,17 @@ use std::{io::IsTerminal, path::PathBuf};
 use trunnion_certify::Certificate;
 use trunnion_certify::postures::PostureCost;
 use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite, rewrites};
+
+/// What `switch-angles` chooses postures by.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum CostOf {
+    /// Travel of the rotary axes.
+    Travel,
+    /// Time of the slowest rotary axis.
+    Time,
+    /// How far the tip is off its line.
+    Deviation,
+}
 
 /// The result of all rewrites together.
 struct Outcome {

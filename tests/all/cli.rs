@@ -15,5 +15,6 @@ mod machines;
 mod pictures;
 mod pieces;
 mod stats;
+mod switching;
 pub(crate) mod tools;
 mod twins;

@@ -101,7 +101,7 @@ impl<'a> Graph<'a> {
     }
 
     /// Cost of the motion that reaches `station` between two of its states (indices), in billionths; `None` where it is not allowed: a cut
-    /// may change the posture only where the pole lies inside it, and may not turn an axis by more than half a turn, unless the program as
+    /// may change the posture only where the pole lies inside it or where that saves rotary travel, and may not turn an axis by more than half a turn, unless the program as
     /// written does so.
     pub fn edge(&self, station: usize, from: usize, to: usize) -> Option<u64> {
         let at = &self.stations[station];
@@ -113,13 +113,27 @@ impl<'a> Graph<'a> {
         let steps = self.steps(from, to);
         let far = steps.iter().any(|step| step.abs() > PI + ROUNDING);
         let swaps = from.sign * to.sign < 0;
-        if at.cut && !(from.written && to.written) && (far || swaps && !at.over_pole) {
+        if at.cut
+            && !(from.written && to.written)
+            && (far
+                || swaps && !at.over_pole && self.excess(station, from, steps) > self.machine.tolerances.swap_excess)
+        {
             return None;
         }
         Some(match self.cost {
             PostureCost::Deviation if at.in_joints => self.deviation(station, from, to, steps)?,
             cost => cost.of_steps(self.machine, steps),
         })
+    }
+
+    /// By how much rotary steps (their sum, rad) exceed those of the cheapest move in the posture of `from`: what the machine's measure of a
+    /// posture swap is. Endless where that posture does not reach the station: a swap is then forced, and never chosen in a cut.
+    fn excess(&self, station: usize, from: &State, steps: [f64; 2]) -> f64 {
+        let sum = |steps: [f64; 2]| steps[0].abs() + steps[1].abs();
+        let same = self.states_of(station).map(|index| &self.states[index]);
+        let same = same.filter(|state| state.sign == from.sign);
+        let cheapest = same.map(|state| sum(self.steps(from, state))).min_by(f64::total_cmp);
+        cheapest.map_or(f64::INFINITY, |cheapest| sum(steps) - cheapest)
     }
 
     /// Rotary travel of the motion that reaches `station` between two of its states, billionths of a degree.

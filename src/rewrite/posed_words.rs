@@ -131,16 +131,13 @@ impl<'a> PosedWords<'a> {
 
     /// Edits that make the block say `wanted`.
     fn write(&mut self, motion: &Move, wanted: &[Option<f64>; 5], changes: bool) -> Result<(), String> {
-        if let Some((block, said)) = &self.last {
-            if *block == motion.block {
-                // a cycle: its other motions follow from the same words
-                let same = !changes || said[3..] == wanted[3..];
-                return if same {
-                    Ok(())
-                } else {
-                    Err("one block makes several motions, and its words cannot be changed for all of them".into())
-                };
-            }
+        if let Some((_, said)) = self.last.as_ref().filter(|(block, _)| *block == motion.block) {
+            // a cycle: its other motions follow from the same words
+            return if !changes || said[3..] == wanted[3..] {
+                Ok(())
+            } else {
+                Err("one block makes several motions, and its words cannot be changed for all of them".into())
+            };
         }
         let view = self.program.block(motion.block);
         let carried = (0..5).any(|index| self.differs(index, wanted[index], self.current[index]));
@@ -215,5 +212,5 @@ impl<'a> PosedWords<'a> {
 }
 
 fn parsed(text: &str) -> Option<f64> {
-    Decimal::parse(text.as_bytes()).map(|value| value.to_f64())
+    Decimal::parse(text.as_bytes()).map(Decimal::to_f64)
 }

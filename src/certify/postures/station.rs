@@ -92,10 +92,8 @@ impl<'m> Stations<'m> {
         let written = rotary(self.machine, &end.joints);
         let turns = self.broken || self.all.last().is_none_or(|last| last.written != written);
         let freedom = freedom(leg, turns);
-        if turns && freedom == Freedom::AsWritten {
-            if let Some(last) = self.all.last_mut() {
-                last.freedom = Freedom::AsWritten;
-            }
+        if let (true, Freedom::AsWritten, Some(last)) = (turns, freedom, self.all.last_mut()) {
+            last.freedom = Freedom::AsWritten;
         }
         if turns {
             self.begin(index, leg, end, written);
@@ -133,10 +131,8 @@ impl<'m> Stations<'m> {
         };
         let over_pole = start
             .is_some_and(|start| passes_pole(self.machine, &start.axis, &end.axis) < self.machine.tolerances.pole_cone);
-        if self.broken && index > 0 {
-            if let Some(station) = self.all.last_mut() {
-                station.freedom = Freedom::AsWritten;
-            }
+        if let (true, Some(station)) = (self.broken, self.all.last_mut()) {
+            station.freedom = Freedom::AsWritten;
         }
         self.all.push(Station {
             first: index,
@@ -288,7 +284,7 @@ mod tests {
             let values = windings(Limits::Range(rad(low), rad(high)), rad(q), rad(near));
             values.iter().map(|&value| deg(value).round() as i64).collect()
         };
-        assert_eq!(found(-360.0, 360.0, 10.0, 300.0), [10 + 0, -350]);
+        assert_eq!(found(-360.0, 360.0, 10.0, 300.0), [10, -350]);
         assert_eq!(found(-360.0, 720.0, 10.0, 300.0), [370, 10, -350]);
         assert_eq!(found(-30.0, 120.0, 150.0, 0.0), [0_i64; 0]);
         assert_eq!(found(0.0, 360_000.0, 0.0, 0.0).len(), MOST_WINDINGS);

@@ -53,6 +53,7 @@ use super::Body;
 use crate::posed_words::{Move, PosedWords};
 use crate::shortest_path::{Cheapest, cheapest};
 use crate::{Options, Proposal};
+use core::fmt::Write;
 use trunnion_certify::Claim;
 use trunnion_certify::postures::{Graph, PostureCost, Station, Stations};
 use trunnion_check::{Assume, Settings};
@@ -231,10 +232,10 @@ fn write(
     for (index, (station, q)) in graph.stations().iter().zip(wound(machine, graph, path)).enumerate() {
         let changed = station.written.iter().zip(q).any(|(was, is)| (was - is).abs() > 1e-9);
         let end = graph.stations().get(index + 1).map_or(moves.len(), |next| next.first);
-        for motion in at..end {
+        for (motion, programmed) in moves.iter().enumerate().take(end).skip(at) {
             let inside = motion >= station.first && motion <= station.last;
             words
-                .add(&moves[motion], (inside && changed).then_some(q))
+                .add(programmed, (inside && changed).then_some(q))
                 .map_err(|why| (motion, why))?;
         }
         at = end;
@@ -287,10 +288,11 @@ fn summary(machine: &Machine, graph: &Graph<'_>, found: &Cheapest, options: &Opt
     );
     for (axis, &joint) in machine.rotary.iter().enumerate() {
         let [(travel_was, step_was), (travel_is, step_is)] = [&before, &after].map(|all| travel(stations, all, axis));
-        text.push_str(&format!(
+        let _ = write!(
+            text,
             "; {} travels {travel_was:.2} -> {travel_is:.2} deg, largest step {step_was:.3} -> {step_is:.3} deg",
             char::from(machine.axes[joint].letter)
-        ));
+        );
     }
     text
 }

@@ -197,6 +197,22 @@ fn text_of(rows: &[Row]) -> String {
     sinumerik(&text)
 }
 
+/// The least travel from a position to the end, deg.
+fn walk(rows: &[Row], states: &dyn Fn(&Row) -> Vec<(f64, f64)>, at: (f64, f64), index: usize) -> f64 {
+    let Some(row) = rows.get(index) else { return 0.0 };
+    let mut least = f64::INFINITY;
+    for (a, c) in states(row) {
+        let (da, dc) = (a - at.0, c - at.1);
+        let as_written = (at.0, at.1) == (rows[index - 1].0, rows[index - 1].1) && (a, c) == (row.0, row.1);
+        if row.2 && !as_written && (a * at.0 < 0.0 || da.abs() > 180.0 || dc.abs() > 180.0) {
+            continue;
+        }
+        let rest = walk(rows, states, (a, c), index + 1);
+        least = least.min((da * da + dc * dc).sqrt() + rest);
+    }
+    least
+}
+
 /// The least travel of all sequences of postures and turns, deg, found by trying each of them. The postures are those of the table by
 /// hand: (A, C) and (-A, C + 180).
 fn by_hand(rows: &[Row], a_travel: (f64, f64), c_travel: (f64, f64)) -> f64 {
@@ -213,20 +229,6 @@ fn by_hand(rows: &[Row], a_travel: (f64, f64), c_travel: (f64, f64)) -> f64 {
         }
         found
     };
-    fn walk(rows: &[Row], states: &dyn Fn(&Row) -> Vec<(f64, f64)>, at: (f64, f64), index: usize) -> f64 {
-        let Some(row) = rows.get(index) else { return 0.0 };
-        let mut least = f64::INFINITY;
-        for (a, c) in states(row) {
-            let (da, dc) = (a - at.0, c - at.1);
-            let as_written = (at.0, at.1) == (rows[index - 1].0, rows[index - 1].1) && (a, c) == (row.0, row.1);
-            if row.2 && !as_written && (a * at.0 < 0.0 || da.abs() > 180.0 || dc.abs() > 180.0) {
-                continue;
-            }
-            let rest = walk(rows, states, (a, c), index + 1);
-            least = least.min((da * da + dc * dc).sqrt() + rest);
-        }
-        least
-    }
     let first = states(&rows[0]);
     first
         .into_iter()

@@ -17,7 +17,9 @@ const STANDS_MM: f64 = 1e-9;
 
 impl Iso<'_> {
     pub(crate) fn modelled_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Motion {
-        let frame_hides = self.core.state.zero.is_lost() && !block.machine_coordinates;
+        // what a turned frame does to vectors and rotary words under tool centre point control is not followed
+        let turned_tip = self.memory.frames.shape.linear.is_some() && self.core.state.tool_axis.tcp();
+        let frame_hides = (self.core.state.zero.is_lost() || turned_tip) && !block.machine_coordinates;
         let mut start = self.core.state.position;
         if block.machine_coordinates {
             self.to_machine(&mut start, 1.0);
@@ -42,6 +44,8 @@ impl Iso<'_> {
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
             Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
+            Some(Action::ArcThroughPoint) => self.curve(self.arc_through(from, end), "CIP", words, report),
+            Some(Action::ArcTangent) => self.curve(self.arc_tangent(from, end), "CT", words, report),
             _ => MotionKind::Linear,
         };
         if shaped {
@@ -87,6 +91,9 @@ impl Iso<'_> {
         }
         if frame_hides {
             self.core.hide(&mut motion);
+        }
+        if self.core.dialect.quirks.user_names() {
+            self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
     }
@@ -180,6 +187,20 @@ impl Iso<'_> {
             0
         };
         axes.incremental | directed | modal | axes.unread
+    }
+
+    fn curve(
+        &self,
+        arc: Option<trunnion_geometry::arc::Arc>,
+        code: &str,
+        words: &Words,
+        report: &mut Report<'_>,
+    ) -> MotionKind {
+        if arc.is_none() {
+            let what = code.to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
+        MotionKind::Arc(arc)
     }
 
     fn arc(

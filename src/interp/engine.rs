@@ -29,6 +29,10 @@ pub(crate) trait Engine<'d>: Clone {
     fn outliving(&self) -> Vec<(String, f64)> {
         Vec::new()
     }
+    /// See [`crate::Interpreter::turned`].
+    fn turned(&self) -> Vec<f64> {
+        Vec::new()
+    }
     /// Whether drilling cycles return to the R level.
     fn returns_to_r(&self) -> bool {
         false

@@ -266,6 +266,10 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 };
                 self.words.by_letter.keep(letter, said);
             }
+            Role::PathWord => {
+                self.first(word);
+                self.path_word(word);
+            }
             Role::NotModelled if self.sinumerik_number(letter, word) => {}
             Role::NotModelled => {
                 self.words.forgets_all = true;

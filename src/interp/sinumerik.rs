@@ -6,6 +6,7 @@
 mod call;
 mod index;
 mod names;
+mod path;
 mod statement;
 mod text;
 mod words;
@@ -13,6 +14,7 @@ mod words;
 pub(crate) use call::{Level, With, too_deep};
 pub(crate) use index::index;
 pub(crate) use names::files;
+pub(crate) use path::{Contour, PathWords};
 
 use crate::flow::Index;
 use crate::{FaultKind, Refusal};

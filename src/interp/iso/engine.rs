@@ -53,6 +53,14 @@ impl<'d> Engine<'d> for Iso<'d> {
     fn returns_to_r(&self) -> bool {
         self.memory.cycle.to_r
     }
+    fn turned(&self) -> Vec<f64> {
+        let rounding = self.memory.own.contour.rounding;
+        let mut numbers = self.memory.frames.turned();
+        if rounding != 0.0 {
+            numbers.extend([0.0, rounding]);
+        }
+        numbers
+    }
     fn known_variables(&self) -> Vec<crate::Argument> {
         let mut found = self.flow.all_variables();
         found.extend(self.memory.own.all());

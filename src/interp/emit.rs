@@ -10,7 +10,7 @@ use crate::travel::Travel;
 use crate::words::{Places, WordValue, Words};
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
-use trunnion_geometry::arc::Turning;
+use trunnion_geometry::arc::{Arc, Turning};
 
 /// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
 const STANDS_MM: f64 = 1e-9;
@@ -44,8 +44,8 @@ impl Iso<'_> {
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
             Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
-            Some(Action::ArcThroughPoint) => self.curve(self.arc_through(from, end), "CIP", words, report),
-            Some(Action::ArcTangent) => self.curve(self.arc_tangent(from, end), "CT", words, report),
+            Some(Action::ArcThroughPoint) => curve(self.arc_through(from, end), "CIP", words, report),
+            Some(Action::ArcTangent) => curve(self.arc_tangent(from, end), "CT", words, report),
             _ => MotionKind::Linear,
         };
         if shaped {
@@ -189,20 +189,6 @@ impl Iso<'_> {
         axes.incremental | directed | modal | axes.unread
     }
 
-    fn curve(
-        &self,
-        arc: Option<trunnion_geometry::arc::Arc>,
-        code: &str,
-        words: &Words,
-        report: &mut Report<'_>,
-    ) -> MotionKind {
-        if arc.is_none() {
-            let what = code.to_owned();
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-        }
-        MotionKind::Arc(arc)
-    }
-
     fn arc(
         &mut self,
         words: &Words,
@@ -304,6 +290,15 @@ impl Iso<'_> {
             report,
         )
     }
+}
+
+/// An arc that its code gives whole; a fault where it is not known.
+fn curve(arc: Option<Arc>, code: &str, words: &Words, report: &mut Report<'_>) -> MotionKind {
+    if arc.is_none() {
+        let what = code.to_owned();
+        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+    }
+    MotionKind::Arc(arc)
 }
 
 /// The turn in the shorter direction, -180 < turn <= 180 deg.

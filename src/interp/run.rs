@@ -111,7 +111,8 @@ impl<'d> Interpreter<'d> {
     /// The modal state, for something that is not modelled.
     pub fn situation(&self) -> crate::Situation {
         with_engine!(&self.engine, engine => {
-            crate::Situation::new(&engine.core().state, engine.returns_to_r(), engine.turned())
+            let state = &engine.core().state;
+            crate::Situation::new(state, engine.returns_to_r(), engine.turned(), engine.cycle_data())
         })
     }
 

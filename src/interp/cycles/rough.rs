@@ -33,6 +33,12 @@ pub(crate) struct Roughing {
     escape: Option<f64>,
 }
 
+impl Roughing {
+    pub(super) fn numbers(&self) -> [Option<f64>; 2] {
+        [self.depth, self.escape]
+    }
+}
+
 /// A cycle that can be computed.
 struct Plan {
     frame: Frame,

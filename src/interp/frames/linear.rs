@@ -39,11 +39,12 @@ impl Linear {
     pub(crate) fn couples(&self) -> bool {
         (0..3).any(|row| (0..3).any(|column| row != column && self.0[(row, column)] != 0.0))
     }
-    /// The factor of all lengths, where it is one and the angles stay.
-    pub(crate) fn size(&self) -> Option<f64> {
+    /// The factor of all lengths in the plane across an axis that is not turned, where it is one and the angles stay.
+    pub(crate) fn size(&self, normal: usize) -> Option<f64> {
+        let (a, b) = ((normal + 1) % 3, (normal + 2) % 3);
         let square = self.0.transpose() * self.0;
-        let size = square[(0, 0)];
-        let off = (square - Mat3::identity() * size).abs().max();
+        let size = square[(a, a)];
+        let off = (square[(b, b)] - size).abs().max(square[(a, b)].abs());
         (off <= 1e-12 * size).then(|| size.sqrt())
     }
     /// Whether left and right change places, seen against an axis that is not turned.

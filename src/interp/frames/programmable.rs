@@ -87,7 +87,7 @@ impl<'d> Iso<'d> {
     }
 
     /// What a code of the group does with its words; `None`: that is not followed.
-    fn frame_step(&self, found: &Found<'d>, words: &Words, angle: Option<Option<f64>>) -> Option<FrameStep> {
+    fn frame_step(&self, found: &Found<'d>, words: &Words, angle: Option<f64>) -> Option<FrameStep> {
         let plane = plane_axes(self.core.state.coordinates.plane());
         let named = words.axes.given;
         if angle.is_some() != (found.code.id.ends_with("ROT") && named == 0) {
@@ -103,7 +103,7 @@ impl<'d> Iso<'d> {
             }
             "ROT" => {
                 let degrees = match angle {
-                    Some(angle) => angle?,
+                    Some(angle) => Some(angle).filter(|angle| !angle.is_nan())?,
                     None if named == 1 << plane[2] => words.axes.get(plane[2])?,
                     None => return None,
                 };

@@ -129,7 +129,6 @@ impl Shape {
     /// An arc of the words in work coordinates; none if different factors distort it.
     pub(crate) fn arc_to_work(&self, arc: &Arc) -> Option<Arc> {
         let size = self.scaling.map_or(Some(1.0), |scaling| scaling.uniform())?;
-        let size = size * self.linear.map_or(Some(1.0), |linear| linear.size())?;
         let place = |point: Vec3| {
             let mut position = Position {
                 known: XYZ,
@@ -148,6 +147,7 @@ impl Shape {
             }
         }
         let normal = (0..3).find(|axis| along(*axis))?;
+        let size = size * self.linear.map_or(Some(1.0), |linear| linear.size(normal))?;
         if self.linear.is_some_and(|linear| linear.flips(normal)) {
             sign = -sign;
         }

@@ -70,7 +70,7 @@ impl<'d> Iso<'d> {
     ) {
         if words.speed.is_given() {
             let limit = words.speed.number().map_or(f64::NAN, |number| number.value);
-            self.core.state.spindle.limit(limit);
+            self.core.state.spindle.limit(Some(limit));
             if !words.axes.any() {
                 return;
             }

@@ -54,12 +54,12 @@ impl<'d> Engine<'d> for Iso<'d> {
         self.memory.cycle.to_r
     }
     fn turned(&self) -> Vec<f64> {
-        let rounding = self.memory.own.contour.rounding;
         let mut numbers = self.memory.frames.turned();
-        if rounding != 0.0 {
-            numbers.extend([0.0, rounding]);
-        }
+        numbers.extend(self.memory.own.contour.numbers());
         numbers
+    }
+    fn cycle_data(&self) -> Vec<crate::Argument> {
+        self.memory.cycle.data(self.core.state.motion)
     }
     fn known_variables(&self) -> Vec<crate::Argument> {
         let mut found = self.flow.all_variables();

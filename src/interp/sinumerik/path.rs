@@ -15,7 +15,7 @@ use crate::{FaultKind, MotionKind, Position};
 use trunnion_dialect::{Action, Plane};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
-use trunnion_geometry::math::{atan2, tan};
+use trunnion_geometry::math::{atan2, hypot, tan};
 use trunnion_syntax::{TextRange, Word};
 
 /// Lengths below are no length, mm.
@@ -60,9 +60,9 @@ impl PathWords {
     pub(crate) fn sets_rounding(&self) -> bool {
         self.modal_corner.is_some()
     }
-    /// RPL, if it is there; `None` inside: its value is unknown.
-    pub(crate) fn frame_angle(&self) -> Option<Option<f64>> {
-        if self.unread { Some(None) } else { self.frame.map(Some) }
+    /// RPL, if it is there; NaN: its value is unknown.
+    pub(crate) fn frame_angle(&self) -> Option<f64> {
+        if self.unread { Some(f64::NAN) } else { self.frame }
     }
 }
 
@@ -78,6 +78,17 @@ pub(crate) struct Contour {
     pub(crate) rounding: f64,
     /// Where the last motion in the plane ended, and its direction there.
     heading: Option<(Position, Vec3)>,
+}
+
+impl Contour {
+    /// What a program that is missing could read of it: see [`crate::Interpreter::turned`].
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let pole = self.pole.map(|pole| pole.centre);
+        let rounding = (self.rounding != 0.0).then_some([f64::INFINITY, self.rounding]);
+        let angle = self.angle.map_or(f64::NAN, |angle| angle.0);
+        let polar = pole.map(|_| [self.radius.unwrap_or(f64::NAN), angle]);
+        [pole, polar, rounding].into_iter().flatten().flatten()
+    }
 }
 
 /// See [`Contour`].
@@ -245,7 +256,8 @@ impl<'d> Iso<'d> {
         let arc = self.is_arc().is_some();
         let line = matches!(self.core.state.motion, Some(Action::Rapid | Action::Linear));
         let others = path.opening.is_some() || path.angle.is_some() || self.named_in_plane(words) != 0;
-        if !(arc && !words.centre.any() && !words.radius.is_given() || line) || others {
+        let bare = arc && !words.centre.any() && !words.radius.is_given();
+        if others || !bare && !line {
             return None;
         }
         let incremental = self.core.state.coordinates.incremental();
@@ -329,7 +341,7 @@ impl<'d> Iso<'d> {
         let plain = directed == 0
             && !path.unread
             && !self.core.state.coordinates.incremental()
-            && !(path.polar.any() && words.axes.any())
+            && (!path.polar.any() || !words.axes.any())
             && words.axes.given | words.axes.unread == words.axes.given & ((1 << a) | (1 << b));
         let centre = base
             .zip(by)
@@ -376,7 +388,7 @@ impl<'d> Iso<'d> {
                 let mut end = here;
                 self.targets(&words.axes, false, &mut end);
                 let chord = [end.get(a)? - from[0], end.get(b)? - from[1]];
-                (chord[0].hypot(chord[1]) > NO_LENGTH).then_some(())?;
+                (hypot(chord[0], chord[1]) > NO_LENGTH).then_some(())?;
                 let away = 0.5 * sense / tan(0.5 * degrees.to_radians());
                 put_absolute(
                     &mut words.centre,
@@ -432,9 +444,8 @@ impl<'d> Iso<'d> {
             match given {
                 Some(value) if !incremental && path.through.incremental & bit == 0 => through[axis] = value,
                 // what an incremental point starts from, and one that is left out in the plane, is not followed
-                Some(_) => return None,
                 None if axis == axes[2] => {}
-                None => return None,
+                _ => return None,
             }
         }
         let height = |point: &Vec3| point[axes[2]] - start[axes[2]];
@@ -444,9 +455,9 @@ impl<'d> Iso<'d> {
         let flat = |point: &Vec3| (point[axes[0]] - start[axes[0]], point[axes[1]] - start[axes[1]]);
         let ((px, py), (qx, qy)) = (flat(&through), flat(&end));
         let turn = px * qy - py * qx;
-        let size = px.hypot(py) * qx.hypot(qy);
+        let size = hypot(px, py) * hypot(qx, qy);
         // three points of a line, or two that are one
-        if size <= NO_LENGTH || turn.abs() <= 1e-9 * size || (px - qx).hypot(py - qy) <= NO_LENGTH {
+        if size <= NO_LENGTH || turn.abs() <= 1e-9 * size || hypot(px - qx, py - qy) <= NO_LENGTH {
             return None;
         }
         let (p2, q2) = (px * px + py * py, qx * qx + qy * qy);
@@ -470,7 +481,7 @@ impl<'d> Iso<'d> {
         let (x, y) = (way[axes[0]], way[axes[1]]);
         let left = dx * y - dy * x;
         // straight on it is a line, straight back there is no arc
-        if left.abs() <= 1e-9 * x.hypot(y) || x.hypot(y) <= NO_LENGTH {
+        if left.abs() <= 1e-9 * hypot(x, y) || hypot(x, y) <= NO_LENGTH {
             return None;
         }
         let radius = (x * x + y * y) / (2.0 * left);
@@ -503,8 +514,8 @@ impl<'d> Iso<'d> {
             centre: middle,
             normal,
             sweep: turn,
-            radius_start: arm[0].hypot(arm[1]),
-            radius_end: other[0].hypot(other[1]),
+            radius_start: hypot(arm[0], arm[1]),
+            radius_end: hypot(other[0], other[1]),
         }
     }
 

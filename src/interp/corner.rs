@@ -161,7 +161,7 @@ impl Iso<'_> {
     }
 
     /// CHF, CHR, RND of the block, or RNDM.
-    pub(crate) fn sinumerik_corner(&mut self, words: &Words, block: &BlockCodes) {
+    pub(crate) fn corner_word(&mut self, words: &Words, block: &BlockCodes) {
         let rounding = self.memory.own.contour.rounding;
         if rounding == 0.0 && !self.memory.own.path.any() || block.takes_coordinates {
             return;
@@ -210,7 +210,11 @@ impl Iso<'_> {
             cut.by >= 0.0 && cut.by <= first.norm() + 1e-9 && cut.by <= second.norm() + 1e-9
         });
         let place = match fits {
-            Some(true) if tolerant && !self.is_plain_corner(&before.0, &next.0, report) => {
+            Some(true)
+                if tolerant
+                    && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
+                    && !self.is_plain_corner(&before.0, &next.0, report) =>
+            {
                 Some("whose feed or settings are those of another block")
             }
             Some(false) if tolerant => Some("larger than its motions"),

@@ -216,7 +216,7 @@ impl<'d> Iso<'d> {
             .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
             .filter(|_| !block.takes_coordinates)
             .map(|(letter, number)| (letter, number.value * self.core.state.coordinates.unit_mm()));
-        self.sinumerik_corner(words, &block);
+        self.corner_word(words, &block);
         if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }

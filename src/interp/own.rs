@@ -6,10 +6,9 @@
 mod field;
 mod words;
 
-use field::Field;
-
 use crate::Argument;
 use crate::flow::Transfer;
+use field::{Field, rounded};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::{FormulaErrorKind, ValueError};
@@ -394,11 +393,6 @@ fn r_parameter(name: &str) -> Option<i64> {
 /// The number of an R parameter.
 fn whole(value: f64) -> Option<i64> {
     (value >= 0.0 && value.fract() == 0.0 && value <= 99_999.0).then_some(value as i64)
-}
-
-/// To the nearest whole number; which way a negative half goes is not documented.
-fn rounded(value: f64) -> Option<f64> {
-    (value >= 0.0 || value.fract() != -0.5).then(|| (value + 0.5).floor())
 }
 
 #[cfg(test)]

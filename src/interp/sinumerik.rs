@@ -4,9 +4,11 @@
 //! subprograms 3.2.2 and 3.2.3; "check structures are found by a search for their keywords while the program runs". What is not documented
 //! there (a jump into a loop, out of a repeated section, which of two labels REPEAT takes) is not decided here.
 mod call;
+mod curve;
 mod index;
 mod names;
 mod path;
+mod pole;
 mod statement;
 mod text;
 mod words;

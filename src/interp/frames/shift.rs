@@ -85,7 +85,7 @@ impl<'d> Iso<'d> {
             self.frame_change(found, words, block, report);
             return;
         }
-        self.core.set_from_here(self.core.main_block(report.block));
+        self.core.set_from_here(self.core.main_block(report.block), None);
         for axis in 0..9 {
             if let Some(value) = self.axis_value(words, axis) {
                 let value = if self.core.dialect.quirks.diameter && words.axes.incremental & (1 << axis) != 0 {

@@ -55,11 +55,15 @@ impl<'d> Engine<'d> for Iso<'d> {
     }
     fn turned(&self) -> Vec<f64> {
         let mut numbers = self.memory.frames.turned();
-        numbers.extend(self.memory.own.contour.numbers());
+        let rounding = self.memory.own.contour.rounding;
+        numbers.extend(Some(rounding).filter(|rounding| *rounding != 0.0));
         numbers
     }
     fn cycle_data(&self) -> Vec<crate::Argument> {
-        self.memory.cycle.data(self.core.state.motion)
+        let mut data = self.memory.cycle.data(self.core.state.motion);
+        let polar = self.memory.own.contour.numbers();
+        data.extend(polar.map(|value| crate::Argument::number("", value)));
+        data
     }
     fn known_variables(&self) -> Vec<crate::Argument> {
         let mut found = self.flow.all_variables();

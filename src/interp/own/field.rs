@@ -141,3 +141,8 @@ fn list(text: &str) -> Option<(bool, &str)> {
         _ => None,
     }
 }
+
+/// To the nearest whole number; which way a negative half goes is not documented.
+pub(super) fn rounded(value: f64) -> Option<f64> {
+    (value >= 0.0 || value.fract() != -0.5).then(|| (value + 0.5).floor())
+}

@@ -23,7 +23,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if let Canon::G92Offset(offset) = call
             && Shift::metric(offset, state.units.mm()).map(f64::to_bits) != self.calls.g92.map(f64::to_bits)
         {
-            self.core.set_from_here(self.block(at));
+            self.core.set_from_here(self.block(at), None);
             self.hand_on();
         }
     }

@@ -25,7 +25,7 @@ impl Ngc<'_> {
         let stores = stored_offsets(&upper, &names, |name| self.variable(name));
         let from_here = |store: &Argument| store.name.starts_with("G10 L20") || store.name == "written by G10";
         if upper.contains("L20") && stores.iter().any(from_here) {
-            self.core.set_from_here(block);
+            self.core.set_from_here(block, Some("G10 L20"));
             self.hand_on(sink);
         }
         for store in stores {

@@ -23,13 +23,16 @@ enum Waiting {
     Group,
     /// `R[`
     Index,
+    /// `FIELD[`
+    Field(Name),
     One(Unary),
     /// A function of two arguments; whether the second is being read.
     Two(Binary, bool),
 }
 
 /// Reads the expression that begins at the start of `range`, as far as it extends: the formula, and one past its last byte. Variables are
-/// queried by number (`R5`) or by name in lower case; elements of fields by the name with `[`, unknown functions with `(`, texts as `"`.
+/// queried by number (`R5`) or by name in lower case; elements of fields of one dimension by name and index, others by the name with `[`, unknown
+/// functions with `(`, texts as `"`.
 ///
 /// # Errors
 /// The text is no expression.
@@ -233,6 +236,7 @@ impl<'s> Reader<'s> {
             (None, _) => return Ok(NextToken::End),
             (Some(Waiting::Group), b')') => None,
             (Some(Waiting::Index), b']') => Some(Op::ReadAt),
+            (Some(Waiting::Field(name)), b']') => Some(Op::NamedAt(name.clone())),
             (Some(&Waiting::One(unary)), b')') => Some(Op::Unary(unary)),
             (Some(&Waiting::Two(binary, true)), b')') => {
                 self.height -= 1;

@@ -50,7 +50,8 @@ pub(crate) fn arc(setting: &ArcSetting<'_>, words: &Words) -> Outcome {
     }
 }
 
-/// Start and end in space. A height that is unknown is taken as 0, and then the flag is false: the arc is valid only in its plane.
+/// Start and end in space. A height that is unknown is taken as 0, and then the flag is false: the arc is valid only in its plane. That is
+/// enough on a lathe, where no word of a block moves Y: both ends have the same.
 fn ends(setting: &ArcSetting<'_>, axes: [usize; 3]) -> Option<(Vec3, Vec3, bool)> {
     let plane = (1u16 << axes[0]) | (1 << axes[1]);
     if setting.start.known & setting.end.known & plane != plane {
@@ -61,7 +62,11 @@ fn ends(setting: &ArcSetting<'_>, axes: [usize; 3]) -> Option<(Vec3, Vec3, bool)
         start[axis] = setting.start.get(axis).unwrap_or(0.0);
         end[axis] = setting.end.get(axis).unwrap_or(0.0);
     }
-    Some((start, end, setting.start.xyz().is_some() && setting.end.xyz().is_some()))
+    let height = 1u16 << axes[2];
+    let level =
+        setting.dialect.quirks.diameter && axes[2] == 1 && (setting.start.known | setting.end.known) & height == 0;
+    let whole = setting.start.xyz().is_some() && setting.end.xyz().is_some();
+    Some((start, end, whole || level))
 }
 
 fn normal(axes: [usize; 3]) -> Vec3 {

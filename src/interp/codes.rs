@@ -122,6 +122,8 @@ impl<'d> Iso<'d> {
             | Action::Linear
             | Action::ArcClockwise
             | Action::ArcCounterClockwise
+            | Action::ArcThroughPoint
+            | Action::ArcTangent
             | Action::Thread
             | Action::VariableThread) => {
                 state.motion = Some(motion);

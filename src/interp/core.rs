@@ -122,16 +122,17 @@ impl<'d> Core<'d> {
     }
 
     /// A zero point is set at the current position of the machine. If that depends on undeclared values, the order matters: the same words
-    /// after another offset, another length, or a motion in machine coordinates mean another position.
+    /// after another offset, another length, or a motion in machine coordinates mean another position. `by`: the code, where it writes a stored value, which depends on them in any case.
     #[cold]
-    pub(crate) fn set_from_here(&mut self, block: BlockId) {
+    pub(crate) fn set_from_here(&mut self, block: BlockId, by: Option<&'static str>) {
         if self.effects.wanted() && self.state.undeclared().any() {
             let offset = self.state.zero.offset().unwrap_or("no work offset");
-            let words = vec![
+            let mut words = vec![
                 Argument::code("zero point set from here"),
                 Argument::text("in", offset),
                 Argument::text("with", &self.state.length.of().to_string()),
             ];
+            words.extend(by.map(Argument::code));
             self.effects.add(block, Effect::Event(words));
         }
     }

@@ -1,23 +1,25 @@
-//! `,R` and `,C`: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering and corner R).
+//! `,R` and `,C`, RND, CHR and CHF: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering
+//! and corner R; Sinumerik: chamfer and rounding).
 use crate::arc::plane_axes;
+use crate::codes::BlockCodes;
 use crate::compensation::PendingMotion;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::values::number;
 use crate::words::{Number, WordValue, Words};
-use crate::{FaultKind, Motion, MotionKind, Position, Refusal};
+use crate::{Argument, Effect, FaultKind, Motion, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
-use trunnion_geometry::math::{atan2, tan};
-use trunnion_syntax::{TextRange, Value, Word};
+use trunnion_geometry::math::{atan2, cos, tan};
+use trunnion_syntax::{Address, TextRange, Value, Word};
 
 /// A corner that needs the motion after it.
 #[derive(Clone, Debug)]
 struct Waiting {
     pending: PendingMotion,
-    /// `R` or `C`.
+    /// `R`, `C`, or `F`: a chamfer by the length of its face (CHF).
     letter: u8,
     /// mm.
     size: f64,
@@ -44,6 +46,8 @@ struct Cut {
     second: Vec3,
     turn: f64,
     by: f64,
+    /// A lathe: no word moves the third axis.
+    no_height: bool,
 }
 
 /// A position in the plane; an unknown height is taken as 0, like Y of a lathe that has none.
@@ -70,6 +74,18 @@ fn flat(motion: &Motion, axes: [usize; 3]) -> Option<Vec3> {
     let level = way[axes[2]].abs() <= 1e-9;
     way[axes[2]] = 0.0;
     (motion.kind == MotionKind::Linear && level && way.norm() > 1e-9).then_some(way)
+}
+
+/// Whether a motion runs along the plane's third axis alone.
+fn is_vertical(motion: &Motion, axes: [usize; 3]) -> bool {
+    let (Some(start), Some(end)) = (motion.start.xyz(), motion.end.xyz()) else {
+        return false;
+    };
+    let way = end - start;
+    matches!(motion.kind, MotionKind::Linear | MotionKind::Rapid)
+        && way[axes[0]].abs() <= 1e-9
+        && way[axes[1]].abs() <= 1e-9
+        && way[axes[2]].abs() > 1e-9
 }
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
@@ -119,8 +135,9 @@ impl Iso<'_> {
         if let Some(waiting) = self.memory.corners.waiting.take() {
             self.cut_corner(*waiting, &mut pending, on, report);
         }
+        let tolerant = self.core.dialect.quirks.user_names();
         match self.memory.corners.word.take() {
-            Some((letter, size)) if motion.is_feed() => {
+            Some((letter, size)) if motion.is_feed() || tolerant => {
                 self.memory.corners.waiting = Some(Box::new(Waiting { pending, letter, size }));
             }
             word => {
@@ -136,9 +153,24 @@ impl Iso<'_> {
     pub(crate) fn end_corners(&mut self, on: &mut Vec<PendingMotion>, report: &mut Report<'_>) {
         self.memory.corners.word = None;
         if let Some(waiting) = self.memory.corners.waiting.take() {
-            self.no_corner("no motion follows the corner", "corner-no-move", report);
+            if !self.core.dialect.quirks.user_names() {
+                self.no_corner("no motion follows the corner", "corner-no-move", report);
+            }
             on.push(waiting.pending);
         }
+    }
+
+    /// CHF, CHR, RND of the block, or RNDM.
+    pub(crate) fn corner_word(&mut self, words: &Words, block: &BlockCodes) {
+        let rounding = self.memory.own.contour.rounding;
+        if rounding == 0.0 && !self.memory.own.path.any() || block.takes_coordinates {
+            return;
+        }
+        let unit = self.core.state.coordinates.unit_mm();
+        let own = self.memory.own.path.corner();
+        let modal = (rounding != 0.0 && words.axes.any()).then_some((b'R', rounding));
+        let word = own.map(|(letter, size)| (letter, size * unit)).or(modal);
+        self.memory.corners.word = word.filter(|(_, size)| *size != 0.0 && !words.forgets_all);
     }
 
     fn no_corner(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
@@ -159,65 +191,110 @@ impl Iso<'_> {
     ) {
         let mut before = waiting.pending;
         let axes = plane_axes(before.1.coordinates.plane());
-        let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
         let known = is_known(&before.0, axes) && is_known(&next.0, axes);
-        let ways = (flat(&before.0, axes), flat(&next.0, axes));
-        let (Some(first), Some(second)) = ways else {
-            if arcs || !known {
-                let place = if arcs {
-                    "at an arc"
-                } else {
-                    "from or to an unknown position"
-                };
-                let what = format!(",{} {place}", char::from(waiting.letter));
-                report.fault(report.whole(), FaultKind::NotModelled { what });
-                for axis in &axes[..2] {
-                    before.0.end.forget(*axis);
-                    next.0.start.forget(*axis);
-                }
-            } else {
-                let text = "a rounded or chamfered corner must be followed by a straight feed motion in the plane";
-                self.no_corner(text, "corner-no-move", report);
-            }
+        let tolerant = self.core.dialect.quirks.user_names();
+        if tolerant && known && (is_vertical(&before.0, axes) || is_vertical(&next.0, axes)) {
+            // no corner is made where a motion leaves the plane (Programming Manual, Fundamentals, chamfer and rounding)
             on.push(before);
             return;
+        }
+        let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
+        let ways = flat(&before.0, axes).zip(flat(&next.0, axes));
+        let lathe = self.core.dialect.quirks.diameter && axes[2] == 1;
+        let no_height = lathe && before.0.end.get(1).is_none() && next.0.end.get(1).is_none();
+        let cut = ways.map(|(first, second)| Cut {
+            no_height,
+            ..Cut::new(axes, first, second, waiting.letter, waiting.size)
+        });
+        let fits = cut.as_ref().zip(ways).map(|(cut, (first, second))| {
+            cut.by >= 0.0 && cut.by <= first.norm() + 1e-9 && cut.by <= second.norm() + 1e-9
+        });
+        let place = match fits {
+            Some(true)
+                if tolerant
+                    && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
+                    && !self.is_plain_corner(&before.0, &next.0, report) =>
+            {
+                Some("whose feed or settings are those of another block")
+            }
+            Some(false) if tolerant => Some("larger than its motions"),
+            None if arcs => Some("at an arc"),
+            None if !known => Some("from or to an unknown position"),
+            None if tolerant => Some("at a motion that is not a line in the plane"),
+            _ => None,
         };
+        if let Some(place) = place {
+            let what = format!(",{} {place}", char::from(waiting.letter));
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+            if self.core.effects.wanted() {
+                // its words are neither in the motions nor among those that are compared
+                let size = Argument::number(format!("corner {}", char::from(waiting.letter)), waiting.size);
+                let block = self.core.main_block(report.block);
+                self.core.effects.add(block, Effect::Unmodelled(vec![size]));
+            }
+            for axis in &axes[..2] {
+                before.0.end.forget(*axis);
+                next.0.start.forget(*axis);
+            }
+        } else if let (Some(cut), Some(true)) = (&cut, fits) {
+            cut.apply(before, waiting.letter == b'R', next, on);
+            return;
+        } else if let (Some(cut), Some((first, second))) = (&cut, ways) {
+            let text = format!(
+                "the corner takes {:.3} mm of both motions, which are {:.3} mm and {:.3} mm long",
+                cut.by,
+                first.norm(),
+                second.norm()
+            );
+            self.no_corner(&text, "corner-too-large", report);
+        } else {
+            let text = "a rounded or chamfered corner must be followed by a straight feed motion in the plane";
+            self.no_corner(text, "corner-no-move", report);
+        }
+        on.push(before);
+    }
+
+    /// Whether it does not matter which of the two blocks of a corner gives it its feed and settings, and no block is between them: which
+    /// one does is machine data (20201 CHFRND_MODE_MASK), and how many may be between (20200 CHFRND_MAXNUM_DUMMY_BLOCKS).
+    fn is_plain_corner(&self, before: &Motion, next: &Motion, report: &Report<'_>) -> bool {
+        let words = report.program.block(report.block);
+        let plain = |word: &Word| match word.address {
+            Address::Letter(letter) => matches!(letter, b'N' | b'G' | b'X' | b'Y' | b'Z' | b'F' | b'I' | b'J' | b'K'),
+            Address::Indexed(..) | Address::Named(_) => true,
+        };
+        before.feed == next.feed
+            && next.block.0 == before.block.0 + 1
+            && !self.memory.own.path.sets_rounding()
+            && words.words().all(|word| plain(&word))
+    }
+}
+
+impl Cut {
+    fn new(axes: [usize; 3], first: Vec3, second: Vec3, letter: u8, size: f64) -> Self {
         let mut normal = Vec3::zeros();
         normal[axes[2]] = 1.0;
         let turn = atan2(normal.dot(&first.cross(&second)), first.dot(&second));
-        let by = if waiting.letter == b'R' {
-            waiting.size * tan(0.5 * turn.abs())
-        } else {
-            waiting.size
+        let by = match letter {
+            b'R' => size * tan(0.5 * turn.abs()),
+            b'F' => 0.5 * size / cos(0.5 * turn),
+            _ => size,
         };
-        let cut = Cut {
+        Self {
             axes,
             first: first.normalize(),
             second: second.normalize(),
             turn,
             by,
-        };
-        if by > first.norm() + 1e-9 || by > second.norm() + 1e-9 || by < 0.0 {
-            let text = format!(
-                "the corner takes {by:.3} mm of both motions, which are {:.3} mm and {:.3} mm long",
-                first.norm(),
-                second.norm()
-            );
-            self.no_corner(&text, "corner-too-large", report);
-            on.push(before);
-            return;
+            no_height: false,
         }
-        cut.apply(before, waiting.letter == b'R', next, on);
     }
-}
-
-impl Cut {
     fn apply(&self, mut before: PendingMotion, round: bool, next: &mut PendingMotion, on: &mut Vec<PendingMotion>) {
-        let Some(corner) = point(&before.0.end, self.axes) else {
+        let corner = point(&before.0.end, self.axes);
+        let Some(corner) = corner.filter(|_| self.by > 1e-9 && self.turn.abs() > 1e-12) else {
             on.push(before);
             return;
         };
-        let whole = before.0.end.xyz().is_some();
+        let whole = before.0.end.xyz().is_some() || self.no_height;
         let (from, to) = (corner - self.first * self.by, corner + self.second * self.by);
         for axis in &self.axes[..2] {
             before.0.end.set(*axis, from[*axis]);
@@ -225,9 +302,6 @@ impl Cut {
         }
         let mut link = before.clone();
         on.push(before);
-        if self.by <= 1e-9 || self.turn.abs() <= 1e-12 {
-            return;
-        }
         link.0.start = link.0.end;
         link.0.end = next.0.start;
         link.0.kind = if round {

@@ -19,6 +19,7 @@ pub(crate) use data::{Hole, Stored};
 pub(crate) use pattern::Pattern;
 pub(crate) use repeat::{Kept, Repeated};
 
+use crate::Argument;
 use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;
 use crate::iso::Iso;
@@ -47,6 +48,24 @@ pub(crate) struct Cycle {
     pub(crate) kept: Kept,
     /// Data of turning cycles: end of the cut in X and Z, taper.
     pub(crate) pass: [Stored; 3],
+}
+
+impl Cycle {
+    /// What is kept for the blocks that follow; empty where that is nothing.
+    pub(crate) fn data(&self, motion: Option<Action>) -> Vec<Argument> {
+        let mut numbers: Vec<f64> = Vec::new();
+        if motion.is_some_and(Action::is_hole_cycle) {
+            numbers.extend(self.hole.numbers());
+        }
+        if motion.is_some_and(Action::is_pass_cycle) {
+            numbers.extend(self.pass.iter().flat_map(|stored| stored.numbers()));
+        }
+        numbers.extend(self.kept.numbers());
+        let numbers = numbers.into_iter().map(|value| Argument::number("", value));
+        numbers
+            .chain(self.call.as_ref().map(|call| call.said.clone()))
+            .collect()
+    }
 }
 
 impl<'d> Iso<'d> {

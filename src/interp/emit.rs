@@ -10,14 +10,16 @@ use crate::travel::Travel;
 use crate::words::{Places, WordValue, Words};
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
-use trunnion_geometry::arc::Turning;
+use trunnion_geometry::arc::{Arc, Turning};
 
 /// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
 const STANDS_MM: f64 = 1e-9;
 
 impl Iso<'_> {
     pub(crate) fn modelled_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Motion {
-        let frame_hides = self.core.state.zero.is_lost() && !block.machine_coordinates;
+        // what a turned frame does to vectors and rotary words under tool centre point control is not followed
+        let turned_tip = self.memory.frames.shape.linear.is_some() && self.core.state.tool_axis.tcp();
+        let frame_hides = (self.core.state.zero.is_lost() || turned_tip) && !block.machine_coordinates;
         let mut start = self.core.state.position;
         if block.machine_coordinates {
             self.to_machine(&mut start, 1.0);
@@ -42,6 +44,8 @@ impl Iso<'_> {
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
             Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
+            Some(Action::ArcThroughPoint) => curve(self.arc_through(from, end), "CIP", words, report),
+            Some(Action::ArcTangent) => curve(self.arc_tangent(from, end), "CT", words, report),
             _ => MotionKind::Linear,
         };
         if shaped {
@@ -87,6 +91,9 @@ impl Iso<'_> {
         }
         if frame_hides {
             self.core.hide(&mut motion);
+        }
+        if self.core.dialect.quirks.user_names() {
+            self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
     }
@@ -283,6 +290,15 @@ impl Iso<'_> {
             report,
         )
     }
+}
+
+/// An arc that its code gives whole; a fault where it is not known.
+fn curve(arc: Option<Arc>, code: &str, words: &Words, report: &mut Report<'_>) -> MotionKind {
+    if arc.is_none() {
+        let what = code.to_owned();
+        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+    }
+    MotionKind::Arc(arc)
 }
 
 /// The turn in the shorter direction, -180 < turn <= 180 deg.

@@ -29,6 +29,14 @@ pub(crate) trait Engine<'d>: Clone {
     fn outliving(&self) -> Vec<(String, f64)> {
         Vec::new()
     }
+    /// See [`crate::Interpreter::turned`].
+    fn turned(&self) -> Vec<f64> {
+        Vec::new()
+    }
+    /// What a cycle has kept and a program that is missing could use.
+    fn cycle_data(&self) -> Vec<Argument> {
+        Vec::new()
+    }
     /// Whether drilling cycles return to the R level.
     fn returns_to_r(&self) -> bool {
         false

@@ -1,7 +1,9 @@
 //! Coordinates that the program shifts, rotates, scales, mirrors or gives as radius and angle. Shifts are part of the zero point; the
 //! rest is a [`Shape`] between the words and the work coordinates in which motions are expressed.
 mod data_entry;
+mod linear;
 mod polar;
+mod programmable;
 mod reference;
 mod shape;
 mod shift;
@@ -10,9 +12,10 @@ mod tilt;
 mod turn;
 
 pub(crate) use data_entry::OffsetValues;
+pub(crate) use linear::Linear;
 pub(crate) use polar::Polar;
 pub(crate) use reference::Return;
-pub(crate) use shape::{Rotation, Scaling, Shape};
+pub(crate) use shape::{Rotation, Scaling, Shape, sin_cos_degrees};
 pub(crate) use tilt::Tilted;
 
 use crate::codes::{BlockCodes, Found};
@@ -105,6 +108,27 @@ impl Frames {
             kind => kind,
         }
     }
+    /// Where four points of the words are in the workpiece, and what polar coordinates continue from; empty where nothing is active.
+    pub(crate) fn turned(&self) -> Vec<f64> {
+        if self.shape.is_identity() && self.polar.is_none() && self.tilt.is_none() {
+            return Vec::new();
+        }
+        let mut numbers = Vec::new();
+        for place in [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+            let mut point = Position {
+                known: XYZ,
+                ..Position::default()
+            };
+            point.values[..3].copy_from_slice(&place);
+            let shaped = self.shape.to_work(&point);
+            let work = self.tilt.map_or(shaped, |tilt| tilt.to_work(&shaped));
+            numbers.extend(&work.values[..3]);
+        }
+        if let Some(polar) = &self.polar {
+            numbers.extend(polar.last());
+        }
+        numbers
+    }
     /// Everything that is added to the selected zero point.
     pub(crate) fn added(&self, axis: usize) -> f64 {
         self.external[axis] + self.shift[axis] + self.local[axis]
@@ -122,7 +146,10 @@ impl<'d> Iso<'d> {
     ) {
         match found.code.action {
             Action::LocalShift => self.local_shift(found, words, block, report),
-            Action::ProgrammableShift => self.programmable_shift(found, words, block, report),
+            Action::ProgrammableShift | Action::ProgrammableFrame => {
+                self.programmable_frame(found, words, block, report);
+            }
+            Action::Pole => self.pole(found, words, block, report),
             Action::PositionSet => self.position_set(found, words, block, report),
             Action::PositionPreset => self.position_preset(found, words, block),
             Action::RotationOn => self.rotation_on(found, words, block, report),

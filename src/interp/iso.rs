@@ -201,6 +201,13 @@ impl<'d> Iso<'d> {
             return None;
         }
         let block = self.apply(codes, words, report);
+        let replaced;
+        let words = if self.memory.own.path.any() {
+            replaced = self.with_path_words(words, &block, report);
+            &replaced
+        } else {
+            words
+        };
         if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.user_names() {
             self.unused_words(codes, words, &block, report);
         }
@@ -209,6 +216,7 @@ impl<'d> Iso<'d> {
             .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
             .filter(|_| !block.takes_coordinates)
             .map(|(letter, number)| (letter, number.value * self.core.state.coordinates.unit_mm()));
+        self.corner_word(words, &block);
         if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }
@@ -290,6 +298,8 @@ impl<'d> Iso<'d> {
                 | Action::Linear
                 | Action::ArcClockwise
                 | Action::ArcCounterClockwise
+                | Action::ArcThroughPoint
+                | Action::ArcTangent
                 | Action::Thread
                 | Action::VariableThread,
             ) if !unmodelled => {

@@ -3,10 +3,12 @@
 //! Sinumerik 840D sl Programming Manual, Job Planning (variables; arithmetic operations and functions): INT variables are rounded when
 //! they are written, a variable of DEF is zero before that and local to its program, R parameters are not. Expressions:
 //! [`trunnion_formula::sinumerik`].
+mod field;
 mod words;
 
 use crate::Argument;
 use crate::flow::Transfer;
+use field::{Field, rounded};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::{FormulaErrorKind, ValueError};
@@ -55,6 +57,7 @@ impl Sort {
 pub(crate) struct Scope {
     sorts: HashMap<Box<str>, Sort>,
     values: BTreeMap<Box<str>, f64>,
+    fields: BTreeMap<Box<str>, Field>,
 }
 
 /// See the module.
@@ -90,6 +93,10 @@ pub(crate) struct Own {
     pub(crate) missing: BTreeSet<Box<str>>,
     /// Whether a file has program headers (`%_N_`), by its number.
     pub(crate) headed: HashMap<u16, bool>,
+    /// The path words of the current block.
+    pub(crate) path: crate::sinumerik::PathWords,
+    /// What path words of blocks before leave behind.
+    pub(crate) contour: crate::sinumerik::Contour,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
 }
@@ -138,6 +145,12 @@ impl trunnion_formula::Variables for View<'_> {
             _ => format!("{}: not declared in this program", shown()),
         }))
     }
+    fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
+        let value = self.own.element(name, index);
+        Ok(self.give(value, || {
+            format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
+        }))
+    }
     fn exists(&self, name: &str) -> bool {
         self.own.read(name).is_some()
     }
@@ -147,6 +160,9 @@ impl Own {
     /// A block begins.
     pub(crate) fn begin_block(&mut self) {
         self.fresh.clear();
+        if self.path.any() {
+            self.path = crate::sinumerik::PathWords::default();
+        }
     }
     /// All variables have unknown values.
     pub(crate) fn lose(&mut self) {
@@ -158,11 +174,12 @@ impl Own {
         self.parameters.clear();
         self.others.clear();
         self.scope.values.clear();
+        self.lose_fields();
     }
     fn known(&self) -> BTreeMap<Box<str>, f64> {
         let parameters = (self.parameters.iter()).map(|(number, value)| (format!("r{number}").into(), *value));
         let named = (self.others.iter().chain(&self.scope.values)).map(|(name, value)| (name.clone(), *value));
-        parameters.chain(named).collect()
+        parameters.chain(named).chain(self.elements()).collect()
     }
     /// R parameters with known values: they keep their values after the program ends.
     pub(crate) fn parameters(&self) -> impl Iterator<Item = (String, f64)> {
@@ -232,8 +249,7 @@ impl Own {
                 };
                 Some(number)
             }
-            // array elements are not kept
-            Some(_) => return,
+            Some((stem, index)) => return self.assign_element(stem, index, value),
         };
         if let Some(number) = parameter {
             match value {
@@ -244,6 +260,9 @@ impl Own {
             return;
         }
         let key: Box<str> = name.into();
+        if self.scope.fields.contains_key(&key) {
+            self.assign_element(&key, "", None);
+        }
         let (values, value) = match self.scope.sorts.get(&key) {
             Some(sort) => (&mut self.scope.values, value.and_then(|value| sort.takes(value))),
             // declared elsewhere: it may be an INT
@@ -272,16 +291,15 @@ impl Own {
                 None => (one, Some(0.0)),
                 Some((name, value)) => (name, self.value(value)),
             };
-            if let (Some((name, text)), true) = (
-                one.split_once('='),
-                value.is_none() || sort == Sort::Other || one.contains('['),
-            ) {
+            let is_field = one.split('=').next().is_some_and(|name| name.contains('['));
+            let known = if is_field {
+                self.define_field(sort, one)
+            } else {
+                self.declare(name, sort, value);
+                value.is_some() && sort != Sort::Other
+            };
+            if let (Some((name, text)), false) = (one.split_once('='), known) {
                 self.note_text(name.split('[').next().unwrap_or(name), text);
-            }
-            match name.split_once('[') {
-                // a field
-                Some((stem, _)) => self.declare(stem, Sort::Other, None),
-                None => self.declare(name, sort, value),
             }
         }
     }
@@ -375,11 +393,6 @@ fn r_parameter(name: &str) -> Option<i64> {
 /// The number of an R parameter.
 fn whole(value: f64) -> Option<i64> {
     (value >= 0.0 && value.fract() == 0.0 && value <= 99_999.0).then_some(value as i64)
-}
-
-/// To the nearest whole number; which way a negative half goes is not documented.
-fn rounded(value: f64) -> Option<f64> {
-    (value >= 0.0 || value.fract() != -0.5).then(|| (value + 0.5).floor())
 }
 
 #[cfg(test)]

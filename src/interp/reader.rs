@@ -266,6 +266,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 };
                 self.words.by_letter.keep(letter, said);
             }
+            Role::PathWord => self.path_word(word),
             Role::NotModelled if self.sinumerik_number(letter, word) => {}
             Role::NotModelled => {
                 self.words.forgets_all = true;
@@ -276,10 +277,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
     }
 
-    fn first(&mut self, word: &Word) {
-        if self.words.first.is_none() {
-            self.words.first = Some(word.range);
-        }
+    pub(crate) fn first(&mut self, word: &Word) {
+        self.words.first.get_or_insert(word.range);
     }
 
     fn code_word(&mut self, kind: CodeKind, word: &Word) {

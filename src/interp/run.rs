@@ -110,7 +110,16 @@ impl<'d> Interpreter<'d> {
 
     /// The modal state, for something that is not modelled.
     pub fn situation(&self) -> crate::Situation {
-        with_engine!(&self.engine, engine => crate::Situation::new(&engine.core().state, engine.returns_to_r()))
+        with_engine!(&self.engine, engine => {
+            let state = &engine.core().state;
+            crate::Situation::new(state, engine.returns_to_r(), engine.turned(), engine.cycle_data())
+        })
+    }
+
+    /// How the coordinates of the words are turned, scaled, mirrored, tilted or polar, and corners rounded: numbers that are equal where that
+    /// is. Empty where nothing is active.
+    pub fn turned(&self) -> Vec<f64> {
+        with_engine!(&self.engine, engine => engine.turned())
     }
 
     /// How many times everything modal became unknown so far: a program that is missing may have changed it.

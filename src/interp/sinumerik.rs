@@ -4,8 +4,11 @@
 //! subprograms 3.2.2 and 3.2.3; "check structures are found by a search for their keywords while the program runs". What is not documented
 //! there (a jump into a loop, out of a repeated section, which of two labels REPEAT takes) is not decided here.
 mod call;
+mod curve;
 mod index;
 mod names;
+mod path;
+mod pole;
 mod statement;
 mod text;
 mod words;
@@ -13,6 +16,7 @@ mod words;
 pub(crate) use call::{Level, With, too_deep};
 pub(crate) use index::index;
 pub(crate) use names::files;
+pub(crate) use path::{Contour, PathWords};
 
 use crate::flow::Index;
 use crate::{FaultKind, Refusal};

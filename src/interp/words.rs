@@ -250,3 +250,14 @@ pub(crate) fn put<const N: usize>(places: &mut Places<N>, place: usize, (said, r
         _ => places.unread |= bit,
     }
 }
+
+/// A coordinate that is absolute whatever is modal.
+pub(crate) fn put_absolute<const N: usize>(places: &mut Places<N>, axis: usize, value: f64) {
+    let number = Number {
+        value,
+        has_point: true,
+        range: TextRange::default(),
+    };
+    put(places, axis, (WordValue::Number(number), Reading::Absolute));
+    places.incremental &= !(1 << axis);
+}

@@ -69,7 +69,13 @@ fn is_held(run: &impl Values, view: &Block<'_>, word: &Word) -> bool {
 fn is_geometry(role: Role) -> bool {
     matches!(
         role,
-        Role::Axis | Role::Increment | Role::ArcCentre | Role::ArcRadius | Role::ArcTurns | Role::ToolVector
+        Role::Axis
+            | Role::Increment
+            | Role::ArcCentre
+            | Role::ArcRadius
+            | Role::ArcTurns
+            | Role::ToolVector
+            | Role::PathWord
     )
 }
 

@@ -71,5 +71,12 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
             "the zero point at the end differs, and it is unknown whether the control resets it".to_owned(),
         );
     }
+    let (turned, other) = (before.interpreter.turned(), after.interpreter.turned());
+    if turned.len() != other.len() || !turned.iter().zip(&other).all(same) {
+        return unknown(
+            "the coordinates at the end are turned, scaled, mirrored or polar in different ways, and it is unknown whether the control resets that"
+                .to_owned(),
+        );
+    }
     Ok(())
 }

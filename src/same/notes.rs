@@ -5,7 +5,7 @@ use crate::since::{keeps_place, only_steers, writes_control};
 use crate::steps::Steps;
 use std::sync::Arc;
 use trunnion_dialect::Role;
-use trunnion_interp::{Argument, Effect, Reach, Situation};
+use trunnion_interp::{Argument, Effect, Situation};
 use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as SyntaxValue};
 
 impl Steps<'_> {
@@ -62,23 +62,6 @@ impl Steps<'_> {
         }
     }
 
-    /// LinuxCNC's G10 L20 sets a zero point at the position of the machine, and is compared by the values that it stores: if these
-    /// depend on undeclared values, its place among the motions and offsets matters too.
-    fn note_data_entry(&mut self, block: BlockId, effects: u32) {
-        let text = trunnion_interp::canonical_text(&self.input.program.text(self.input.program.block(block).range()));
-        if !text.contains("L20") || !self.state().undeclared().any() {
-            return;
-        }
-        let held = self.held();
-        let words = vec![
-            Argument::code("zero point set from here"),
-            Argument::text("in", held.work_offset.as_deref().unwrap_or("no work offset")),
-            Argument::text("with", &held.length_of.to_string()),
-        ];
-        let what = Waits::Effect(Effect::Event(words), Reach::Place);
-        self.run.wait(effects, block, what);
-    }
-
     /// Words of a block of the main program: what they restate matters if everything was unknown, and what they change may move the
     /// coordinates.
     pub(super) fn note_block(&mut self, block: BlockId, effects: u32, lost: bool) {
@@ -105,9 +88,6 @@ impl Steps<'_> {
                             _ => -1.0,
                         };
                         let known = (0.0..1e6).contains(&number).then_some(number as u32);
-                        if known == Some(100) && role == Some(Role::G) && dialect.quirks.rs274() {
-                            self.note_data_entry(block, effects);
-                        }
                         let code = known.and_then(|tenths| match role {
                             Some(Role::G) => dialect.g(tenths),
                             _ => dialect.m(tenths),

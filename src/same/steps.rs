@@ -351,10 +351,7 @@ impl<'a> Steps<'a> {
                     run.stores.insert(argument.name.into_owned(), argument.value);
                     continue;
                 }
-                // LinuxCNC's motions do not say whether they were in machine coordinates
-                Effect::Event(words) if !self.input.dialect.quirks.rs274() && self.since.is_set_plainly(&words) => {
-                    continue;
-                }
+                Effect::Event(words) if self.since.is_set_plainly(&words) => continue,
                 // where it differs, the programs may still do the same
                 Effect::Event(words) if crate::since::sets_from_here(&words) => (Sort::Unmodelled, words),
                 Effect::Event(words) => (Sort::Event, words),

@@ -189,6 +189,9 @@ impl Counting<'_> {
         }
         if let MotionKind::Arc(Some(arc)) = &motion.kind {
             for (axis, direction) in [Vec3::x(), Vec3::y(), Vec3::z()].iter().enumerate() {
+                if motion.end.get(axis).is_none() {
+                    continue;
+                }
                 let (low, high) = arc.extent(direction);
                 widen(&mut self.tally.axes[axis], low);
                 widen(&mut self.tally.axes[axis], high);

@@ -269,6 +269,14 @@ actions! {
     PointToPointRapid = "point-to-point-rapid",
     /// CP: ends both.
     ContinuousPath = "continuous-path",
+    /// CIP: arc through the intermediate point I1 J1 K1.
+    ArcThroughPoint = "arc-through-point",
+    /// CT: arc that continues the direction of the motion before.
+    ArcTangent = "arc-tangent",
+    /// ROT, SCALE, MIRROR and their added forms: turn, scale and mirror the coordinates.
+    ProgrammableFrame = "programmable-frame",
+    /// G110, G111, G112: pole of the polar coordinates AP, RP.
+    Pole = "pole",
 }
 
 impl Action {

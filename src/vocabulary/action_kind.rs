@@ -10,6 +10,9 @@ impl Action {
                 | Self::Linear
                 | Self::ArcClockwise
                 | Self::ArcCounterClockwise
+                | Self::ArcThroughPoint
+                | Self::ArcTangent
+                | Self::Pole
                 | Self::Dwell
                 | Self::PlaneXy
                 | Self::PlaneZx
@@ -57,6 +60,7 @@ impl Action {
                     | Self::FrameLost
                     | Self::DiameterSwitch
                     | Self::ProgrammableShift
+                    | Self::ProgrammableFrame
                     | Self::FrameReset
                     | Self::TiltedPlane
                     | Self::TiltedPlaneTurn

@@ -55,7 +55,7 @@ tags! {
     Role {
         BlockNumber = 1, ProgramNumber = 2, G = 3, M = 4, Axis = 5, ArcCentre = 6, ArcRadius = 7, ArcTurns = 8, ToolVector = 9,
         PostureStatus = 10, PostureTurn = 11, Feed = 12, Speed = 13, Tool = 14, LengthOffset = 15, EdgeOffset = 16,
-        Parameter = 17, Increment = 18, Variable = 19, NotFollowed = 20, NotModelled = 21,
+        Parameter = 17, Increment = 18, Variable = 19, NotFollowed = 20, NotModelled = 21, PathWord = 22,
     }
 }
 
@@ -80,5 +80,6 @@ tags! {
         PatternRepeatCycle = 97, ThreadRepeatCycle = 98, FacePeckCycle = 99, GroovePeckCycle = 100, CannedCycle = 101,
         CycleOff = 102, ConstantSurfaceSpeed = 103, ConstantSpindleSpeed = 104, SubprogramCall = 105, OrientationAxes = 106,
         OrientationVector = 107, PointToPoint = 108, PointToPointRapid = 109, ContinuousPath = 110,
+        ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114,
     }
 }

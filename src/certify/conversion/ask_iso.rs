@@ -336,6 +336,7 @@ fn is_held(role: Role) -> bool {
             | Role::ArcRadius
             | Role::ArcTurns
             | Role::ToolVector
+            | Role::PathWord
             | Role::PostureStatus
             | Role::PostureTurn
             | Role::Feed

@@ -19,14 +19,15 @@
 //! N20 G0 X50. Z0.
 //! N30 G1 X0. F0.1
 //! ```
-//! In G code systems B and C the limit is G92 S2000.
+//! In G code systems B and C the limit is G92 S2000, on LinuxCNC it is D: `G96 D2000 S200`.
 //!
 //! # Guarantee
-//! Sound for the Fanuc dialects: reported once per program, at the first feed motion under G96 before any limit. A
+//! Sound for the Fanuc dialects and LinuxCNC: reported once per program, at the first feed motion under G96 before any limit. A
 //! limit that a builder's subprogram or a parameter sets is not known.
 //!
 //! # Sources
 //! * FANUC Series 30i B-64484EN-1 (lathe system): constant surface speed control and maximum spindle speed clamp.
+//! * grammar/dialects/linuxcnc.toml, the table of its codes: G96.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::CutSpindleUnlimited(check)]);
@@ -56,6 +57,7 @@ mod tests {
             "gcode fanuc-30i-lathe-a",
             "G96 S200 M3\nG0 X50. Z0.\nG97 S500\nG1 X0. F0.1\n",
         );
+        assert_drawn("gcode linuxcnc", "G96 D2000 S200 M3\nG0 X50 Z0\nG1 X0 F100\nM2\n");
     }
 
     #[test]

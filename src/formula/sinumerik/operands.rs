@@ -1,7 +1,7 @@
 //! Operands: numbers, variables, functions.
 use super::{Reader, Waiting, is_name};
-use crate::FormulaErrorKind as Kind;
 use crate::code::{Binary, Op, Unary};
+use crate::{FormulaErrorKind as Kind, Name};
 
 impl<'s> Reader<'s> {
     /// `5`, `.5`, `1.EX-3`.
@@ -80,6 +80,10 @@ impl<'s> Reader<'s> {
                 self.take(1);
                 self.waiting.push(waiting);
             }
+            (_, Some(b'[')) if !name.starts_with('$') && self.has_one_index() => {
+                self.take(1);
+                self.waiting.push(Waiting::Field(Name::new(&name)));
+            }
             (_, Some(b'[')) => {
                 self.group(b'[', b']')?;
                 self.unknown(&format!("{name}["));
@@ -100,6 +104,12 @@ impl<'s> Reader<'s> {
             }
         }
         Ok(false)
+    }
+
+    /// Whether the bracket at the cursor holds one expression, which is no text.
+    fn has_one_index(&self) -> bool {
+        let inside = self.rest().split(|&byte| byte == b']').next().unwrap_or_default();
+        !inside.iter().any(|byte| matches!(byte, b',' | b'"'))
     }
 
     /// Skips a bracket and its contents.

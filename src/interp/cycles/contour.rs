@@ -1,7 +1,4 @@
 //! The contour of a turning cycle: the blocks between two sequence numbers, run on a copy of the interpreter.
-//!
-//! An arc of a lathe without Y is in the plane of X and Z all the same: a second run takes Y as 0, and is used only if nothing names or
-//! reads Y.
 use crate::Sink;
 use crate::core::Report;
 use crate::iso::Iso;
@@ -9,8 +6,6 @@ use crate::words::{WordValue, Words};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
 use trunnion_flow::{Key, Search};
 use trunnion_syntax::{BlockId, Item, Program};
-
-const Y: usize = 1;
 
 /// Motions of a contour, or of a cut along it.
 const MOST_MOTIONS: usize = 100_000;
@@ -57,7 +52,7 @@ impl Iso<'_> {
         let (first, last) = self.contour_blocks(program, words, report)?;
         let here = report.block.0;
         let follows = is_next(program, here, first);
-        let mut found = self.run_blocks(program, first, last, None);
+        let mut found = self.run_blocks(program, first, last);
         if !self.memory.contours_reported.contains(&first) {
             self.memory.contours_reported.push(first);
             for fault in std::mem::take(&mut found.faults) {
@@ -100,35 +95,14 @@ impl Iso<'_> {
         None
     }
 
-    /// The motions of a contour in the plane of X and Z: arcs of a lathe that has no Y are known there.
-    pub(super) fn in_plane(&self, contour: &Contour, program: &Program) -> Vec<Motion> {
-        let reads = |block: u32| program.bytes(program.block(BlockId(block)).range()).contains(&b'#');
-        if self.core.state.position.get(Y).is_some() || (contour.first..=contour.last).any(reads) {
-            return contour.motions.clone();
-        }
-        let mut found = self.run_blocks(program, contour.first, contour.last, Some(0.0));
-        found
-            .motions
-            .retain(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
-        let stays = |motion: &Motion| motion.start.get(Y) == Some(0.0) && motion.end.get(Y) == Some(0.0);
-        if found.motions.len() == contour.motions.len() && found.motions.iter().all(stays) {
-            found.motions
-        } else {
-            contour.motions.clone()
-        }
-    }
-
-    /// Runs blocks on a copy of the interpreter, which may be given the position of Y.
-    fn run_blocks(&self, program: &Program, first: u32, last: u32, y: Option<f64>) -> Collected {
+    /// Runs blocks on a copy of the interpreter.
+    fn run_blocks(&self, program: &Program, first: u32, last: u32) -> Collected {
         let mut ghost = self.clone();
         ghost.flow.follows = false;
         ghost.memory.passed_over = None;
         ghost.memory.in_contour = true;
         ghost.memory.out.clear();
         ghost.memory.corners = crate::corner::Corners::default();
-        if let Some(y) = y {
-            ghost.core.state.position.set(Y, y);
-        }
         let mut found = Collected::default();
         for block in first..=last {
             ghost.step_iso(&program.block(BlockId(block)), &mut found);

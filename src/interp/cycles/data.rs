@@ -19,6 +19,15 @@ pub(crate) enum Stored {
 }
 
 impl Stored {
+    /// How it was given, and the value.
+    pub(super) fn numbers(self) -> [f64; 2] {
+        match self {
+            Self::Nothing => [0.0, 0.0],
+            Self::Unknown => [1.0, 0.0],
+            Self::At(value) => [2.0, value],
+            Self::By(value) => [3.0, value],
+        }
+    }
     /// The coordinate, from the level that a distance is relative to.
     pub(crate) fn from(self, level: Option<f64>) -> Option<f64> {
         match self {
@@ -47,6 +56,14 @@ pub(crate) struct Hole {
 }
 
 impl Hole {
+    /// All of it; NaN: not given, or unknown.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let [i, j, k] = self.ijk;
+        let plain = [self.initial, self.q, self.dwell, self.times, i, j, k];
+        let plain = plain.map(|value| value.unwrap_or(f64::NAN));
+        let stored = [self.bottom.numbers(), self.r.numbers()];
+        stored.into_iter().flatten().chain(plain)
+    }
     /// Nothing but the level before the cycle, mm.
     pub(crate) fn from(initial: Option<f64>) -> Self {
         Self {

@@ -34,6 +34,22 @@ pub(crate) struct Kept {
     pub(super) thread: Thread,
 }
 
+impl Kept {
+    /// All of it, NaN where it is not given; empty where nothing is.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let [x, z] = self.relief.map_or([None; 2], |relief| relief.map(Some));
+        let own = [x, z, self.runs.map(f64::from), self.lift];
+        let all = own
+            .into_iter()
+            .chain(self.roughing.numbers())
+            .chain(self.thread.numbers());
+        if all.clone().all(|value| value.is_none()) {
+            return Vec::new();
+        }
+        all.map(|value| value.unwrap_or(f64::NAN)).collect()
+    }
+}
+
 /// A cycle in the current block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeated {

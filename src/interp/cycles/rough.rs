@@ -33,6 +33,12 @@ pub(crate) struct Roughing {
     escape: Option<f64>,
 }
 
+impl Roughing {
+    pub(super) fn numbers(&self) -> [Option<f64>; 2] {
+        [self.depth, self.escape]
+    }
+}
+
 /// A cycle that can be computed.
 struct Plan {
     frame: Frame,
@@ -225,7 +231,7 @@ impl Iso<'_> {
         {
             return Err("its contour moves other axes");
         }
-        let motions = self.in_plane(contour, report.program);
+        let motions = &contour.motions;
         let same = |motion: &Motion| {
             (motion.tool, motion.zero, motion.tool_length_mm)
                 == (
@@ -246,7 +252,7 @@ impl Iso<'_> {
         if motions.iter().skip(1).any(|motion| motion.kind == MotionKind::Rapid) {
             return Err("a rapid motion inside its contour");
         }
-        Ok(motions)
+        Ok(motions.clone())
     }
 
     fn cuts(&mut self, plan: &Plan, contour: &Contour, start: Position, report: &mut Report<'_>) {

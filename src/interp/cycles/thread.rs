@@ -32,6 +32,15 @@ pub(crate) struct Thread {
     allowance: Option<f64>,
 }
 
+impl Thread {
+    pub(super) fn numbers(&self) -> [Option<f64>; 5] {
+        let [passes, out, angle] = self
+            .digits
+            .map_or([None; 3], |digits| digits.map(|digit| Some(f64::from(digit))));
+        [passes, out, angle, self.least, self.allowance]
+    }
+}
+
 /// A thread as it is programmed, mm.
 struct Data {
     finishing: u32,

@@ -119,7 +119,10 @@ pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
                         continue;
                     };
                     let stem = variable.split('[').next().unwrap_or_default().trim();
-                    if run.memory.own.held(variable.trim()).is_none() && is_used(view, stem) {
+                    if run.memory.own.held(variable.trim()).is_none()
+                        && !run.memory.own.is_known_field(stem)
+                        && is_used(view, stem)
+                    {
                         let text = format!("{} {}={}", packed(kind), packed(variable), resolved(run, value));
                         found.push(Argument::text("DEF", &text));
                     }

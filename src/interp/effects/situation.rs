@@ -7,12 +7,21 @@ use trunnion_dialect::Plane;
 pub struct Situation {
     state: ModalState,
     to_r: bool,
+    /// How the coordinates are turned, scaled or polar: [`crate::Interpreter::turned`].
+    turned: Vec<f64>,
+    /// What the active cycle has kept.
+    cycle: Vec<Argument>,
 }
 
 impl Situation {
-    pub(crate) fn new(state: &ModalState, to_r: bool) -> Self {
+    pub(crate) fn new(state: &ModalState, to_r: bool, turned: Vec<f64>, cycle: Vec<Argument>) -> Self {
         let state = state.clone();
-        Self { state, to_r }
+        Self {
+            state,
+            to_r,
+            turned,
+            cycle,
+        }
     }
 
     /// The first setting that differs: name, before, after. `feed_counts`: whether F must be the same.
@@ -30,7 +39,7 @@ impl Situation {
     /// Whether every setting is the same number, as it is nearly always: nothing is put into words for that.
     fn equals(&self, other: &Self) -> bool {
         let (a, b) = (&self.state, &other.state);
-        self.to_r == other.to_r
+        (self.to_r, &self.turned, &self.cycle) == (other.to_r, &other.turned, &other.cycle)
             && (a.motion, a.compensation, a.tool.number()) == (b.motion, b.compensation, b.tool.number())
             && (a.coordinates, a.tool_axis) == (b.coordinates, b.tool_axis)
             && (a.feed, a.length, a.spindle.rpm()) == (b.feed, b.length, b.spindle.rpm())
@@ -78,6 +87,11 @@ impl Situation {
                     .map(|value| Argument::number("", *value))
                     .collect(),
             ),
+            (
+                "the turn or scale of the coordinates",
+                self.turned.iter().map(|value| Argument::number("", *value)).collect(),
+            ),
+            ("the data of the active cycle", self.cycle.clone()),
             ("the active tool length", number(state.length.mm())),
             (
                 "which tool's length is active",

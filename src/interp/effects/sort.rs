@@ -54,7 +54,13 @@ pub(super) fn uncouples(action: Action) -> bool {
         || action.is_pass_cycle()
         || matches!(
             action,
-            Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise | Action::CycleOff
+            Action::Rapid
+                | Action::Linear
+                | Action::ArcClockwise
+                | Action::ArcCounterClockwise
+                | Action::ArcThroughPoint
+                | Action::ArcTangent
+                | Action::CycleOff
         )
 }
 
@@ -127,6 +133,8 @@ pub(super) fn is_frame(action: Action) -> bool {
         Action::FrameChange
             | Action::FrameLost
             | Action::ProgrammableShift
+            | Action::ProgrammableFrame
+            | Action::Pole
             | Action::LocalShift
             | Action::PositionSet
             | Action::PositionPreset

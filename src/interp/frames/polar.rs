@@ -12,6 +12,10 @@ pub(crate) struct Polar {
 }
 
 impl Polar {
+    /// The last radius and angle, NaN where unknown.
+    pub(crate) fn last(&self) -> [f64; 2] {
+        [self.radius, self.degrees].map(|value| value.unwrap_or(f64::NAN))
+    }
     /// Puts the position that the words give into `end`. An incremental radius starts from the present position, which makes a new
     /// centre; that is not followed.
     pub(crate) fn place(&mut self, words: &Words, state: &ModalState, end: &mut Position) {

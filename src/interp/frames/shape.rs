@@ -1,6 +1,6 @@
 //! Turned, scaled and mirrored coordinates. The words are in the innermost: G68 inside G51 inside G51.1, in which order Fanuc wants them
 //! to be programmed, so the rotation's centre is scaled and mirrored with the rest, and mirroring turns its angle about.
-use super::XYZ;
+use super::{Linear, XYZ};
 use crate::Position;
 use crate::arc::plane_axes;
 use trunnion_dialect::Plane;
@@ -75,6 +75,8 @@ pub(crate) struct Shape {
     pub(crate) scaling: Option<Scaling>,
     /// Coordinates about which axes are mirrored, mm.
     pub(crate) mirror: [Option<f64>; 3],
+    /// Programmable frames of a Sinumerik, which has none of the others.
+    pub(crate) linear: Option<Linear>,
 }
 
 impl Shape {
@@ -94,11 +96,17 @@ impl Shape {
             }
         }
         self.mirror(&mut point);
-        point
+        match &self.linear {
+            Some(linear) => linear.to_work(&point),
+            None => point,
+        }
     }
     /// The way back.
     pub(crate) fn to_words(self, work: &Position) -> Position {
-        let mut point = *work;
+        let mut point = match &self.linear {
+            Some(linear) => linear.to_words(work),
+            None => *work,
+        };
         self.mirror(&mut point);
         if let Some(scaling) = &self.scaling {
             for axis in 0..3 {
@@ -138,6 +146,11 @@ impl Shape {
                 sign = -sign;
             }
         }
+        let normal = (0..3).find(|axis| along(*axis))?;
+        let size = size * self.linear.map_or(Some(1.0), |linear| linear.size(normal))?;
+        if self.linear.is_some_and(|linear| linear.flips(normal)) {
+            sign = -sign;
+        }
         Some(Arc {
             start: place(arc.start),
             end: place(arc.end),
@@ -150,8 +163,9 @@ impl Shape {
     }
     /// Whether left and right of a path change places in a plane.
     pub(crate) fn flips(&self, plane: Plane) -> bool {
-        let [a, b, _] = plane_axes(plane);
-        [a, b].iter().fold(false, |flips, &axis| {
+        let [a, b, normal] = plane_axes(plane);
+        let turned_over = self.linear.is_some_and(|linear| linear.flips(normal));
+        [a, b].iter().fold(turned_over, |flips, &axis| {
             let scaled = self.scaling.is_some_and(|scaling| scaling.factors[axis] < 0.0);
             flips ^ self.mirror[axis].is_some() ^ scaled
         })

@@ -60,40 +60,6 @@ impl<'d> Iso<'d> {
         self.refresh_zero();
     }
 
-    /// TRANS, ATRANS: the zero point moves by the coordinates of the block, regardless of G91 (Sinumerik 840D sl Programming Manual,
-    /// Fundamentals, frames). TRANS replaces all programmable frames before it, ATRANS is added to them.
-    pub(crate) fn programmable_shift(
-        &mut self,
-        found: &Found<'d>,
-        words: &Words,
-        block: &mut BlockCodes,
-        report: &mut Report<'_>,
-    ) {
-        block.takes_coordinates = true;
-        let replaces = found.code.id == "TRANS";
-        if replaces {
-            let ended = self.core.unknown.end(found.code);
-            self.core.forget_if(ended);
-            self.memory.frames.local = [0.0; 9];
-            self.refresh_zero();
-        }
-        let turns = (words.axes.given | words.axes.unread) & crate::core::ROTARY != 0;
-        let plain = words.axes.unread == 0 && !(self.core.state.tool_axis.tcp() && turns);
-        if !words.axes.any() {
-            return;
-        }
-        if !plain || self.core.unknown.any() || self.memory.frames.tilt.is_some() {
-            self.frame_change(found, words, block, report);
-            return;
-        }
-        for axis in 0..9 {
-            if let Some(value) = self.axis_value(words, axis) {
-                self.memory.frames.local[axis] += value;
-            }
-        }
-        self.refresh_zero();
-    }
-
     /// G92: the present point gets the given coordinates, in all work offsets. With S alone it limits the speed.
     pub(crate) fn position_set(
         &mut self,
@@ -104,7 +70,7 @@ impl<'d> Iso<'d> {
     ) {
         if words.speed.is_given() {
             let limit = words.speed.number().map_or(f64::NAN, |number| number.value);
-            self.core.state.spindle.limit(limit);
+            self.core.state.spindle.limit(Some(limit));
             if !words.axes.any() {
                 return;
             }
@@ -119,7 +85,7 @@ impl<'d> Iso<'d> {
             self.frame_change(found, words, block, report);
             return;
         }
-        self.core.set_from_here(self.core.main_block(report.block));
+        self.core.set_from_here(self.core.main_block(report.block), None);
         for axis in 0..9 {
             if let Some(value) = self.axis_value(words, axis) {
                 let value = if self.core.dialect.quirks.diameter && words.axes.incremental & (1 << axis) != 0 {

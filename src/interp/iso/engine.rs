@@ -53,6 +53,18 @@ impl<'d> Engine<'d> for Iso<'d> {
     fn returns_to_r(&self) -> bool {
         self.memory.cycle.to_r
     }
+    fn turned(&self) -> Vec<f64> {
+        let mut numbers = self.memory.frames.turned();
+        let rounding = self.memory.own.contour.rounding;
+        numbers.extend(Some(rounding).filter(|rounding| *rounding != 0.0));
+        numbers
+    }
+    fn cycle_data(&self) -> Vec<crate::Argument> {
+        let mut data = self.memory.cycle.data(self.core.state.motion);
+        let polar = self.memory.own.contour.numbers();
+        data.extend(polar.map(|value| crate::Argument::number("", value)));
+        data
+    }
     fn known_variables(&self) -> Vec<crate::Argument> {
         let mut found = self.flow.all_variables();
         found.extend(self.memory.own.all());

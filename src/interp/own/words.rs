@@ -12,6 +12,7 @@ impl super::Own {
         let name = name.to_ascii_lowercase();
         match super::r_parameter(&name) {
             Some(number) => self.parameters.get(&number).copied(),
+            None if name.contains('[') => self.held_element(&name),
             None => self
                 .scope
                 .values
@@ -38,6 +39,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         };
         let text = self.text(word.value_range);
         if let Some(own) = &mut self.own {
+            if number.is_none() && own.assign_list(name, &text) {
+                return;
+            }
             if number.is_none() {
                 own.note_text(name, &text);
             }

@@ -92,8 +92,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if self.core.effects.wanted() {
             self.machine_frame(state.machine_frame, at);
         }
-        self.calls.moved = true;
-        self.calls.strayed |= state.machine_frame;
         let block = self.block(at);
         let start = shift.programmed(&self.calls.machine);
         let [mut end, mut machine] = ends;

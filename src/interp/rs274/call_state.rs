@@ -19,8 +19,6 @@ pub(super) struct CallState {
     pub(super) per_revolution: bool,
     /// The pitch while the feed is coupled to the spindle.
     pub(super) synced: Option<Rate>,
-    /// S is a cutting speed (G96).
-    pub(super) surface_speed: bool,
     /// G92 and the tool offset, mm and deg: that of the interpreter keeps its number when the unit changes, that of the machine its length.
     pub(super) g92: Pose,
     pub(super) tool_offset: Pose,
@@ -45,9 +43,6 @@ pub(super) struct CallState {
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).
     pub(super) machine_frame: bool,
-    /// Some motion was made; since the first one, some axis may be where another offset, another length or G53 put it.
-    pub(super) moved: bool,
-    pub(super) strayed: bool,
     /// The line that set `#<_value>` to something unknown.
     pub(super) returned: Option<Vec<crate::Argument>>,
     /// The kinematics were switched, and it is not known to which: X Y Z say nothing about the machine.

@@ -171,7 +171,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 let deg = synced.per_revolution;
                 self.calls.synced = Some(Rate { mm: deg * unit, deg });
             }
-            Canon::SpindleMode(0, ceiling) => self.calls.surface_speed = ceiling != 0.0,
+            Canon::SpindleMode(0, ceiling) => {
+                let spindle = &mut self.core.state.spindle;
+                spindle.set_surface_speed(ceiling != 0.0);
+                // 1e30 is what the control takes without D
+                spindle.limit(Some(ceiling).filter(|ceiling| *ceiling != 0.0 && *ceiling < 1e30));
+            }
             Canon::G92Offset(ref offset) => {
                 self.calls.g92 = Shift::metric(offset, unit);
                 self.core.state.zero.set_here(self.calls.g92 != [0.0; 9]);
@@ -183,11 +188,15 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             // which spindle holds the tool is not known
             Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.spindle.may_start(),
             Canon::SpindleSpeed(0, speed) => {
-                let surface = self.calls.surface_speed;
-                self.core
-                    .state
-                    .spindle
-                    .set_rpm((!surface && speed.is_finite()).then_some(speed));
+                let spindle = &mut self.core.state.spindle;
+                let speed = Some(speed).filter(|speed| speed.is_finite());
+                if spindle.surface_speed() {
+                    // S is in feet per minute where lengths are in inches (LinuxCNC user manual, G96)
+                    let metres = if unit == 1.0 { 1.0 } else { 0.3048 };
+                    spindle.set_cutting_speed(speed.map(|speed| speed * metres));
+                } else {
+                    spindle.set_rpm(speed);
+                }
             }
             Canon::SelectTool(number) => {
                 let number = u32::try_from(number).ok();
@@ -208,11 +217,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 }
             }
             Canon::ToolOffset(ref offset) => {
-                self.calls.strayed |= self.calls.moved;
                 self.tool_offset(offset, at, state);
             }
             Canon::G5xOffset(index, ref offset) => {
-                self.calls.strayed |= self.calls.moved;
                 self.work_offset(index, offset, at);
             }
             Canon::Units(units) => {

@@ -21,11 +21,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.hand_on();
         }
         if let Canon::G92Offset(offset) = call
-            && Shift::metric(offset, state.units.mm()) != self.calls.g92
-            // after motions that all depend on one offset and length, no undeclared value matters
-            && (self.calls.strayed || !self.calls.moved)
+            && Shift::metric(offset, state.units.mm()).map(f64::to_bits) != self.calls.g92.map(f64::to_bits)
         {
-            self.core.set_from_here(self.block(at));
+            self.core.set_from_here(self.block(at), None);
             self.hand_on();
         }
     }

@@ -22,7 +22,13 @@ impl Ngc<'_> {
         let names = crate::written::names(&text);
         self.line_events(program, block, (at, &text, &upper), &codes, sink);
         // the control keeps what is written to its offsets, also where that is what they are without a declaration
-        for store in stored_offsets(&upper, &names, |name| self.variable(name)) {
+        let stores = stored_offsets(&upper, &names, |name| self.variable(name));
+        let from_here = |store: &Argument| store.name.starts_with("G10 L20") || store.name == "written by G10";
+        if upper.contains("L20") && stores.iter().any(from_here) {
+            self.core.set_from_here(block, Some("G10 L20"));
+            self.hand_on(sink);
+        }
+        for store in stores {
             self.core.effects.add(block, Effect::Store(store));
             self.hand_on(sink);
         }

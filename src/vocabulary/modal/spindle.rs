@@ -30,7 +30,7 @@ impl Spindle {
     pub fn cutting_speed_m_min(&self) -> Option<f64> {
         self.cutting_speed_m_min
     }
-    /// The highest speed that the program allows (G50 S, G92 S), 1/min; NaN where its value could not be read.
+    /// The highest speed that the program allows (G50 S, G92 S, G96 D), 1/min; NaN where its value could not be read.
     pub fn limit_rpm(&self) -> Option<f64> {
         self.limit_rpm
     }
@@ -72,9 +72,9 @@ impl Spindle {
         self.speed_programmed = true;
         self.cutting_speed_m_min = m_min;
     }
-    /// The program limits the speed, 1/min.
-    pub fn limit(&mut self, rpm: f64) {
-        self.limit_rpm = Some(rpm);
+    /// The program limits the speed, 1/min; `None`: it does not any more.
+    pub fn limit(&mut self, rpm: Option<f64>) {
+        self.limit_rpm = rpm;
     }
     /// What is not modelled may have switched it: whether it turns is unknown.
     pub fn lose(&mut self) {

@@ -27,7 +27,7 @@ fn c_is_a_chamfer_and_r_a_radius() {
                     "L X18 Z-10 F0.2/rev",
                     "L X20 Z-12 F0.2/rev",
                     "L X20 Z-27 F0.2/rev",
-                    "A? X23 Z-30 F0.2/rev",
+                    "A(23 0 -27; -90) X23 Z-30 F0.2/rev",
                     "L X30 Z-30 F0.2/rev",
                 ],
                 "{dialect} {source}"

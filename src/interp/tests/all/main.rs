@@ -34,6 +34,7 @@ mod roughing_unknown;
 mod silent;
 mod sinumerik_calls;
 mod sinumerik_flow;
+mod sinumerik_paths;
 mod steady;
 mod support;
 mod threads;

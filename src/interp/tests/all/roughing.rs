@@ -165,11 +165,14 @@ fn cuts_end_at_arcs() {
             assert_eq!((&got[1..6], told), (&want[..], 0));
         }
     }
-    // what the program says about Y, or reads of it, is not assumed
+    // the path is known in the plane also where the program reads Y
     let source =
         "G0 X40. Z2.\nG71 U6. R2.\nG71 P1 Q2 F.2\nN1 G0 X20.\nG1 Z-10.\n#100=#5042\nN2 G2 X40. Z-20. R10.\nM30\n";
     let (got, told) = roughed(A, source, RoughingEscape::Feed);
-    assert_eq!((&got[1..], told), (&["U X20 Z2".to_owned()][..], 1));
+    assert_eq!(
+        (got[2].as_str(), got[7].as_str(), told),
+        ("L X14 Z-18 F0.2/rev", "A(20 0 -10; -90) X20 Z-20 F0.2/rev", 0)
+    );
 }
 
 #[test]

@@ -93,7 +93,11 @@ fn a_lathe_without_y_has_corners_too() {
     let source = "G0 X20. Z0.\nG1 Z-20. R2. F.1\nX40.\n";
     assert_eq!(
         lines("fanuc-30i-lathe-a", source)[1..],
-        ["L X10 Z-18 F0.1/rev", "A? X12 Z-20 F0.1/rev", "L X20 Z-20 F0.1/rev"]
+        [
+            "L X10 Z-18 F0.1/rev",
+            "A(12 0 -18; -90) X12 Z-20 F0.1/rev",
+            "L X20 Z-20 F0.1/rev"
+        ]
     );
     assert_eq!(faults("fanuc-30i-lathe-a", source), [""; 0]);
     // what is unknown is no mistake

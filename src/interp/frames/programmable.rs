@@ -1,0 +1,146 @@
+//! Programmable frames of a Sinumerik: TRANS, ROT, SCALE and MIRROR replace all of them, ATRANS, AROT, ASCALE and AMIRROR chain behind what
+//! is there, each word alone ends all (Sinumerik 840D sl Programming Manual, Fundamentals, frames). The shift is part of the zero point, what
+//! turns, scales and mirrors is a [`super::Shape`]. Turns about another axis than the plane's third are not followed.
+use super::Linear;
+use crate::arc::plane_axes;
+use crate::codes::{BlockCodes, Found};
+use crate::core::{LINEAR, ROTARY, Report};
+use crate::iso::Iso;
+use crate::words::Words;
+
+impl<'d> Iso<'d> {
+    /// Regardless of G91, the words of the block are those of the frame.
+    pub(crate) fn programmable_frame(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let position = self.core.state.position;
+        let before = self.memory.frames.programmed(&position);
+        let coupled = self.is_coupled();
+        self.change_frame(found, words, block, report);
+        if coupled || self.is_coupled() {
+            // an axis that the next block does not name: in a turned plane the sources do not say which of its positions stays
+            let position = self.core.state.position;
+            let now = self.memory.frames.programmed(&position);
+            let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
+            let stays = |axis: usize| {
+                before
+                    .get(axis)
+                    .zip(now.get(axis))
+                    .is_some_and(|(old, new)| (old - new).abs() <= 1e-9)
+            };
+            for axis in [a, b].into_iter().filter(|axis| !stays(*axis)) {
+                self.memory.frames.fresh |= 1 << axis;
+            }
+            self.memory.frames.refresh(&position);
+        }
+    }
+
+    fn is_coupled(&self) -> bool {
+        self.memory.frames.shape.linear.is_some_and(|linear| linear.couples())
+    }
+
+    fn change_frame(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        block.takes_coordinates = true;
+        let added = found.code.id.starts_with('A');
+        if !added {
+            let ended = self.core.unknown.end(found.code);
+            self.core.forget_if(ended);
+            self.memory.frames.local = [0.0; 9];
+            self.set_linear(None);
+            self.refresh_zero();
+        }
+        let angle = self.memory.own.path.frame_angle();
+        if !words.axes.any() && angle.is_none() {
+            return;
+        }
+        let turns = (words.axes.given | words.axes.unread) & ROTARY != 0;
+        let tcp = self.core.state.tool_axis.tcp();
+        let is_shift = matches!(found.code.id.as_str(), "TRANS" | "ATRANS");
+        let plain = words.axes.unread == 0
+            && !(tcp && turns)
+            && (is_shift || !turns && !tcp)
+            && !self.core.unknown.any()
+            && self.memory.frames.tilt.is_none();
+        let Some(step) = self.frame_step(found, words, angle).filter(|_| plain) else {
+            self.frame_change(found, words, block, report);
+            return;
+        };
+        let before = self.memory.frames.shape.linear.unwrap_or_default();
+        match step {
+            FrameStep::Shift(by) => {
+                let moved = before.apply([by[0], by[1], by[2]]);
+                for (axis, value) in self.memory.frames.local.iter_mut().enumerate() {
+                    *value += moved.get(axis).copied().unwrap_or(by[axis]);
+                }
+            }
+            FrameStep::Linear(next) => self.set_linear(Some(before.then(&next))),
+        }
+        // whether an incremental coordinate adds what a frame has changed is setting data (42440 FRAME_OFFSET_INCR_PROG)
+        self.memory.frames.must_be_absolute |= words.axes.given & (LINEAR | ROTARY);
+        self.refresh_zero();
+        let position = self.core.state.position;
+        self.memory.frames.refresh(&position);
+    }
+
+    /// What a code of the group does with its words; `None`: that is not followed.
+    fn frame_step(&self, found: &Found<'d>, words: &Words, angle: Option<f64>) -> Option<FrameStep> {
+        let plane = plane_axes(self.core.state.coordinates.plane());
+        let named = words.axes.given;
+        if angle.is_some() != (found.code.id.ends_with("ROT") && named == 0) {
+            return None;
+        }
+        match found.code.id.trim_start_matches('A') {
+            "TRANS" => {
+                let mut by = [0.0; 9];
+                for (axis, value) in by.iter_mut().enumerate() {
+                    *value = self.axis_value(words, axis).unwrap_or(0.0);
+                }
+                Some(FrameStep::Shift(by))
+            }
+            "ROT" => {
+                let degrees = match angle {
+                    Some(angle) => Some(angle).filter(|angle| !angle.is_nan())?,
+                    None if named == 1 << plane[2] => words.axes.get(plane[2])?,
+                    None => return None,
+                };
+                Some(FrameStep::Linear(Linear::turn(plane, degrees)))
+            }
+            id @ ("SCALE" | "MIRROR") => {
+                let mut diagonal = [1.0; 3];
+                for (axis, factor) in diagonal.iter_mut().enumerate() {
+                    match words.axes.get(axis) {
+                        // the value of MIRROR has no meaning
+                        Some(_) if id == "MIRROR" => *factor = -1.0,
+                        Some(value) if value > 0.0 => *factor = value,
+                        Some(_) => return None,
+                        None => {}
+                    }
+                }
+                Some(FrameStep::Linear(Linear::diagonal(diagonal)))
+            }
+            _ => None,
+        }
+    }
+
+    fn set_linear(&mut self, to: Option<Linear>) {
+        let frames = &mut self.memory.frames;
+        let before = std::mem::replace(&mut frames.shape.linear, to);
+        if before == to {
+            return;
+        }
+        frames.must_be_absolute |= super::XYZ;
+        let position = self.core.state.position;
+        frames.refresh(&position);
+    }
+}
+
+/// What one code does to the coordinates.
+enum FrameStep {
+    /// mm or deg.
+    Shift([f64; 9]),
+    Linear(Linear),
+}

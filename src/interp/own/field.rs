@@ -1,0 +1,148 @@
+//! Fields of one dimension: `DEF REAL A[3]=SET(1,2,3)`. SET fills in order and keeps what it leaves out, REP repeats one value (Sinumerik
+//! 840D sl Programming Manual, Job Planning, fields). Fields of more dimensions, and those of texts, axes and frames, are not followed.
+use super::{Own, Sort, arguments};
+
+/// A longer field is not followed.
+const MOST: usize = 1000;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    sort: Sort,
+    elements: Vec<Option<f64>>,
+}
+
+impl Own {
+    /// `A[3]=SET(1,2,3)` after DEF; whether all its elements are known.
+    pub(super) fn define_field(&mut self, sort: Sort, text: &str) -> bool {
+        let (name, values) = match text.split_once('=') {
+            Some((name, values)) => (name, Some(values)),
+            None => (text, None),
+        };
+        let (stem, index) = name.split_once('[').unwrap_or((name, ""));
+        let stem = stem.trim().to_ascii_lowercase();
+        self.declare(&stem, Sort::Other, None);
+        let count = index.trim().strip_suffix(']').and_then(|count| self.value(count));
+        let count = count.filter(|count| count.fract() == 0.0 && (1.0..=MOST as f64).contains(count));
+        let Some(count) = count.filter(|_| sort != Sort::Other) else {
+            return false;
+        };
+        let elements = vec![Some(0.0); count as usize];
+        self.scope.fields.insert(stem.as_str().into(), Field { sort, elements });
+        if let Some(values) = values {
+            self.fill(&stem, "0", values);
+        }
+        self.is_known_field(&stem)
+    }
+
+    /// An element gets a value; any may have it where the index is unknown.
+    pub(super) fn assign_element(&mut self, stem: &str, index: &str, value: Option<f64>) {
+        let index = index.trim_end().strip_suffix(']').and_then(|index| self.value(index));
+        let stem = stem.trim();
+        let Some(field) = self.scope.fields.get_mut(stem) else {
+            return;
+        };
+        let place = index.filter(|index| index.fract() == 0.0 && *index >= 0.0);
+        match place.and_then(|place| field.elements.get_mut(place as usize)) {
+            Some(element) => *element = value.and_then(|value| field.sort.takes(value)),
+            None => field.elements.fill(None),
+        }
+        self.fresh.push(stem.into());
+    }
+
+    /// `A[1]=SET(4,5)`: fills from an element on; false: it is another text.
+    pub(super) fn assign_list(&mut self, name: &str, text: &str) -> bool {
+        let Some((stem, index)) = name.split_once('[') else {
+            return false;
+        };
+        let stem = stem.trim().to_ascii_lowercase();
+        let is_list = list(text).is_some() && self.scope.fields.contains_key(stem.as_str());
+        if is_list {
+            self.changes += 1;
+            self.fill(&stem, index.trim_end().trim_end_matches(']'), text);
+        }
+        is_list
+    }
+
+    fn fill(&mut self, stem: &str, index: &str, text: &str) {
+        let from = self.value(index).filter(|index| index.fract() == 0.0 && *index >= 0.0);
+        let parts = list(text).map(|(repeats, inside)| (repeats, arguments(inside)));
+        let values = |own: &Self, parts: &[&str]| -> Vec<Option<Option<f64>>> {
+            let value = |part: &&str| (!part.is_empty()).then(|| own.value(part));
+            parts.iter().map(value).collect()
+        };
+        let filled = match (&parts, from) {
+            (Some((repeats, parts)), Some(from)) => Some((*repeats, values(self, parts), from as usize)),
+            _ => None,
+        };
+        self.fresh.push(stem.into());
+        let Some(field) = self.scope.fields.get_mut(stem) else {
+            return;
+        };
+        let count = field.elements.len();
+        let takes = |value: Option<f64>| value.and_then(|value| field.sort.takes(value));
+        match filled {
+            Some((false, values, from)) if from + values.len() <= count => {
+                for (element, value) in field.elements[from..].iter_mut().zip(values) {
+                    if let Some(value) = value {
+                        *element = takes(value);
+                    }
+                }
+            }
+            Some((true, values, from)) if values.len() == 1 && from < count => {
+                let value = values[0].and_then(takes);
+                field.elements[from..].fill(value);
+            }
+            _ => field.elements.fill(None),
+        }
+    }
+
+    /// Whether every element of a field is known.
+    pub(crate) fn is_known_field(&self, stem: &str) -> bool {
+        let field = self.scope.fields.get(stem.trim().to_ascii_lowercase().as_str());
+        field.is_some_and(|field| field.elements.iter().all(Option::is_some))
+    }
+
+    /// `stem` in lower case; `None` where it is unknown, or was written in the same block.
+    pub(super) fn element(&self, stem: &str, index: i64) -> Option<f64> {
+        let field = self.scope.fields.get(stem).filter(|_| !self.is_fresh(stem))?;
+        *field.elements.get(usize::try_from(index).ok()?)?
+    }
+
+    /// The same by `name[index]` in lower case, also in the block that writes it.
+    pub(super) fn held_element(&self, name: &str) -> Option<f64> {
+        let (stem, index) = name.split_once('[')?;
+        let index: usize = index.strip_suffix(']')?.parse().ok()?;
+        *self.scope.fields.get(stem)?.elements.get(index)?
+    }
+
+    /// All that are known, by name.
+    pub(super) fn elements(&self) -> impl Iterator<Item = (Box<str>, f64)> {
+        self.scope.fields.iter().flat_map(|(stem, field)| {
+            let known = field.elements.iter().enumerate();
+            known.filter_map(move |(index, value)| Some((format!("{stem}[{index}]").into(), (*value)?)))
+        })
+    }
+
+    pub(super) fn lose_fields(&mut self) {
+        for field in self.scope.fields.values_mut() {
+            field.elements.fill(None);
+        }
+    }
+}
+
+/// Whether a list repeats its value (REP), and the text between its parentheses; `None`: it is no list.
+fn list(text: &str) -> Option<(bool, &str)> {
+    let (name, inside) = text.trim().split_once('(')?;
+    let inside = inside.strip_suffix(')')?;
+    match name.trim().to_ascii_uppercase().as_str() {
+        "SET" => Some((false, inside)),
+        "REP" => Some((true, inside)),
+        _ => None,
+    }
+}
+
+/// To the nearest whole number; which way a negative half goes is not documented.
+pub(super) fn rounded(value: f64) -> Option<f64> {
+    (value >= 0.0 || value.fract() != -0.5).then(|| (value + 0.5).floor())
+}

@@ -112,7 +112,7 @@ fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> (String, Mea
     let (input, command, dialect) = cell;
     let (command, dialect) = (&COMMANDS[command], BUILTIN_NAMES[dialect]);
     let file = format!("{}.nc", inputs[input].name);
-    let patience = Duration::from_secs(if form.long { 60 } else { 300 });
+    let patience = Duration::from_secs(if form.long { 30 } else { 300 });
     let measured = measure::run(
         folder,
         &command.arguments(&file, dialect),

@@ -9,6 +9,9 @@ use std::{
 /// Clock ticks of a second in `/proc/PID/stat`: Linux shows a hundred on every architecture.
 const TICKS: f64 = 100.0;
 
+/// A run that has not ended after this, on whatever loaded computer, waits for something that never comes.
+const ABANDONED: Duration = Duration::from_secs(3600);
+
 /// What a run did.
 pub(super) struct Measured {
     /// Its exit status; `None` after a signal.
@@ -36,7 +39,7 @@ fn program() -> String {
     std::env::var("TRUNNION_BINARY").unwrap_or_else(|_| env!("CARGO_BIN_EXE_trunnion").to_owned())
 }
 
-/// Runs in `folder` with `input` on standard input; ended by force after `patience`.
+/// Runs in `folder` with `input` on standard input; ended by force after `patience` of processor time, or an hour.
 pub(super) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience: Duration) -> Measured {
     let mut output = tempfile::tempfile().expect("a file");
     let mut errors = tempfile::tempfile().expect("a file");
@@ -62,7 +65,8 @@ pub(super) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience:
         if let Some(status) = child.try_wait().expect("waited for") {
             break status.code();
         }
-        if begun.elapsed() > patience {
+        let taken = ticks.map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| ticks as f64 / TICKS);
+        if taken > patience.as_secs_f64() || begun.elapsed() > ABANDONED {
             child.kill().expect("killed");
             child.wait().expect("ended");
             break None;

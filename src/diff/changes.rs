@@ -145,7 +145,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         Some(stretches) => stretches,
         None if a.hashes.len() == b.hashes.len() => {
             found.one_by_one = true;
-            return one_by_one(pair, tolerance, found);
+            return one_by_one(pair, tolerance, [&a, &b], found);
         }
         None => {
             found.too_different = true;
@@ -335,22 +335,18 @@ impl<'a> Skipping<'a> {
     }
 }
 
-/// Compares event by event.
-fn one_by_one(pair: &Pair<'_>, tolerance: Tolerance, mut found: Found) -> Found {
-    for (a, b) in Events::new(pair.before).zip(Events::new(pair.after)) {
-        if found.changes.len() < MOST_DETAILS {
-            found.pair(a, b, tolerance);
-        } else if !same(&a, &b, tolerance) {
-            found.not_compared += 1;
-        }
+/// Compares event by event until [`MOST_DETAILS`] are listed; how many more differ, the keys of the first pass say, so that programs that
+/// differ everywhere are not run to their end a second time.
+fn one_by_one(pair: &Pair<'_>, tolerance: Tolerance, [a, b]: [&Keys; 2], mut found: Found) -> Found {
+    let mut compared = 0;
+    let mut events = Events::new(pair.before).zip(Events::new(pair.after));
+    while found.changes.len() < MOST_DETAILS
+        && let Some((before, after)) = events.next()
+    {
+        found.pair(before, after, tolerance);
+        compared += 1;
     }
+    let rest = a.hashes[compared..].iter().zip(&b.hashes[compared..]);
+    found.not_compared += rest.filter(|(before, after)| before != after).count() as u64;
     found
-}
-
-fn same(a: &Event, b: &Event, tolerance: Tolerance) -> bool {
-    match (&a.body, &b.body) {
-        (Body::Motion(from, _), Body::Motion(to, _)) => from.same(to, tolerance),
-        (Body::Statement(x), Body::Statement(y)) => x == y,
-        _ => false,
-    }
 }

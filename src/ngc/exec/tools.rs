@@ -22,7 +22,10 @@ impl Engine {
         match self.state.tools.row_of(number) {
             Some(row) => Ok(row),
             // a row without P is nowhere else
-            None if number > 0 && self.setup.tools.spindle.is_some() && self.state.tools.spindle().is_some_and(is_it) => {
+            None if number > 0
+                && self.setup.tools.spindle.is_some()
+                && self.state.tools.spindle().is_some_and(is_it) =>
+            {
                 Ok(0)
             }
             None if self.setup.any_tool => {

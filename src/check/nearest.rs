@@ -9,11 +9,35 @@ fn nearest<'a>(wanted: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a
     if wanted.len() > LONGEST {
         return None;
     }
+    let letters = letters(wanted);
     let wanted: Vec<char> = wanted.chars().collect();
     let most = wanted.len() / 3;
     let mut row = Vec::with_capacity(LONGEST);
-    let near = known.filter_map(|name| Some((distance_within(most, &wanted, name, &mut row)?, name)));
+    let near = known.filter_map(|name| {
+        // a program may hold millions of unknown names: most known ones are ruled out at a glance. A change takes away one letter at most,
+        // and brings one
+        if length(name).abs_diff(wanted.len()) > most
+            || (self::letters(name) ^ letters).count_ones() as usize > 2 * most
+        {
+            return None;
+        }
+        Some((distance_within(most, &wanted, name, &mut row)?, name))
+    });
     near.min().map(|(_, name)| name)
+}
+
+/// Characters of a name.
+fn length(name: &str) -> usize {
+    if name.is_ascii() {
+        name.len()
+    } else {
+        name.chars().count()
+    }
+}
+
+/// The set of its letters; several letters share a bit.
+fn letters(name: &str) -> u64 {
+    name.chars().fold(0, |set, letter| set | 1 << (letter as u32 % 64))
 }
 
 /// The code with a name of its own that a text resembles: `TRAORY` is near TRAORI. Codes with numbers are never near each other: CYCLE81 and
@@ -30,12 +54,9 @@ pub(crate) fn nearest_code(text: &str, dialect: &Dialect) -> Option<String> {
         .then(|| near.to_owned() + text.get(name.len()..).unwrap_or_default())
 }
 
-/// Characters to add, remove or replace to turn one text into the other (Levenshtein), if no more than `most`. A program may hold
-/// millions of unknown names: texts of too different lengths are not compared, and `row` is storage that is used again.
+/// Characters to add, remove or replace to turn one text into the other (Levenshtein), if no more than `most`; `row`:
+/// storage that is used again.
 fn distance_within(most: usize, to: &[char], from: &str, row: &mut Vec<usize>) -> Option<usize> {
-    if from.chars().count().abs_diff(to.len()) > most {
-        return None;
-    }
     row.clear();
     row.extend(0..=to.len());
     for (i, ours) in from.chars().enumerate() {
@@ -100,6 +121,27 @@ mod tests {
             or_known("mill-3axs", MACHINES, "machines"),
             "; did you mean `mill-3axis`?"
         );
+    }
+
+    #[test]
+    fn what_is_ruled_out_at_a_glance_is_not_near() {
+        let known = [
+            "TRAORI", "TRAFOOF", "CYCLE81", "CYCLE800", "ATRANS", "AROT", "ROT", "Größe", "GROESSE",
+        ];
+        for wanted in [
+            "TRAORY", "TAROT", "AROTT", "CYCLE18", "grösse", "Groeße", "RTO", "CYKLE800", "ANSTAR", "X",
+        ] {
+            let to: Vec<char> = wanted.chars().collect();
+            let all = known.iter().filter_map(|name| {
+                let changes = distance_within(to.len() / 3, &to, name, &mut Vec::new())?;
+                Some((changes, *name))
+            });
+            assert_eq!(
+                nearest(wanted, known.into_iter()),
+                all.min().map(|(_, name)| name),
+                "{wanted}"
+            );
+        }
     }
 
     #[test]

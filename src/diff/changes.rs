@@ -124,11 +124,13 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     }
     let [one, other] = &mut sides;
     let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
-    if matches!(verdict, Verdict::Unknown(_)) && proved(pair, tolerance, path_only) {
+    // the bounds of a path say nothing about a program that is not followed to its end
+    let to_their_ends = sides.iter().all(|steps| steps.stop().is_none());
+    if matches!(verdict, Verdict::Unknown(_)) && to_their_ends && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
     }
-    let mut found = Found::new(verdict);
-    if found.same() {
+    if verdict == Verdict::Same {
+        let mut found = Found::new(verdict);
         // what the comparison has not come to is counted too; nothing is run a second time
         for (side, steps) in sides.iter_mut().enumerate() {
             steps.for_each(drop);
@@ -138,6 +140,13 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         found.unknown = sides[0].counted()[1];
         return found;
     }
+    list(pair, tolerance, verdict)
+}
+
+/// Lists what differs in two programs that are not the same; `verdict`: what a comparison has found, which is not made again.
+pub fn list(pair: &Pair<'_>, tolerance: Tolerance, verdict: Verdict) -> Found {
+    let (before, after) = (pair.before, pair.after);
+    let mut found = Found::new(verdict);
     let mut techs = Techs::default();
     let a = keys(before, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, tolerance, &mut techs, (1, &mut found));

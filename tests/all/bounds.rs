@@ -9,7 +9,7 @@
 #![expect(clippy::print_stdout, reason = "the long form prints a table")]
 mod commands;
 mod inputs;
-mod measure;
+pub(crate) mod measure;
 
 use commands::COMMANDS;
 use inputs::Input;

@@ -13,21 +13,21 @@ const TICKS: f64 = 100.0;
 const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// What a run did.
-pub(super) struct Measured {
+pub(crate) struct Measured {
     /// Its exit status; `None` after a signal.
-    pub(super) status: Option<i32>,
+    pub(crate) status: Option<i32>,
     /// Processor time, as far as the system shows it (Linux), else the time that passed.
-    pub(super) seconds: f64,
+    pub(crate) seconds: f64,
     /// The most memory that it held at once, as far as the system shows it (Linux).
-    pub(super) bytes: u64,
+    pub(crate) bytes: u64,
     /// What it said on standard error, its last part.
-    pub(super) said: String,
+    pub(crate) said: String,
     output: std::fs::File,
 }
 
 impl Measured {
     /// Whether standard output is one JSON document.
-    pub(super) fn is_json(&self) -> bool {
+    pub(crate) fn is_json(&self) -> bool {
         let mut file = &self.output;
         let whole = std::io::BufReader::new(&mut file);
         serde_json::from_reader::<_, serde::de::IgnoredAny>(whole).is_ok()
@@ -40,7 +40,7 @@ fn program() -> String {
 }
 
 /// Runs in `folder` with `input` on standard input; ended by force after `patience` of processor time, or an hour.
-pub(super) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience: Duration) -> Measured {
+pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience: Duration) -> Measured {
     let mut output = tempfile::tempfile().expect("a file");
     let mut errors = tempfile::tempfile().expect("a file");
     let begun = Instant::now();

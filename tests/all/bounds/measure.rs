@@ -10,7 +10,7 @@ use std::{
 const TICKS: f64 = 100.0;
 
 /// A run that has not ended after this, on whatever loaded computer, waits for something that never comes.
-const ABANDONED: Duration = Duration::from_secs(3600);
+const ABANDONED: Duration = Duration::from_hours(1);
 
 /// What a run did.
 pub(crate) struct Measured {

@@ -14,8 +14,11 @@ pub(crate) fn text_rule_reported(program: &Program, fault: &Fault) -> bool {
     let lacks_feed = matches!(fault.kind, FaultKind::MissingFeed { .. });
     let bracket = |errors: &[SyntaxError]| {
         let open = |error: &SyntaxError| error.kind == SyntaxErrorKind::UnbalancedBracket;
-        let in_block = |error: &SyntaxError| program.block_at(error.range.start) == Some(fault.block);
-        errors.iter().any(|error| open(error) && in_block(error))
+        let in_block = |error: &&SyntaxError| program.block_at(error.range.start) == Some(fault.block);
+        // they are sorted, and there may be as many as faults: only those of the block are looked at
+        let begin = program.block(fault.block).range().start;
+        let from = errors.partition_point(|error| error.range.start < begin);
+        errors[from..].iter().take_while(in_block).any(open)
     };
     // what follows a bracket that is not closed is not read as it was meant
     if (refused || lacks_feed) && bracket(program.errors()) {

@@ -54,7 +54,7 @@ pub(crate) struct Global {
     #[arg(long, global = true, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_file_mb: u64,
     /// Refuse to read a program of more lines than this (every line takes memory, empty ones too).
-    #[arg(long, global = true, value_name = "N", default_value_t = 2_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, global = true, value_name = "N", default_value_t = 1_200_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_lines: u64,
     /// Stop a run that is compared, proved, converted, listed or drawn after this many executed blocks, in addition to one run of each block of the text.
     /// Default: `steps` of [limits] in trunnion.toml, else 1000000.

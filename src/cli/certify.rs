@@ -8,6 +8,7 @@ use super::{
 };
 use crate::cli::out::Out;
 use trunnion_certify::{Certificate, Claim, Outcome, certify_with_libraries, recheck};
+use trunnion_same::{Difference, Verdict};
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
@@ -51,11 +52,15 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         certify_with_libraries([before, &after], [dialect, other], machine, (setup, library), &claim)
     };
     let mut out = Out::standard();
-    let shared = || {
+    let shared = |verdict: fn(Difference) -> Verdict, what: &str| {
         let second = second.as_ref().filter(|_| command.certificate.is_none())?;
         let tolerances = (command.tolerance_mm, command.tolerance_deg);
-        let path_only = command.claim == ClaimOf::Path;
-        Some(diff::shared(&loaded, second, tolerances, path_only))
+        let verdict = verdict(Difference {
+            before: None,
+            after: None,
+            what: what.to_owned(),
+        });
+        Some(diff::shared(&loaded, second, tolerances, verdict))
     };
     let programs: Vec<&load::Loaded> = std::iter::once(&loaded).chain(second.as_ref()).collect();
     let assuming = load::assuming(&programs);
@@ -71,14 +76,14 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
                 command.after.display(),
                 witness.message
             ));
-            if let Some(line) = shared() {
+            if let Some(line) = shared(Verdict::Differs, &witness.message) {
                 out.text(&format!("{line}\n"));
             }
             Done::Found
         }
         Outcome::Unknown(gap) => {
             out.text(&format!("UNKNOWN {}\n", gap.message));
-            if let Some(line) = shared() {
+            if let Some(line) = shared(Verdict::Unknown, &gap.message) {
                 out.text(&format!("{line}\n"));
             }
             Done::Found

@@ -12,8 +12,8 @@ use super::{
 use crate::cli::out::Out;
 use clap::ValueEnum;
 use std::{io::Write, path::PathBuf};
-use trunnion_diff::{Found, Pair, Tolerance, compare};
-use trunnion_same::Input;
+use trunnion_diff::{Pair, Tolerance, compare, list};
+use trunnion_same::{Input, Verdict};
 
 /// `diff`
 #[derive(clap::Args)]
@@ -66,7 +66,8 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
         mm: command.tolerance_mm,
         deg: command.tolerance_deg,
     };
-    let found = differences(&before, &after, tolerance, command.claim == ClaimOf::Path);
+    let path_only = command.claim == ClaimOf::Path;
+    let found = with_pair(&before, &after, |pair| compare(pair, tolerance, path_only));
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
     let mut out = Out::standard();
     match command.format {
@@ -77,8 +78,8 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
     Ok(if found.same() { Done::Clean } else { Done::Found })
 }
 
-/// Compares two loaded programs, by joints of the machine of the first one.
-fn differences(before: &load::Loaded, after: &load::Loaded, tolerance: Tolerance, path_only: bool) -> Found {
+/// What `then` says of two loaded programs, by joints of the machine of the first one.
+fn with_pair<T>(before: &load::Loaded, after: &load::Loaded, then: impl FnOnce(&Pair<'_>) -> T) -> T {
     let (old, new) = (&before.resolved, &after.resolved);
     // files of one folder call the same programs
     let folder = |loaded: &load::Loaded| {
@@ -99,20 +100,19 @@ fn differences(before: &load::Loaded, after: &load::Loaded, tolerance: Tolerance
         },
         one_setup: old.config_path == new.config_path,
     };
-    compare(&pair, tolerance, path_only)
+    then(&pair)
 }
 
-/// One line on how much of two programs that are not the same is the same, motion by motion.
+/// One line on how much of two programs that are not the same is the same, motion by motion; `verdict`: what `certify` has found.
 pub(super) fn shared(
     before: &load::Loaded,
     after: &load::Loaded,
     (tolerance_mm, tolerance_deg): (f64, f64),
-    path_only: bool,
+    verdict: Verdict,
 ) -> String {
     let tolerance = Tolerance {
         mm: tolerance_mm,
         deg: tolerance_deg,
     };
-    let found = differences(before, after, tolerance, path_only);
-    show::shared(&found)
+    show::shared(&with_pair(before, after, |pair| list(pair, tolerance, verdict)))
 }

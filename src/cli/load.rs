@@ -171,7 +171,10 @@ pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Source, Failu
             ),
         )
     })?;
-    let lines = memchr::memchr_iter(b'\n', &source.0).count() as u64;
+    // a carriage return alone ends a line, too
+    let ends_line = |at: &usize| source.0[*at] == b'\n' || source.0.get(at + 1) != Some(&b'\n');
+    let ends = memchr::memchr2_iter(b'\n', b'\r', &source.0).filter(ends_line);
+    let lines = ends.count() as u64;
     if lines > global.max_lines {
         let most = global.max_lines;
         let text = format!("has {lines} lines, more than {most}, and was not read; `--max-lines N` raises the limit");

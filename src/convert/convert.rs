@@ -85,6 +85,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         options,
         tolerance_mm,
         known: OnceCell::new(),
+        kept: OnceCell::new(),
     };
     setting.head_lengths(&reading, &job)?;
     let (outs, swaps) = planner.plan(&job)?;
@@ -102,7 +103,11 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     )?;
     swaps_are_allowed(&turned, &reading, &setting, options)?;
     let swaps = if turned.is_empty() { swaps } else { turned };
-    let line = |block| place(&reading.program, block);
+    let lines = LineIndex::new(reading.program.source());
+    let line = |block| {
+        let start = reading.program.block(block).range().start;
+        lines.line_column(reading.program.source(), start).0
+    };
     let declared = zeros_declared(&job, source.setup, options);
     let (beyond, travel_undecided) = travel.judge(&reading, setting.machine, declared, line)?;
     Ok(Converted {
@@ -146,13 +151,6 @@ fn swaps_are_allowed(
         return Err(Refused::at(&reading.program, block, message));
     }
     Ok(())
-}
-
-fn place(program: &Program, block: trunnion_syntax::BlockId) -> u32 {
-    let source = program.source();
-    LineIndex::new(source)
-        .line_column(source, program.block(block).range().start)
-        .0
 }
 
 /// The text; where INSERT is to be a remark, every such record becomes one of the same length.

@@ -13,7 +13,6 @@ mod emit_move;
 mod events;
 mod events_apt;
 mod job;
-mod known;
 mod meanings;
 mod modal;
 mod number;

@@ -1,11 +1,10 @@
 //! From motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
 use crate::job::{Event, Job};
-use crate::known::Known;
 use crate::posture::{TargetPose, WhyUnreachable, choose};
 use crate::sample::{Between, Frame, PartEnd, joints, words};
 use crate::{Options, Refused};
 use std::cell::OnceCell;
-use trunnion_certify::conversion::{Posed, Reading, Track, rotary};
+use trunnion_certify::conversion::{Known, Posed, Reading, Track, rotary};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::{Vec3, arc::Arc, deg};
 use trunnion_interp::{Feed, MotionKind, Orientation, Setup};
@@ -88,6 +87,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) tolerance_mm: f64,
     /// Where the known poses are, once it was asked.
     pub(crate) known: OnceCell<Known>,
+    /// [`Planner::keeps`], once it was asked: it looks at all motions, and is asked at each.
+    pub(crate) kept: OnceCell<bool>,
 }
 
 /// The motions of the output for each original motion, and the blocks with a swap.
@@ -182,6 +183,10 @@ impl Planner<'_> {
 
     /// Whether joints of the original program are those of the output: the same machine, and words.
     fn keeps(&self) -> bool {
+        *self.kept.get_or_init(|| self.all_keep())
+    }
+
+    fn all_keep(&self) -> bool {
         let same = match (self.source, self.mode.machine()) {
             (Some(source), Some(target)) => source.id == target.id && source.axes == target.axes,
             _ => false,
@@ -267,10 +272,14 @@ impl Planner<'_> {
         let motions = &self.reading.motions;
         let posed = &motions[index];
         let tool = posed.motion.tool;
-        let known = self.known.get_or_init(|| Known::of(motions));
-        let first = known.first.get(&tool).is_none_or(|&first| first >= index);
-        let next = known.next[index].map(|next| &motions[next]);
+        let known = self.known();
+        let first = known.none_before(index, tool);
+        let next = known.next_from(index).map(|next| &motions[next]);
         posed.motion.kind == MotionKind::Rapid && (first || next.is_none_or(|next| next.motion.tool != tool))
+    }
+
+    pub(crate) fn known(&self) -> &Known {
+        self.known.get_or_init(|| Known::of(&self.reading.motions))
     }
 
     fn parts(&self, posed: &Posed, track: &Track<'_>, between: &Between<'_>) -> Result<Vec<PartEnd>, String> {

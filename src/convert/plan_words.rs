@@ -4,7 +4,6 @@ use crate::Refused;
 use crate::plan::{Mode, Out, Planner};
 use crate::sample::Frame;
 use trunnion_certify::conversion::{Posed, moved_axes, same_words};
-use trunnion_interp::MotionKind;
 
 impl Planner<'_> {
     /// What becomes of a rapid with an unknown end that may be left out.
@@ -38,19 +37,16 @@ impl Planner<'_> {
 
     /// Whether no position of the tool is known before.
     fn is_approach(&self, index: usize) -> bool {
-        let motions = &self.reading.motions;
-        let tool = motions[index].motion.tool;
-        let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
-        !motions[..index]
-            .iter()
-            .any(|other| other.motion.tool == tool && known(other))
+        let tool = self.reading.motions[index].motion.tool;
+        self.known().none_before(index, tool)
     }
 
     /// Whether the next motion to a known position relies on X, Y or Z being where this one moves it: without this rapid it would move it.
     fn merges(&self, index: usize, moved: &[(usize, f64)]) -> bool {
-        let tool = self.reading.motions[index].motion.tool;
-        let mut rest = self.reading.motions[index + 1..].iter();
-        let next = rest.find(|other| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_)));
+        let motions = &self.reading.motions;
+        let tool = motions[index].motion.tool;
+        let next = self.known().next_from(index + 1);
+        let next = next.map(|next| &motions[next]);
         next.filter(|next| next.motion.tool == tool).is_some_and(|next| {
             let stays = |axis: usize| {
                 let (start, end) = (next.motion.start.get(axis), next.motion.end.get(axis));

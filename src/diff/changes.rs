@@ -124,11 +124,13 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     }
     let [one, other] = &mut sides;
     let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
-    if matches!(verdict, Verdict::Unknown(_)) && proved(pair, tolerance, path_only) {
+    // the bounds of a path say nothing about a program that is not followed to its end
+    let to_their_ends = sides.iter().all(|steps| steps.stop().is_none());
+    if matches!(verdict, Verdict::Unknown(_)) && to_their_ends && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
     }
-    let mut found = Found::new(verdict);
-    if found.same() {
+    if verdict == Verdict::Same {
+        let mut found = Found::new(verdict);
         // what the comparison has not come to is counted too; nothing is run a second time
         for (side, steps) in sides.iter_mut().enumerate() {
             steps.for_each(drop);
@@ -138,6 +140,13 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         found.unknown = sides[0].counted()[1];
         return found;
     }
+    list(pair, tolerance, verdict)
+}
+
+/// Lists what differs in two programs that are not the same; `verdict`: what a comparison has found, which is not made again.
+pub fn list(pair: &Pair<'_>, tolerance: Tolerance, verdict: Verdict) -> Found {
+    let (before, after) = (pair.before, pair.after);
+    let mut found = Found::new(verdict);
     let mut techs = Techs::default();
     let a = keys(before, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, tolerance, &mut techs, (1, &mut found));
@@ -145,7 +154,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         Some(stretches) => stretches,
         None if a.hashes.len() == b.hashes.len() => {
             found.one_by_one = true;
-            return one_by_one(pair, tolerance, found);
+            return one_by_one(pair, tolerance, [&a, &b], found);
         }
         None => {
             found.too_different = true;
@@ -335,22 +344,18 @@ impl<'a> Skipping<'a> {
     }
 }
 
-/// Compares event by event.
-fn one_by_one(pair: &Pair<'_>, tolerance: Tolerance, mut found: Found) -> Found {
-    for (a, b) in Events::new(pair.before).zip(Events::new(pair.after)) {
-        if found.changes.len() < MOST_DETAILS {
-            found.pair(a, b, tolerance);
-        } else if !same(&a, &b, tolerance) {
-            found.not_compared += 1;
-        }
+/// Compares event by event until [`MOST_DETAILS`] are listed; how many more differ, the keys of the first pass say, so that programs that
+/// differ everywhere are not run to their end a second time.
+fn one_by_one(pair: &Pair<'_>, tolerance: Tolerance, [a, b]: [&Keys; 2], mut found: Found) -> Found {
+    let mut compared = 0;
+    let mut events = Events::new(pair.before).zip(Events::new(pair.after));
+    while found.changes.len() < MOST_DETAILS
+        && let Some((before, after)) = events.next()
+    {
+        found.pair(before, after, tolerance);
+        compared += 1;
     }
+    let rest = a.hashes[compared..].iter().zip(&b.hashes[compared..]);
+    found.not_compared += rest.filter(|(before, after)| before != after).count() as u64;
     found
-}
-
-fn same(a: &Event, b: &Event, tolerance: Tolerance) -> bool {
-    match (&a.body, &b.body) {
-        (Body::Motion(from, _), Body::Motion(to, _)) => from.same(to, tolerance),
-        (Body::Statement(x), Body::Statement(y)) => x == y,
-        _ => false,
-    }
 }

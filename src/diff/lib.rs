@@ -9,6 +9,6 @@ mod match_up;
 mod point;
 mod run;
 
-pub use changes::{Change, Found, Pair, TechChange, compare};
+pub use changes::{Change, Found, Pair, TechChange, compare, list};
 pub use event::{Body, Tech};
 pub use point::{PathKind, Point, Tolerance};

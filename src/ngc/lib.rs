@@ -17,6 +17,7 @@ mod read;
 mod setup;
 mod source;
 mod state;
+mod tool_rows;
 
 pub use block::{Block, G_GROUPS, M_GROUPS, OwnCode};
 pub use canon::{Canon, Coolant, MotionMode, Pose, Side, SpindleTurn, Stop, Switch, SyncedFeed};
@@ -27,4 +28,5 @@ pub use print::Listing;
 pub use setup::{BadLine, Ini, Parameters, Setup, Start, ToolEntry, ToolTable};
 pub use source::{FileId, Source};
 pub use state::{CycleWords, DistanceMode, Plane, RetractMode, SpindleMode, State, Units};
+pub use tool_rows::ToolRows;
 pub use trunnion_vocabulary::{FeedMode, Files, Limits, Loaded, Refusal as Class, Searched};

@@ -1,7 +1,7 @@
 //! What a program is run with: INI values, tool table, parameters, other files, bounds.
 mod files;
 
-use crate::Units;
+use crate::{ToolRows, Units};
 pub use files::BadLine;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -155,7 +155,7 @@ impl Setup {
         })
     }
     /// Rows of the tool table as a run starts with them.
-    pub(crate) fn tool_rows(&self) -> Arc<Vec<ToolEntry>> {
+    pub(crate) fn tool_rows(&self) -> Arc<ToolRows> {
         let random = self.random_tool_changer();
         let empty = ToolEntry {
             number: if random { -1 } else { 0 },
@@ -164,7 +164,7 @@ impl Setup {
         };
         let mut rows = vec![self.tools.spindle.unwrap_or(empty)];
         rows.extend(self.tools.rows.iter().copied());
-        Arc::new(rows)
+        Arc::new(ToolRows::new(rows))
     }
 }
 

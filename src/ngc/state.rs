@@ -143,7 +143,7 @@ pub struct State {
     /// Tool in the spindle, 0 for none.
     pub tool: i32,
     /// Rows of the tool table as they are now; row 0 is the spindle.
-    pub tools: std::sync::Arc<Vec<crate::ToolEntry>>,
+    pub tools: std::sync::Arc<crate::ToolRows>,
     /// Pocket of the row that was loaded last, which each change writes into row 0; -1 before the first.
     pub(crate) spindle_pocket: i32,
     /// Row of the selected tool, 0 for none.
@@ -321,7 +321,7 @@ impl State {
             naive_tolerance: 0.0,
             selected_tool: -1,
             tool: 0,
-            tools: std::sync::Arc::new(vec![crate::ToolEntry::default()]),
+            tools: std::sync::Arc::default(),
             spindle_pocket: -1,
             selected_row: 0,
             current_row: 1,

@@ -35,7 +35,7 @@ struct Side<'r, 'a> {
     refused: BTreeSet<u32>,
     /// Motions and effects that the other side has not matched yet.
     items: VecDeque<Item>,
-    faults: VecDeque<(u32, FaultKind)>,
+    faults: VecDeque<Fault>,
 }
 
 /// Runs both programs to their ends, or to the first difference.
@@ -64,8 +64,8 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
             a.items.pop_front();
             b.items.pop_front();
         }
-        while let (Some((x, one)), Some((y, other))) = (a.faults.front(), b.faults.front()) {
-            if x != y || !same_fault(one, other, exact) {
+        while let (Some(one), Some(other)) = (a.faults.front(), b.faults.front()) {
+            if a.ordinal(one.block) != b.ordinal(other.block) || !same_fault(&one.kind, &other.kind, exact) {
                 return at("a fault differs");
             }
             a.faults.pop_front();
@@ -120,8 +120,13 @@ impl<'r, 'a> Side<'r, 'a> {
         loop {
             let block = self.steps.advance();
             self.items.append(&mut self.steps.take_ready());
-            for fault in self.steps.take_faults() {
-                self.fault(fault);
+            let mut faults = self.steps.take_faults();
+            faults.retain(|fault| self.is_first(fault));
+            if self.faults.is_empty() {
+                // a line of loops that do not fit together may bring a million at once: they are not copied
+                self.faults = faults.into();
+            } else {
+                self.faults.extend(faults);
             }
             let block = block?;
             self.blocks += 1;
@@ -133,12 +138,9 @@ impl<'r, 'a> Side<'r, 'a> {
 
     /// Only the first mistake of a line is compared: what is found after it depends on the blanks, because reading continues at the next
     /// apparent word. The control stops at the first. LinuxCNC's reader does not look at blanks.
-    fn fault(&mut self, fault: Fault) {
+    fn is_first(&mut self, fault: &Fault) -> bool {
         let ordinal = self.ordinal(fault.block);
-        if !self.steps.input().dialect.quirks.rs274() && is_refusal(&fault.kind) && !self.refused.insert(ordinal) {
-            return;
-        }
-        self.faults.push_back((ordinal, fault.kind));
+        self.steps.input().dialect.quirks.rs274() || !is_refusal(&fault.kind) || self.refused.insert(ordinal)
     }
 }
 

@@ -4,17 +4,18 @@
 //! CI runs small files and a pairwise sample: each program with each command, each program in each dialect, each command in each dialect.
 //! `TRUNNION_BOUNDS=full` runs large files in the same sample, `TRUNNION_BOUNDS=matrix` large files and every combination; both print the
 //! worst runs (CONTRIBUTING.md). `TRUNNION_BOUNDS_ONLY=TEXT,TEXT` takes only runs with one of the texts in `COMMAND PROGRAM DIALECT`.
+//! `TRUNNION_BOUNDS_KEEP=FOLDER` works in that folder and leaves the programs there, to run a command on one of them by hand.
 #![cfg(unix)]
 #![expect(clippy::print_stdout, reason = "the long form prints a table")]
 mod commands;
 mod inputs;
-mod measure;
+pub(crate) mod measure;
 
 use commands::COMMANDS;
 use inputs::Input;
 use measure::Measured;
 use std::{
-    path::Path,
+    path::{Path, PathBuf},
     sync::atomic::{AtomicUsize, Ordering},
     time::Duration,
 };
@@ -111,7 +112,7 @@ fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> (String, Mea
     let (input, command, dialect) = cell;
     let (command, dialect) = (&COMMANDS[command], BUILTIN_NAMES[dialect]);
     let file = format!("{}.nc", inputs[input].name);
-    let patience = Duration::from_secs(if form.long { 60 } else { 300 });
+    let patience = Duration::from_secs(if form.long { 30 } else { 300 });
     let measured = measure::run(
         folder,
         &command.arguments(&file, dialect),
@@ -151,10 +152,12 @@ fn every_command_ends_on_every_hostile_program() {
     let form = Form::asked();
     let inputs = inputs::all();
     assert!(inputs.len() >= 100, "{} hostile programs", inputs.len());
-    let folder = TempDir::new().expect("a folder");
+    let temporary = TempDir::new().expect("a folder");
+    let kept = std::env::var_os("TRUNNION_BOUNDS_KEEP").map(PathBuf::from);
+    let folder = kept.as_deref().unwrap_or(temporary.path());
     let settings = format!("{SETTINGS}{}", if form.long { "" } else { SMALL_LIMITS });
-    std::fs::write(folder.path().join("trunnion.toml"), settings).expect("written");
-    commands::write_helpers(folder.path());
+    std::fs::write(folder.join("trunnion.toml"), settings).expect("written");
+    commands::write_helpers(folder);
     let cells = form.cells(&inputs);
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);
@@ -173,22 +176,22 @@ fn every_command_ends_on_every_hostile_program() {
                         if own.is_empty() {
                             continue;
                         }
-                        let path = folder.path().join(format!("{}.nc", inputs[input].name));
+                        let path = folder.join(format!("{}.nc", inputs[input].name));
                         let bytes = inputs[input].bytes(form.size);
-                        let other = folder
-                            .path()
-                            .join(commands::other(&format!("{}.nc", inputs[input].name)));
+                        let other = folder.join(commands::other(&format!("{}.nc", inputs[input].name)));
                         std::fs::write(&other, commands::changed(&bytes)).expect("written");
                         std::fs::write(&path, bytes).expect("written");
                         for cell in own {
-                            let result = run(folder.path(), &form, &inputs, cell);
+                            let result = run(folder, &form, &inputs, cell);
                             if let (true, Some(wrong)) = (form.long, &result.2) {
                                 println!("{}: {wrong}", result.0);
                             }
                             results.push(result);
                         }
-                        std::fs::remove_file(path).expect("removed");
-                        std::fs::remove_file(other).expect("removed");
+                        if kept.is_none() {
+                            std::fs::remove_file(path).expect("removed");
+                            std::fs::remove_file(other).expect("removed");
+                        }
                     }
                 })
             })

@@ -1,7 +1,7 @@
 //! A small language client for tests: frames over the pipes of a real `trunnion lsp`.
 use serde_json::{Value, json};
 use std::{
-    collections::HashMap,
+    collections::{HashMap, VecDeque},
     io::{BufRead, BufReader, Write},
     process::{Child, ChildStdin, Command, Stdio},
     sync::mpsc::{Receiver, channel},
@@ -17,6 +17,7 @@ pub(crate) struct Client {
     messages: Receiver<Value>,
     next: i64,
     answers: HashMap<i64, Value>,
+    errors: VecDeque<Value>,
     published: Vec<Value>,
     pub(crate) last_status: Option<Value>,
 }
@@ -50,6 +51,7 @@ impl Client {
             messages,
             next: 0,
             answers: HashMap::new(),
+            errors: VecDeque::new(),
             published: Vec::new(),
             last_status: None,
         };
@@ -67,9 +69,25 @@ impl Client {
 
     fn send(&mut self, message: &Value) {
         let body = message.to_string();
+        self.send_bytes(format!("Content-Length: {}\r\n\r\n{body}", body.len()).as_bytes());
+    }
+
+    /// Sends bytes as they are.
+    pub(crate) fn send_bytes(&mut self, bytes: &[u8]) {
         let input = self.input.as_mut().expect("open");
-        write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).expect("the server reads");
+        input.write_all(bytes).expect("the server reads");
         input.flush().expect("the server reads");
+    }
+
+    /// The next error that the server answers, to a request or to a message without a number that could be named.
+    pub(crate) fn error(&mut self) -> Value {
+        loop {
+            if let Some(error) = self.errors.pop_front() {
+                self.answers.retain(|_, answer| *answer != error);
+                return error;
+            }
+            self.pump();
+        }
     }
 
     pub(crate) fn notify(&mut self, method: &str, params: Value) {
@@ -98,6 +116,9 @@ impl Client {
 
     fn pump(&mut self) {
         let message = self.messages.recv_timeout(PATIENCE).expect("the server answers");
+        if !message["error"].is_null() {
+            self.errors.push_back(message.clone());
+        }
         match (message["method"].as_str(), message["id"].as_i64()) {
             (Some("textDocument/publishDiagnostics"), _) => {
                 // Its status follows; an older one says nothing about it.
@@ -107,6 +128,7 @@ impl Client {
             (Some("trunnion/status"), _) => self.last_status = Some(message["params"].clone()),
             (Some(_), _) => {}
             (None, Some(id)) => drop(self.answers.insert(id, message)),
+            (None, None) if !message["error"].is_null() => {}
             (None, None) => panic!("neither request nor answer: {message}"),
         }
     }

@@ -1,9 +1,11 @@
 //! Compares two readings.
 use super::axis::axes_apart;
 use super::effects::{Terms, same_requests};
+use super::known::Known;
 use super::words::{same_words, words_apart};
 use super::{ConversionClaim, ConversionProof, Part, Posed, Reading, Track};
 use crate::Outcome;
+use std::cell::OnceCell;
 use std::sync::Arc;
 use trunnion_geometry::deg;
 use trunnion_geometry::math::angle_between;
@@ -21,6 +23,8 @@ pub(super) struct Proof<'a> {
     found: ConversionProof,
     /// The work offset of the program that names one, where the other names none.
     pub(super) offset: Option<Arc<str>>,
+    /// Known positions of the original, once a motion is left out.
+    known: OnceCell<Known>,
 }
 
 /// Proves that `after` does what `before` says. The readings must be fresh: [`super::read`] of the texts.
@@ -61,6 +65,7 @@ pub fn converted_on(
         claim,
         found: ConversionProof::default(),
         offset: None,
+        known: OnceCell::new(),
     };
     let (mut was, mut is) = (0, 0);
     for part in parts {
@@ -136,12 +141,11 @@ impl Proof<'_> {
         let posed = self.motion(was)?;
         let tool = posed.motion.tool;
         let rapid = matches!(posed.motion.kind, MotionKind::Rapid | MotionKind::Unknown);
-        let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
-        let first = !motions[..was]
-            .iter()
-            .any(|other| other.motion.tool == tool && known(other));
-        let next = motions[was..].iter().find(|other| known(other));
-        let last = next.is_none_or(|next| next.motion.tool != tool);
+        let known = self.known.get_or_init(|| Known::of(motions));
+        let first = known.none_before(was, tool);
+        let last = known
+            .next_from(was)
+            .is_none_or(|next| motions[next].motion.tool != tool);
         if posed.end.is_ok() || !rapid || !(first || last) {
             return self.refute(usize::MAX, format!("motion {was} of the original must not be left out"));
         }

@@ -13,17 +13,19 @@ impl Engine {
         if self
             .state
             .tools
-            .first()
+            .spindle()
             .is_some_and(|row| self.changes_places() && row.number == number)
         {
             return Ok(0);
         }
-        let rows = self.state.tools.iter().skip(1);
         let is_it = |row: &ToolEntry| row.number == number && *row != ToolEntry::NOBODY;
-        match rows.enumerate().find(|(_, row)| is_it(row)) {
-            Some((place, _)) => Ok(place + 1),
+        match self.state.tools.row_of(number) {
+            Some(row) => Ok(row),
             // a row without P is nowhere else
-            None if number > 0 && self.setup.tools.spindle.is_some() && self.state.tools.first().is_some_and(is_it) => {
+            None if number > 0
+                && self.setup.tools.spindle.is_some()
+                && self.state.tools.spindle().is_some_and(is_it) =>
+            {
                 Ok(0)
             }
             None if self.setup.any_tool => {
@@ -32,9 +34,7 @@ impl Engine {
                     pocket: number,
                     ..ToolEntry::default()
                 };
-                let rows = Arc::make_mut(&mut self.state.tools);
-                rows.push(entry);
-                Ok(rows.len() - 1)
+                Ok(Arc::make_mut(&mut self.state.tools).push(entry))
             }
             None => {
                 let text = problems::TOOL_MISSING.message.replace("{}", &number.to_string());
@@ -56,13 +56,11 @@ impl Engine {
         std::array::from_fn(|axis| entry.offset[axis] * access::scale(axis, unit))
     }
     fn write_tool_row(&mut self, row: usize, entry: ToolEntry) {
-        if let Some(place) = Arc::make_mut(&mut self.state.tools).get_mut(row) {
-            *place = entry;
-        }
+        Arc::make_mut(&mut self.state.tools).set(row, entry);
     }
     /// The tool of row 0 is what is in the spindle: its parameters follow (5400-5413, units of the table).
     fn spindle_tool_changed(&mut self) {
-        let Some(tool) = self.state.tools.first().copied() else {
+        let Some(tool) = self.state.tools.spindle().copied() else {
             return;
         };
         self.state.tool = tool.number;
@@ -114,7 +112,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 engine.state.turning[spindle] = 0;
                 engine.emit(Canon::Spindle(spindle as i32, SpindleTurn::Stop), at, sink);
             }
-            engine.state.spindle_row_before = engine.state.tools.first().copied();
+            engine.state.spindle_row_before = engine.state.tools.spindle().copied();
             put_in_spindle(engine, engine.state.selected_row);
             let tool = engine.state.selected_tool.max(0);
             let row = engine.state.selected_row;
@@ -146,9 +144,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         _ => return Ok(()),
     }
     let pocket = engine.state.spindle_pocket;
-    if let Some(row) = Arc::make_mut(&mut engine.state.tools).first_mut() {
-        row.pocket = pocket;
-    }
+    Arc::make_mut(&mut engine.state.tools).set_pocket_of_spindle(pocket);
     Ok(())
 }
 
@@ -179,7 +175,7 @@ fn put_in_spindle(engine: &mut Engine, row: i32) {
         return;
     };
     if engine.changes_places() {
-        let old = engine.state.tools[0];
+        let old = engine.state.tools.spindle().copied().unwrap_or_default();
         engine.write_tool_row(row, old);
         engine.state.current_row = 0;
     }
@@ -278,7 +274,7 @@ pub(crate) fn table(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
         1 => engine.over(block, stored),
         _ => offset_of_position(engine, block, &stored, l == 11),
     };
-    let mut entry = engine.state.tools[row];
+    let mut entry = engine.state.tools.get(row).copied().unwrap_or_default();
     entry.offset = std::array::from_fn(|axis| {
         // untouched values stay as they were written in the table
         if offset[axis] == stored[axis] {
@@ -341,16 +337,17 @@ fn reload(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Re
     if engine.state.side != Side::Off {
         return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, block.g_range(0)));
     }
-    let tool = engine.state.tools.first().map_or(0, |row| row.number);
+    let tool = engine.state.tools.spindle().map_or(0, |row| row.number);
     if tool > 0 {
         let text = problems::G10_LOADED.message.replace("{}", &tool.to_string());
         return Err(Error::with(&problems::G10_LOADED, block.g_range(0), text));
     }
     if engine.setup.start == Start::Unknown {
         engine.state.tools = engine.setup.tool_rows();
-    } else if let Some(row) = Arc::make_mut(&mut engine.state.tools).first_mut() {
+    } else {
         // `rs274` reads no file: it takes the rows again as they are
-        row.pocket = engine.state.spindle_pocket;
+        let pocket = engine.state.spindle_pocket;
+        Arc::make_mut(&mut engine.state.tools).set_pocket_of_spindle(pocket);
     }
     engine.emit(Canon::ReloadTools, at, sink);
     Ok(())

@@ -29,7 +29,11 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     match block.m[7] {
         code @ (70 | 73) => {
             let context = Context {
-                state: engine.state.clone(),
+                // no tool is restored: a shared table would be copied by the next change
+                state: State {
+                    tools: std::sync::Arc::default(),
+                    ..engine.state.clone()
+                },
                 axis_offset_on: axis_offset_on(engine),
                 auto: code == 73,
             };

@@ -14,8 +14,9 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// No file is larger: `--max-file-mb` refuses more.
-    const MOST_BYTES: usize = 32_000_000;
+    /// No file is larger, and none has more lines: `--max-file-mb` and `--max-lines` refuse more by default.
+    const MOST_BYTES: usize = 64_000_000;
+    const MOST_LINES: usize = 1_200_000;
 
     const fn new(name: &'static str, make: fn(usize) -> Vec<u8>) -> Self {
         Self { name, make }
@@ -25,6 +26,13 @@ impl Input {
     pub(super) fn bytes(&self, size: usize) -> Vec<u8> {
         let mut bytes = (self.make)(size);
         bytes.truncate(Self::MOST_BYTES);
+        let mut ends = bytes
+            .iter()
+            .enumerate()
+            .filter(|(_, byte)| matches!(byte, b'\n' | b'\r'));
+        if let Some((end, _)) = ends.nth(Self::MOST_LINES - 2) {
+            bytes.truncate(end);
+        }
         bytes
     }
 }

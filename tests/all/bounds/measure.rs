@@ -9,22 +9,25 @@ use std::{
 /// Clock ticks of a second in `/proc/PID/stat`: Linux shows a hundred on every architecture.
 const TICKS: f64 = 100.0;
 
+/// A run that has not ended after this, on whatever loaded computer, waits for something that never comes.
+const ABANDONED: Duration = Duration::from_hours(1);
+
 /// What a run did.
-pub(super) struct Measured {
+pub(crate) struct Measured {
     /// Its exit status; `None` after a signal.
-    pub(super) status: Option<i32>,
+    pub(crate) status: Option<i32>,
     /// Processor time, as far as the system shows it (Linux), else the time that passed.
-    pub(super) seconds: f64,
+    pub(crate) seconds: f64,
     /// The most memory that it held at once, as far as the system shows it (Linux).
-    pub(super) bytes: u64,
+    pub(crate) bytes: u64,
     /// What it said on standard error, its last part.
-    pub(super) said: String,
+    pub(crate) said: String,
     output: std::fs::File,
 }
 
 impl Measured {
     /// Whether standard output is one JSON document.
-    pub(super) fn is_json(&self) -> bool {
+    pub(crate) fn is_json(&self) -> bool {
         let mut file = &self.output;
         let whole = std::io::BufReader::new(&mut file);
         serde_json::from_reader::<_, serde::de::IgnoredAny>(whole).is_ok()
@@ -36,8 +39,8 @@ fn program() -> String {
     std::env::var("TRUNNION_BINARY").unwrap_or_else(|_| env!("CARGO_BIN_EXE_trunnion").to_owned())
 }
 
-/// Runs in `folder` with `input` on standard input; ended by force after `patience`.
-pub(super) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience: Duration) -> Measured {
+/// Runs in `folder` with `input` on standard input; ended by force after `patience` of processor time, or an hour.
+pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience: Duration) -> Measured {
     let mut output = tempfile::tempfile().expect("a file");
     let mut errors = tempfile::tempfile().expect("a file");
     let begun = Instant::now();
@@ -62,7 +65,8 @@ pub(super) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience:
         if let Some(status) = child.try_wait().expect("waited for") {
             break status.code();
         }
-        if begun.elapsed() > patience {
+        let taken = ticks.map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| ticks as f64 / TICKS);
+        if taken > patience.as_secs_f64() || begun.elapsed() > ABANDONED {
             child.kill().expect("killed");
             child.wait().expect("ended");
             break None;

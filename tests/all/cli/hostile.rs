@@ -238,6 +238,28 @@ fn a_file_over_the_bound_is_refused_and_the_flag_named() {
     }
 }
 
+#[test]
+fn lines_over_the_bound_are_refused_whatever_ends_them() {
+    let folder = TempDir::new().expect("works");
+    for (name, end) in [("lf.nc", "\n"), ("crlf.nc", "\r\n"), ("cr.nc", "\r")] {
+        fs::write(folder.path().join(name), format!("G1 X1.{end}").repeat(1000)).expect("writable");
+        for command in ["check", "parse", "canon"] {
+            let limited = |most: &str| run(&folder, &[command, name, "--max-lines", most]);
+            let refused = limited("999");
+            let errors = text(&refused.stderr);
+            assert_eq!(status(&refused), 2, "{command} {name}: {errors}");
+            assert!(
+                errors.contains("1000 lines") && errors.contains("--max-lines"),
+                "{errors}"
+            );
+            assert!(
+                !text(&limited("1000").stderr).contains("--max-lines"),
+                "{command} {name}"
+            );
+        }
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn input_without_an_end_is_refused() {

@@ -1,5 +1,6 @@
 //! A folder: every program is checked, and what is left out is listed.
 use super::{LOOSE, fifo, folder};
+use crate::bounds::measure;
 use crate::cli::tools::{json, status, str, text, trunnion, write};
 use std::{ffi::OsStr, fs, os::unix::ffi::OsStrExt, os::unix::fs::symlink};
 
@@ -78,5 +79,88 @@ fn an_unreadable_file_of_a_folder_counts_as_not_checked() {
     assert!(
         place.ends_with("b.nc") && message.contains("is larger than 1 MB"),
         "{left}"
+    );
+}
+
+/// Programs of several controls, with findings, faults of the file system and machines between them.
+fn many(folder: &tempfile::TempDir, files: usize) {
+    for file in 0..files {
+        let place = format!("lot-{}/part-{file}", file % 7);
+        fs::create_dir_all(folder.path().join(&place).parent().expect("a folder")).expect("made");
+        let (extension, body) = [
+            (
+                "nc",
+                "(trunnion: machine mikron-ucp710)\nG21 G90 G17 G54\nG43.4 H1\nG1 X1. A10. C20. F100.\nC400.\nM30\n",
+            ),
+            ("mpf", "G90 G71 G54\nTRAORI\nG1 X=R1 A3=0 B3=0 C3=1 F100\nM30\n"),
+            (
+                "ngc",
+                "G21 G90\no1 while [#1 LT 3]\nG1 X#1 F100\n#1 = [#1 + 1]\no1 endwhile\nM2\n",
+            ),
+            ("apt", "PARTNO X\nGOTO/1,2,3\nFINI\n"),
+        ][file % 4];
+        write(folder, &format!("{place}.{extension}"), body);
+    }
+}
+
+#[test]
+fn any_number_of_threads_says_the_same() {
+    let folder = folder();
+    many(&folder, 150);
+    fs::write(folder.path().join("lot-3/large.nc"), vec![b'\n'; 1_000_001]).expect("written");
+    for format in ["json", "short", "pretty"] {
+        let on = |threads: &str| {
+            let output = std::process::Command::new(env!("CARGO_BIN_EXE_trunnion"))
+                .args(["check", "-v", "--max-file-mb", "1", "--format", format, "."])
+                .current_dir(folder.path())
+                .env("RAYON_NUM_THREADS", threads)
+                .output()
+                .expect("runs");
+            assert_eq!(status(&output), 2, "one file is too large");
+            (text(&output.stdout), text(&output.stderr))
+        };
+        let one = on("1");
+        assert!(one.0.contains("part-149") || one.1.contains("part-149"), "{}", one.1);
+        for threads in ["2", "7"] {
+            assert_eq!(on(threads), one, "{format} on {threads} threads");
+        }
+    }
+}
+
+/// A folder is checked in pieces: what is held does not grow with the number of its files, and few of them are open at once.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_large_folder_takes_no_more_memory_and_few_open_files() {
+    const FEW: usize = 200;
+    const MANY: usize = 3000;
+    let peak = |files: usize| {
+        let folder = folder();
+        many(&folder, files);
+        let command = ["check", "--format", "json", "."].map(String::from);
+        let measured = measure::run(folder.path(), &command, Vec::new(), std::time::Duration::from_mins(5));
+        assert_eq!(measured.status, Some(1), "{}", measured.said);
+        assert!(measured.is_json());
+        (measured.bytes, folder)
+    };
+    let (few, _) = peak(FEW);
+    let (most, folder) = peak(MANY);
+    // a path and its place in the list of each file
+    let each = most.saturating_sub(few) / (MANY - FEW) as u64;
+    assert!(each < 1000, "{each} bytes a file");
+    let output = std::process::Command::new("sh")
+        .args([
+            "-c",
+            "ulimit -n 32; \"$0\" check --format short .",
+            env!("CARGO_BIN_EXE_trunnion"),
+        ])
+        .current_dir(folder.path())
+        .output()
+        .expect("runs");
+    let last = text(&output.stderr);
+    assert!(
+        last.lines()
+            .last()
+            .is_some_and(|line| line.starts_with("3000 files: ") && !line.contains("not checked")),
+        "{last}"
     );
 }

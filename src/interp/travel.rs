@@ -23,6 +23,14 @@ pub(crate) enum Travel {
 }
 
 impl Travel {
+    /// The code in effect, if it is not the usual one.
+    pub(crate) fn word(self) -> Option<crate::Argument> {
+        match self {
+            Self::Continuous => None,
+            Self::PointToPoint => Some(crate::Argument::code("PTP")),
+            Self::PointToPointRapid => Some(crate::Argument::code("PTPG0")),
+        }
+    }
     pub(crate) fn of(action: Action) -> Option<Self> {
         match action {
             Action::ContinuousPath => Some(Self::Continuous),

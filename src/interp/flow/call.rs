@@ -1,8 +1,8 @@
 //! Calls of other programs and returns from them, for all languages.
 use super::{Back, Calling, Level, Running, With, index_of};
+use crate::Sink;
 use crate::iso::Iso;
-use crate::macro_b::ProgramName;
-use crate::{Argument, Sink};
+use crate::macro_b::{ProgramName, macro_words};
 use crate::{FaultKind, Frame, sinumerik};
 use trunnion_flow::{Ends, Key, PendingCall};
 use trunnion_syntax::{BlockId, TextRange};
@@ -87,15 +87,7 @@ impl Iso<'_> {
         let Some(locals) = with.arguments.as_ref().filter(|_| self.core.effects.wanted()) else {
             return;
         };
-        let mut words = vec![
-            Argument::text("macro", &ProgramName(&calling.program).to_string()),
-            Argument::number("times", f64::from(calling.times)),
-        ];
-        for (number, value) in locals.iter().enumerate() {
-            if let Some(value) = value {
-                words.push(Argument::number(format!("#{number}"), *value));
-            }
-        }
+        let words = macro_words(&calling.program, calling.times, locals);
         let block = self.core.main_block(BlockId(from));
         self.core.effects.add(block, crate::Effect::Unmodelled(words));
     }

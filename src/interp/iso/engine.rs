@@ -61,6 +61,13 @@ impl<'d> Engine<'d> for Iso<'d> {
     }
     fn cycle_data(&self) -> Vec<crate::Argument> {
         let mut data = self.memory.cycle.data(self.core.state.motion);
+        data.extend(self.flow.deep.iter().flat_map(|deep| deep.modal_words()));
+        data.extend(self.memory.travel.word());
+        data.extend(
+            self.memory
+                .status
+                .map(|status| crate::Argument::number("STAT", f64::from(status))),
+        );
         let polar = self.memory.own.contour.numbers();
         data.extend(polar.map(|value| crate::Argument::number("", value)));
         data

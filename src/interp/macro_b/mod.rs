@@ -17,6 +17,7 @@ mod system;
 mod variables;
 mod words;
 
+use crate::Argument;
 use crate::flow::{Calling, Transfer, With as Handed};
 pub(crate) use alarms::{Mistake, rejected};
 pub(crate) use call::{Level, With};
@@ -83,6 +84,11 @@ impl FlowCode {
 }
 
 impl Deep {
+    /// The active modal calls as they are compared.
+    pub(crate) fn modal_words(&self) -> impl Iterator<Item = Argument> {
+        let active = self.modal.iter().take(self.modal_active);
+        active.flat_map(|modal| macro_words(&modal.program, modal.times, &modal.arguments))
+    }
     /// The macro that is called after a motion, if one is.
     pub(crate) fn modal_call(&self, range: impl FnOnce() -> TextRange) -> Option<Calling> {
         let place = self.modal_active.checked_sub(1)?;
@@ -98,4 +104,18 @@ impl Deep {
             }),
         })
     }
+}
+
+/// A macro call as it is compared: its program, how often it runs, and its arguments.
+pub(crate) fn macro_words(program: &Key, times: u32, locals: &Locals) -> Vec<Argument> {
+    let mut words = vec![
+        Argument::text("macro", &ProgramName(program).to_string()),
+        Argument::number("times", f64::from(times)),
+    ];
+    let given = locals
+        .iter()
+        .enumerate()
+        .filter_map(|(number, value)| Some((number, (*value)?)));
+    words.extend(given.map(|(number, value)| Argument::number(format!("#{number}"), value)));
+    words
 }

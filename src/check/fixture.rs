@@ -168,8 +168,7 @@ impl Fixture {
         let index = LineIndex::new(source);
         let place = |offset| index.line_column(source, offset);
         let mut found: Vec<Drawn> = report
-            .diagnostics
-            .iter()
+            .findings()
             .map(|diagnostic| {
                 let (line, column) = place(diagnostic.range.start);
                 let (end_line, end_column) = place(diagnostic.range.end);

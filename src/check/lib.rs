@@ -17,6 +17,7 @@ mod coverage;
 mod cuts;
 mod datum;
 mod diagnostic;
+mod event;
 mod facts;
 mod finding;
 pub mod fixture;

@@ -40,9 +40,9 @@
 use crate::prelude::*;
 use crate::view::NO_TURN;
 use trunnion_interp::{Feed, MotionKind};
-use trunnion_machine::{Axis, AxisKind};
+use trunnion_machine::{Axis, AxisKind, shortest_time};
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]).follows_pole_event();
 
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;
@@ -51,6 +51,9 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
     undeclared(cut, out);
     if cut.turns_by_diameter() {
         return unsettled(cut, out, BY_DIAMETER);
+    }
+    if let Some(seconds) = standing(cut) {
+        return overrun(cut, seconds, out);
     }
     let judged = cut.feed_limit().and_then(|limit| Some((limit, limit.axis_speed?)));
     let Some((limit, needed)) = judged else {
@@ -98,6 +101,63 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
         draft.fix_pole(cut).fix_turns(cut);
     });
 }
+
+/// The time of a block in which the tip stands still under inverse time, s: it needs no path. Not where the lever of the turn is unknown.
+fn standing(cut: &facts::Cut<'_>) -> Option<f64> {
+    match cut.motion().feed {
+        Feed::InverseTime(per_minute) if cut.leg.length <= 0.0 && cut.leads_tip() && !cut.lever_is_undeclared() => {
+            Some(60.0 / per_minute).filter(|seconds| seconds.is_finite() && *seconds > 0.0)
+        }
+        _ => None,
+    }
+}
+
+/// An axis that cannot follow in the time that the program gives the block.
+fn overrun(cut: &facts::Cut<'_>, seconds: f64, out: &mut Reporter<'_>) {
+    let Some(least) = shortest_time(cut.machine, cut.leg, seconds) else {
+        return undecided(cut, out);
+    };
+    if least.seconds <= seconds * (1.0 + ROUNDING) {
+        return;
+    }
+    let axis = &cut.machine.axes[least.axis];
+    let needed = least.rate / seconds;
+    out.finding(
+        cut,
+        Merge::runs(u64::from(axis.letter) + STANDING, least.seconds),
+        |draft| {
+            let name = letter(axis.letter);
+            draft
+                .at_axis(axis.letter)
+                .say(format!(
+                    "{name} would have to run at {} in the {} s of this block, but its maximum is {}",
+                    speed(axis, needed),
+                    number(seconds),
+                    speed(axis, least.axis_limit)
+                ))
+                .note(format!(
+                    "the shortest time for this block is {} s",
+                    number(least.seconds)
+                ))
+                .help("give the block more time (a smaller F under G93)")
+                .value_text("axis", name.clone())
+                .value_text("limiting_axis", name)
+                .value("time_s", seconds)
+                .value("time_bound_s", least.seconds);
+            match axis.kind {
+                AxisKind::Linear => draft
+                    .value("value_mm_min", needed * 60.0)
+                    .value("limit_mm_min", least.axis_limit * 60.0),
+                AxisKind::Rotary => draft
+                    .value("value_deg_s", deg(needed))
+                    .value("limit_deg_s", deg(least.axis_limit)),
+            };
+        },
+    );
+}
+
+/// Added to the key of merging where the tip stands still.
+const STANDING: u64 = 512;
 
 /// The fastest reading of F overruns an axis, another one may not.
 const AMBIGUOUS: [&str; 3] = [
@@ -169,17 +229,28 @@ fn undeclared(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
 mod tests {
     use crate::fixture::assert_drawn;
 
+    /// C turns 90 deg in 60/F s and reaches 120 deg/s: 0.75 s are enough, F80.
+    #[test]
+    fn inverse_time_is_judged_where_the_tip_stands_still() {
+        let text = |feed: u32| format!("TRAORI\nG0 X0 Y0 Z50 A0 C0\nG93 G1 C90 F{feed}\nM30\n");
+        let found = |feed| {
+            let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text(feed));
+            let report = fixture.check().unwrap();
+            let own = report.findings().filter(|found| found.rule == "axis-overspeed");
+            own.map(|found| found.message.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(found(79), [] as [&str; 0]);
+        let message = "C would have to run at 122 deg/s in the 0.741 s of this block, but its maximum is 120 deg/s";
+        assert_eq!(found(81), [message]);
+    }
+
     #[test]
     fn where_only_rotary_axes_turn_the_feed_is_in_degrees() {
         let text = "N10 G0 X0 Y0 Z50 A30 C0\nN20 G1 C90 F7200\nN30 C180 F7300\n";
         let report = crate::fixture::Fixture::parse("gcode mikron-ucp710", text)
             .check()
             .unwrap();
-        let found: Vec<_> = report
-            .diagnostics
-            .iter()
-            .filter(|d| d.rule == "axis-overspeed")
-            .collect();
+        let found: Vec<_> = report.findings().filter(|d| d.rule == "axis-overspeed").collect();
         assert_eq!((found.len(), found[0].block.as_deref()), (1, Some("N30")));
         assert_eq!(found[0].notes, ["the highest feed for this block is 7200 deg/min"]);
         assert!(
@@ -195,7 +266,7 @@ mod tests {
         let said = |info: &str, block: &str| -> Vec<String> {
             let text = format!("G0 X0. Y0. Z50. A30. C0.\n{block}\nM30\n");
             let report = crate::fixture::Fixture::parse(info, &text).check().unwrap();
-            let own = report.diagnostics.iter().filter(|d| d.rule == "axis-overspeed");
+            let own = report.findings().filter(|d| d.rule == "axis-overspeed");
             own.map(|d| format!("{:?} {}", d.status, &d.message[..24])).collect()
         };
         let haas = "gcode haas-ngc mikron-ucp710";
@@ -228,7 +299,7 @@ mod tests {
             let second = if info.contains("ferrari") { 'B' } else { 'A' };
             let text = format!("N10 G17 G21 G90 G94\nN20 G0 X0.1 Y0.1 Z50. {second}30. C0.1\n{last}\nN50 M30\n");
             let report = crate::fixture::Fixture::parse(info, &text).check().unwrap();
-            assert!(report.diagnostics.iter().all(|d| d.rule != "feed-drop") || report.summary.unknown == 0);
+            assert!(report.findings().all(|d| d.rule != "feed-drop") || report.summary.unknown == 0);
             report
                 .diagnostics
                 .into_iter()
@@ -262,7 +333,7 @@ mod tests {
                 .check()
                 .unwrap();
             assert!(
-                report.diagnostics.iter().all(|d| !d.message.contains("does not move")),
+                report.findings().all(|d| !d.message.contains("does not move")),
                 "{:?}",
                 report.diagnostics
             );
@@ -314,7 +385,7 @@ mod tests {
             .check()
             .unwrap();
         for rule in ["axis-overspeed", "feed-drop"] {
-            let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == rule).collect();
+            let found: Vec<_> = report.findings().filter(|d| d.rule == rule).collect();
             assert_eq!(
                 (found.len(), found[0].count, found[0].block.as_deref()),
                 (1, 20, Some("N1"))
@@ -348,8 +419,7 @@ mod tests {
                 .check()
                 .unwrap();
             report
-                .diagnostics
-                .iter()
+                .findings()
                 .find(|d| d.rule == "axis-overspeed")
                 .map(|d| d.fixes.clone())
         };

@@ -36,7 +36,7 @@
 //! * docs/kinematics.md#deviation-of-the-tip
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]);
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]).follows_pole_event();
 
 /// Keys for merging: a path that is not modelled, a deviation, one that is not proven.
 const NOT_MODELLED: u64 = 0;
@@ -100,11 +100,7 @@ mod tests {
             let config = crate::Config::parse(&format!("[tolerances]\ntip = {tolerance}\n")).expect("valid");
             let machine = config.machine_with_tolerances(machine);
             let report = check_on(&machine, "linuxcnc", text);
-            report
-                .diagnostics
-                .iter()
-                .find(|d| d.rule == "path-deviation")
-                .map(|d| d.status)
+            report.findings().find(|d| d.rule == "path-deviation").map(|d| d.status)
         };
         assert_eq!(status(29.3), Some(crate::Status::Fail));
         assert_eq!(status(29.304_262), Some(crate::Status::Unknown));

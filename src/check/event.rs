@@ -1,9 +1,9 @@
-//! One event, one finding: what several rules report of one pass by the pole is put together.
+//! One event, one finding: what several rules report of one block at the pole is put together.
 //!
-//! The causes say what happens at the pole (an axis flips, the posture changes); the effects are what follows in the same blocks or
-//! in those that touch them (an axis overruns, the feed drops, the tip strays). The strongest cause leads, takes the worst level of
-//! all, and carries the others. Findings with status unknown stay by themselves: what was not decided is never hidden in another
-//! finding.
+//! A cause says what happens at the pole (an axis flips, the posture changes); the effects are what follows in its block or in those
+//! that touch it (an axis overruns, the feed drops, the linear axes run a loop). The strongest cause of a block leads, takes the worst
+//! level of all, and carries the others. What has another cure is no effect: the tip leaves its path without tool centre point
+//! control. Findings with status unknown stay by themselves: what was not decided is never hidden in another finding.
 use crate::suppress::has_code;
 use crate::{Diagnostic, Report, Severity, Status, ValueKey};
 use core::cmp::Reverse;
@@ -13,8 +13,10 @@ use trunnion_syntax::{BlockId, LineIndex, Program};
 /// What a rule's findings are of an event at the pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum AtPole {
-    /// What happens there; of two equally bad causes the one with the higher number leads.
+    /// What happens in a block there; of two causes the one with the higher number leads.
     Cause(u8),
+    /// What is near the pole: it leads where no cause is there, and else follows from it.
+    Nearness,
     /// What follows from it.
     Effect,
 }
@@ -32,25 +34,35 @@ pub(crate) fn group(program: &Program, report: &mut Report) {
         Status::Unknown => None,
     };
     let roles: Vec<Option<AtPole>> = report.diagnostics.iter().map(role).collect();
-    if !roles.iter().any(|role| matches!(role, Some(AtPole::Cause(_)))) {
+    if roles.iter().flatten().all(|role| *role == AtPole::Effect) {
         return;
     }
     let blocks = Blocks(program);
     let lines = LineIndex::new(program.source());
     let spans: Vec<Span> = report.diagnostics.iter().map(|found| blocks.span(found)).collect();
-    let events = events(&blocks, &roles, &spans);
+    let roles = &roles;
+    let of = |wanted: fn(AtPole) -> bool| (0..roles.len()).filter(move |index| roles[*index].is_some_and(wanted));
+    let mut events: Vec<Span> = of(|role| matches!(role, AtPole::Cause(_)))
+        .map(|index| spans[index])
+        .collect();
+    events.sort_unstable();
+    events.dedup();
+    let alone = of(|role| role == AtPole::Nearness).map(|index| spans[index]);
+    let alone: Vec<Span> = alone.filter(|span| blocks.event_of(&events, *span).is_none()).collect();
+    events.extend(alone);
+    events.sort_unstable();
+    events.dedup();
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); events.len()];
-    for (index, role) in roles.iter().enumerate() {
-        if role.is_some()
-            && let Some(event) = blocks.event_of(&events, spans[index])
-        {
+    for index in of(|_| true) {
+        if let Some(event) = blocks.event_of(&events, spans[index]) {
             members[event].push(index);
         }
     }
     let mut found: Vec<Option<Diagnostic>> = report.diagnostics.drain(..).map(Some).collect();
     for members in members {
         let rank = |index: &usize| match (roles[*index], &found[*index]) {
-            (Some(AtPole::Cause(rank)), Some(of)) => Some((of.severity, rank, turn(of), Reverse(*index))),
+            (Some(AtPole::Cause(rank)), Some(of)) => Some((rank, of.severity, turn(of), Reverse(*index))),
+            (Some(AtPole::Nearness), Some(of)) => Some((0, of.severity, turn(of), Reverse(*index))),
             _ => None,
         };
         let lead = members.iter().copied().filter(|index| rank(index).is_some());
@@ -64,21 +76,6 @@ pub(crate) fn group(program: &Program, report: &mut Report) {
     }
     report.diagnostics = found.into_iter().flatten().collect();
     report.summary.recount(&report.diagnostics);
-}
-
-/// The spans of the events: causes in the same or in touching blocks are one.
-fn events(blocks: &Blocks<'_>, roles: &[Option<AtPole>], spans: &[Span]) -> Vec<Span> {
-    let is_cause = |index: &usize| matches!(roles[*index], Some(AtPole::Cause(_)));
-    let mut causes: Vec<Span> = (0..roles.len()).filter(is_cause).map(|index| spans[index]).collect();
-    causes.sort_unstable();
-    let mut events: Vec<Span> = Vec::new();
-    for (first, last) in causes {
-        match events.last_mut() {
-            Some(event) if blocks.touch(event.1, first) => event.1 = event.1.max(last),
-            _ => events.push((first, last)),
-        }
-    }
-    events
 }
 
 /// How far an axis turns in a finding, deg.

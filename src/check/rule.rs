@@ -48,6 +48,12 @@ impl Body {
         self
     }
 
+    /// Its findings say that something is near a pole: see [`AtPole::Nearness`].
+    pub(crate) const fn nears_pole_event(mut self) -> Self {
+        self.at_pole = Some(AtPole::Nearness);
+        self
+    }
+
     /// Its findings follow from what happens at a pole, where something does.
     pub(crate) const fn follows_pole_event(mut self) -> Self {
         self.at_pole = Some(AtPole::Effect);

@@ -97,29 +97,30 @@ fn two_events_are_two_findings() {
     assert_eq!(causes.count(), 2, "{:?}", rules(&report.diagnostics));
 }
 
-/// A program that passes the pole in every block is one finding with a bounded number of notes.
+/// Findings of a block that touches the flip are notes with their place.
 #[test]
-fn notes_are_bounded() {
+fn what_touches_the_flip_follows_from_it() {
+    let report = report(&FLIP.replace("F1000", "F2000"), &[]);
+    assert_eq!(rules(&report.diagnostics), ["pole-flip"], "{:#?}", report.diagnostics);
+    let before = "warning[axis-overspeed]: C would have to run at 159 deg/s at F2000, but its maximum is 120 deg/s (in block N20)";
+    let notes = &report.diagnostics[0].notes;
+    assert!(notes.iter().any(|note| note == before), "{notes:#?}");
+}
+
+/// Long runs of other rules are not hidden in the first flip of a program that flips in every block.
+#[test]
+fn long_runs_stay_by_themselves() {
     use core::fmt::Write;
     let mut text = String::from("TRAORI\nG0 X0 Y0 Z50 A1 C0\nG1 F9000\n");
     for i in 1..200 {
         let _ = writeln!(text, "X{i} A1 C{}", i * 25);
     }
     let report = report(&text, &[]);
-    let lead = report
-        .diagnostics
-        .iter()
-        .find(|found| !found.also.is_empty())
-        .expect("an event");
-    assert!(lead.also.len() > 100, "{}", lead.also.len());
-    assert!(lead.notes.len() < 20, "{:#?}", lead.notes);
-    assert!(
-        lead.notes
-            .iter()
-            .any(|note| note.ends_with("more findings at this pole")),
-        "{:#?}",
-        lead.notes
-    );
+    let flips = report.diagnostics.iter().filter(|found| found.rule == "pole-flip");
+    assert_eq!(flips.count(), 199);
+    let runs = report.diagnostics.iter().filter(|found| found.count > 100);
+    assert!(runs.count() > 1, "{:?}", rules(&report.diagnostics));
+    assert!(report.findings().all(|found| found.notes.len() < 12));
 }
 
 /// An undecided finding at the pole is not put into another one, where the verdict would lose it.

@@ -37,7 +37,7 @@ use core::f64::consts::{PI, TAU};
 use trunnion_interp::{AXIS_LETTERS, Orientation};
 use trunnion_machine::{Limits, Wrap};
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::LongTurn(check)]).follows_pole_event();
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::LongTurn(check)]);
 
 /// Turns that differ from half a turn only by rounding are half turns.
 const SLACK: f64 = 1e-6;

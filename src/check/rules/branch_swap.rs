@@ -36,7 +36,7 @@
 //! * Guide-vane paper (2006), on posture swaps at an axis limit.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::PostureSwap(check)]).causes_pole_event(3);
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::PostureSwap(check)]).causes_pole_event(1);
 
 fn check(swap: &facts::PostureSwap<'_>, out: &mut Reporter<'_>) {
     let [first, second] = swap.rotary_letters();

@@ -36,7 +36,7 @@
 //! * docs/kinematics.md#deviation-of-the-tip
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]).follows_pole_event();
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]);
 
 /// Keys for merging: a path that is not modelled, a deviation, one that is not proven.
 const NOT_MODELLED: u64 = 0;

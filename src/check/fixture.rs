@@ -136,6 +136,7 @@ impl Fixture {
                 assume: Assume {
                     work_offset: !self.undeclared,
                     tool_length: !self.undeclared,
+                    power_on: false,
                 },
             },
         ))

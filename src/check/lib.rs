@@ -37,6 +37,7 @@ mod runs;
 mod session;
 mod sink;
 mod slip;
+mod start;
 mod suppress;
 mod time;
 mod told;

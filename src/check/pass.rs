@@ -6,6 +6,7 @@ use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
 use crate::sink::{Active, Reporter, active};
+use crate::start::Start;
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
 use crate::told::text_rule_reported;
@@ -17,7 +18,7 @@ use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Dialect, Foreign};
-use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
+use trunnion_interp::{ChainId, ControlData, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 
@@ -55,6 +56,8 @@ pub(crate) struct Pass<'a> {
     assumed_radii: BTreeSet<String>,
     /// `None` where motions are not judged.
     cuts: Option<Cuts>,
+    start: Start,
+    control: ControlData,
 }
 
 impl<'a> Pass<'a> {
@@ -63,6 +66,10 @@ impl<'a> Pass<'a> {
             .into_iter()
             .partition(|rule| rule.wake.level() == "machine");
         let (mut motions, rules): (Vec<_>, _) = rest.into_iter().partition(|rule| rule.wake.reads_motions());
+        if settings.assume.power_on {
+            // the unit is one of the assumptions then
+            motions.retain(|rule| rule.name != "units-unset");
+        }
         if settings.scope() < Scope::Motion {
             motions.clear();
         }
@@ -97,6 +104,8 @@ impl<'a> Pass<'a> {
             executed: 0,
             tally: Tally::new(settings.dialect),
             assumed_radii: BTreeSet::new(),
+            start: Start::default(),
+            control: settings.setup.control.clone(),
             cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
@@ -224,7 +233,11 @@ impl<'a> Pass<'a> {
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
-        let assumptions = listed.chain(self.assumed_radii).collect();
+        let assumptions = listed.chain(self.assumed_radii);
+        let relied = self
+            .start
+            .assumptions(self.reporter.program(), self.dialect, &self.control);
+        let assumptions = assumptions.chain(relied).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
             let was_started = interpreter.state().spindle.was_started();
@@ -366,6 +379,7 @@ impl Pass<'_> {
             let allowed = || self.suppressions.allows("spindle-off-cut", block);
             cuts.add(motion, in_force, allowed);
         }
+        self.start.add(&view);
         for rule in self.motions.awake(possible_of_motion(&view)) {
             self.reporter.enter(rule, Some(block), number);
             rule.wake.read_motion(&view, &mut self.reporter);

@@ -135,6 +135,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             return Err(LoadError::new(format!("--assume {name}: this cannot be assumed{hint}")));
         }
     }
+    setup.control.usual_power_on = assume.power_on;
     let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
     Ok(Resolved {
         dialect: detected.dialect,
@@ -169,6 +170,12 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     control.thread_finish_mm = control.thread_finish_mm.or(of.thread_finish_mm);
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
+    }
+    if control.tool_change.is_none() {
+        control.tool_change = of.tool_change;
+    }
+    if control.power_on.is_empty() {
+        control.power_on.clone_from(&of.power_on);
     }
 }
 

@@ -4,6 +4,7 @@ use crate::file::text::number;
 use crate::file::validate::{Fault, finite, non_negative, positive};
 use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
+use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 
@@ -67,6 +68,12 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
         thread_least_cut_mm: non_negative("thread_least_cut", raw.thread_least_cut.as_ref())?,
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
+        tool_change: raw
+            .tool_change
+            .as_ref()
+            .map(|place| position("tool_change", place, axes))
+            .transpose()?,
+        power_on: power_on(&raw.power_on)?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
@@ -177,17 +184,45 @@ fn reference_points(raw: &RawControl, axes: &[Axis]) -> Result<Option<Vec<Positi
     let Some(points) = &raw.reference_points else {
         return Ok(None);
     };
-    let mut out = vec![Position::default(); points.len()];
-    for (point, position) in points.iter().zip(&mut out) {
-        for (letter, value) in point {
-            known_axis(letter, axes)?;
-            let axis = letter.get_ref().bytes().next().and_then(AxisLetter::new);
-            if let Some(axis) = axis {
-                position.set(usize::from(axis.0), finite("reference_points", value)?);
-            }
+    let points = points.iter().map(|point| position("reference_points", point, axes));
+    points.collect::<Result<_, _>>().map(Some)
+}
+
+/// A place in machine coordinates, by letters of axes.
+fn position(key: &str, place: &BTreeMap<Word, Number>, axes: &[Axis]) -> Result<Position, Fault> {
+    let mut out = Position::default();
+    for (letter, value) in place {
+        known_axis(letter, axes)?;
+        let axis = letter.get_ref().bytes().next().and_then(AxisLetter::new);
+        if let Some(axis) = axis {
+            out.set(usize::from(axis.0), finite(key, value)?);
         }
     }
-    Ok(Some(out))
+    Ok(out)
+}
+
+/// G codes in effect at power-on: which of them a control knows is a matter of its dialect.
+fn power_on(words: &[Word]) -> Result<Vec<String>, Fault> {
+    for word in words {
+        if !is_g_code(word.get_ref()) {
+            let message = format!(
+                "{:?} is not a G code: write G and its number, for example \"G17\"",
+                word.get_ref()
+            );
+            return Err(Fault {
+                message,
+                span: word.span(),
+            });
+        }
+    }
+    Ok(words.iter().map(|word| word.get_ref().clone()).collect())
+}
+
+/// `G17`, `G5.1`.
+fn is_g_code(code: &str) -> bool {
+    code.strip_prefix('G').is_some_and(|number| {
+        number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') && number.parse::<f64>().is_ok()
+    })
 }
 
 fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {

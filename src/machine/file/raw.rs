@@ -186,6 +186,9 @@ pub(crate) struct RawControl {
     pub(crate) roughing_retract: Option<Number>,
     pub(crate) thread_least_cut: Option<Number>,
     pub(crate) thread_finish: Option<Number>,
+    pub(crate) tool_change: Option<BTreeMap<Word, Number>>,
+    #[serde(default)]
+    pub(crate) power_on: Vec<Word>,
 }
 
 #[derive(Deserialize, Default)]

@@ -12,7 +12,7 @@ pub use tool::parse_tool_flag;
 use crate::{Assume, Severity};
 use trunnion_dialect::{Dialect, Foreign};
 use trunnion_geometry::rad;
-use trunnion_interp::{Interpreter, Setup};
+use trunnion_interp::{ControlData, Interpreter, Setup, power_on_state};
 use trunnion_machine::{Machine, Tolerances};
 
 /// Level of a rule in `trunnion.toml`: `[rules] pole-flip = "error"`.
@@ -241,14 +241,26 @@ impl<'a> Settings<'a> {
         self.machine.filter(|_| self.scope() == Scope::Machine)
     }
 
+    /// What is known of the control. Where the state at power-on is assumed, a program begins in rapid, as controls are delivered, unless
+    /// the machine or the dialect says otherwise.
+    pub(crate) fn control(&self) -> ControlData {
+        let mut control = self.setup.control.clone();
+        if self.assume.power_on && power_on_state(self.dialect, &control).motion.is_none() {
+            control.power_on.get_or_insert_default().push("G0".to_owned());
+        }
+        control
+    }
+
     /// At the start of a program, as the machine declares its codes. Without a machine, axes that the program never names stand still.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         let unnamed_stand = self.machine.is_none();
-        if codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand {
+        let same = codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand;
+        if same && !self.assume.power_on {
             return Interpreter::new(self.dialect, &self.setup);
         }
         let mut setup = self.setup.clone();
+        setup.control = self.control();
         setup.control.clamp_codes = codes;
         setup.unnamed_stand = unnamed_stand;
         Interpreter::new(self.dialect, &setup)

@@ -18,7 +18,7 @@ use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Dialect, Foreign};
-use trunnion_interp::{ChainId, ControlData, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
+use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 
@@ -57,7 +57,6 @@ pub(crate) struct Pass<'a> {
     /// `None` where motions are not judged.
     cuts: Option<Cuts>,
     start: Start,
-    control: ControlData,
 }
 
 impl<'a> Pass<'a> {
@@ -104,8 +103,7 @@ impl<'a> Pass<'a> {
             executed: 0,
             tally: Tally::new(settings.dialect),
             assumed_radii: BTreeSet::new(),
-            start: Start::default(),
-            control: settings.setup.control.clone(),
+            start: Start::new(settings),
             cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
@@ -234,9 +232,7 @@ impl<'a> Pass<'a> {
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
         let assumptions = listed.chain(self.assumed_radii);
-        let relied = self
-            .start
-            .assumptions(self.reporter.program(), self.dialect, &self.control);
+        let relied = self.start.assumptions(self.reporter.program(), self.dialect);
         let assumptions = assumptions.chain(relied).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {

@@ -1,7 +1,8 @@
-//! What a program relies on that the control has at power-on: plane, distance mode, feed mode, unit of lengths.
+//! What a program relies on that the control has at power-on: motion code, plane, distance mode, feed mode, unit of lengths.
 //!
 //! The state is that of the machine file (`[control] power_on`), else the dialect's. Whatever the program uses before it programs it is
 //! listed among the assumptions.
+use crate::Settings;
 use crate::view::MotionView;
 use trunnion_dialect::{Action, Dialect, Plane};
 use trunnion_interp::{ControlData, FeedMode, MotionKind, declared_at_power_on, power_on_state};
@@ -14,11 +15,22 @@ const FEEDS: [Action; 3] = [
     Action::FeedPerRevolution,
     Action::FeedInverseTime,
 ];
+const MOTIONS: [Action; 6] = [
+    Action::Rapid,
+    Action::Linear,
+    Action::ArcClockwise,
+    Action::ArcCounterClockwise,
+    Action::Thread,
+    Action::VariableThread,
+];
 const UNITS: [Action; 3] = [Action::Metric, Action::Inch, Action::InchLengthsOnly];
 
 /// The first uses of what the control has at power-on.
-#[derive(Default)]
 pub(crate) struct Start {
+    /// What the machine and the settings declare.
+    declared: ControlData,
+    /// The same with what is assumed.
+    in_effect: ControlData,
     /// The first motion to coordinates of the program.
     motion: Option<BlockId>,
     /// The first feed motion.
@@ -30,6 +42,17 @@ pub(crate) struct Start {
 }
 
 impl Start {
+    pub(crate) fn new(settings: &Settings<'_>) -> Self {
+        Self {
+            declared: settings.setup.control.clone(),
+            in_effect: settings.control(),
+            motion: None,
+            feed: None,
+            arc: None,
+            unit: false,
+        }
+    }
+
     /// Takes a motion.
     #[inline]
     pub(crate) fn add(&mut self, view: &MotionView<'_>) {
@@ -53,19 +76,22 @@ impl Start {
     }
 
     /// The codes of the power-on state that the program relies on, and whether the machine declares them.
-    pub(crate) fn relied(&self, program: &Program, dialect: &Dialect, control: &ControlData) -> [Vec<String>; 2] {
+    pub(crate) fn relied(&self, program: &Program, dialect: &Dialect) -> [Vec<String>; 2] {
         let mut out = [Vec::new(), Vec::new()];
         if program.options().format != Format::Iso {
             return out;
         }
-        let state = power_on_state(dialect, control);
+        let state = power_on_state(dialect, &self.in_effect);
         let mut rely = |group: &[Action], own: Action| {
             let code = dialect.codes().iter().find(|code| code.action == own);
             let Some(code) = code else { return };
-            let declared = declared_at_power_on(dialect, control, group);
+            let declared = declared_at_power_on(dialect, &self.declared, group);
             out[usize::from(declared)].push(code.id.clone());
         };
         let uses = Uses::of(program, dialect, self);
+        if let (true, Some(motion)) = (uses.motion, state.motion) {
+            rely(&MOTIONS, motion);
+        }
         if uses.plane {
             rely(
                 &PLANES,
@@ -105,8 +131,8 @@ impl Start {
     }
 
     /// The same as assumptions.
-    pub(crate) fn assumptions(&self, program: &Program, dialect: &Dialect, control: &ControlData) -> Vec<String> {
-        let [not_declared, declared] = self.relied(program, dialect, control);
+    pub(crate) fn assumptions(&self, program: &Program, dialect: &Dialect) -> Vec<String> {
+        let [not_declared, declared] = self.relied(program, dialect);
         let listed = [(not_declared, "not declared"), (declared, "declared")];
         let listed = listed.into_iter().filter(|(codes, _)| !codes.is_empty());
         listed
@@ -117,6 +143,7 @@ impl Start {
 
 /// Which groups of codes a program uses before it programs one of them, in the order of its text.
 struct Uses {
+    motion: bool,
     plane: bool,
     distance: bool,
     feed: bool,
@@ -126,6 +153,7 @@ impl Uses {
     fn of(program: &Program, dialect: &Dialect, start: &Start) -> Self {
         let after = |first: Option<BlockId>, block: BlockId| first.is_none_or(|first| block.0 > first.0);
         let mut uses = Self {
+            motion: start.motion.is_some(),
             plane: false,
             distance: start.motion.is_some(),
             feed: start.feed.is_some(),
@@ -135,7 +163,7 @@ impl Uses {
             let id = block.id();
             let settled = [
                 !plane_open,
-                !uses.distance || after(start.motion, id),
+                !(uses.distance || uses.motion) || after(start.motion, id),
                 !uses.feed || after(start.feed, id),
             ];
             if settled == [true; 3] {
@@ -149,11 +177,22 @@ impl Uses {
                 uses.plane = used && !programmed;
                 plane_open = !used && !programmed;
             }
+            uses.motion &= settled[1] || !(has(&MOTIONS) || codes.iter().any(|code| moves_itself(*code)));
             uses.distance &= settled[1] || !has(&DISTANCES);
             uses.feed &= settled[2] || !has(&FEEDS);
         }
         uses
     }
+}
+
+/// Whether a code needs no motion code beside it.
+fn moves_itself(action: Action) -> bool {
+    action.is_hole_cycle()
+        || action.is_pass_cycle()
+        || matches!(
+            action,
+            Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom | Action::NotModelled
+        )
 }
 
 /// Whether what a code does depends on the plane.

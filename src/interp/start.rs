@@ -11,7 +11,12 @@ fn power_on(state: &mut ModalState, dialect: &Dialect, control: &ControlData) {
         // LinuxCNC's own interpreter begins as it does
         return;
     }
-    for code in control.power_on.iter().filter_map(|name| found(dialect, name)) {
+    for code in control
+        .power_on
+        .iter()
+        .flatten()
+        .filter_map(|name| found(dialect, name))
+    {
         match code.action {
             Action::PlaneXy => state.coordinates.set_plane(Plane::Xy),
             Action::PlaneZx => state.coordinates.set_plane(Plane::Zx),
@@ -25,9 +30,6 @@ fn power_on(state: &mut ModalState, dialect: &Dialect, control: &ControlData) {
             Action::Rapid | Action::Linear => state.motion = Some(code.action),
             _ => {}
         }
-    }
-    if control.usual_power_on {
-        state.motion = state.motion.or(Some(Action::Rapid));
     }
 }
 
@@ -48,7 +50,11 @@ fn found<'d>(dialect: &'d Dialect, name: &str) -> Option<&'d Code> {
 
 /// Whether the machine declares what is in effect at power-on in the group of these actions, in a code that the dialect has.
 pub fn declared_at_power_on(dialect: &Dialect, control: &ControlData, group: &[Action]) -> bool {
-    let mut codes = control.power_on.iter().filter_map(|name| found(dialect, name));
+    let mut codes = control
+        .power_on
+        .iter()
+        .flatten()
+        .filter_map(|name| found(dialect, name));
     !dialect.quirks.rs274() && codes.any(|code| group.contains(&code.action))
 }
 

@@ -186,10 +186,8 @@ pub struct ControlData {
     /// Where the axes are after a tool change (M6), in machine coordinates, mm and degrees; those without a value stay where they are.
     /// `None`: not declared, X Y Z are unknown after it.
     pub tool_change: Option<crate::Position>,
-    /// G codes in effect at power-on, as the machine declares them: `G17`. Of other groups the dialect says it.
-    pub power_on: Vec<String>,
-    /// What the dialect leaves to a parameter is taken as it is delivered: rapids before the first motion code.
-    pub usual_power_on: bool,
+    /// G codes in effect at power-on, as the machine declares them: `G17`. Of other groups the dialect says it, as where there are none.
+    pub power_on: Option<Vec<String>>,
 }
 
 /// What a program is run with.

@@ -135,7 +135,6 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             return Err(LoadError::new(format!("--assume {name}: this cannot be assumed{hint}")));
         }
     }
-    setup.control.usual_power_on = assume.power_on;
     let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
     Ok(Resolved {
         dialect: detected.dialect,
@@ -174,7 +173,7 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     if control.tool_change.is_none() {
         control.tool_change = of.tool_change;
     }
-    if control.power_on.is_empty() {
+    if control.power_on.is_none() {
         control.power_on.clone_from(&of.power_on);
     }
 }

@@ -76,8 +76,7 @@ pub(super) struct FileControl {
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
     tool_change: Option<BTreeMap<Spanned<String>, Spanned<f64>>>,
-    #[serde(default)]
-    power_on: Vec<Spanned<String>>,
+    power_on: Option<Vec<Spanned<String>>>,
 }
 
 impl FileControl {
@@ -128,8 +127,11 @@ impl FileControl {
             length_along: None,
             reference_points,
             tool_change: self.tool_change.as_ref().map(position).transpose()?,
-            power_on: self.power_on.iter().map(g_code).collect::<Result<_, _>>()?,
-            usual_power_on: false,
+            power_on: self
+                .power_on
+                .as_ref()
+                .map(|codes| codes.iter().map(g_code).collect())
+                .transpose()?,
         })
     }
 }

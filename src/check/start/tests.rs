@@ -4,8 +4,7 @@ use trunnion_interp::{ControlData, Setup};
 fn report(dialect: &str, text: &str, power_on: &[&str], usual: bool) -> Report {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let control = ControlData {
-        power_on: power_on.iter().map(|code| (*code).to_owned()).collect(),
-        usual_power_on: usual,
+        power_on: (!power_on.is_empty()).then(|| power_on.iter().map(|code| (*code).to_owned()).collect()),
         ..ControlData::default()
     };
     let setup = Setup {
@@ -88,6 +87,10 @@ fn the_first_motion_code_is_declared_or_assumed() {
     assert_eq!(verdict(&[], false), Verdict::Unknown);
     assert_eq!(verdict(&["G0"], false), Verdict::Pass);
     assert_eq!(verdict(&[], true), Verdict::Pass);
+    assert_eq!(
+        report("fanuc-30i", text, &[], true).assumptions,
+        ["G0 at power-on (not declared)"]
+    );
 }
 
 /// `--assume power-on` takes the unit too, and says so in place of the finding.

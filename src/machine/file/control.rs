@@ -73,7 +73,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
             .as_ref()
             .map(|place| position("tool_change", place, axes))
             .transpose()?,
-        power_on: power_on(&raw.power_on)?,
+        power_on: raw.power_on.as_deref().map(power_on).transpose()?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;

@@ -25,8 +25,8 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         };
         lines.push(format!("a tool change (M6) {moves}"));
     }
-    if !control.power_on.is_empty() {
-        lines.push(format!("at power-on {} are in effect", control.power_on.join(" ")));
+    if let Some(codes) = &control.power_on {
+        lines.push(format!("in effect at power-on: {}", codes.join(" ")));
     }
     let retracts = [
         (

@@ -187,8 +187,7 @@ pub(crate) struct RawControl {
     pub(crate) thread_least_cut: Option<Number>,
     pub(crate) thread_finish: Option<Number>,
     pub(crate) tool_change: Option<BTreeMap<Word, Number>>,
-    #[serde(default)]
-    pub(crate) power_on: Vec<Word>,
+    pub(crate) power_on: Option<Vec<Word>>,
 }
 
 #[derive(Deserialize, Default)]

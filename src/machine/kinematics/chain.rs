@@ -210,7 +210,7 @@ pub struct Control {
     /// Where a tool change leaves the axes that it moves: machine coordinates, mm and deg; `None`: not declared.
     pub tool_change: Option<trunnion_interp::Position>,
     /// G codes in effect at power-on; those of other groups are not declared.
-    pub power_on: Vec<String>,
+    pub power_on: Option<Vec<String>>,
 }
 
 /// Thresholds of the rules.

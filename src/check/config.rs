@@ -2,7 +2,8 @@
 mod control;
 mod file;
 mod format;
-mod plain;
+#[cfg(test)]
+mod message_tests;
 mod tool;
 mod variables;
 

@@ -71,6 +71,16 @@ impl Iso<'_> {
             let feed = self.feed_of(kind, words, report);
             self.turning_feed(kind, feed, words, [&start, &end])
         };
+        let linear = (words.axes.given | words.axes.unread) & LINEAR != 0;
+        if block.machine_coordinates && linear && self.core.state.tool_axis.tcp() {
+            // G53 of a Fanuc may be refused there; SUPA of a Sinumerik suppresses frames, and its transformation stays: its words are no joints
+            kind = MotionKind::Unknown;
+            self.core.state.position.known &= !words.axes.given;
+            self.core.forget_linear();
+            end.known &= self.core.state.position.known;
+            let what = "machine coordinates under tool centre point control: where the axes go".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
             motion.in_machine_coordinates();

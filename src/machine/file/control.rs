@@ -68,11 +68,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
         thread_least_cut_mm: non_negative("thread_least_cut", raw.thread_least_cut.as_ref())?,
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
-        tool_change: raw
-            .tool_change
-            .as_ref()
-            .map(|place| position("tool_change", place, axes))
-            .transpose()?,
+        tool_change: tool_change(raw, axes)?,
         power_on: raw.power_on.as_deref().map(power_on).transpose()?,
     };
     if let Some(pole) = &raw.pole {
@@ -172,7 +168,9 @@ fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<Stri
     if known.contains(&word.get_ref().as_str()) {
         return Ok(Some(word.get_ref().clone()));
     }
-    let message = format!("unknown {name} {:?}; known: {}", word.get_ref(), known.join(", "));
+    let known_list = known.join(", ");
+    let hint = trunnion_dialect::did_you_mean(word.get_ref(), known, "");
+    let message = format!("unknown {name} {:?}; known: {known_list}{hint}", word.get_ref());
     Err(Fault {
         message,
         span: word.span(),
@@ -186,6 +184,12 @@ fn reference_points(raw: &RawControl, axes: &[Axis]) -> Result<Option<Vec<Positi
     };
     let points = points.iter().map(|point| position("reference_points", point, axes));
     points.collect::<Result<_, _>>().map(Some)
+}
+
+/// Where a tool change leaves the axes that it moves.
+fn tool_change(raw: &RawControl, axes: &[Axis]) -> Result<Option<Position>, Fault> {
+    let place = raw.tool_change.as_ref();
+    place.map(|place| position("tool_change", place, axes)).transpose()
 }
 
 /// A place in machine coordinates, by letters of axes.

@@ -246,6 +246,8 @@ impl<'a> Settings<'a> {
     /// the machine or the dialect says otherwise.
     pub(crate) fn control(&self) -> ControlData {
         let mut control = self.setup.control.clone();
+        // programs are compared with what their own words say alone
+        control.tool_change = self.machine.and_then(|machine| machine.control.tool_change);
         if self.assume.power_on && power_on_state(self.dialect, &control).motion.is_none() {
             control.power_on.get_or_insert_default().push("G0".to_owned());
         }
@@ -257,7 +259,10 @@ impl<'a> Settings<'a> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         let unnamed_stand = self.machine.is_none();
         let same = codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand;
-        if same && !self.assume.power_on {
+        let moves = self
+            .machine
+            .is_some_and(|machine| machine.control.tool_change.is_some());
+        if same && !moves && !self.assume.power_on {
             return Interpreter::new(self.dialect, &self.setup);
         }
         let mut setup = self.setup.clone();

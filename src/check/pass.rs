@@ -231,9 +231,8 @@ impl<'a> Pass<'a> {
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
-        let assumptions = listed.chain(self.assumed_radii);
         let relied = self.start.assumptions(self.reporter.program(), self.dialect);
-        let assumptions = assumptions.chain(relied).collect();
+        let assumptions = listed.chain(self.assumed_radii).chain(relied).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
             let was_started = interpreter.state().spindle.was_started();

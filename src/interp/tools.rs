@@ -187,7 +187,7 @@ impl Iso<'_> {
         // where the block moves too, the order of both is not known
         let declared = self.core.setup.control.tool_change;
         match declared.filter(|_| !words.axes.any() && !self.core.state.tool_axis.tcp()) {
-            Some(place) => self.go_to_machine(&place, report),
+            Some(place) => self.stands_at(&place),
             None => self.core.forget_linear(),
         }
         self.tcp_at_tool_change(report);

@@ -170,9 +170,6 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }
-    if control.tool_change.is_none() {
-        control.tool_change = of.tool_change;
-    }
     if control.power_on.is_none() {
         control.power_on.clone_from(&of.power_on);
     }

@@ -16,6 +16,7 @@ mod lsp_edits;
 mod mutated_formats;
 mod mutated_programs;
 mod mutations;
+mod once_wrong;
 mod random;
 mod real_files;
 mod rewrites;

@@ -75,7 +75,6 @@ pub(super) struct FileControl {
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
-    tool_change: Option<BTreeMap<Spanned<String>, Spanned<f64>>>,
     power_on: Option<Vec<Spanned<String>>>,
 }
 
@@ -126,7 +125,7 @@ impl FileControl {
             has_rotary: false,
             length_along: None,
             reference_points,
-            tool_change: self.tool_change.as_ref().map(position).transpose()?,
+            tool_change: None,
             power_on: self
                 .power_on
                 .as_ref()

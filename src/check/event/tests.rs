@@ -1,3 +1,4 @@
+//! Findings at the pole, put together.
 use crate::{Diagnostic, Report, RuleLevel, Settings, Severity, Status, Verdict, check};
 use trunnion_interp::Setup;
 

@@ -1,3 +1,4 @@
+//! What programs rely on at power-on.
 use crate::{Assume, Report, Settings, Severity, Verdict, check};
 use trunnion_interp::{ControlData, Setup};
 

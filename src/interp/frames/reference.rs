@@ -124,26 +124,17 @@ impl Iso<'_> {
         self.memory.out.push(motion);
     }
 
-    /// Rapid of the axes that have a value to that place in machine coordinates; the others stay.
-    pub(crate) fn go_to_machine(&mut self, place: &Position, report: &mut Report<'_>) {
-        let mut start = self.core.state.position;
-        self.to_machine(&mut start, 1.0);
-        let mut end = start;
+    /// The axes that have a value are at that place in machine coordinates; the others stay. How they went there is no motion of the program.
+    pub(crate) fn stands_at(&mut self, place: &Position) {
+        let mut position = self.core.state.position;
+        self.to_machine(&mut position, 1.0);
         for axis in 0..9 {
             if let Some(value) = place.get(axis) {
-                end.set(axis, value);
+                position.set(axis, value);
             }
         }
-        if place.known != 0 {
-            let orientation = self.core.held_orientation();
-            let mut motion = self
-                .core
-                .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
-            motion.in_machine_coordinates();
-            self.memory.out.push(motion);
-        }
-        self.to_machine(&mut end, -1.0);
-        self.core.state.position = end;
+        self.to_machine(&mut position, -1.0);
+        self.core.state.position = position;
     }
 
     /// A motion to a position that is given as words give it; it is emitted with the others of the block.

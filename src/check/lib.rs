@@ -8,6 +8,8 @@
 mod again;
 mod analysis;
 mod apart;
+#[cfg(test)]
+mod axis_overspeed_tests;
 mod both;
 mod caller;
 #[cfg(test)]

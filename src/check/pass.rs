@@ -65,10 +65,8 @@ impl<'a> Pass<'a> {
             .into_iter()
             .partition(|rule| rule.wake.level() == "machine");
         let (mut motions, rules): (Vec<_>, _) = rest.into_iter().partition(|rule| rule.wake.reads_motions());
-        if settings.assume.power_on {
-            // the unit is one of the assumptions then
-            motions.retain(|rule| rule.name != "units-unset");
-        }
+        // a unit that is assumed is listed among the assumptions
+        motions.retain(|rule| !(settings.assume.power_on && rule.name == "units-unset"));
         if settings.scope() < Scope::Motion {
             motions.clear();
         }
@@ -220,11 +218,7 @@ impl<'a> Pass<'a> {
 
     /// What was found; `interpreter` is at its end and knows the call chains.
     pub(crate) fn finish(mut self, interpreter: &Interpreter<'_>) -> Report {
-        let cycle_time_s = if self.follower.is_some() {
-            self.time.interval()
-        } else {
-            None
-        };
+        let cycle_time_s = self.follower.as_ref().and_then(|_| self.time.interval());
         let was_checked = |name: &str| self.was_checked(name);
         let ending = Ending {
             unused: self.suppressions.unused(&was_checked),

@@ -195,7 +195,7 @@ const ITEMS: &[Item] = &[
             "G17 G90 G94 G54 G71\nT1 D1 M6\nS1000 M3\nTRAORI\nORIVECT\n",
             "G0 X100 Y0 Z150 A3=0.87 B3=0 C3=-0.1\nG0 X100 Y0 Z150 A3=-0.87 B3=0 C3=-0.1\nTRAFOOF\nM30\n",
         ],
-        &["7 unknown axis-limit"],
+        &["7 error axis-limit"],
         [2, 2],
     ),
     (
@@ -239,22 +239,22 @@ const ITEMS: &[Item] = &[
     (
         "S0 M3",
         ["fanuc-30i", ""],
-        ["", "G21 G17 G90 G94\nT1 M6\nS0 M3\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
-        &["5 error spindle-off-cut"],
+        ["", "G21 G17 G90 G94\nS0 M3\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
+        &["4 error spindle-off-cut"],
         [2, 2],
     ),
     (
         "M3 without S",
         ["fanuc-30i", ""],
-        ["", "G21 G17 G90 G94\nT1 M6\nM3\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
-        &["5 warning spindle-unset"],
+        ["", "G21 G17 G90 G94\nM3\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
+        &["4 warning spindle-unset"],
         [2, 2],
     ),
     (
         "a program that starts no spindle",
         ["fanuc-30i", ""],
-        ["", "G21 G17 G90 G94\nT1 M6\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
-        &["4 warning spindle-unset"],
+        ["", "G21 G17 G90 G94\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
+        &["3 warning spindle-unset"],
         [2, 2],
     ),
     (
@@ -270,21 +270,15 @@ const ITEMS: &[Item] = &[
     (
         "M13 of a builder",
         ["fanuc-30i", ""],
-        [
-            "",
-            "G21 G17 G90 G94\nT1 M6\nM13 S1000\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n",
-        ],
-        &["3 unknown unknown-code"],
+        ["", "G21 G17 G90 G94\nM13 S1000\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
+        &["2 unknown unknown-code"],
         [2, 2],
     ),
     (
         "M133 of a builder",
         ["fanuc-30i", ""],
-        [
-            "",
-            "G21 G17 G90 G94\nT1 M6\nM133 S1000\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n",
-        ],
-        &["3 unknown unknown-code"],
+        ["", "G21 G17 G90 G94\nM133 S1000\nG0 X0 Y0 Z5.\nG1 Z-1. F100\nM30\n"],
+        &["2 unknown unknown-code"],
         [2, 2],
     ),
     (
@@ -311,7 +305,7 @@ const ELSEWHERE: &[[&str; 3]] = &[
     ["L140(1)", "src/syntax/tests/all/iso_items.rs", "L140(1)"],
     [
         "G93 with a standing tip",
-        "src/check/rules/axis_overspeed.rs",
+        "src/check/axis_overspeed_tests.rs",
         "inverse_time_is_judged_where_the_tip_stands_still",
     ],
 ];

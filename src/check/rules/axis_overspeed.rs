@@ -224,6 +224,3 @@ fn undeclared(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,7 @@
 //! Programs that were judged wrongly once, each the smallest that shows it: what is reported of them, and how many of their motions have a
 //! known end. What cannot be seen so is shown by the test that is named.
 use crate::cli::tools::{json, trunnion, write};
-use std::{fs, path::Path};
+use std::{fmt::Write, fs, path::Path};
 use tempfile::TempDir;
 use trunnion::check::{Assume, Diagnostic, Settings, Severity, Status, check};
 use trunnion::interp::Setup;
@@ -341,7 +341,7 @@ fn each_is_judged_as_it_should_be() {
         let found = findings(&report.diagnostics, &text);
         let known = [report.coverage.motions_known, report.coverage.motions];
         if found != *wanted || known != *motions {
-            wrong += &format!("{name}: {found:?} {known:?}\n");
+            let _ = writeln!(wrong, "{name}: {found:?} {known:?}");
         }
         let says_nan =
             |found: &Diagnostic| found.message.contains("NaN") || found.notes.iter().any(|note| note.contains("NaN"));

@@ -58,7 +58,7 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
 /// The first part of the pages of the rules whose findings touch the cursor: what the rule finds, and why that matters.
 fn rules_at(judged: &Judged, at: u32) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
-    for found in judged.session.report.diagnostics.iter().filter(|d| d.range.touches(at)) {
+    for found in judged.session.report.findings().filter(|d| d.range.touches(at)) {
         if !names.contains(&found.rule) {
             names.push(found.rule);
         }

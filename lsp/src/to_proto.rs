@@ -13,6 +13,9 @@ use trunnion_syntax::TextRange;
 /// More findings than this are useless in an editor; the last one then states how many there are.
 const MOST: usize = 2000;
 
+/// So many of the findings that one leads are links of it.
+const MOST_LED: usize = 50;
+
 /// The findings of an analysis; a settings error is one finding at the start of the document.
 pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagnostic> {
     let judged = match &analysed.outcome {
@@ -64,14 +67,14 @@ fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) 
         message.push('\n');
         message.push_str(more);
     }
-    let related: Vec<_> = d
-        .related
-        .iter()
-        .map(|(bytes, text)| DiagnosticRelatedInformation {
-            location: Location::new(analysed.uri.clone(), place(*bytes)),
-            message: text.clone(),
-        })
-        .collect();
+    let near = |bytes, message| DiagnosticRelatedInformation {
+        location: Location::new(analysed.uri.clone(), place(bytes)),
+        message,
+    };
+    let places = d.related.iter().map(|(bytes, text)| near(*bytes, text.clone()));
+    let led = d.also.iter().take(MOST_LED);
+    let led = led.map(|led| near(led.range, format!("{}: {}", led.rule, led.message)));
+    let related: Vec<_> = places.chain(led).collect();
     Diagnostic {
         range: place(d.range),
         severity: Some(match d.severity {

@@ -3,6 +3,7 @@
 use crate::apart;
 use crate::both;
 use crate::coverage;
+use crate::event;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
 use crate::unreadable::is_utf16;
@@ -95,6 +96,7 @@ fn with_both(
         on.setup.control.block_delete = Some(true);
         both::join(&mut report, &check(&on)?);
     }
+    event::group(program, &mut report);
     report.coverage.complete(program, settings.dialect);
     coverage::tell(program, settings, &mut report);
     Some(report)

@@ -1,5 +1,4 @@
 //! Programs with blocks that begin with `/` while the state of the block delete switch is not declared: both states are judged.
-use crate::report::Summary;
 use crate::{Diagnostic, Report, Settings};
 use std::collections::HashSet;
 use trunnion_dialect::Dialect;
@@ -74,13 +73,7 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
     off.diagnostics
         .sort_by_key(|found| (found.range.start, found.range.end));
     off.coverage.join(&on.coverage);
-    let (blocks, motions) = (off.summary.blocks, off.summary.motions);
-    off.summary = Summary {
-        blocks,
-        motions,
-        ..Summary::default()
-    };
-    off.summary.count(&off.diagnostics);
+    off.summary.recount(&off.diagnostics);
     for assumed in &on.assumptions {
         if !off.assumptions.contains(assumed) {
             off.assumptions.push(assumed.clone());

@@ -2,7 +2,8 @@
 mod control;
 mod file;
 mod format;
-mod plain;
+#[cfg(test)]
+mod message_tests;
 mod tool;
 mod variables;
 
@@ -12,7 +13,7 @@ pub use tool::parse_tool_flag;
 use crate::{Assume, Severity};
 use trunnion_dialect::{Dialect, Foreign};
 use trunnion_geometry::rad;
-use trunnion_interp::{Interpreter, Setup};
+use trunnion_interp::{ControlData, Interpreter, Setup, power_on_state};
 use trunnion_machine::{Machine, Tolerances};
 
 /// Level of a rule in `trunnion.toml`: `[rules] pole-flip = "error"`.
@@ -241,14 +242,31 @@ impl<'a> Settings<'a> {
         self.machine.filter(|_| self.scope() == Scope::Machine)
     }
 
+    /// What is known of the control. Where the state at power-on is assumed, a program begins in rapid, as controls are delivered, unless
+    /// the machine or the dialect says otherwise.
+    pub(crate) fn control(&self) -> ControlData {
+        let mut control = self.setup.control.clone();
+        // programs are compared with what their own words say alone
+        control.tool_change = self.machine.and_then(|machine| machine.control.tool_change);
+        if self.assume.power_on && power_on_state(self.dialect, &control).motion.is_none() {
+            control.power_on.get_or_insert_default().push("G0".to_owned());
+        }
+        control
+    }
+
     /// At the start of a program, as the machine declares its codes. Without a machine, axes that the program never names stand still.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         let unnamed_stand = self.machine.is_none();
-        if codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand {
+        let same = codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand;
+        let moves = self
+            .machine
+            .is_some_and(|machine| machine.control.tool_change.is_some());
+        if same && !moves && !self.assume.power_on {
             return Interpreter::new(self.dialect, &self.setup);
         }
         let mut setup = self.setup.clone();
+        setup.control = self.control();
         setup.control.clamp_codes = codes;
         setup.unnamed_stand = unnamed_stand;
         Interpreter::new(self.dialect, &setup)

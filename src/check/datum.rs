@@ -25,13 +25,15 @@ use trunnion_syntax::{BlockId, Program};
 /// Joints that differ by no more are at the same position, mm.
 const SAME_MM: f64 = 1e-9;
 
-/// Undeclared values that are taken as zero.
+/// Undeclared values that are taken as zero, and the undeclared state at power-on that is taken as usual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Assume {
     /// `work-offset`.
     pub work_offset: bool,
     /// `tool-length`.
     pub tool_length: bool,
+    /// `power-on`: what the control has at power-on is what its dialect says, else what it is delivered with.
+    pub power_on: bool,
 }
 
 impl Assume {
@@ -39,16 +41,18 @@ impl Assume {
     pub const ALL: Self = Self {
         work_offset: true,
         tool_length: true,
+        power_on: true,
     };
 
     /// The names of what can be assumed.
-    pub const NAMES: [&'static str; 2] = ["work-offset", "tool-length"];
+    pub const NAMES: [&'static str; 3] = ["work-offset", "tool-length", "power-on"];
 
     /// Adds what a name says; false where it is not among [`Self::NAMES`].
     pub fn add(&mut self, name: &str) -> bool {
         match name {
             "work-offset" => self.work_offset = true,
             "tool-length" => self.tool_length = true,
+            "power-on" => self.power_on = true,
             _ => return false,
         }
         true

@@ -62,8 +62,19 @@ pub struct Diagnostic {
     pub count: u32,
     /// Range of the last of the consecutive ones.
     pub last: TextRange,
+    /// The other findings of the event that this one leads; its notes say each in a sentence.
+    pub also: Vec<Diagnostic>,
+    /// Its level without the other findings of its event, where one of them raised it.
+    pub(crate) own_severity: Option<Severity>,
     /// How the run reached it; the notes report it.
     pub(crate) origin: Origin,
+}
+
+impl Diagnostic {
+    /// How bad it is by itself: its `severity` is also that of the other findings of its event.
+    pub fn own_severity(&self) -> Severity {
+        self.own_severity.unwrap_or(self.severity)
+    }
 }
 
 /// How a run came to a finding.

@@ -46,6 +46,8 @@ impl<'p> Draft<'p> {
                 related: Vec::new(),
                 count: 1,
                 last: nowhere,
+                also: Vec::new(),
+                own_severity: None,
                 origin,
             },
             merge: None,

@@ -136,6 +136,7 @@ impl Fixture {
                 assume: Assume {
                     work_offset: !self.undeclared,
                     tool_length: !self.undeclared,
+                    power_on: false,
                 },
             },
         ))
@@ -168,8 +169,7 @@ impl Fixture {
         let index = LineIndex::new(source);
         let place = |offset| index.line_column(source, offset);
         let mut found: Vec<Drawn> = report
-            .diagnostics
-            .iter()
+            .findings()
             .map(|diagnostic| {
                 let (line, column) = place(diagnostic.range.start);
                 let (end_line, end_column) = place(diagnostic.range.end);

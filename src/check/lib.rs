@@ -8,6 +8,8 @@
 mod again;
 mod analysis;
 mod apart;
+#[cfg(test)]
+mod axis_overspeed_tests;
 mod both;
 mod caller;
 #[cfg(test)]
@@ -17,6 +19,7 @@ mod coverage;
 mod cuts;
 mod datum;
 mod diagnostic;
+mod event;
 mod facts;
 mod finding;
 pub mod fixture;
@@ -36,6 +39,7 @@ mod runs;
 mod session;
 mod sink;
 mod slip;
+mod start;
 mod suppress;
 mod time;
 mod told;
@@ -52,8 +56,8 @@ pub use config::{Config, ConfigError, RuleLevel, Scope, Settings};
 pub use coverage::{Coverage, GivenUp, NotRun, NotRunReason};
 pub use datum::{Assume, assumptions};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
-pub use nearest::{did_you_mean, or_known};
 pub use report::{Report, Summary, Verdict};
 pub use rule::{Guarantee, Rule};
 pub use rules::{rule, rule_names, rules};
 pub use session::{BlockInfo, Session, Variables};
+pub use trunnion_dialect::{did_you_mean, or_known};

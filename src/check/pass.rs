@@ -6,6 +6,7 @@ use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
 use crate::sink::{Active, Reporter, active};
+use crate::start::Start;
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
 use crate::told::text_rule_reported;
@@ -55,6 +56,7 @@ pub(crate) struct Pass<'a> {
     assumed_radii: BTreeSet<String>,
     /// `None` where motions are not judged.
     cuts: Option<Cuts>,
+    start: Start,
 }
 
 impl<'a> Pass<'a> {
@@ -63,6 +65,8 @@ impl<'a> Pass<'a> {
             .into_iter()
             .partition(|rule| rule.wake.level() == "machine");
         let (mut motions, rules): (Vec<_>, _) = rest.into_iter().partition(|rule| rule.wake.reads_motions());
+        // a unit that is assumed is listed among the assumptions
+        motions.retain(|rule| !(settings.assume.power_on && rule.name == "units-unset"));
         if settings.scope() < Scope::Motion {
             motions.clear();
         }
@@ -97,6 +101,7 @@ impl<'a> Pass<'a> {
             executed: 0,
             tally: Tally::new(settings.dialect),
             assumed_radii: BTreeSet::new(),
+            start: Start::new(settings),
             cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
@@ -213,18 +218,15 @@ impl<'a> Pass<'a> {
 
     /// What was found; `interpreter` is at its end and knows the call chains.
     pub(crate) fn finish(mut self, interpreter: &Interpreter<'_>) -> Report {
-        let cycle_time_s = if self.follower.is_some() {
-            self.time.interval()
-        } else {
-            None
-        };
+        let cycle_time_s = self.follower.as_ref().and_then(|_| self.time.interval());
         let was_checked = |name: &str| self.was_checked(name);
         let ending = Ending {
             unused: self.suppressions.unused(&was_checked),
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
-        let assumptions = listed.chain(self.assumed_radii).collect();
+        let relied = self.start.assumptions(self.reporter.program(), self.dialect);
+        let assumptions = listed.chain(self.assumed_radii).chain(relied).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
             let was_started = interpreter.state().spindle.was_started();
@@ -366,6 +368,7 @@ impl Pass<'_> {
             let allowed = || self.suppressions.allows("spindle-off-cut", block);
             cuts.add(motion, in_force, allowed);
         }
+        self.start.add(&view);
         for rule in self.motions.awake(possible_of_motion(&view)) {
             self.reporter.enter(rule, Some(block), number);
             rule.wake.read_motion(&view, &mut self.reporter);

@@ -42,6 +42,16 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Counts these findings in place of those that were counted.
+    pub(crate) fn recount(&mut self, diagnostics: &[Diagnostic]) {
+        *self = Self {
+            blocks: self.blocks,
+            motions: self.motions,
+            ..Self::default()
+        };
+        self.count(diagnostics);
+    }
+
     /// Counts findings by status and severity.
     pub(crate) fn count(&mut self, diagnostics: &[Diagnostic]) {
         for diagnostic in diagnostics {
@@ -74,6 +84,12 @@ pub struct Report {
 }
 
 impl Report {
+    /// All findings: those of the list, each followed by the ones that it leads.
+    pub fn findings(&self) -> impl Iterator<Item = &Diagnostic> {
+        let list = self.diagnostics.iter();
+        list.flat_map(|found| core::iter::once(found).chain(&found.also))
+    }
+
     /// The verdict when findings at or above `deny` count as failures.
     pub fn verdict(&self, deny: Severity) -> Verdict {
         let denied = |d: &Diagnostic| d.status == Status::Fail && d.severity >= deny;

@@ -1,5 +1,6 @@
 //! What a rule is: data, and functions that read what wakes them.
 use crate::Severity;
+use crate::event::AtPole;
 use crate::wake::Wake;
 
 /// What silence means.
@@ -17,6 +18,7 @@ pub(crate) struct Body {
     severity: Severity,
     guarantee: Guarantee,
     wakes: &'static [Wake],
+    at_pole: Option<AtPole>,
 }
 
 impl Body {
@@ -26,6 +28,7 @@ impl Body {
             severity,
             guarantee: Guarantee::Sound,
             wakes,
+            at_pole: None,
         }
     }
 
@@ -35,7 +38,26 @@ impl Body {
             severity,
             guarantee: Guarantee::Heuristic,
             wakes,
+            at_pole: None,
         }
+    }
+
+    /// Its findings say what happens at a pole: see [`AtPole::Cause`].
+    pub(crate) const fn causes_pole_event(mut self, rank: u8) -> Self {
+        self.at_pole = Some(AtPole::Cause(rank));
+        self
+    }
+
+    /// Its findings say that something is near a pole: see [`AtPole::Nearness`].
+    pub(crate) const fn nears_pole_event(mut self) -> Self {
+        self.at_pole = Some(AtPole::Nearness);
+        self
+    }
+
+    /// Its findings follow from what happens at a pole, where something does.
+    pub(crate) const fn follows_pole_event(mut self) -> Self {
+        self.at_pole = Some(AtPole::Effect);
+        self
     }
 
     /// With its name and the header of its file.
@@ -46,6 +68,7 @@ impl Body {
             severity: self.severity,
             guarantee: self.guarantee,
             wakes: self.wakes,
+            at_pole: self.at_pole,
         }
     }
 }
@@ -62,6 +85,7 @@ pub struct Rule {
     /// What silence means.
     pub guarantee: Guarantee,
     pub(crate) wakes: &'static [Wake],
+    pub(crate) at_pole: Option<AtPole>,
 }
 
 impl Rule {

@@ -119,7 +119,7 @@ fn options(command: &Fix) -> Result<Options, Failure> {
 fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failure> {
     if command.rewrite.is_empty() {
         let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());
-        let reported = |r: &Rewrite| report.diagnostics.iter().any(|d| r.cures.contains(&d.rule));
+        let reported = |r: &Rewrite| report.findings().any(|d| r.cures.contains(&d.rule));
         return Ok(rewrites().iter().copied().filter(|r| reported(r)).collect());
     }
     let find = |name: &String| {

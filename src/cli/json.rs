@@ -111,6 +111,9 @@ struct Item {
     last_line: Option<u32>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     related: Vec<Related>,
+    /// The other findings of the event that this one leads.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    also: Vec<Item>,
 }
 
 #[derive(Serialize)]
@@ -158,46 +161,49 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
+/// One finding, with those that it leads.
+fn item(loaded: &Loaded, lines: &LineIndex, d: &trunnion_check::Diagnostic) -> Item {
+    let place = |offset| lines.line_column(loaded.program.source(), offset);
+    let (line, column) = place(d.range.start);
+    let (end_line, end_column) = place(d.range.end);
+    let merged = d.count > 1;
+    Item {
+        rule: d.rule,
+        severity: short::severity(d.severity),
+        line,
+        column,
+        end_line,
+        end_column,
+        byte_start: d.range.start,
+        byte_end: d.range.end,
+        block: d.block.clone(),
+        message: d.message.clone(),
+        notes: d.notes.clone(),
+        help: d.help.clone(),
+        values: Values(d.values.clone()),
+        status: if d.status == Status::Fail { "fail" } else { "unknown" },
+        fixes: d.fixes.clone(),
+        docs: format!("rules/{}", d.rule),
+        count: merged.then_some(d.count),
+        last_line: merged.then(|| place(d.last.start).0),
+        related: d
+            .related
+            .iter()
+            .map(|(range, message)| {
+                let (line, column) = place(range.start);
+                Related {
+                    line,
+                    column,
+                    message: message.clone(),
+                }
+            })
+            .collect(),
+        also: d.also.iter().map(|led| item(loaded, lines, led)).collect(),
+    }
+}
+
 /// One file.
 pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome, scope): (Verdict, Scope)) -> File {
-    let place = |offset| lines.line_column(loaded.program.source(), offset);
-    let item = |d: &trunnion_check::Diagnostic| {
-        let (line, column) = place(d.range.start);
-        let (end_line, end_column) = place(d.range.end);
-        let merged = d.count > 1;
-        Item {
-            rule: d.rule,
-            severity: short::severity(d.severity),
-            line,
-            column,
-            end_line,
-            end_column,
-            byte_start: d.range.start,
-            byte_end: d.range.end,
-            block: d.block.clone(),
-            message: d.message.clone(),
-            notes: d.notes.clone(),
-            help: d.help.clone(),
-            values: Values(d.values.clone()),
-            status: if d.status == Status::Fail { "fail" } else { "unknown" },
-            fixes: d.fixes.clone(),
-            docs: format!("rules/{}", d.rule),
-            count: merged.then_some(d.count),
-            last_line: merged.then(|| place(d.last.start).0),
-            related: d
-                .related
-                .iter()
-                .map(|(range, message)| {
-                    let (line, column) = place(range.start);
-                    Related {
-                        line,
-                        column,
-                        message: message.clone(),
-                    }
-                })
-                .collect(),
-        }
-    };
     File {
         path: loaded.name.clone(),
         dialect: loaded.dialect_name().map(str::to_owned),
@@ -210,7 +216,7 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome
         cycle_time_s: report.cycle_time_s.map(|t| t.map(tidy)),
         coverage: Coverage::of(loaded, lines, report),
         assumptions: report.assumptions.clone(),
-        diagnostics: report.diagnostics.iter().map(item).collect(),
+        diagnostics: report.diagnostics.iter().map(|d| item(loaded, lines, d)).collect(),
     }
 }
 

@@ -10,9 +10,13 @@ use miette::{
     SourceSpan, SpanContents,
 };
 use std::fmt::{self, Write};
-use trunnion_check::{Report, Scope, Severity, Verdict};
+use trunnion_check::{Report, Scope, Severity, Status, Verdict};
 use trunnion_syntax::{LineIndex, TextRange};
 
+/// Columns of the report.
+const WIDTH: usize = 110;
+/// Up to so many findings that are more than infos are shown with their lines of program; more would not fit on a screen.
+const EXCERPTS: usize = 3;
 /// Lines of program shown before and after the finding.
 const CONTEXT: usize = 1;
 /// Lines longer than this are cut around the finding, bytes.
@@ -26,12 +30,18 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
         GraphicalTheme::unicode_nocolor()
     };
     let handler = GraphicalReportHandler::new_themed(theme)
-        .with_width(110)
+        .with_width(WIDTH)
         .with_context_lines(CONTEXT)
         .with_links(false);
     let worst = short::worst(report, limit);
     let mut out = String::new();
+    let is_info = |d: &trunnion_check::Diagnostic| d.status == Status::Fail && d.severity == Severity::Info;
+    let with_excerpt = worst.iter().filter(|d| !is_info(d)).count() <= EXCERPTS;
     for &d in &worst {
+        if is_info(d) || !with_excerpt {
+            compact(&mut out, loaded, lines, d, color);
+            continue;
+        }
         let excerpt = Excerpt::new(loaded, lines, d.range);
         let repeats = short::repeats(loaded, lines, d);
         let finding = Finding { d, excerpt, repeats };
@@ -43,6 +53,54 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
     }
     out.push_str(&shown(&short::rest(report, worst.len(), &loaded.name)));
     out
+}
+
+/// A finding without its lines of program: an info, or one of many.
+fn compact(out: &mut String, loaded: &Loaded, lines: &LineIndex, d: &trunnion_check::Diagnostic, color: bool) {
+    let (line, column) = lines.line_column(loaded.program.source(), d.range.start);
+    let head = format!("{}[{}]", short::weight(d), d.rule);
+    let place = format!("{}:{line}:{column}:", shown(&loaded.name));
+    let message = format!("{place} {}{}", shown(&d.message), short::repeats(loaded, lines, d));
+    let code = match (d.status, d.severity) {
+        (Status::Fail, Severity::Error) => "31",
+        (Status::Fail, Severity::Warning) => "33",
+        _ => "36",
+    };
+    let styled = if color {
+        format!("\u{1b}[1;{code}m{head}\u{1b}[0m")
+    } else {
+        head.clone()
+    };
+    let mut rows = wrapped(&format!("{head} {message}"), "  ").into_iter();
+    let first = rows.next().unwrap_or_default();
+    // writing into a String cannot fail
+    let _ = writeln!(out, "{styled}{}", &first[head.len().min(first.len())..]);
+    let more = d.notes.iter().chain(&d.help).map(|text| shown(text));
+    for row in rows.chain(more.flat_map(|text| wrapped(&format!("  {text}"), "    "))) {
+        let _ = writeln!(out, "{row}");
+    }
+    out.push('\n');
+}
+
+/// A text in rows of the width of the report; all but the first begin with `indent`.
+fn wrapped(text: &str, indent: &str) -> Vec<String> {
+    let mut rows = vec![String::new()];
+    let lead = text.len() - text.trim_start().len();
+    rows[0].push_str(&text[..lead]);
+    let mut begins = true;
+    for word in text.split_whitespace() {
+        let last = rows.len() - 1;
+        if !begins && rows[last].chars().count() + 1 + word.chars().count() > WIDTH {
+            rows.push(format!("{indent}{word}"));
+            continue;
+        }
+        if !begins {
+            rows[last].push(' ');
+        }
+        rows[last].push_str(word);
+        begins = false;
+    }
+    rows
 }
 
 /// The last line of the pretty form: verdict and counts.

@@ -59,6 +59,8 @@ pub struct Quirks {
     pub dwell_then_moves: bool,
     /// A rapid runs on a straight line; else each axis may move at its own speed.
     pub straight_rapids: bool,
+    /// A drilling cycle may leave out R: where its feed starts then is not known here.
+    pub cycle_level_optional: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
     pub machine_data_suppress_length: bool,

@@ -30,6 +30,7 @@ pub(crate) struct QuirksRow {
     cutter_offset_ambiguous: Option<bool>,
     dwell_then_moves: Option<bool>,
     straight_rapids: Option<bool>,
+    cycle_level_optional: Option<bool>,
 }
 
 impl QuirksRow {
@@ -58,6 +59,7 @@ impl QuirksRow {
             cutter_offset_ambiguous: self.cutter_offset_ambiguous.unwrap_or(base.cutter_offset_ambiguous),
             dwell_then_moves: self.dwell_then_moves.unwrap_or(base.dwell_then_moves),
             straight_rapids: self.straight_rapids.unwrap_or(base.straight_rapids),
+            cycle_level_optional: self.cycle_level_optional.unwrap_or(base.cycle_level_optional),
             machine_data_suppress_length: self
                 .machine_data_suppress_length
                 .unwrap_or(base.machine_data_suppress_length),

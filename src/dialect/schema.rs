@@ -126,7 +126,7 @@ pub(crate) struct CodeRow {
 /// Loads a table; `extends` may name a built-in dialect.
 pub fn load(toml: &str) -> Result<Dialect, DialectError> {
     let table: Table = toml::from_str(toml).map_err(|error| DialectError {
-        message: error.message().to_owned(),
+        message: crate::plain_toml(toml, error.message(), error.span()),
         span: error.span(),
     })?;
     assemble(table)

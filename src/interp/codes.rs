@@ -152,7 +152,7 @@ impl<'d> Iso<'d> {
             Action::ConstantSpindleSpeed => state.spindle.set_surface_speed(false),
             Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.switch(true),
             Action::SpindleStop => state.spindle.switch(false),
-            Action::ToolChange => self.change_tool(report),
+            Action::ToolChange => self.change_tool(words, report),
             Action::MachineCoordinates => block.machine_coordinates = true,
             Action::OrientationAxes => state.tool_axis.set_great_circle(false),
             Action::OrientationVector => state.tool_axis.set_great_circle(true),

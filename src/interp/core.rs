@@ -88,11 +88,7 @@ impl Report<'_> {
 impl<'d> Core<'d> {
     /// At the start of a program.
     pub(crate) fn new(dialect: &'d Dialect, setup: &Setup) -> Self {
-        let mut state = crate::start::at_start(dialect);
-        if let Some(unit) = setup.control.units {
-            let mm = unit.mm();
-            state.units(mm, mm);
-        }
+        let mut state = crate::start::power_on_state(dialect, &setup.control);
         let standing = crate::standing::Standing::new(dialect, setup);
         standing.hold(&mut state.position);
         Self {

@@ -75,6 +75,9 @@ impl Iso<'_> {
             let feed = self.feed_of(kind, words, report);
             self.turning_feed(kind, feed, words, [&start, &end])
         };
+        if block.machine_coordinates && self.core.state.tool_axis.tcp() {
+            self.machine_words_under_tcp(words, &mut kind, &mut end, report);
+        }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
             motion.in_machine_coordinates();
@@ -96,6 +99,26 @@ impl Iso<'_> {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
+    }
+
+    /// Linear machine coordinates under tool centre point control: G53 of a Fanuc may be refused there; SUPA of a Sinumerik suppresses frames,
+    /// and its transformation stays, so that its words are no joints. Where the axes go is unknown.
+    fn machine_words_under_tcp(
+        &mut self,
+        words: &Words,
+        kind: &mut MotionKind,
+        end: &mut Position,
+        report: &mut Report<'_>,
+    ) {
+        if (words.axes.given | words.axes.unread) & LINEAR == 0 {
+            return;
+        }
+        *kind = MotionKind::Unknown;
+        self.core.state.position.known &= !words.axes.given;
+        self.core.forget_linear();
+        end.known &= self.core.state.position.known;
+        let what = "machine coordinates under tool centre point control: where the axes go".to_owned();
+        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
     }
 
     /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along the tool at home, its length. Under tool

@@ -50,6 +50,7 @@ mod written;
 pub use directive::{Directive, directives};
 pub use effects::Situation;
 pub use run::{Interpreter, run};
+pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
     FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library, Limits, Loaded,

@@ -39,6 +39,11 @@ impl Standing {
         self.absent | self.unnamed
     }
 
+    /// Only those that the machine lacks.
+    pub(crate) fn absent(self) -> Self {
+        Self { unnamed: 0, ..self }
+    }
+
     /// Puts them at 0.
     #[inline]
     pub(crate) fn hold(self, position: &mut Position) {

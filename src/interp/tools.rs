@@ -178,13 +178,18 @@ impl Iso<'_> {
         });
         self.core.tools.prepare(chosen);
         if self.core.dialect.quirks.tool_word.changes() {
-            self.change_tool(report);
+            self.change_tool(words, report);
         }
     }
 
     /// Puts the chosen tool into the spindle. The change may move the machine, so X Y Z are not known after it; rotary axes stay.
-    pub(crate) fn change_tool(&mut self, report: &mut Report<'_>) {
-        self.core.forget_linear();
+    pub(crate) fn change_tool(&mut self, words: &Words, report: &mut Report<'_>) {
+        // where the block moves too, the order of both is not known
+        let declared = self.core.setup.control.tool_change;
+        match declared.filter(|_| !words.axes.any() && !self.core.state.tool_axis.tcp()) {
+            Some(place) => self.stands_at(&place),
+            None => self.core.forget_linear(),
+        }
         self.tcp_at_tool_change(report);
         if !self.core.tools.load_prepared() {
             return;

@@ -151,17 +151,16 @@ fn no_new_errors(rewrite: &Rewrite, program: &Program, after: &[u8], settings: &
     let was = check(program, settings);
     let is = check(&parse(after.to_vec(), program.options()), settings);
     let is_error =
-        |d: &Diagnostic, rule: &str| d.rule == rule && d.severity == Severity::Error && d.status == Status::Fail;
+        |d: &Diagnostic, rule: &str| d.rule == rule && d.own_severity() == Severity::Error && d.status == Status::Fail;
     let errors = |report: &Report, rule: &str| -> u64 {
         report
-            .diagnostics
-            .iter()
+            .findings()
             .filter(|d| is_error(d, rule))
             .map(|d| u64::from(d.count))
             .sum()
     };
     let more = |d: &&Diagnostic| !rewrite.cures.contains(&d.rule) && errors(&is, d.rule) > errors(&was, d.rule);
-    match is.diagnostics.iter().find(more) {
+    match is.findings().find(more) {
         Some(d) => Err(format!("it would cause an error: {} ({})", d.message, d.rule)),
         None => Ok(()),
     }

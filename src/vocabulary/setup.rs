@@ -183,6 +183,11 @@ pub struct ControlData {
     pub length_along: Option<[f64; 3]>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
     pub reference_points: Vec<crate::Position>,
+    /// Where the axes are after a tool change (M6), in machine coordinates, mm and degrees; those without a value stay where they are.
+    /// `None`: not declared, X Y Z are unknown after it.
+    pub tool_change: Option<crate::Position>,
+    /// G codes in effect at power-on, as the machine declares them: `G17`. Of other groups the dialect says it, as where there are none.
+    pub power_on: Option<Vec<String>>,
 }
 
 /// What a program is run with.

@@ -170,6 +170,9 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }
+    if control.power_on.is_none() {
+        control.power_on.clone_from(&of.power_on);
+    }
 }
 
 /// Where programs that this one calls are searched: its own folder, then those of the settings, relative to the settings' file.

@@ -57,7 +57,7 @@ fn found(text: &str, name: &str, machine: &Machine) -> Vec<Diagnostic> {
     let program = parse(text.as_bytes().to_vec(), dialect.lex);
     let mut settings = Settings::new(dialect, Some(machine), Setup::default());
     settings.assume = Assume::ALL;
-    check(&program, &settings).diagnostics
+    check(&program, &settings).findings().cloned().collect()
 }
 
 fn of<'d>(rule: &'d str, found: &'d [Diagnostic]) -> impl Iterator<Item = &'d Diagnostic> {

@@ -347,3 +347,36 @@ fn a_finding_of_a_loop_says_how_often_and_an_endless_one_how_long() {
     );
     client.finish();
 }
+
+/// A letter O for a zero and a misspelt name: the editor offers the word that was meant, for the finding at its place.
+#[test]
+fn the_word_that_was_meant_is_offered() {
+    let mut client = Client::start(&json!({}));
+    for (uri, text, wrong, meant) in [
+        ("untitled:/o.ngc", "G21 G0 X5O. Y0\nM2\n", "X5O.", "X50."),
+        ("untitled:/go.nc", "GO X0 Y0\nM30\n", "GO", "G0"),
+        (
+            "untitled:/name.mpf",
+            "G71 G17\nTRAORY\nG0 X1\nTRAFOOF\nM30\n",
+            "TRAORY",
+            "TRAORI",
+        ),
+    ] {
+        client.open(uri, text);
+        let diagnostics = client.diagnostics(uri, 1);
+        let own = diagnostics
+            .iter()
+            .find(|d| lsp_client::text_of(text, &d["range"]) == wrong);
+        let own = own.unwrap_or_else(|| panic!("{wrong}: {diagnostics:?}"));
+        let ask = json!({ "textDocument": { "uri": uri }, "range": own["range"], "context": { "diagnostics": [own] } });
+        let answer = client.request("textDocument/codeAction", ask);
+        let actions = answer["result"].as_array().expect("a list");
+        let title = format!("write {meant}");
+        let action = actions.iter().find(|action| action["title"] == title.as_str());
+        let action = action.unwrap_or_else(|| panic!("{wrong}: {actions:?}"));
+        let edit = &action["edit"]["changes"][uri][0];
+        assert_eq!((&edit["newText"], &edit["range"]), (&json!(meant), &own["range"]));
+        assert_eq!(action["diagnostics"][0]["range"], own["range"]);
+    }
+    client.finish();
+}

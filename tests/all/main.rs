@@ -17,6 +17,7 @@ mod lsp_malformed;
 mod mutated_formats;
 mod mutated_programs;
 mod mutations;
+mod once_wrong;
 mod random;
 mod real_files;
 mod rewrites;

@@ -43,7 +43,7 @@ fn examples_hold(rule: &Rule) -> Result<(), String> {
     }
     for (info, text) in fences(rule.docs, "Use instead") {
         let report = Fixture::parse(&info, &text).check()?;
-        if let Some(found) = report.diagnostics.iter().find(|found| found.rule == rule.name) {
+        if let Some(found) = report.findings().find(|found| found.rule == rule.name) {
             return Err(format!("its cure is reported: {}", found.message));
         }
     }

@@ -1,4 +1,5 @@
 //! The sample programs are what samples/README.md says of them.
+use crate::cli::tools::all_findings;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -30,8 +31,9 @@ fn check(program: &Path, machine: Option<&str>) -> (String, Found, Value) {
     let json: Value =
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}: {text}", program.display()));
     let file = json["files"][0].clone();
-    let found = file["diagnostics"].as_array().expect("a list").iter();
+    let found = all_findings(&file);
     let found = found
+        .into_iter()
         .map(|one| {
             (
                 one["line"].as_u64().expect("a number"),
@@ -115,11 +117,11 @@ fn guide_vanes_flip_where_the_paper_prints_it() {
             .find(|path| path.ends_with(name))
             .expect("there");
         let (_, _, file) = check(&program, Some("mikron-ucp710"));
-        let all = file["diagnostics"].as_array().expect("a list");
+        let all = all_findings(&file);
         let of = |rule: &str| {
             all.iter()
                 .filter(|one| one["rule"] == rule)
-                .cloned()
+                .map(|one| (*one).clone())
                 .collect::<Vec<Value>>()
         };
         let blocks: Vec<String> = of("pole-flip")

@@ -84,7 +84,8 @@ class Told:
     """The findings of a report by rule and line."""
 
     def __init__(self, report, rows):
-        self.diagnostics = report["diagnostics"]
+        # a finding carries those that follow from it
+        self.diagnostics = [one for lead in report["diagnostics"] for one in [lead, *lead.get("also", [])]]
         lines = [row["line"] for row in rows]
         self.repeated = {int(line) for line in lines if lines.count(line) > 1}
 

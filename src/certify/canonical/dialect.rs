@@ -65,6 +65,7 @@ impl Encode for Quirks {
             delete_rest,
             dwell_then_moves,
             straight_rapids,
+            cycle_level_optional,
             machine_data_suppress_length,
         } = self;
         let has = |wanted: Language| *language == wanted;
@@ -97,7 +98,8 @@ impl Encode for Quirks {
                 .field(25, &has(Language::MacroB))
                 .field(26, machine_data_suppress_length)
                 .field(27, &(*macros == Macros::Fanuc).then_some(true))
-                .field(28, &straight_rapids.then_some(true));
+                .field(28, &straight_rapids.then_some(true))
+                .field(29, &cycle_level_optional.then_some(true));
         });
     }
 }

@@ -75,6 +75,7 @@ pub(super) struct FileControl {
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
+    power_on: Option<Vec<Spanned<String>>>,
 }
 
 impl FileControl {
@@ -124,6 +125,12 @@ impl FileControl {
             has_rotary: false,
             length_along: None,
             reference_points,
+            tool_change: None,
+            power_on: self
+                .power_on
+                .as_ref()
+                .map(|codes| codes.iter().map(g_code).collect())
+                .transpose()?,
         })
     }
 }
@@ -167,6 +174,19 @@ fn bore_shift(way: &Spanned<String>) -> Result<(usize, f64), ConfigError> {
     Err(at(way, message))
 }
 
+/// `G17`.
+fn g_code(code: &Spanned<String>) -> Result<String, ConfigError> {
+    let number = code.get_ref().strip_prefix('G').unwrap_or_default();
+    if !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') {
+        return Ok(code.get_ref().clone());
+    }
+    let message = format!(
+        "{:?} is not a G code: write G and its number, for example `power_on = [\"G17\", \"G90\"]`",
+        code.get_ref()
+    );
+    Err(at(code, message))
+}
+
 fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position, ConfigError> {
     let mut position = Position::default();
     for (letter, value) in point {
@@ -181,10 +201,7 @@ fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position,
             ));
         };
         if !value.get_ref().is_finite() {
-            return Err(at(
-                value,
-                "a reference point must be a number in mm or degrees: `X = 0.0`",
-            ));
+            return Err(at(value, "a place must be a number in mm or degrees: `X = 0.0`"));
         }
         position.set(usize::from(axis.0), *value.get_ref());
     }

@@ -67,7 +67,7 @@ struct FileTool {
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     let file: File = toml::from_str(text).map_err(|error| ConfigError {
-        message: super::plain::plain(text, error.message(), error.span()),
+        message: trunnion_dialect::plain_toml(text, error.message(), error.span()),
         span: error.span(),
     })?;
     let mut config = Config {

@@ -36,7 +36,7 @@
 //! * Guide-vane paper (2006), on posture swaps at an axis limit.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::PostureSwap(check)]);
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::PostureSwap(check)]).causes_pole_event(1);
 
 fn check(swap: &facts::PostureSwap<'_>, out: &mut Reporter<'_>) {
     let [first, second] = swap.rotary_letters();
@@ -93,13 +93,13 @@ mod tests {
         let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", text)
             .check()
             .unwrap();
-        let found = report.diagnostics.iter().find(|d| d.rule == "branch-swap").unwrap();
+        let found = report.findings().find(|d| d.rule == "branch-swap").unwrap();
         assert_eq!(
             found.notes[1],
             "the previous posture would need A = -40 deg, beyond its limit of -30 deg"
         );
         assert!(!found.help.as_deref().unwrap().contains("previous posture"));
-        let flip = report.diagnostics.iter().find(|d| d.rule == "pole-flip").unwrap();
+        let flip = report.findings().find(|d| d.rule == "pole-flip").unwrap();
         assert!(flip.fixes.is_empty() && !flip.help.as_deref().unwrap().contains("smooth-pole"));
     }
 
@@ -116,7 +116,7 @@ mod tests {
             .check()
             .unwrap();
         let own = |d: &crate::Diagnostic| d.rule == "branch-swap";
-        report.diagnostics.into_iter().filter(own).collect()
+        report.findings().filter(|found| own(found)).cloned().collect()
     }
 
     /// The guide-vane paper, section 2: where A reaches its limit the other posture is taken and C turns by 180 deg.

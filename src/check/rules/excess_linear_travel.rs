@@ -38,7 +38,7 @@
 use crate::prelude::*;
 use trunnion_machine::excursions;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::FarCut(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::FarCut(check)]).follows_pole_event();
 
 /// Key for merging what is not proven.
 const BETWEEN: u64 = 1;
@@ -127,7 +127,7 @@ mod tests {
         for (x, count) in [(21.2, 1), (21.5, 0)] {
             let fixture = Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text(x));
             let report = fixture.check().unwrap();
-            let own = report.diagnostics.iter().filter(|d| d.rule == "excess-linear-travel");
+            let own = report.findings().filter(|d| d.rule == "excess-linear-travel");
             assert_eq!(own.count(), count, "X{x}: {:?}", report.diagnostics);
         }
     }
@@ -140,7 +140,7 @@ mod tests {
             let text = format!("G0 X0 Y-100 Z50 A0 C0\n{shift}G1 X{x} Y0 C90 F50\nM30\n");
             let fixture = Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
             let report = fixture.check().unwrap();
-            let own = report.diagnostics.iter().find(|d| d.rule == "excess-linear-travel");
+            let own = report.findings().find(|d| d.rule == "excess-linear-travel");
             let said = own.map(|own| own.message.as_str());
             assert_eq!(
                 said,

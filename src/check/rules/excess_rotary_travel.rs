@@ -54,7 +54,7 @@
 use crate::prelude::*;
 use trunnion_geometry::rad;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::WindingCut(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::WindingCut(check)]).follows_pole_event();
 
 fn check(cut: &facts::WindingCut<'_>, out: &mut Reporter<'_>) {
     const LEAST_DEG: f64 = facts::WindingCut::LEAST_DEG;

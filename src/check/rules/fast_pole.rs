@@ -37,7 +37,7 @@
 //! * docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::PolePass(check)]);
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::PolePass(check)]).nears_pole_event();
 
 fn check(pass: &facts::PolePass<'_>, out: &mut Reporter<'_>) {
     if pass.feed_is_ambiguous() {

@@ -34,7 +34,7 @@
 //! * docs/kinematics.md#axis-speed-and-feed
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]).follows_pole_event();
 
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;

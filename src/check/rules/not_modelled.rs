@@ -39,9 +39,14 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         return;
     }
     if let FaultKind::NotModelled { what } = &fault.kind {
-        let near =
-            nearest_code(what, out.dialect()).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        out.report(fault.range, format!("not modelled: {}{near}", short(what)))
+        let near = nearest_code(what, out.dialect());
+        let hint = near
+            .as_ref()
+            .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        // an editor can only replace what the place holds
+        let meant = near.filter(|_| out.text(fault.range) == *what);
+        out.report(fault.range, format!("not modelled: {}{hint}", short(what)))
+            .replace_with_some(meant)
             .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
             .unknown()
             .merge(Merge::once(hash(what)));

@@ -41,7 +41,7 @@
 use crate::prelude::*;
 use trunnion_machine::orientation_deviation;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]).follows_pole_event();
 
 /// Keys for merging: a deviation, one that is not proven, a control that is unknown, ends that are opposite.
 const FOUND: u64 = 1;

@@ -100,11 +100,7 @@ mod tests {
             let config = crate::Config::parse(&format!("[tolerances]\ntip = {tolerance}\n")).expect("valid");
             let machine = config.machine_with_tolerances(machine);
             let report = check_on(&machine, "linuxcnc", text);
-            report
-                .diagnostics
-                .iter()
-                .find(|d| d.rule == "path-deviation")
-                .map(|d| d.status)
+            report.findings().find(|d| d.rule == "path-deviation").map(|d| d.status)
         };
         assert_eq!(status(29.3), Some(crate::Status::Fail));
         assert_eq!(status(29.304_262), Some(crate::Status::Unknown));

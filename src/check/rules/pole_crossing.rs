@@ -32,7 +32,7 @@
 //! * docs/kinematics.md#change-of-posture
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Info, &[Wake::PoleCrossing(check)]);
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::PoleCrossing(check)]).follows_pole_event();
 
 fn check(crossing: &facts::PoleCrossing<'_>, out: &mut Reporter<'_>) {
     let leg = crossing.leg;

@@ -40,7 +40,7 @@ use crate::prelude::*;
 use trunnion_geometry::rad;
 use trunnion_machine::feed_limit_tight;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::NearPole(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::NearPole(check)]).causes_pole_event(2);
 
 fn check(cut: &facts::NearPole<'_>, out: &mut Reporter<'_>) {
     let turn = cut.leg.rotary_change[0];

@@ -43,7 +43,7 @@
 use crate::prelude::*;
 use trunnion_machine::{Deviation, swept_deviation};
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]).follows_pole_event();
 
 /// No tool is longer, mm.
 const LONGEST_MM: f64 = 1000.0;

@@ -23,6 +23,8 @@ fn finding(at: u32, message: &str) -> Diagnostic {
         related: Vec::new(),
         count: 1,
         last: range,
+        also: Vec::new(),
+        own_severity: None,
         origin: crate::diagnostic::Origin::default(),
     }
 }

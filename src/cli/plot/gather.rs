@@ -39,7 +39,7 @@ pub(crate) fn marks(loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
     let index = LineIndex::new(loaded.program.source());
     let line = |at: u32| index.line_column(loaded.program.source(), at).0;
     let mut spans = BTreeMap::<&str, Vec<(u32, u32)>>::new();
-    for found in &report.diagnostics {
+    for found in report.findings() {
         if found.status == Status::Fail && SHOWN.contains(&found.rule) {
             let (from, to) = (line(found.range.start), line(found.last.start));
             spans.entry(found.rule).or_default().push((from, to.max(from)));

@@ -48,22 +48,22 @@ fn the_table_in_the_readme_loads() {
 
 #[test]
 fn unknown_keys_and_values() {
-    refused_with("colour = \"red\"\n", "unknown field `colour`", "colour");
+    refused_with("colour = \"red\"\n", "unknown key `colour`", "colour");
     refused_with(
         "[codes]\nG0 = { action = \"rapid\", doc = \"x\", sorce = \"y\" }\n",
-        "unknown field `sorce`",
+        "unknown key `sorce`",
         "sorce",
     );
     refused_with(
         "[codes]\nG0 = { action = \"rapidly\", doc = \"x\" }\n",
-        "unknown variant `rapidly`",
+        "unknown value `rapidly`",
         "rapidly",
     );
-    refused_with("[roles]\nX = \"axle\"\n", "unknown variant `axle`", "axle");
-    refused_with("[quirks]\nodd = true\n", "unknown field `odd`", "odd");
+    refused_with("[roles]\nX = \"axle\"\n", "unknown value `axle`", "axle");
+    refused_with("[quirks]\nodd = true\n", "unknown key `odd`", "odd");
     refused_with(
         "[quirks]\narc-tolerance-relative = 0.5\n",
-        "unknown field",
+        "unknown key",
         "arc-tolerance-relative",
     );
     refused_with("[lex]\nformat = \"iso\"\n", "missing field", "");
@@ -241,7 +241,7 @@ fn a_broken_shop_table_is_told_with_line_and_column() {
     let error = crate::Dialect::from_table(text, "shop.toml").unwrap_err();
     assert_eq!((error.line, error.column), (Some(4), Some(9)));
     assert!(
-        error.to_string().starts_with("shop.toml:4:9: unknown field `akction`"),
+        error.to_string().starts_with("shop.toml:4:9: unknown key `akction`"),
         "{error}"
     );
     let axis = "name = \"shop\"\nextends = \"fanuc-30i\"\n[roles]\nE = \"axis\"\n";

@@ -104,6 +104,11 @@ impl Iso<'_> {
             (_, Stored::Nothing) => Some("the depth of the hole"),
             _ => None,
         };
+        if matches!(hole.r, Stored::Nothing) && self.core.dialect.quirks.cycle_level_optional {
+            let what = format!("{} without R: the level where its feed starts", self.memory.cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            return None;
+        }
         if let Some(missing) = missing {
             let message = format!(
                 "{} without {missing}: program it in the block of the cycle",

@@ -124,6 +124,19 @@ impl Iso<'_> {
         self.memory.out.push(motion);
     }
 
+    /// The axes that have a value are at that place in machine coordinates; the others stay. How they went there is no motion of the program.
+    pub(crate) fn stands_at(&mut self, place: &Position) {
+        let mut position = self.core.state.position;
+        self.to_machine(&mut position, 1.0);
+        for axis in 0..9 {
+            if let Some(value) = place.get(axis) {
+                position.set(axis, value);
+            }
+        }
+        self.to_machine(&mut position, -1.0);
+        self.core.state.position = position;
+    }
+
     /// A motion to a position that is given as words give it; it is emitted with the others of the block.
     pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
         self.cycle_motions += 1;

@@ -93,9 +93,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.machine_frame(state.machine_frame, at);
         }
         let block = self.block(at);
-        let start = shift.programmed(&self.calls.machine);
+        let mut start = shift.programmed(&self.calls.machine);
         let [mut end, mut machine] = ends;
         let mut kind = kind;
+        // an axis that the machine lacks does not move
+        let standing = self.core.standing.absent();
+        standing.hold(&mut start);
+        standing.hold(&mut end);
+        standing.hold(&mut machine);
         if self.core.state.tool_axis.tcp() && state.machine_frame {
             self.frame_unknown(at);
             kind = MotionKind::Unknown;

@@ -4,6 +4,7 @@ use crate::file::text::number;
 use crate::file::validate::{Fault, finite, non_negative, positive};
 use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
+use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 
@@ -67,6 +68,8 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
         thread_least_cut_mm: non_negative("thread_least_cut", raw.thread_least_cut.as_ref())?,
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
+        tool_change: tool_change(raw, axes)?,
+        power_on: raw.power_on.as_deref().map(power_on).transpose()?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
@@ -165,7 +168,9 @@ fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<Stri
     if known.contains(&word.get_ref().as_str()) {
         return Ok(Some(word.get_ref().clone()));
     }
-    let message = format!("unknown {name} {:?}; known: {}", word.get_ref(), known.join(", "));
+    let known_list = known.join(", ");
+    let hint = trunnion_dialect::did_you_mean(word.get_ref(), known, "");
+    let message = format!("unknown {name} {:?}; known: {known_list}{hint}", word.get_ref());
     Err(Fault {
         message,
         span: word.span(),
@@ -177,17 +182,51 @@ fn reference_points(raw: &RawControl, axes: &[Axis]) -> Result<Option<Vec<Positi
     let Some(points) = &raw.reference_points else {
         return Ok(None);
     };
-    let mut out = vec![Position::default(); points.len()];
-    for (point, position) in points.iter().zip(&mut out) {
-        for (letter, value) in point {
-            known_axis(letter, axes)?;
-            let axis = letter.get_ref().bytes().next().and_then(AxisLetter::new);
-            if let Some(axis) = axis {
-                position.set(usize::from(axis.0), finite("reference_points", value)?);
-            }
+    let points = points.iter().map(|point| position("reference_points", point, axes));
+    points.collect::<Result<_, _>>().map(Some)
+}
+
+/// Where a tool change leaves the axes that it moves.
+fn tool_change(raw: &RawControl, axes: &[Axis]) -> Result<Option<Position>, Fault> {
+    let place = raw.tool_change.as_ref();
+    place.map(|place| position("tool_change", place, axes)).transpose()
+}
+
+/// A place in machine coordinates, by letters of axes.
+fn position(key: &str, place: &BTreeMap<Word, Number>, axes: &[Axis]) -> Result<Position, Fault> {
+    let mut out = Position::default();
+    for (letter, value) in place {
+        known_axis(letter, axes)?;
+        let axis = letter.get_ref().bytes().next().and_then(AxisLetter::new);
+        if let Some(axis) = axis {
+            out.set(usize::from(axis.0), finite(key, value)?);
         }
     }
-    Ok(Some(out))
+    Ok(out)
+}
+
+/// G codes in effect at power-on: which of them a control knows is a matter of its dialect.
+fn power_on(words: &[Word]) -> Result<Vec<String>, Fault> {
+    for word in words {
+        if !is_g_code(word.get_ref()) {
+            let message = format!(
+                "{:?} is not a G code: write G and its number, for example \"G17\"",
+                word.get_ref()
+            );
+            return Err(Fault {
+                message,
+                span: word.span(),
+            });
+        }
+    }
+    Ok(words.iter().map(|word| word.get_ref().clone()).collect())
+}
+
+/// `G17`, `G5.1`.
+fn is_g_code(code: &str) -> bool {
+    code.strip_prefix('G').is_some_and(|number| {
+        number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') && number.parse::<f64>().is_ok()
+    })
 }
 
 fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {

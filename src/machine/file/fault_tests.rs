@@ -4,7 +4,7 @@ use crate::load;
 /// One fault per line: where the text goes, the text, what the error must point at, a part of its message. `axes`: the list of
 /// axes, `XYZ` being three sound linear ones; `head` and `tail`: lines before and after a sound list; `;;` is a new line.
 const FAULTS: &str = r#"
-head | nmae = "x" | nmae | unknown field `nmae`
+head | nmae = "x" | nmae | unknown key `nmae`
 head | units = { length = "inch" } | "inch" | write "mm"
 head | units = { angle = "rad" } | "rad" | write "deg"
 head | units = { time = "min" } | "min" | write "s"
@@ -15,7 +15,7 @@ head | spindle = { gauge_point = [0, 0] } | [0, 0] | length 2
 axes | {letter="Q", sign=1} | "Q" | not an axis letter
 axes | {letter="XY"} | "XY" | not an axis letter
 axes | {letter="C", sign=1} | "C" | side =
-axes | {letter="X", sign=1,side="tail"} | "tail" | unknown variant
+axes | {letter="X", sign=1,side="tail"} | "tail" | unknown value
 axes | {letter="X", sign=1,dir=[1,1,0]} | [1,1,0] | [0.707106781, 0.707106781, 0.000000000]
 axes | {letter="X",sign=2} | 2 | sign must be 1
 axes | {letter="X", sign=1,limits=[5,-5]} | [5,-5] | below the upper
@@ -27,8 +27,8 @@ axes | {letter="X", sign=1,resolution=0} | 0 | greater than zero
 axes | {letter="X", sign=1,dyn={vmax=0}} | 0 | greater than zero
 axes | {letter="X", sign=1,dyn={vmax=-1}} | -1 | greater than zero
 axes | {letter="X", sign=1,dyn={vmax=nan}} | nan | a number
-axes | {letter="X", sign=1,dyn={vmax="fast"}} | "fast" | invalid type
-axes | {letter="X", sign=1,dyn={speed=1}} | speed | unknown field
+axes | {letter="X", sign=1,dyn={vmax="fast"}} | "fast" | must be a number
+axes | {letter="X", sign=1,dyn={speed=1}} | speed | unknown key
 axes | {letter="X", sign=1,dyn={kff=1.5}} | 1.5 | must be at most 1
 axes | {letter="A", sign=1,side="head",mode="diameter"} | "diameter" | linear axis
 axes | XYZ,{letter="X", sign=-1} | "X" | listed twice
@@ -63,9 +63,9 @@ tail | [[check]];;words = { A = "shortest" } | "shortest" | "literal" at the axi
 tail | [[check]];;say = "x" | [[check]] | is empty
 tail | [[check]];;axis = [0, 2, 0] | [0, 2, 0] | length 2
 tail | [control];;family = "siemens" | "siemens" | known: generic
-tail | [control];;rapid = "fast" | "fast" | unknown variant
+tail | [control];;rapid = "fast" | "fast" | unknown value
 tail | [control];;tcp = { path = "round" } | "round" | known: tip-linear
-tail | [control];;tcp = { orientation = "round" } | "round" | unknown variant
+tail | [control];;tcp = { orientation = "round" } | "round" | unknown value
 tail | [control];;branch = { order = ["move3"] } | "move3" | known: time, move1
 tail | [control];;branch = { rule = "nearest" } | "nearest" | known: generic
 tail | [control];;branch = { range = { X = [0, 1] } } | X | linear axis
@@ -79,13 +79,19 @@ tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
 tail | [control];;units = "cm" | "cm" | units
 tail | [control];;reference_points = [{ Q = 1 }] | Q | not an axis
 tail | [control];;reference_points = [{ X = inf }] | inf | reference_points
+tail | [control];;tool_change = { Q = 1 } | Q | not an axis
+tail | [control];;power_on = ["M3"] | "M3" | is not a G code
+tail | [control];;power_on = "G17" | "G17" | must be a list
+tail | [control];;peck_clearence = 1 | peck_clearence | did you mean `peck_clearance`?
+tail | [control];;peck_clearance = "1" | "1" | `peck_clearance = 1`
+tail | [control];;family = "fanuc-30" | "fanuc-30" | did you mean `fanuc-30i`?
 tail | [control];;peck_clearance = -1 | -1 | negative
 tail | [control];;tcp_codes = { on = ["428"] } | "428" | is not a code
 tail | [control];;tcp_codes = { on = ["M428"], off = ["M428"] } | "M428" | both on and off
 tail | [control];;planner = { block_time = -1 } | -1 | negative
 tail | [tolerances];;tip = -0.1 | -0.1 | greater than zero
 tail | [tolerances];;feed_drop = 2 | 2 | at most 1
-tail | [tolerances];;tipp = 1 | tipp | unknown field
+tail | [tolerances];;tipp = 1 | tipp | unknown key
 tail | [[body]];;carrier = "Q";;mesh = "a" | "Q" | cannot carry a body
 "#;
 

@@ -1,15 +1,32 @@
 //! Positions of a machine that its control knows, for people.
 use crate::Control;
-use trunnion_interp::{AXIS_LETTERS, RoughingEscape};
+use trunnion_interp::{AXIS_LETTERS, Position, RoughingEscape};
 
 /// Reference points, and the retracts of drilling cycles.
 pub(crate) fn places(control: &Control) -> Vec<String> {
     let mut lines = Vec::new();
-    for (index, point) in control.reference_points.iter().flatten().enumerate() {
+    let place = |point: &Position| {
         let axes = AXIS_LETTERS.iter().enumerate();
         let known = axes.filter_map(|(axis, letter)| Some(format!("{}{}", char::from(*letter), point.get(axis)?)));
-        let place = known.collect::<Vec<_>>().join(" ");
-        lines.push(format!("reference point {} is {place} (mm and deg)", index + 1));
+        known.collect::<Vec<_>>().join(" ")
+    };
+    for (index, point) in control.reference_points.iter().flatten().enumerate() {
+        lines.push(format!(
+            "reference point {} is {} (mm and deg)",
+            index + 1,
+            place(point)
+        ));
+    }
+    if let Some(point) = &control.tool_change {
+        let moves = if point.known == 0 {
+            "moves no axis".to_owned()
+        } else {
+            format!("ends at {} (mm and deg) and moves no other axis", place(point))
+        };
+        lines.push(format!("a tool change (M6) {moves}"));
+    }
+    if let Some(codes) = &control.power_on {
+        lines.push(format!("in effect at power-on: {}", codes.join(" ")));
     }
     let retracts = [
         (

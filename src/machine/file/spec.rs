@@ -39,7 +39,7 @@ impl std::error::Error for MachineError {}
 /// Loads and validates a machine file. `id` is its name for reports (file stem).
 pub fn load(id: &str, toml: &str) -> Result<Machine, MachineError> {
     let raw: RawMachine = toml::from_str(toml).map_err(|error| MachineError {
-        message: error.message().to_owned(),
+        message: trunnion_dialect::plain_toml(toml, error.message(), error.span()),
         span: error.span(),
     })?;
     build(id, &raw).map_err(|fault| MachineError {

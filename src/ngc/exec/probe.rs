@@ -24,12 +24,20 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     engine.state.motion = block.motion;
     engine.emit(Canon::Probe((block.motion - 380) as u8, end), at, sink);
     engine.state.probed = true;
-    let touched = if engine.setup.start == crate::Start::Unknown {
+    let unknown = engine.setup.start == crate::Start::Unknown;
+    let touched = if unknown {
         unknown_along(&engine.state.current, &end)
     } else {
         short_of(&engine.state.told.position, &end, SHORT_MM / engine.state.units.mm())
     };
-    for (axis, value) in end.into_iter().enumerate() {
+    if unknown {
+        // G38.2 and G38.4 stop the program where nothing was found (LinuxCNC documentation, G38.n): after them it was
+        let must_find = matches!(block.motion, 382 | 384);
+        engine.set_parameter(5070, if must_find { 1.0 } else { f64::NAN });
+    }
+    // the listing of rs274 stores the programmed end; on the machine it is where the probe touched
+    let stored = if unknown { touched } else { end };
+    for (axis, value) in stored.into_iter().enumerate() {
         let wrapped = ends::is_wrapped(&engine.state, axis);
         engine.set_parameter(5061 + axis, if wrapped { value.rem_euclid(360.0) } else { value });
     }

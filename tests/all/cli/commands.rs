@@ -42,7 +42,7 @@ fn check_json_is_the_document_of_the_interface() {
     let first = flips[0];
     assert_eq!(
         (first["line"].as_u64(), first["severity"].as_str()),
-        (Some(8), Some("warning"))
+        (Some(8), Some("error"))
     );
     assert!((first["values"]["rotary_change_deg"].as_f64().expect("works") - 47.773).abs() < 1e-6);
     assert_eq!(first["docs"], "rules/pole-flip");
@@ -64,6 +64,79 @@ fn check_json_is_the_document_of_the_interface() {
     assert_eq!(summary["errors"].as_u64(), Some(count("error")));
     assert_eq!(summary["warnings"].as_u64(), Some(count("warning")));
     assert_eq!(summary["files"], 1);
+}
+
+/// What follows from a flip is in the finding of the flip: with its own level in `also`, as a note in words, counted once.
+#[test]
+fn json_lists_what_a_flip_leads() {
+    let folder = TempDir::new().expect("works");
+    let file = write(&folder, "flip.nc", FLIP);
+    let output = trunnion(&[
+        "check",
+        str(&file),
+        "--machine",
+        "mikron-ucp710",
+        "--dialect",
+        "fanuc-30i",
+        "--format",
+        "json",
+    ]);
+    let document = json(&output);
+    let flip = &document["files"][0]["diagnostics"][2];
+    let led: Vec<[&str; 3]> = flip["also"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|led| ["rule", "severity", "status"].map(|key| led[key].as_str().expect("a text")))
+        .collect();
+    insta::assert_debug_snapshot!(
+        "flip_leads",
+        (
+            &flip["rule"],
+            &flip["severity"],
+            &flip["line"],
+            led,
+            &flip["notes"],
+            &document["summary"]
+        )
+    );
+}
+
+/// Errors come first under `--limit`, and the last line counts all findings by the words before them.
+#[test]
+fn a_limit_keeps_the_worst_and_the_counts_are_of_what_is_printed() {
+    let folder = TempDir::new().expect("works");
+    let program = "G21 G17 G90\nG0 X0 Y0 Z5 S10 S20\nM3 S100\nG1 X#500 F100\nG1 Y5 G77.7\nM30\n";
+    let file = write(&folder, "worst.nc", program);
+    let run = |limit: &str| {
+        let output = trunnion(&[
+            "check",
+            str(&file),
+            "--dialect",
+            "fanuc-30i",
+            "--format",
+            "short",
+            "--limit",
+            limit,
+        ]);
+        (text(&output.stdout), text(&output.stderr))
+    };
+    let (all, last) = run("0");
+    let words = ["error", "warning", "info", "unknown"];
+    let count = |word: &str| all.lines().filter(|line| line.contains(&format!(": {word}["))).count();
+    assert!(words.iter().all(|word| count(word) > 0), "{all}");
+    for word in words {
+        let n = count(word);
+        let plural = if n == 1 || word == "unknown" { "" } else { "s" };
+        assert!(last.contains(&format!("{n} {word}{plural}")), "{word}: {last}\n{all}");
+    }
+    let (one, same) = run("1");
+    assert!(
+        one.lines().next().is_some_and(|line| line.contains(": error[")),
+        "{one}"
+    );
+    assert_eq!(one.lines().count(), 2, "{one}");
+    assert_eq!(last, same, "the last line counts all of them");
 }
 
 #[test]

@@ -48,9 +48,15 @@ fn the_place_above_an_excerpt_is_that_of_the_finding() {
     let places = short
         .lines()
         .filter_map(|line| line.split_once(": ").map(|(place, _)| place));
-    let shown = pretty
-        .lines()
-        .filter_map(|line| line.split_once("\u{256d}\u{2500}[")?.1.strip_suffix(']'));
+    // above an excerpt, or before the message of a finding that has none
+    let shown = pretty.lines().filter_map(|line| {
+        let excerpt = || line.split_once("\u{256d}\u{2500}[")?.1.strip_suffix(']');
+        let compact = || {
+            let (head, rest) = line.split_once("] ")?;
+            (!head.starts_with(' ') && head.contains('[')).then(|| rest.split_once(": "))?
+        };
+        excerpt().or_else(|| compact().map(|(place, _)| place))
+    });
     assert_eq!(places.collect::<Vec<_>>(), shown.collect::<Vec<_>>(), "{pretty}");
 }
 

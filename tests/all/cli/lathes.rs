@@ -120,3 +120,22 @@ fn a_program_in_two_dimensions_has_a_length_and_a_time() {
     let coverage = &check["files"][0]["coverage"];
     assert_eq!(coverage["motions"], coverage["motions_known"], "{coverage}");
 }
+
+/// LinuxCNC on a lathe: Y does not exist, so the tip is known without a word that names it.
+#[test]
+fn a_linuxcnc_lathe_has_a_path_too() {
+    let folder = folder(DECLARED, PLAIN);
+    write(
+        &folder,
+        "a.ngc",
+        "G21 G18 G90 G7 G94\nM3 S100\nG0 X44 Z2\nG1 Z-10 F100\nX50\nM2\n",
+    );
+    let output = trunnion_in(folder.path(), &["trace", "a.ngc"]);
+    let csv = text(&output.stdout);
+    let tips: Vec<String> = csv
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').skip(4).take(3).collect::<Vec<_>>().join(" "))
+        .collect();
+    assert_eq!(tips, ["22.0 0.0 2.0", "22.0 0.0 -10.0", "25.0 0.0 -10.0"], "{csv}");
+}

@@ -1,5 +1,5 @@
 //! `machine compare` and `machine import` from outside.
-use super::tools::{status, str, text, trunnion, write};
+use super::tools::{json, status, str, text, trunnion, write};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -175,4 +175,56 @@ fn an_ini_becomes_a_machine_file_that_says_what_is_open() {
         status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("unknown"),
         "{said}"
     );
+}
+
+/// Two tools with declared lengths on a machine that declares where a tool change leaves its axes: nothing is unknown.
+#[test]
+fn a_program_with_two_tools_passes_where_everything_is_declared() {
+    let folder = TempDir::new().expect("works");
+    let program = "%
+O1000
+G21 G17 G40 G49 G80 G90 G94
+T1 M6
+G54 G0 X0. Y0. S3000 M3
+G43 H1 Z50.
+G1 Z-2. F200.
+X50.
+G0 Z50.
+M5
+G91 G28 Z0.
+G90
+T2 M6
+G54 G0 X10. Y10. S3000 M3
+G43 H2 Z50.
+G1 Z-3. F200.
+Y50.
+G0 Z50.
+M5
+G91 G28 Z0.
+G28 X0. Y0.
+M30
+%
+";
+    let file = write(&folder, "two.nc", program);
+    let settings = "[work_offsets]\nG54 = { X = -300, Y = -200, Z = -300 }\n[[tool]]\nnumber = 1\nlength = 100\n[[tool]]\nnumber = 2\nlength = 120\n";
+    write(&folder, "trunnion.toml", settings);
+    let check = |machine: &str| {
+        let output = trunnion(&["check", str(&file), "--machine", machine, "--format", "json"]);
+        json(&output)["files"][0].clone()
+    };
+    for machine in ["mill-3axis", "gantry-mill"] {
+        let found = check(machine);
+        assert_eq!(found["verdict"], "pass", "{machine}: {}", found["diagnostics"]);
+    }
+    // a machine that does not declare it leaves X Y Z unknown
+    let open = write(
+        &folder,
+        "open.toml",
+        &std::fs::read_to_string("samples/machines/mill-3axis.toml")
+            .expect("there")
+            .replace("tool_change = { Z = 300 }\n", ""),
+    );
+    let found = check(str(&open));
+    assert_eq!(found["verdict"], "unknown", "{}", found["diagnostics"]);
+    assert_eq!(found["diagnostics"][0]["rule"], "position-unknown");
 }

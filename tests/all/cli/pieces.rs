@@ -1,5 +1,5 @@
 //! Test pieces: what `trace`, `check` and `diff` say of them is what their closed forms say, and planted faults are found.
-use super::tools::{json, status, str, text, trunnion};
+use super::tools::{all_findings, json, status, str, text, trunnion};
 use core::f64::consts::TAU;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -52,7 +52,7 @@ pub(crate) fn findings(file: &Path, machine: &str) -> BTreeSet<String> {
         "--format",
         "json",
     ]));
-    let all = report["files"][0]["diagnostics"].as_array().expect("a list").iter();
+    let all = all_findings(&report["files"][0]).into_iter();
     all.map(|one| one["rule"].as_str().expect("a name").to_owned())
         .collect()
 }

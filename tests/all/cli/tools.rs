@@ -61,3 +61,11 @@ pub(crate) fn str(path: &Path) -> &str {
 pub(crate) fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", text(&output.stdout)))
 }
+
+/// All findings of a file of the JSON document: those of the list, each followed by those that it leads.
+pub(crate) fn all_findings(file: &Value) -> Vec<&Value> {
+    let leads = file["diagnostics"].as_array().expect("a list").iter();
+    leads
+        .flat_map(|lead| std::iter::once(lead).chain(lead["also"].as_array().into_iter().flatten()))
+        .collect()
+}

@@ -17,10 +17,11 @@ fn near(value: f64, wanted: f64, within: f64) -> bool {
 fn found(text: &str, settings: &Settings<'_>, rule: &str) -> Vec<Vec<(&'static str, ValueKey)>> {
     let report = check(&parse(text.as_bytes().to_vec(), settings.dialect.lex), settings);
     let fails = report
-        .diagnostics
-        .into_iter()
-        .filter(|found| found.rule == rule && found.status == Status::Fail);
-    fails.map(|found| found.values).collect()
+        .findings()
+        .filter(|found| found.rule == rule && found.status == Status::Fail)
+        .cloned()
+        .collect::<Vec<_>>();
+    fails.into_iter().map(|found| found.values).collect()
 }
 
 #[test]

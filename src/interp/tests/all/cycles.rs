@@ -306,6 +306,12 @@ fn what_a_cycle_needs() {
         all[0].clone()
     };
     assert!(rejected("G81 X1. Z-3. F100.").contains("G81 without R"));
+    // on a Haas R is optional: no mistake, and not known
+    let haas = faults("haas-ngc", "G0 X0. Y0. Z9.\nG91 G82 X1. Z-3. P0.5 L3 F100.\n");
+    assert!(
+        haas.len() == 1 && haas[0].contains("NotModelled") && haas[0].contains("G82 without R"),
+        "{haas:?}"
+    );
     assert!(rejected("G81 X1. R1. F100.").contains("G81 without the depth"));
     let peck = rejected("G83 X1. Z-3. R1. F100.");
     assert!(

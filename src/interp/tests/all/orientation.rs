@@ -95,7 +95,7 @@ fn great_circle_codes() {
 }
 
 #[test]
-fn machine_coordinates_under_tcp_are_without_tcp() {
+fn machine_coordinates_under_tcp_are_unknown() {
     let tool = Tool {
         number: 1,
         shape: None,
@@ -114,18 +114,18 @@ fn machine_coordinates_under_tcp_are_without_tcp() {
         (lines, faults)
     };
     let (lines, faults) = run("SUPA G0 Z500 D0");
-    assert_eq!(
-        lines,
-        ["R X1 Y1 Z1 A0 C0 tcp", "R Z500 A0 C0 machine", "R X2 A0 C0 tcp"]
-    );
-    assert_eq!(faults, ["4: Z500: TcpState(MachineCoordinates)"]);
+    assert_eq!(lines, ["R X1 Y1 Z1 A0 C0 tcp", "U A0 C0 machine", "R X2 A0 C0 tcp"]);
+    let unknown =
+        r#"4: Z500: NotModelled { what: "machine coordinates under tool centre point control: where the axes go" }"#;
+    assert_eq!(faults, [unknown, "4: Z500: TcpState(MachineCoordinates)"]);
     // machine data decide whether the length is suppressed too
     let (lines, faults) = run("SUPA G0 Z500");
-    assert_eq!(lines, ["R X1 Y1 Z1 A0 C0 tcp", "R A0 C0 machine", "R X2 A0 C0 tcp"]);
+    assert_eq!(lines, ["R X1 Y1 Z1 A0 C0 tcp", "U A0 C0 machine", "R X2 A0 C0 tcp"]);
     assert_eq!(
         faults,
         [
             r#"4: Z500: NotModelled { what: "SUPA with tool length (MN_G53_TOOLCORR)" }"#,
+            unknown,
             "4: Z500: TcpState(MachineCoordinates)"
         ]
     );

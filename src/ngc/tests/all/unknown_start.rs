@@ -77,3 +77,22 @@ fn rotation_of_the_table_does_not_spoil_other_axes() {
     assert_eq!(known(&motions.0[1]), [true, true, false]);
     assert_eq!(known(&motions.0[2]), [true, true, false]);
 }
+
+/// Where a probe touched is unknown, also as a parameter; whether it did is known after G38.2, which stops the program where it did not.
+#[test]
+fn a_probed_point_is_unknown_and_that_there_is_one_may_be_known() {
+    let before = "f100\ng0 x0 y0 z0\n";
+    let motions = run(&format!(
+        "{before}g38.2 z-10\n#1=#5063\n#2=#5061\ng0 x[#2+1] z[#1+5]\nm2\n"
+    ));
+    assert_eq!(motions.0.last().map(known), Some([true, true, false]));
+    let motions = run(&format!(
+        "{before}g38.2 z-10\no1 if [#5070 eq 1]\ng0 z5\no1 endif\nm2\n"
+    ));
+    assert_eq!(motions.0.last().map(|pose| pose[2]), Some(5.0));
+    // the run stops where it would have to know more
+    let motions = run(&format!(
+        "{before}g38.3 z-10\no1 if [#5070 eq 1]\ng0 z5\no1 endif\nm2\n"
+    ));
+    assert_eq!(motions.0.len(), 1);
+}

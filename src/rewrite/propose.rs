@@ -146,7 +146,8 @@ fn no_worse_turns(certificate: &Certificate) -> Result<(), String> {
     Ok(())
 }
 
-/// No rule reports more errors than before, except those that the rewrite fixes.
+/// No rule reports more errors than before, except those that the rewrite fixes; these report none where they
+/// reported none.
 fn no_new_errors(rewrite: &Rewrite, program: &Program, after: &[u8], settings: &Settings<'_>) -> Result<(), String> {
     let was = check(program, settings);
     let is = check(&parse(after.to_vec(), program.options()), settings);
@@ -160,10 +161,17 @@ fn no_new_errors(rewrite: &Rewrite, program: &Program, after: &[u8], settings: &
             .sum()
     };
     let more = |d: &&Diagnostic| !rewrite.cures.contains(&d.rule) && errors(&is, d.rule) > errors(&was, d.rule);
-    match is.findings().find(more) {
-        Some(d) => Err(format!("it would cause an error: {} ({})", d.message, d.rule)),
-        None => Ok(()),
+    if let Some(d) = is.findings().find(more) {
+        return Err(format!("it would cause an error: {} ({})", d.message, d.rule));
     }
+    let sum = |report: &Report| rewrite.cures.iter().map(|rule| errors(report, rule)).sum::<u64>();
+    // what it fixes may move from block to block, but a program without such an error must not get one
+    if sum(&was) == 0 && sum(&is) > 0 {
+        let cured = |d: &&Diagnostic| rewrite.cures.contains(&d.rule) && errors(&is, d.rule) > errors(&was, d.rule);
+        let what = is.findings().find(cured).map_or("", |d| d.rule);
+        return Err(format!("it would cause an error where there was none ({what})"));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -65,7 +65,6 @@ use trunnion_syntax::{LineIndex, Program};
 pub(super) const REWRITE: Body = Body {
     cures: &[
         "angle-wrap",
-        "axis-limit",
         "axis-overspeed",
         "branch-swap",
         "excess-rotary-travel",
@@ -73,7 +72,6 @@ pub(super) const REWRITE: Body = Body {
         "path-deviation",
         "pole-crossing",
         "pole-flip",
-        "winding-limit",
     ],
     propose,
 };

@@ -31,7 +31,8 @@ const tests = {
     const found = await until('pole-flip', () => flips(document.uri).length > 0 && flips(document.uri));
     assert.equal(document.getText(found[0].range), 'C52.595');
     assert.match(document.lineAt(found[0].range.start.line).text, /^N2930\b/);
-    assert.equal(found[0].severity, vscode.DiagnosticSeverity.Warning);
+    // it leads the event at the pole, of which the feed drop is an error
+    assert.equal(found[0].severity, vscode.DiagnosticSeverity.Error);
   },
   async 'the APT form of strategy 2 is judged too'() {
     const document = await show('strategy-2.apt');

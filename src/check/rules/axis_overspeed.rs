@@ -87,14 +87,7 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
             .value_text("axis", name.clone())
             .value_text("limiting_axis", name)
             .value(cut.feed_keys()[1], limit.feed_mm_min);
-        match axis.kind {
-            AxisKind::Linear => draft
-                .value("value_mm_min", needed * 60.0)
-                .value("limit_mm_min", limit.axis_limit * 60.0),
-            AxisKind::Rotary => draft
-                .value("value_deg_s", deg(needed))
-                .value("limit_deg_s", deg(limit.axis_limit)),
-        };
+        speed_values(draft, axis, needed, limit.axis_limit);
         if let Some(feed) = feed {
             draft.value(cut.feed_keys()[0], feed);
         }
@@ -144,16 +137,19 @@ fn overrun(cut: &facts::Cut<'_>, seconds: f64, out: &mut Reporter<'_>) {
                 .value_text("limiting_axis", name)
                 .value("time_s", seconds)
                 .value("time_bound_s", least.seconds);
-            match axis.kind {
-                AxisKind::Linear => draft
-                    .value("value_mm_min", needed * 60.0)
-                    .value("limit_mm_min", least.axis_limit * 60.0),
-                AxisKind::Rotary => draft
-                    .value("value_deg_s", deg(needed))
-                    .value("limit_deg_s", deg(least.axis_limit)),
-            };
+            speed_values(draft, axis, needed, least.axis_limit);
         },
     );
+}
+
+/// The speed that a block needs and the highest one of an axis, mm/s or rad/s.
+fn speed_values(draft: &mut Draft<'_>, axis: &Axis, needed: f64, limit: f64) {
+    match axis.kind {
+        AxisKind::Linear => draft
+            .value("value_mm_min", needed * 60.0)
+            .value("limit_mm_min", limit * 60.0),
+        AxisKind::Rotary => draft.value("value_deg_s", deg(needed)).value("limit_deg_s", deg(limit)),
+    };
 }
 
 /// Added to the key of merging where the tip stands still.

@@ -9,11 +9,11 @@ use std::{
 };
 use tempfile::TempDir;
 
-#[test]
-fn check_json_is_the_document_of_the_interface() {
+/// The report of the published rows in JSON.
+fn flip_as_json() -> std::process::Output {
     let folder = TempDir::new().expect("works");
     let file = write(&folder, "flip.nc", FLIP);
-    let output = trunnion(&[
+    trunnion(&[
         "check",
         str(&file),
         "--machine",
@@ -22,7 +22,12 @@ fn check_json_is_the_document_of_the_interface() {
         "fanuc-30i",
         "--format",
         "json",
-    ]);
+    ])
+}
+
+#[test]
+fn check_json_is_the_document_of_the_interface() {
+    let output = flip_as_json();
     assert_eq!(status(&output), 1, "{}", text(&output.stderr));
     let document = json(&output);
     assert_eq!(document["schema"], "trunnion-check/1");
@@ -69,18 +74,7 @@ fn check_json_is_the_document_of_the_interface() {
 /// What follows from a flip is in the finding of the flip: with its own level in `also`, as a note in words, counted once.
 #[test]
 fn json_lists_what_a_flip_leads() {
-    let folder = TempDir::new().expect("works");
-    let file = write(&folder, "flip.nc", FLIP);
-    let output = trunnion(&[
-        "check",
-        str(&file),
-        "--machine",
-        "mikron-ucp710",
-        "--dialect",
-        "fanuc-30i",
-        "--format",
-        "json",
-    ]);
+    let output = flip_as_json();
     let document = json(&output);
     let flip = &document["files"][0]["diagnostics"][2];
     let led: Vec<[&str; 3]> = flip["also"]

@@ -66,7 +66,7 @@ fn an_unreadable_file_of_a_folder_counts_as_not_checked() {
     let said = text(&output.stderr);
     assert!(said.contains("b.nc: is larger than 1 MB"), "{said}");
     assert!(said.contains("1 not checked"), "{said}");
-    // who reads the JSON alone sees it, too
+    // the JSON names it, too
     let output = trunnion(&["check", "--max-file-mb", "1", "--format", "json", str(folder.path())]);
     assert_eq!(status(&output), 2);
     let document = json(&output);

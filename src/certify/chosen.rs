@@ -1,7 +1,7 @@
 //! The postures that a program takes, and whether no others cost less.
 use crate::Outcome;
 use crate::certificate::PostureCosts;
-use crate::postures::{Graph, PostureCost, Stations};
+use crate::postures::{Graph, PostureCost, Stations, changes_of_posture};
 use trunnion_geometry::rad;
 use trunnion_machine::{Leg, Machine};
 
@@ -11,6 +11,8 @@ pub(crate) struct Chosen<'m> {
     stations: Stations<'m>,
     /// Rotary joints of each motion of the program after, rad; none where its end is unknown.
     after: Vec<Option<[f64; 2]>>,
+    /// Line of each of them in the program after.
+    lines: Vec<u32>,
 }
 
 impl<'m> Chosen<'m> {
@@ -19,11 +21,13 @@ impl<'m> Chosen<'m> {
             machine,
             stations: Stations::new(machine),
             after: Vec::new(),
+            lines: Vec::new(),
         }
     }
 
-    /// The next motion of both programs.
-    pub(crate) fn add(&mut self, before: &Leg, after: &Leg) {
+    /// The next motion of both programs; `line`: in the program after.
+    pub(crate) fn add(&mut self, before: &Leg, after: &Leg, line: u32) {
+        self.lines.push(line);
         self.stations.add(before);
         self.after.push(after.end.as_ref().ok().map(|end| {
             let mut q = [0.0; 2];
@@ -36,7 +40,7 @@ impl<'m> Chosen<'m> {
 
     /// Finds the path of the program after in the graph of the program before, and checks the labels.
     pub(crate) fn judge(
-        self,
+        &self,
         cost: PostureCost,
         labels: &[Option<u64>],
         tolerance_deg: f64,
@@ -46,37 +50,38 @@ impl<'m> Chosen<'m> {
                 "the machine file does not declare the highest speed of {letter}, and the time depends on it"
             )));
         }
-        let stations = self.stations.finish();
-        let graph = Graph::new(self.machine, &stations, cost).map_err(|station| {
+        let stations = self.stations.all();
+        let graph = Graph::new(self.machine, stations, cost).map_err(|station| {
             Outcome::unknown(format!(
-                "rotary position {station} of the original program is outside the travel of the rotary axes in every posture"
+                "line {}: no posture of the original program reaches this tool axis inside the travel of the rotary axes",
+                self.lines[stations[station].first]
             ))
         })?;
         let mut path = Vec::with_capacity(stations.len());
         for (index, station) in stations.iter().enumerate() {
             let found = self.after[station.first].and_then(|q| graph.find(index, q, rad(tolerance_deg)));
             path.push(found.ok_or_else(|| {
-                Outcome::refuted(format!(
-                    "rotary position {index} of the changed program is none of the postures and turns that may be chosen there"
-                ))
+                self.refute(
+                    station.first,
+                    "the rotary axes are at none of the postures and turns that may be chosen here",
+                )
             })?);
         }
-        let least = graph.prove_least(&path, labels).map_err(Outcome::refuted)?;
-        let switches = |signs: &mut dyn Iterator<Item = i8>| {
-            let mut last = 0;
-            signs.filter(|&sign| sign != 0).fold(0, |count, sign| {
-                let swapped = last * sign < 0;
-                last = sign;
-                count + u64::from(swapped)
-            })
-        };
+        let least = graph
+            .prove_least(&path, labels)
+            .map_err(|(station, why)| self.refute(stations.get(station).map_or(0, |station| station.first), &why))?;
         let billionth = |value: u64| value as f64 / 1e9;
         Ok(PostureCosts {
             stations: stations.len() as u64,
-            switches_before: switches(&mut stations.iter().map(|station| station.sign)),
-            switches_after: switches(&mut path.iter().map(|&state| graph.state(state).sign)),
+            switches_before: changes_of_posture(stations.iter().map(|station| station.sign)),
+            switches_after: changes_of_posture(path.iter().map(|&state| graph.state(state).sign)),
             before: billionth(graph.written_cost()),
             after: billionth(least),
         })
+    }
+
+    /// Refuted at a motion.
+    fn refute(&self, motion: usize, why: &str) -> Outcome {
+        Outcome::refuted_at(motion, self.lines.get(motion).copied().unwrap_or(1), why)
     }
 }

@@ -29,9 +29,10 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
-    /// Every motion ends in the same pose, in any posture and with any number of whole turns (`switch-angles`), and no other choice of
-    /// postures and turns inside the travel of the axes costs less ([`crate::postures`]). No cut changes the posture away from the pole, or
-    /// turns a rotary axis by more than half a turn, where it did not before. Nothing is claimed of the paths between the ends (the
+    /// Every motion ends in the same pose, in any posture and with any number of whole turns (`switch-angles`), and no other choice among
+    /// the states of [`crate::postures::Graph`] costs less: all postures and turns inside the travel of the axes, of an axis with more than 31
+    /// turns those nearest to the program, at the pole the values of the neighbouring positions. No cut changes the posture where the pole is
+    /// not inside it and the rotary excess is above `swap_excess`, or turns a rotary axis by more than half a turn, where it did not before. Nothing is claimed of the paths between the ends (the
     /// certificate says by how much they differ there).
     LeastPostures {
         /// mm.

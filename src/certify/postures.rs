@@ -9,5 +9,5 @@ mod graph;
 mod station;
 
 pub use cost::PostureCost;
-pub use graph::{Graph, State};
+pub use graph::{Graph, State, changes_of_posture};
 pub use station::{Freedom, Station, Stations};

@@ -137,7 +137,7 @@ impl<'a> Proof<'a> {
             return Err(Outcome::unknown("no machine is named"));
         };
         if let Some(chosen) = &mut self.chosen {
-            chosen.add(old, new);
+            chosen.add(old, new, at.line);
         }
         let residuals = [
             forward_residual(self.machine, at, old)?,

@@ -21,6 +21,16 @@ pub struct State {
     pub written: bool,
 }
 
+/// Changes of posture in a sequence of posture signs; the pole (0) has none.
+pub fn changes_of_posture(signs: impl Iterator<Item = i8>) -> u64 {
+    let mut last = 0;
+    signs.filter(|&sign| sign != 0).fold(0, |count, sign| {
+        let changes = last * sign < 0;
+        last = sign;
+        count + u64::from(changes)
+    })
+}
+
 /// The graph of a program.
 pub struct Graph<'a> {
     machine: &'a Machine,
@@ -101,7 +111,7 @@ impl<'a> Graph<'a> {
     }
 
     /// Cost of the motion that reaches `station` between two of its states (indices), in billionths; `None` where it is not allowed: a cut
-    /// may change the posture only where the pole lies inside it or where that saves rotary travel, and may not turn an axis by more than half a turn, unless the program as
+    /// may change the posture only where the pole lies inside it or where its rotary excess is at most `swap_excess`, and may not turn an axis by more than half a turn, unless the program as
     /// written does so.
     pub fn edge(&self, station: usize, from: usize, to: usize) -> Option<u64> {
         let at = &self.stations[station];
@@ -208,20 +218,18 @@ impl<'a> Graph<'a> {
     /// costs the smallest label of the last station. Returns that cost, in billionths.
     ///
     /// # Errors
-    /// What does not hold.
-    pub fn prove_least(&self, path: &[usize], labels: &[Option<u64>]) -> Result<u64, String> {
+    /// The station, and what does not hold there.
+    pub fn prove_least(&self, path: &[usize], labels: &[Option<u64>]) -> Result<u64, (usize, String)> {
         let count = self.stations.len();
         if path.len() != count || labels.len() != self.states.len() || count == 0 {
-            return Err(format!(
-                "{} labels and {} stations are needed, {} and {} are given",
-                self.states.len(),
-                count,
-                labels.len(),
-                path.len()
+            let (states, given) = (self.states.len(), labels.len());
+            return Err((
+                0,
+                format!("the program has {states} postures and turns, and {given} labels are given"),
             ));
         }
         if self.states_of(0).any(|index| labels[index] != Some(0)) {
-            return Err("a label of the first position of the rotary axes is not zero".into());
+            return Err((0, "a label of the first position of the rotary axes is not zero".into()));
         }
         let mut spent = 0u64;
         for station in 1..count {
@@ -234,8 +242,9 @@ impl<'a> Graph<'a> {
                     };
                     let reached = label.saturating_add(cost);
                     if labels[to].is_none_or(|claimed| claimed > reached) {
-                        return Err(format!(
-                            "there is a cheaper sequence of postures to rotary position {station} than the labels say"
+                        return Err((
+                            station,
+                            "a cheaper sequence of postures leads here than the labels say".into(),
                         ));
                     }
                     if from == path[station - 1] && to == path[station] {
@@ -244,20 +253,22 @@ impl<'a> Graph<'a> {
                 }
             }
             if self.edge(station, path[station - 1], path[station]).is_none() {
-                return Err(format!(
-                    "the motion to rotary position {station} changes the posture in a cut away from the pole"
-                ));
+                let why =
+                    "this cut changes the posture away from the pole, or turns a rotary axis by more than half a turn";
+                return Err((station, why.into()));
             }
         }
         let least = self.states_of(count - 1).filter_map(|index| labels[index]).min();
         match least {
             Some(least) if least == spent => Ok(spent),
-            _ => Err(format!(
-                "the postures cost {} {}, and the labels prove only {}",
-                spent as f64 / 1e9,
-                self.cost.unit(),
-                least.map_or("nothing".into(), |least| (least as f64 / 1e9).to_string())
-            )),
+            _ => {
+                let least = least.map_or("none".into(), |least| (least as f64 / 1e9).to_string());
+                let (spent, unit) = (spent as f64 / 1e9, self.cost.unit());
+                Err((
+                    count - 1,
+                    format!("the postures up to here cost {spent} {unit}, and the labels say {least}"),
+                ))
+            }
         }
     }
 }

@@ -74,8 +74,8 @@ impl<'m> Stations<'m> {
     }
 
     /// The stations so far.
-    pub fn finish(self) -> Vec<Station> {
-        self.all
+    pub fn all(&self) -> &[Station] {
+        &self.all
     }
 
     /// Takes the next motion. A motion whose end is unknown holds the stations on both sides of it as they are written.

@@ -55,7 +55,7 @@ use crate::shortest_path::{Cheapest, cheapest};
 use crate::{Options, Proposal};
 use core::fmt::Write;
 use trunnion_certify::Claim;
-use trunnion_certify::postures::{Graph, PostureCost, Station, Stations};
+use trunnion_certify::postures::{Graph, PostureCost, Station, Stations, changes_of_posture};
 use trunnion_check::{Assume, Settings};
 use trunnion_geometry::deg;
 use trunnion_interp::{AxisLetter, Fault, ModalState, Motion, MotionKind, Orientation, Sink, run};
@@ -154,7 +154,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         vector,
         ..
     } = collector;
-    let stations = stations.finish();
+    let stations = stations.all();
     let lines = LineIndex::new(program.source());
     let line = |motion: usize| {
         lines
@@ -170,7 +170,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     if stations.len() < 2 {
         return Ok(None);
     }
-    let graph = Graph::new(machine, &stations, options.cost).map_err(|station| {
+    let graph = Graph::new(machine, stations, options.cost).map_err(|station| {
         format!(
             "line {}: no posture reaches this tool axis inside the travel of the rotary axes",
             line(stations[station].first)
@@ -267,14 +267,8 @@ fn wound(machine: &Machine, graph: &Graph<'_>, path: &[usize]) -> Vec<[f64; 2]> 
 /// What is gained, in one line.
 fn summary(machine: &Machine, graph: &Graph<'_>, found: &Cheapest, options: &Options) -> String {
     let stations = graph.stations();
-    let signs = |signs: &mut dyn Iterator<Item = i8>| {
-        let signs: Vec<i8> = signs.filter(|&sign| sign != 0).collect();
-        signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
-    };
-    let (was, is) = (
-        signs(&mut stations.iter().map(|station| station.sign)),
-        signs(&mut found.path.iter().map(|&state| graph.state(state).sign)),
-    );
+    let was = changes_of_posture(stations.iter().map(|station| station.sign));
+    let is = changes_of_posture(found.path.iter().map(|&state| graph.state(state).sign));
     let after = wound(machine, graph, &found.path);
     let before: Vec<[f64; 2]> = stations.iter().map(|station| station.written).collect();
     let mut text = format!(

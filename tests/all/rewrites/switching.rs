@@ -3,7 +3,7 @@ use super::strategy_2::{ROWS, certified, refused, run, settings, sinumerik};
 use crate::random::Random;
 use std::fmt::Write;
 use trunnion::certify::postures::PostureCost;
-use trunnion::certify::{Claim, Outcome, recheck};
+use trunnion::certify::{Claim, Outcome, certify, recheck};
 use trunnion::check::{Assume, Settings};
 use trunnion::geometry::rad;
 use trunnion::interp::Setup;
@@ -165,6 +165,27 @@ fn a_certificate_that_was_changed_is_refused() {
     let mut own = certificate.clone();
     own.after = own.before.clone();
     assert!(matches!(again(&own, &before), Outcome::Refuted(_)));
+}
+
+/// A claim about a program that moves nothing, and labels for another program: refused, with a line.
+#[test]
+fn labels_that_do_not_fit_are_refused() {
+    let machine = mikron((-30.0, 120.0), None);
+    let dialect = trunnion::dialect::builtin("sinumerik-840d").expect("built in");
+    for (text, labels) in [("M30\n".to_owned(), vec![]), (sinumerik(ROWS), vec![Some(0); 3])] {
+        let claim = Claim::LeastPostures {
+            tolerance_mm: 0.001,
+            tolerance_deg: 0.1,
+            cost: PostureCost::Travel,
+            labels,
+        };
+        let bytes = text.as_bytes();
+        let found = certify(bytes, bytes, dialect, &machine, &Setup::default(), &claim);
+        assert!(
+            matches!(&found, Outcome::Refuted(witness) if witness.line.is_some() && witness.message.contains("labels")),
+            "{found:?}"
+        );
+    }
 }
 
 /// One position of a random program: A and C as written, and whether it is reached in a cut.

@@ -77,11 +77,9 @@ pub(super) const REWRITE: Body = Body {
 struct Smoothed {
     edits: Vec<TextEdit>,
     ball_radius: f64,
-    /// Index of the window's first point.
+    /// Indices of the window's first and last point, and the lines of its ends.
     first: usize,
-    /// Index of the window's last point.
     last: usize,
-    /// Lines of the ends.
     lines: (u32, u32),
     /// Largest step of the rotary axis before and after, deg.
     steps: (f64, f64),
@@ -94,7 +92,6 @@ struct Memory {
     styles: Vec<(Scheme, Styles)>,
 }
 
-/// What is the same for all windows.
 struct Task<'a> {
     program: &'a Program,
     machine: &'a Machine,

@@ -133,7 +133,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         cuts: Vec::new(),
     };
     run(program, settings.dialect, &settings.setup, &mut collector);
-    let mut writer = Writer::new(program)?;
+    let mut writer = Writer::new(program);
     for cut in &collector.cuts {
         writer.cut(cut);
     }
@@ -171,7 +171,7 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(program: &'a Program) -> Result<Self, Refusal> {
+    fn new(program: &'a Program) -> Self {
         let words = program.blocks().flat_map(|block| block.words().collect::<Vec<_>>());
         let texts: Vec<TextRange> = words
             .filter(|word| word.address == Address::Letter(b'F') && matches!(word.value, Value::Number(_)))
@@ -180,16 +180,22 @@ impl<'a> Writer<'a> {
         let texts = texts
             .iter()
             .filter_map(|range| core::str::from_utf8(&program.source()[range.as_usize()]).ok());
-        let style = NumberStyle::learn(texts);
-        Ok(Self {
+        // without any F word nothing is written
+        let style = NumberStyle::learn(texts).unwrap_or(NumberStyle {
+            decimals: 0,
+            trims: true,
+            whole_point: false,
+            leading_zero: true,
+        });
+        Self {
             program,
-            style: style.ok_or_else(|| Refusal::from("the program has no F word that is a plain number"))?,
+            style,
             next: 0,
             current: [None; 2],
             open: None,
             places: Vec::new(),
             changed: 0,
-        })
+        }
     }
 
     fn finish(mut self) -> Vec<Place> {

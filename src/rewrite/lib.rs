@@ -4,6 +4,7 @@
 mod attempt;
 mod edited;
 mod gains;
+mod pieces;
 mod posed_words;
 mod propose;
 mod reposition;

@@ -1,6 +1,7 @@
 //! The list of rewrites, in the order in which `fix` applies them: postures first, then paths, then feeds. A rewrite is one file in `rewrites/`; its name
 //! appears in two lists here.
 mod adapt_feed;
+mod insert_points;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
@@ -37,7 +38,7 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![switch_angles, unwind_rotary, smooth_pole, adapt_feed];
+static REWRITES: &[&Rewrite] = table![switch_angles, unwind_rotary, smooth_pole, insert_points, adapt_feed];
 
 /// All rewrites, in the order in which they are applied.
 pub fn rewrites() -> &'static [&'static Rewrite] {
@@ -62,6 +63,7 @@ mod tests {
             (".fix_turns(", "unwind-rotary"),
             (".fix_posture(", "switch-angles"),
             (".fix_feed(", "adapt-feed"),
+            (".fix_points(", "insert-points"),
         ];
         let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();
         for entry in std::fs::read_dir(rules).expect("a folder") {

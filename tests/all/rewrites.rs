@@ -3,6 +3,7 @@
 mod everywhere;
 mod feeds;
 mod mutants;
+mod points;
 mod random;
 mod smoothing;
 mod strategy_2;

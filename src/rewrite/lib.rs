@@ -4,7 +4,7 @@
 mod attempt;
 mod edited;
 mod gains;
-mod pieces;
+mod line_points;
 mod posed_words;
 mod propose;
 mod reposition;

@@ -49,7 +49,7 @@
 //! # Sources
 //! docs/kinematics.md#between-the-ends-of-a-block.
 use super::Body;
-use crate::pieces::{Line, Writer, refused};
+use crate::line_points::{Line, Writer, refused};
 use crate::slots::{Scheme, Slots, insert_word, slots, styles};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;

@@ -283,7 +283,7 @@ impl Pair<'_> {
         let claimed = match self.claim {
             Claim::SameBallCentre { .. } | Claim::LeastPostures { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
-            Claim::SameToolPath { .. } | Claim::SamePath { .. } => true,
+            Claim::SameToolPath { .. } | Claim::RefittedPath { .. } | Claim::SamePath { .. } => true,
         };
         let (mm, degrees) = self.claim.tolerances();
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));

@@ -24,6 +24,6 @@ pub use certificate::{
     Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, SCHEMA, TextChange, TextDigest,
     Worst, WorstChanges,
 };
-pub use claim::Claim;
+pub use claim::{Claim, RefitSource};
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
 pub use verdict::{Gap, Outcome, Witness};

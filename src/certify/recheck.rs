@@ -7,12 +7,12 @@ use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::proof::Proof;
 use crate::text::text_change;
-use crate::{Certificate, Claim, Outcome};
+use crate::{Certificate, Claim, Outcome, RefitSource};
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Steps, Verdict, compare};
+use trunnion_same::{Input, Refit, Steps, Verdict, compare};
 use trunnion_syntax::{LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
@@ -184,6 +184,13 @@ fn prove(
         no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
         cuts: !claim.is_rewrite(),
+        refit: match *claim {
+            Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
+                mm: tolerance_mm,
+                points_only: source == RefitSource::Points,
+            }),
+            _ => None,
+        },
         exact: None,
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
@@ -261,7 +268,11 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let fine = [mm, degrees, claim.point_height_mm()]
+    let refit = match *claim {
+        Claim::RefittedPath { tolerance_mm, .. } => tolerance_mm,
+        _ => 0.0,
+    };
+    let fine = [mm, degrees, refit, claim.point_height_mm()]
         .iter()
         .all(|value| value.is_finite() && *value >= 0.0);
     if fine {

@@ -115,6 +115,9 @@ impl Encode for Claim {
                     .field(3, cost)
                     .field(4, labels);
             }),
+            Self::RefittedPath { tolerance_mm, source } => out.variant(6, |fields| {
+                fields.field(1, tolerance_mm).field(2, source);
+            }),
         }
     }
 }

@@ -233,6 +233,9 @@ pub(crate) struct Fix {
     /// switch-angles: what the postures of the whole program are chosen by.
     #[arg(long, value_enum, default_value = "travel")]
     pub(crate) cost: super::fix::CostOf,
+    /// fit-arcs: what the new path must be near, the lines as they are programmed or only their ends.
+    #[arg(long, value_enum, default_value = "chords")]
+    pub(crate) source: super::fix::SourceOf,
     /// Print a unified diff (the default).
     #[arg(long)]
     pub(crate) diff: bool,

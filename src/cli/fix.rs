@@ -9,6 +9,7 @@ use crate::cli::out::Out;
 use similar::TextDiff;
 use std::{io::IsTerminal, path::PathBuf};
 use trunnion_certify::Certificate;
+use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite, rewrites};
 
@@ -21,6 +22,15 @@ pub(crate) enum CostOf {
     Time,
     /// How far the tip is off its line.
     Deviation,
+}
+
+/// What `fit-arcs` keeps to.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum SourceOf {
+    /// The ends of the lines.
+    Points,
+    /// The lines.
+    Chords,
 }
 
 /// The result of all rewrites together.
@@ -104,6 +114,11 @@ fn options(command: &Fix) -> Result<Options, Failure> {
             CostOf::Travel => PostureCost::Travel,
             CostOf::Time => PostureCost::Time,
             CostOf::Deviation => PostureCost::Deviation,
+        },
+        straight_mm: command.tolerance_mm,
+        source: match command.source {
+            SourceOf::Points => RefitSource::Points,
+            SourceOf::Chords => RefitSource::Chords,
         },
     };
     let good = |value: f64| value.is_finite() && value > 0.0;

@@ -1,6 +1,11 @@
 //! Floor 7: proposes. A rewrite reads an analysed program and proposes edits with a claim; `certify` decides.
 //!
 //! It does no I/O and never vouches for itself.
+mod chain_words;
+mod circle;
+mod fewest;
+mod pieces;
+mod polyline;
 mod posed_words;
 mod propose;
 mod reposition;

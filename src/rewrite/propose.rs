@@ -1,6 +1,6 @@
 //! Rewrites, proposals and their outcome.
 use trunnion_certify::postures::PostureCost;
-use trunnion_certify::{Certificate, Claim, Outcome, certify, recheck};
+use trunnion_certify::{Certificate, Claim, Outcome, RefitSource, certify, recheck};
 use trunnion_check::{Diagnostic, Report, Settings, Severity, Status, check};
 use trunnion_syntax::{Program, TextEdit, apply_edits, parse};
 
@@ -13,6 +13,10 @@ pub struct Options {
     pub tolerance_deg: f64,
     /// What a sequence of postures is chosen by (`switch-angles`).
     pub cost: PostureCost,
+    /// What a refitted path must be near (`fit-arcs`).
+    pub source: RefitSource,
+    /// How far a point may be from a straight line to be left out, mm (`drop-redundant`); none: only those exactly on it.
+    pub straight_mm: Option<f64>,
 }
 
 impl Default for Options {
@@ -21,6 +25,8 @@ impl Default for Options {
             tolerance_mm: 0.001,
             tolerance_deg: 0.1,
             cost: PostureCost::default(),
+            source: RefitSource::default(),
+            straight_mm: None,
         }
     }
 }

@@ -1,4 +1,7 @@
 //! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name appears in two lists here.
+mod drop_redundant;
+mod fit_arcs;
+mod renumber;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
@@ -35,7 +38,14 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![smooth_pole, switch_angles, unwind_rotary];
+static REWRITES: &[&Rewrite] = table![
+    drop_redundant,
+    fit_arcs,
+    renumber,
+    smooth_pole,
+    switch_angles,
+    unwind_rotary
+];
 
 /// All rewrites, by name.
 pub fn rewrites() -> &'static [&'static Rewrite] {

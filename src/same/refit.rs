@@ -68,19 +68,16 @@ pub(crate) fn follow(
             "the position of X, Y or Z is unknown".to_owned(),
         )));
     };
-    let mut now = following.take().map_or_else(
-        || {
-            let course = match &b.kind {
-                MotionKind::Arc(Some(arc)) => Course::Arc(*arc),
-                _ => Course::Line { start, end },
-            };
-            Following {
-                along: Along::new(course, from),
-                motions: 0,
-            }
-        },
-        |now| now,
-    );
+    let mut now = following.take().unwrap_or_else(|| {
+        let course = match &b.kind {
+            MotionKind::Arc(Some(arc)) => Course::Arc(*arc),
+            _ => Course::Line { start, end },
+        };
+        Following {
+            along: Along::new(course, from),
+            motions: 0,
+        }
+    });
     now.along.to(to);
     now.motions += 1;
     let (points_mm, paths_mm) = (now.along.points_apart(), now.along.apart());

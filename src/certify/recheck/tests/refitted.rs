@@ -104,7 +104,7 @@ fn the_other_way_round_and_more_than_once_round_are_refuted() {
         ("G3 X0. Y20. I-20. J0. S900", "speed"),
         ("G3 X0. Y20. I-20. J0. C1.", "rotary"),
         ("G3 X0. Y20. Z.1 I-20. J0.", "from the new path"),
-        ("M8\nG3 X0. Y20. I-20. J0.", "does `M8`"),
+        ("M8\nG3 X0. Y20. I-20. J0.", "coolant differs"),
         ("G1 X0. Y20.", "from the new path"),
     ] {
         let found = refused(prove(&before, &arc("", text, ""), 0.08));

@@ -231,6 +231,9 @@ impl Certificate {
             Claim::SamePoses { .. } => "same poses at all block ends",
             Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
+            Claim::AdaptedFeed { .. } => {
+                "the same but for feeds, which keep the axes within their speeds: path, spindle, tool and all else"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::RefittedPath { .. } => "a refitted path",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",

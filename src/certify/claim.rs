@@ -44,6 +44,17 @@ pub enum Claim {
         /// The least cost of reaching each state of the graph, in billionths of the cost's unit; none where it cannot be reached.
         labels: Vec<Option<u64>>,
     },
+    /// All of [`Self::SameToolPath`] but the feeds of cuts. A feed that differs is no higher than the one before, or than the one asked for, and no
+    /// axis is faster than its highest speed with it; it is lower only where an axis would be too fast (`adapt-feed`). Under inverse time (G93)
+    /// the same holds for the time of the block.
+    AdaptedFeed {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// The feed asked for, mm/min: cuts that are slower may be made as fast as this. 0: none is made faster.
+        asked_mm_min: f64,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -93,6 +104,7 @@ impl Claim {
             Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
             Self::SamePoses { .. }
             | Self::LeastPostures { .. }
+            | Self::AdaptedFeed { .. }
             | Self::SameToolPath { .. }
             | Self::RefittedPath { .. }
             | Self::SamePath { .. } => 0.0,
@@ -116,6 +128,11 @@ impl Claim {
                 tolerance_deg,
                 ..
             }
+            | Self::AdaptedFeed {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
@@ -132,7 +149,7 @@ impl Claim {
     pub fn is_rewrite(&self) -> bool {
         !matches!(
             self,
-            Self::SameToolPath { .. } | Self::RefittedPath { .. } | Self::SamePath { .. }
+            Self::AdaptedFeed { .. } | Self::SameToolPath { .. } | Self::RefittedPath { .. } | Self::SamePath { .. }
         )
     }
 }

@@ -107,7 +107,7 @@ impl<'a> Proof<'a> {
                 message: format!("{place}{}", found.what),
             })
         } else {
-            Outcome::unknown(format!("{place}{}", found.what))
+            Outcome::unknown_at(line, format!("{place}{}", found.what))
         }
     }
 
@@ -187,6 +187,9 @@ impl<'a> Proof<'a> {
             before: was,
             after: is,
         };
+        if let Claim::AdaptedFeed { asked_mm_min, .. } = self.claim {
+            crate::feed::adapted(self.machine, [old, new], *asked_mm_min).map_err(|gap| gap.at(at.motion, at.line))?;
+        }
         match pair.compare()? {
             Compared::Same => {}
             Compared::UnknownAlike => self.motions.unknown += 1,

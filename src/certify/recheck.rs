@@ -177,7 +177,7 @@ fn prove(
     let asked = trunnion_same::Claim {
         mm,
         deg: degrees,
-        frees_feed: false,
+        frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
         across: false,
         straight_rapids: false,
         plane_counts: true,
@@ -268,18 +268,19 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let refit = match *claim {
+    let asked = match *claim {
+        Claim::AdaptedFeed { asked_mm_min, .. } => asked_mm_min,
         Claim::RefittedPath { tolerance_mm, .. } => tolerance_mm,
         _ => 0.0,
     };
-    let fine = [mm, degrees, refit, claim.point_height_mm()]
+    let fine = [mm, degrees, claim.point_height_mm(), asked]
         .iter()
         .all(|value| value.is_finite() && *value >= 0.0);
     if fine {
         Ok(())
     } else {
         Err(Outcome::refuted(
-            "claim: tolerances and radius must be finite and not negative",
+            "claim: tolerances, radius and feed must be finite and not negative",
         ))
     }
 }

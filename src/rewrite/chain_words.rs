@@ -89,23 +89,25 @@ impl Edits {
     }
 }
 
-/// The edits that write `pieces` of a chain, sorted. Empty where nothing changes.
-pub(crate) fn write(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Piece]) -> Vec<TextEdit> {
+/// The edits that write the pieces of chains that follow each other directly, sorted. Empty where nothing changes.
+pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece>)]) -> Vec<TextEdit> {
     let mut edits = Edits::default();
-    let (mut plane, mut turns) = (chain.plane, false);
-    for (index, piece) in pieces.iter().enumerate() {
-        let blocks: Vec<BlockId> = chain.lines[piece.from..piece.to]
-            .iter()
-            .map(|line| line.block)
-            .collect();
-        let is_last = index + 1 == pieces.len();
-        let (mut codes, mut centre) = (Vec::new(), &[][..]);
-        match &piece.arc {
-            Some(WrittenArc {
+    // an arc is the modal motion: the next line needs a G1
+    let mut turns = false;
+    for (chain, pieces) in chains {
+        let mut plane = chain.plane;
+        for (index, piece) in pieces.iter().enumerate() {
+            let blocks: Vec<BlockId> = chain.lines[piece.from..piece.to]
+                .iter()
+                .map(|line| line.block)
+                .collect();
+            let (mut codes, mut centre) = (Vec::new(), &[][..]);
+            if let Some(WrittenArc {
                 plane: own,
                 turning,
                 centre: words,
-            }) => {
+            }) = &piece.arc
+            {
                 if *own != plane {
                     codes.push(plane_code(*own));
                     plane = *own;
@@ -113,9 +115,8 @@ pub(crate) fn write(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Pie
                 codes.push(if *turning == Turning::Clockwise { 2 } else { 3 });
                 centre = words;
                 turns = true;
-            }
-            None => {
-                if is_last && plane != chain.plane {
+            } else {
+                if index + 1 == pieces.len() && plane != chain.plane {
                     codes.push(plane_code(chain.plane));
                     plane = chain.plane;
                 }
@@ -124,15 +125,14 @@ pub(crate) fn write(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Pie
                     turns = false;
                 }
             }
+            write_block(program, hand, &blocks, &codes, centre, &mut edits);
         }
-        write_block(program, hand, &blocks, &codes, centre, &mut edits);
+        if let (Some(last), true) = (chain.lines.last(), plane != chain.plane) {
+            let line = format!("{}{}", hand.code(plane_code(chain.plane), false), hand.newline);
+            edits.insert(start_of_next(program, last.block), &line);
+        }
     }
-    let after = chain.lines.last().map_or(0, |line| start_of_next(program, line.block));
-    if plane != chain.plane {
-        let line = format!("{}{}", hand.code(plane_code(chain.plane), false), hand.newline);
-        edits.insert(after, &line);
-    }
-    if let Some(block) = chain.next_line.filter(|_| turns) {
+    if let (Some(block), true) = (chains.last().and_then(|(chain, _)| chain.next_line), turns) {
         write_block(program, hand, &[block], &[1], &[], &mut edits);
     }
     edits.0.sort_by_key(|edit| (edit.range.start, edit.range.end));

@@ -1,9 +1,12 @@
 //! Floor 7: proposes. A rewrite reads an analysed program and proposes edits with a claim; `certify` decides.
 //!
 //! It does no I/O and never vouches for itself.
+mod attempt;
 mod chain_words;
 mod circle;
+mod edited;
 mod fewest;
+mod gains;
 mod pieces;
 mod polyline;
 mod posed_words;
@@ -18,5 +21,7 @@ mod survey;
 mod taut_string;
 mod unwrap;
 
-pub use propose::{Attempt, Options, Proposal, Rewrite, attempt};
+pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
+pub use gains::{Gain, Gains, gains};
+pub use propose::{Change, Options, Place, Proposal, Proposed, Refusal, Rewrite};
 pub use rewrites::{rewrite, rewrites};

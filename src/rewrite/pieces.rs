@@ -74,7 +74,8 @@ struct Points<'a> {
     level_until: [Vec<usize>; 3],
     /// How many corners come before a point.
     corners: Vec<u32>,
-    flat: Vec<Flat>,
+    /// The points in each plane that may be written, in that order.
+    flat: Vec<Vec<Flat>>,
 }
 
 /// Rounds of [`divide`] before a chain is left as it is.
@@ -83,7 +84,7 @@ const MOST_ROUNDS: usize = 40;
 /// Divides the chain through `points` into the fewest pieces. Doing the same to the result changes nothing: lines that were put together, and
 /// would be put together with their neighbours again because the points inside are gone, stay apart.
 pub(crate) fn divide(points: &[Vec3], limits: &Limits<'_>) -> Pieces {
-    let mut chain = Points::new(points, limits);
+    let chain = Points::new(points, limits);
     let mut refused = BTreeSet::new();
     let mut unrounded = None;
     for _ in 0..MOST_ROUNDS {
@@ -153,12 +154,19 @@ impl<'a> Points<'a> {
             limits,
             level_until,
             corners,
-            flat: Vec::new(),
+            flat: limits
+                .planes
+                .iter()
+                .map(|plane| {
+                    let [first, second, _] = axes(*plane);
+                    all.iter().map(|point| [point[first], point[second]]).collect()
+                })
+                .collect(),
         }
     }
 
     /// The fewest pieces that can be written, without those that are refused.
-    fn fewest(&mut self, refused: &mut BTreeSet<(usize, usize)>, unrounded: &mut Option<usize>) -> Vec<Piece> {
+    fn fewest(&self, refused: &mut BTreeSet<(usize, usize)>, unrounded: &mut Option<usize>) -> Vec<Piece> {
         loop {
             let joints = fewest(self.all.len() - 1, &mut |from, to| {
                 to == from + 1
@@ -203,7 +211,7 @@ impl<'a> Points<'a> {
     }
 
     /// The first plane in which some arc or helix serves, with its circle.
-    fn planes(&mut self, from: usize, to: usize) -> Option<(Plane, crate::circle::Circle)> {
+    fn planes(&self, from: usize, to: usize) -> Option<(Plane, crate::circle::Circle)> {
         if to < from + 2 || self.limits.planes.is_empty() {
             return None;
         }
@@ -216,16 +224,13 @@ impl<'a> Points<'a> {
         if levels > 1 {
             return None;
         }
-        for &plane in self.limits.planes {
-            let [first, second, normal] = axes(plane);
+        for (&plane, flat) in self.limits.planes.iter().zip(&self.flat) {
+            let [_, _, normal] = axes(plane);
             let is_level = self.level_until[normal][from] >= to;
             if levels == 1 && !is_level || levels == 0 && !self.climbs_evenly(from, to, plane) {
                 continue;
             }
-            self.flat.clear();
-            self.flat
-                .extend(self.all[from..=to].iter().map(|point| [point[first], point[second]]));
-            let Some(circle) = circle(&self.flat, self.limits.tolerance_mm, !points_only) else {
+            let Some(circle) = circle(&flat[from..=to], self.limits.tolerance_mm, !points_only) else {
                 continue;
             };
             let serves = |centre: &Flat| self.apart(from, to, plane, circle.counter_clockwise, *centre).is_some();
@@ -280,7 +285,7 @@ impl<'a> Points<'a> {
     }
 
     /// The arc of a part with numbers as the program writes them; `None` where no rounding serves.
-    fn written(&mut self, from: usize, to: usize) -> Option<WrittenArc> {
+    fn written(&self, from: usize, to: usize) -> Option<WrittenArc> {
         let (plane, circle) = self.planes(from, to)?;
         let styles = self.limits.styles?;
         let [first, second, _] = axes(plane);

@@ -1,5 +1,8 @@
 //! Rewrites and their certificates on published rows, on hard cases and on random chains.
 
+mod everywhere;
+mod feeds;
+mod fitting;
 mod mutants;
 mod random;
 mod smoothing;

@@ -103,6 +103,16 @@ impl Encode for Claim {
             } => out.variant(4, |fields| {
                 fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
+            Self::AdaptedFeed {
+                tolerance_mm,
+                tolerance_deg,
+                asked_mm_min,
+            } => out.variant(8, |fields| {
+                fields
+                    .field(1, tolerance_mm)
+                    .field(2, tolerance_deg)
+                    .field(3, asked_mm_min);
+            }),
             Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,
@@ -115,7 +125,7 @@ impl Encode for Claim {
                     .field(3, cost)
                     .field(4, labels);
             }),
-            Self::RefittedPath { tolerance_mm, source } => out.variant(6, |fields| {
+            Self::RefittedPath { tolerance_mm, source } => out.variant(7, |fields| {
                 fields.field(1, tolerance_mm).field(2, source);
             }),
         }

@@ -45,7 +45,7 @@ use super::Body;
 use crate::chain_words::{Hand, lean};
 use crate::pieces::{Limits, divide};
 use crate::polyline::chains;
-use crate::{Options, Proposal};
+use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::{Claim, RefitSource};
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
@@ -56,12 +56,12 @@ pub(super) const REWRITE: Body = Body { cures: &[], propose };
 /// Points are on a line exactly if they are no farther from it than this share of the largest coordinate.
 const EXACT: f64 = 1e-9;
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     if program.options().format == Format::Apt {
         return Err("APT: only G code has words that repeat".into());
     }
     let hand = Hand::of(program);
-    let (mut edits, mut was, mut is) = (Vec::new(), 0, 0);
+    let (mut places, mut was, mut is, mut bytes) = (Vec::new(), 0, 0, 0);
     for chain in chains(program, settings, 1).chains {
         let points: Vec<Vec3> = core::iter::once(chain.start)
             .chain(chain.lines.iter().map(|line| line.end))
@@ -78,17 +78,20 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         let divided = divide(&points, &limits);
         was += chain.lines.len();
         is += divided.pieces.len();
-        edits.extend(lean(program, &hand, &chain, &points, &divided.pieces));
+        let edits = lean(program, &hand, &chain, &points, &divided.pieces);
+        if !edits.is_empty() {
+            let saved = edits
+                .iter()
+                .map(|edit| i64::from(edit.range.end - edit.range.start) - edit.new_text.len() as i64);
+            bytes += saved.sum::<i64>();
+            places.push(Place::around(program, edits));
+        }
     }
-    if edits.is_empty() {
+    if places.is_empty() {
         return Ok(None);
     }
-    let bytes: i64 = edits
-        .iter()
-        .map(|edit| i64::from(edit.range.end - edit.range.start) - edit.new_text.len() as i64)
-        .sum();
     Ok(Some(Proposal {
-        edits,
+        places,
         claim: Claim::RefittedPath {
             tolerance_mm: options.straight_mm.unwrap_or(0.0).max(1e-6),
             source: RefitSource::Chords,

@@ -52,7 +52,7 @@ use crate::chain_words::{Hand, write};
 use crate::pieces::{Limits, divide};
 use crate::polyline::{Chain, Reasons, chains};
 use crate::style::NumberStyle;
-use crate::{Options, Proposal};
+use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
@@ -61,35 +61,44 @@ use trunnion_syntax::{Address, Format, Program, Value};
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     if program.options().format == Format::Apt {
         return Err("APT: arcs are not written there".into());
     }
     let found = chains(program, settings, 2);
     let (hand, styles) = (Hand::of(program), centre_styles(program));
-    let (mut edits, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
-    for chain in &found.chains {
-        let planes = planes(settings, chain);
-        let limits = Limits {
-            tolerance_mm: options.tolerance_mm,
-            source: options.source,
-            planes: &planes,
-            styles: Some(styles),
-            unit_mm: chain.unit_mm,
-            dialect: settings.dialect,
-        };
-        let divided = divide(&points(chain), &limits);
-        was += chain.lines.len();
-        is += divided.pieces.len();
-        unrounded += divided.unrounded;
-        if divided.pieces.len() < chain.lines.len() {
+    let (mut places, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
+    // chains that follow each other directly are one place: the first may end with an arc, and then the next begins with G1
+    for group in found
+        .chains
+        .chunk_by(|a, b| a.next_line == b.lines.first().map(|line| line.block))
+    {
+        let mut written = Vec::new();
+        for chain in group {
+            let planes = planes(settings, chain);
+            let limits = Limits {
+                tolerance_mm: options.tolerance_mm,
+                source: options.source,
+                planes: &planes,
+                styles: Some(styles),
+                unit_mm: chain.unit_mm,
+                dialect: settings.dialect,
+            };
+            let divided = divide(&points(chain), &limits);
+            was += chain.lines.len();
+            is += divided.pieces.len();
+            unrounded += divided.unrounded;
             arcs += divided.pieces.iter().filter(|piece| piece.arc.is_some()).count();
-            edits.extend(write(program, &hand, chain, &divided.pieces));
+            written.push((chain, divided.pieces));
+        }
+        let edits = write(program, &hand, &written);
+        if !edits.is_empty() {
+            places.push(Place::around(program, edits));
         }
     }
-    if edits.is_empty() {
+    if places.is_empty() {
         return match left_alone(&found.reasons) {
-            Some(why) if found.chains.is_empty() => Err(format!("there are no lines to put together: {why}")),
+            Some(why) if found.chains.is_empty() => Err(format!("there are no lines to put together: {why}").into()),
             _ => Ok(None),
         };
     }
@@ -100,7 +109,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         summary.push_str(&why);
     }
     Ok(Some(Proposal {
-        edits,
+        places,
         claim: Claim::RefittedPath {
             tolerance_mm: options.tolerance_mm,
             source: options.source,

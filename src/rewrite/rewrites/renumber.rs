@@ -38,7 +38,7 @@
 //! # Sources
 //! docs/decisions/0057-arcs-through-points.md; the layout floor.
 use super::Body;
-use crate::{Options, Proposal};
+use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_layout::{Numbers, Renumbered};
@@ -52,12 +52,12 @@ pub(super) const REWRITE: Body = Body {
 /// First number and step: room for blocks that are added by hand.
 const NUMBERS: Numbers = Numbers { start: 10, step: 10 };
 
-fn propose(program: &Program, settings: &Settings<'_>, _: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, _: &Options) -> Proposed {
     let line = |offset: u32| LineIndex::new(program.source()).line_column(program.source(), offset).0;
     match trunnion_layout::renumber(program, settings.dialect, &settings.setup, NUMBERS) {
         Renumbered::NoNumbers => Ok(None),
-        Renumbered::Refused(obstacle) => Err(format!("line {}: {}", line(obstacle.range.start), obstacle.why)),
-        Renumbered::Differs(found) => Err(format!("the numbers matter: {}", found.what)),
+        Renumbered::Refused(obstacle) => Err(format!("line {}: {}", line(obstacle.range.start), obstacle.why).into()),
+        Renumbered::Differs(found) => Err(format!("the numbers matter: {}", found.what).into()),
         Renumbered::Changed {
             text,
             blocks,
@@ -74,7 +74,7 @@ fn propose(program: &Program, settings: &Settings<'_>, _: &Options) -> Result<Op
                 })
                 .collect();
             Ok((!edits.is_empty()).then(|| Proposal {
-                edits,
+                places: vec![Place::around(program, edits)],
                 claim: Claim::SameToolPath {
                     tolerance_mm: 1e-9,
                     tolerance_deg: 1e-9,

@@ -213,6 +213,20 @@ impl Certificate {
     /// One line for people: what is proved, with the worst numbers.
     pub fn summary(&self) -> String {
         let (mm, degrees) = self.claim.tolerances();
+        if let Claim::RefittedPath { tolerance_mm, source } = self.claim {
+            let near = match source {
+                crate::RefitSource::Points => "the points of the original program are",
+                crate::RefitSource::Chords => "the two paths are",
+            };
+            return format!(
+                "the same but for the path, which is refitted: {near} within {tolerance_mm} mm, in order (found: {:.6} mm, at line {}); {} of {} \
+                 motions take the place of others",
+                self.worst.point_shift_mm.value,
+                self.worst.point_shift_mm.line,
+                self.motions.changed,
+                self.motions.total
+            );
+        }
         let claim = match self.claim {
             Claim::SamePoses { .. } => "same poses at all block ends",
             Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
@@ -224,6 +238,7 @@ impl Certificate {
                 "the same, with points put in that keep the tip near the programmed segments"
             }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
+            Claim::RefittedPath { .. } => "a refitted path",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",
         };
         let worst = &self.worst;

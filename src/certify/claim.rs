@@ -73,6 +73,16 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
+    /// Lines may be put together into fewer lines, arcs and helices (`fit-arcs`, `drop-redundant`). The two paths are nowhere farther apart than
+    /// `tolerance_mm`, both walked from start to end and neither going back; `source` says whether the old path is the lines or only their
+    /// ends. Feed, spindle, tool, offsets and rotary axes are the same at each line, and all else is as in [`Self::SameToolPath`] within
+    /// 1e-6 mm and deg.
+    RefittedPath {
+        /// mm.
+        tolerance_mm: f64,
+        /// What the new path must be near.
+        source: RefitSource,
+    },
     /// The geometry of [`Self::SameToolPath`] alone: feed, spindle, coolant, stops and the like may differ.
     SamePath {
         /// mm.
@@ -81,6 +91,20 @@ pub enum Claim {
         tolerance_deg: f64,
     },
 }
+
+/// What a refitted path must be near.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RefitSource {
+    /// The programmed points, as where they were taken from a curve. Nothing is claimed of the lines between them.
+    Points,
+    /// The lines as they are programmed: the same path as written.
+    #[default]
+    Chords,
+}
+
+/// Motions that are not put together are the same within this, mm and deg: rounding.
+const REST: f64 = 1e-6;
 
 impl Claim {
     /// Distance of the compared point from the tip along the tool axis, mm: the ball's centre, or the tip itself.
@@ -92,11 +116,12 @@ impl Claim {
             | Self::AdaptedFeed { .. }
             | Self::InsertedPoints { .. }
             | Self::SameToolPath { .. }
+            | Self::RefittedPath { .. }
             | Self::SamePath { .. } => 0.0,
         }
     }
 
-    /// Tolerances: mm and deg.
+    /// Tolerances: mm and deg. Of a refitted path those of what is not refitted.
     pub fn tolerances(&self) -> (f64, f64) {
         match *self {
             Self::SamePoses {
@@ -130,6 +155,7 @@ impl Claim {
                 tolerance_mm,
                 tolerance_deg,
             } => (tolerance_mm, tolerance_deg),
+            Self::RefittedPath { .. } => (REST, REST),
         }
     }
 
@@ -137,7 +163,11 @@ impl Claim {
     pub fn is_rewrite(&self) -> bool {
         !matches!(
             self,
-            Self::AdaptedFeed { .. } | Self::InsertedPoints { .. } | Self::SameToolPath { .. } | Self::SamePath { .. }
+            Self::AdaptedFeed { .. }
+                | Self::InsertedPoints { .. }
+                | Self::SameToolPath { .. }
+                | Self::RefittedPath { .. }
+                | Self::SamePath { .. }
         )
     }
 }

@@ -291,6 +291,7 @@ impl Pair<'_> {
             Claim::AdaptedFeed { .. }
             | Claim::InsertedPoints { .. }
             | Claim::SameToolPath { .. }
+            | Claim::RefittedPath { .. }
             | Claim::SamePath { .. } => true,
         };
         let (mm, degrees) = self.claim.tolerances();

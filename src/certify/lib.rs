@@ -28,6 +28,6 @@ pub use certificate::{
     Worst, WorstChanges,
 };
 pub use chain::{CHAIN_SCHEMA, Chain, ChainStep};
-pub use claim::Claim;
+pub use claim::{Claim, RefitSource};
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
 pub use verdict::{Gap, Outcome, Witness};

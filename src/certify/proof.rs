@@ -5,7 +5,7 @@ use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
 use trunnion_machine::{Leg, Machine};
-use trunnion_same::{Difference, Judge, Step, Verdict};
+use trunnion_same::{Difference, Judge, Refitted, Step, Verdict};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
 /// What is found while both programs run.
@@ -72,6 +72,11 @@ impl Judge for Proof<'_> {
             Err(crate::pieces::Wrong::Refuted(what)) => Err(Verdict::Differs(difference(what))),
             Err(crate::pieces::Wrong::Unknown(what)) => Err(Verdict::Unknown(difference(what.to_owned()))),
         }
+    }
+
+    fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
+        self.add_refitted(before, after, found);
+        Ok(())
     }
 
     fn cut(&mut self, off: f64) {
@@ -156,6 +161,26 @@ impl<'a> Proof<'a> {
         self.lines
             .line_column(self.after.source(), self.after.block(block).range().start)
             .0
+    }
+
+    /// A motion that takes the place of several: its shift is that of what the claim is about, its path bound that of the whole path.
+    fn add_refitted(&mut self, was: &Step, is: &Step, found: Refitted) {
+        let at = Place {
+            motion: self.motions.total as usize,
+            line: self.line(is.motion.block),
+        };
+        let points_only = matches!(
+            self.claim,
+            Claim::RefittedPath {
+                source: crate::RefitSource::Points,
+                ..
+            }
+        );
+        let shift = if points_only { found.points_mm } else { found.paths_mm };
+        raise(&mut self.worst.point_shift_mm, shift, at);
+        raise(&mut self.worst.path_bound_mm, found.paths_mm, at);
+        self.motions.changed += u64::from(found.motions > 1 || was.motion.kind != is.motion.kind);
+        self.motions.total += 1;
     }
 
     fn add(&mut self, was: &Step, is: &Step) -> Result<(), Outcome> {

@@ -7,12 +7,12 @@ use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::proof::Proof;
 use crate::text::text_change;
-use crate::{Certificate, Claim, Outcome};
+use crate::{Certificate, Claim, Outcome, RefitSource};
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Steps, Verdict, compare};
+use trunnion_same::{Input, Refit, Steps, Verdict, compare};
 use trunnion_syntax::{LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
@@ -173,21 +173,7 @@ fn prove(
         Steps::new(input(new, other, &recorded_after)),
     ];
     let [old_steps, new_steps] = &mut sides;
-    let (mm, degrees) = claim.tolerances();
-    let asked = trunnion_same::Claim {
-        mm,
-        deg: degrees,
-        pieces: matches!(claim, Claim::InsertedPoints { .. }),
-        frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
-        across: false,
-        straight_rapids: false,
-        plane_counts: true,
-        no_rotary: false,
-        path_only: matches!(claim, Claim::SamePath { .. }),
-        cuts: !claim.is_rewrite(),
-        exact: None,
-    };
-    let verdict = compare(old_steps, new_steps, &asked, &mut proof);
+    let verdict = compare(old_steps, new_steps, &asked(claim), &mut proof);
     if verdict != Verdict::Same {
         // the comparison may withdraw a refutation: where it is unknown whether a block moves the machine at all
         let taken_back = |outcome: &Outcome| matches!((outcome, &verdict), (Outcome::Refuted(_), Verdict::Unknown(_)));
@@ -232,6 +218,31 @@ fn prove(
     .sealed())
 }
 
+/// What the comparison is asked.
+fn asked(claim: &Claim) -> trunnion_same::Claim {
+    let (mm, degrees) = claim.tolerances();
+    trunnion_same::Claim {
+        mm,
+        deg: degrees,
+        pieces: matches!(claim, Claim::InsertedPoints { .. }),
+        frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
+        across: false,
+        straight_rapids: false,
+        plane_counts: true,
+        no_rotary: false,
+        path_only: matches!(claim, Claim::SamePath { .. }),
+        cuts: !claim.is_rewrite(),
+        refit: match *claim {
+            Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
+                mm: tolerance_mm,
+                points_only: source == RefitSource::Points,
+            }),
+            _ => None,
+        },
+        exact: None,
+    }
+}
+
 /// The settings of both runs with recorders of the programs that they call: one recorder where both call from the same places, so that runs
 /// of one text are seen to be the same.
 fn record_both(setup: &Setup, after_library: &Library) -> (Setup, Setup, Vec<Arc<Recorder>>) {
@@ -262,10 +273,10 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let asked = if let Claim::AdaptedFeed { asked_mm_min, .. } = claim {
-        *asked_mm_min
-    } else {
-        0.0
+    let asked = match *claim {
+        Claim::AdaptedFeed { asked_mm_min, .. } => asked_mm_min,
+        Claim::RefittedPath { tolerance_mm, .. } => tolerance_mm,
+        _ => 0.0,
     };
     let fine = [mm, degrees, claim.point_height_mm(), asked]
         .iter()

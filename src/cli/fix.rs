@@ -11,6 +11,7 @@ use crate::cli::out::Out;
 use report::{Outcome, Step};
 use similar::TextDiff;
 use std::{io::IsTerminal, path::PathBuf};
+use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_certify::{Chain, ChainStep};
 use trunnion_rewrite::{Attempt, Options, Place, Rewrite, attempt_at, gains, rewrite, rewrites};
@@ -25,6 +26,15 @@ pub(crate) enum CostOf {
     Time,
     /// How far the tip is off its line.
     Deviation,
+}
+
+/// What `fit-arcs` keeps to.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum SourceOf {
+    /// The ends of the lines.
+    Points,
+    /// The lines.
+    Chords,
 }
 
 /// Reads `12` or `12-40`.
@@ -131,6 +141,11 @@ fn options(command: &Fix, loaded: &Loaded) -> Result<Options, Failure> {
         cost: cost.unwrap_or(settings.cost),
         path_mm: command.tolerance_mm.or(settings.path_mm),
         feed_mm_min: command.feed.unwrap_or(settings.feed_mm_min),
+        straight_mm: command.tolerance_mm.or(settings.straight_mm),
+        source: command.source.map_or(settings.source, |source| match source {
+            SourceOf::Points => RefitSource::Points,
+            SourceOf::Chords => RefitSource::Chords,
+        }),
     };
     let good = |value: f64| value.is_finite() && value > 0.0;
     if command.feed.is_some_and(|feed| !good(feed)) {

@@ -113,6 +113,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         no_rotary: false,
         path_only,
         cuts: true,
+        refit: None,
         exact: None,
     };
     let mut near = Near {

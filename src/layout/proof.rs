@@ -37,6 +37,7 @@ pub(crate) fn first_difference(
         plane_counts: true,
         no_rotary: false,
         cuts: false,
+        refit: None,
         exact: Some(Exact {
             frees_block_numbers: renumbered,
             most_blocks,

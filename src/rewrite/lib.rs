@@ -2,9 +2,14 @@
 //!
 //! It does no I/O and never vouches for itself.
 mod attempt;
+mod chain_words;
+mod circle;
 mod edited;
+mod fewest;
 mod gains;
 mod line_points;
+mod pieces;
+mod polyline;
 mod posed_words;
 mod propose;
 mod reposition;

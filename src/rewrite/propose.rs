@@ -1,5 +1,6 @@
 //! Rewrites and their proposals.
 use trunnion_certify::Claim;
+use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_check::config::{FixCost, FixSettings};
 use trunnion_check::{Diagnostic, Settings};
@@ -18,6 +19,10 @@ pub struct Options {
     pub path_mm: Option<f64>,
     /// Cuts that are slower than this are made as fast as the axes allow, up to this, mm/min (`adapt-feed`). 0: none is made faster.
     pub feed_mm_min: f64,
+    /// What a refitted path must be near (`fit-arcs`).
+    pub source: RefitSource,
+    /// How far a point may be from a straight line to be left out, mm (`drop-redundant`); none: only those exactly on it.
+    pub straight_mm: Option<f64>,
 }
 
 impl Default for Options {
@@ -28,6 +33,8 @@ impl Default for Options {
             cost: PostureCost::default(),
             path_mm: None,
             feed_mm_min: 0.0,
+            source: RefitSource::default(),
+            straight_mm: None,
         }
     }
 }

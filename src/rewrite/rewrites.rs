@@ -1,7 +1,10 @@
-//! The list of rewrites, in the order in which `fix` applies them: postures first, then paths, then feeds. A rewrite is one file in `rewrites/`; its name
-//! appears in two lists here.
+//! The list of rewrites, in the order in which `fix` applies them: postures first, then paths, then feeds, then text. A rewrite is one file in
+//! `rewrites/`; its name appears in two lists here.
 mod adapt_feed;
+mod drop_redundant;
+mod fit_arcs;
 mod insert_points;
+mod renumber;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
@@ -38,7 +41,16 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![switch_angles, unwind_rotary, smooth_pole, insert_points, adapt_feed];
+static REWRITES: &[&Rewrite] = table![
+    switch_angles,
+    unwind_rotary,
+    smooth_pole,
+    fit_arcs,
+    drop_redundant,
+    insert_points,
+    adapt_feed,
+    renumber
+];
 
 /// All rewrites, in the order in which they are applied.
 pub fn rewrites() -> &'static [&'static Rewrite] {

@@ -7,6 +7,7 @@ use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::item::{Item, Sort, Step};
 use crate::process::{motion_difference, shown, stops, unlike};
+use crate::refit::{Following, Refit, Refitted, follow, may_begin};
 use crate::since::sets_from_here;
 use crate::steps::Steps;
 use crate::twins::Twins;
@@ -36,6 +37,8 @@ pub struct Claim {
     pub cuts: bool,
     /// The judge may find that several lines are the pieces of one.
     pub pieces: bool,
+    /// Lines may be put together into fewer lines and arcs; what is not, must be the same within `mm` and `deg`.
+    pub refit: Option<Refit>,
     /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, without any tolerance.
     pub exact: Option<Exact>,
 }
@@ -49,6 +52,11 @@ pub trait Judge {
     fn piece(&mut self, before: &Step, after: &Step) -> Result<Option<bool>, Verdict> {
         let _ = (before, after);
         Ok(None)
+    }
+    /// A motion that takes the place of one or several lines, the last of which is `before`; called where [`Claim::refit`] allows that.
+    fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
+        let _ = (before, after, found);
+        Ok(())
     }
     /// A motion that the other program makes in pieces: the distance of the cut point from it, mm or deg.
     fn cut(&mut self, off: f64) {
@@ -90,8 +98,9 @@ fn walk(
 ) -> Result<(), Verdict> {
     let mut a = next(before, claim);
     let mut b = next(after, claim);
+    let mut following = None;
     while let (Some(was), Some(is)) = (&mut a, &mut b) {
-        let found = pair(was, is, claim, judge);
+        let found = pair(was, is, claim, judge, &mut following);
         let moved_on = match found {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
@@ -148,7 +157,13 @@ enum Paired {
     SecondInPart,
 }
 
-fn pair(was: &mut Item, is: &mut Item, claim: &Claim, judge: &mut dyn Judge) -> Result<Paired, Verdict> {
+fn pair(
+    was: &mut Item,
+    is: &mut Item,
+    claim: &Claim,
+    judge: &mut dyn Judge,
+    following: &mut Option<Following>,
+) -> Result<Paired, Verdict> {
     match (&mut *was, &mut *is) {
         (Item::Motion(was), Item::Motion(is)) => {
             if claim.pieces
@@ -160,6 +175,22 @@ fn pair(was: &mut Item, is: &mut Item, claim: &Claim, judge: &mut dyn Judge) -> 
                 if let Some(last) = judge.piece(was, is)? {
                     return Ok(if last { Paired::Both } else { Paired::SecondInPart });
                 }
+            }
+            if let Some(refit) = claim.refit
+                && (following.is_some() || may_begin(was, is) && !same_line(was, is, claim))
+            {
+                in_effect(was, is, claim)?;
+                if following.is_none()
+                    && let Some(off) = cut(was, is, claim)
+                {
+                    judge.cut(off);
+                    return Ok(Paired::SecondInPart);
+                }
+                let Some(found) = follow(following, was, is, refit, claim)? else {
+                    return Ok(Paired::FirstInPart);
+                };
+                judge.refitted(was, is, found)?;
+                return Ok(Paired::Both);
             }
             held(was, is, claim)?;
             if claim.cuts && !ends_together(was, is, claim) {
@@ -205,7 +236,6 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         what,
     };
     let differs = |what: String| Err(Verdict::Differs(place(what)));
-    let unknown = |what: String| Err(Verdict::Unknown(place(what)));
     if core::mem::discriminant(&a.kind) != core::mem::discriminant(&b.kind) {
         let lost = [a, b].iter().any(|motion| motion.kind == MotionKind::Unknown);
         let verdict = if lost { Verdict::Unknown } else { Verdict::Differs };
@@ -226,10 +256,29 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
             return differs(format!("a dwell of {} and one of {}", seconds(from), seconds(to)));
         }
     }
+    in_effect(was, is, claim)
+}
+
+/// Two lines that end together: they are compared as one pair.
+fn same_line(was: &Step, is: &Step, claim: &Claim) -> bool {
+    was.motion.kind == is.motion.kind && ends_together(was, is, claim)
+}
+
+/// What must be in effect in both programs, whatever the kinds of the two motions.
+fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
+    let (a, b) = (&was.motion, &is.motion);
+    let place = |what: String| Difference {
+        before: Some(a.block),
+        after: Some(b.block),
+        what,
+    };
+    let differs = |what: String| Err(Verdict::Differs(place(what)));
+    let unknown = |what: String| Err(Verdict::Unknown(place(what)));
     let straight = |kind: &MotionKind| matches!(kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Dwell(_));
+    // lines that became an arc did not need a plane
     let plane = claim.plane_counts || !straight(&a.kind) || was.held.compensation != 0;
     let held = was.held.difference(&is.held, plane).filter(|_| !claim.across);
     if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {

@@ -2,6 +2,7 @@
 
 mod everywhere;
 mod feeds;
+mod fitting;
 mod mutants;
 mod points;
 mod random;

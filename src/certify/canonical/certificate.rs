@@ -131,6 +131,9 @@ impl Encode for Claim {
                     .field(3, cost)
                     .field(4, labels);
             }),
+            Self::RefittedPath { tolerance_mm, source } => out.variant(7, |fields| {
+                fields.field(1, tolerance_mm).field(2, source);
+            }),
         }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! A number stays with its meaning forever. A new variant takes the next number, a deleted one leaves a gap.
 use super::{CanonicalV1, Encode};
+use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, Role};
 use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};
@@ -49,6 +50,7 @@ tags! { LengthUnit { Millimetre = 1, Inch = 2 } }
 tags! { RoughingEscape { Feed = 1, Rapid = 2 } }
 tags! { OuterCorner { Lines = 1, Arc = 2 } }
 tags! { RollPitchYaw { Fixed = 1, Turned = 2 } }
+tags! { RefitSource { Points = 1, Chords = 2 } }
 tags! { PostureCost { Travel = 1, Time = 2, Deviation = 3 } }
 
 tags! {

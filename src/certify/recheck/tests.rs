@@ -3,6 +3,7 @@ use super::{certify, recheck};
 use crate::{Certificate, Claim, Outcome};
 use trunnion_interp::Setup;
 
+mod refitted;
 mod versions;
 
 const TURNS: Claim = Claim::SamePoses {

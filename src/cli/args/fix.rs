@@ -22,6 +22,9 @@ pub(crate) struct Fix {
     /// switch-angles: what the postures of the whole program are chosen by. Default: `cost` of [fix] in trunnion.toml, else travel.
     #[arg(long, value_enum)]
     pub(crate) cost: Option<crate::cli::fix::CostOf>,
+    /// fit-arcs: what the new path must be near, the lines as they are programmed or only their ends. Default: chords.
+    #[arg(long, value_enum)]
+    pub(crate) source: Option<crate::cli::fix::SourceOf>,
     /// adapt-feed: make cuts that are slower than this as fast as the axes allow, up to this, in mm/min. Plunges too: see --lines.
     #[arg(long, value_name = "MM_MIN")]
     pub(crate) feed: Option<f64>,

@@ -1,0 +1,269 @@
+//! Chains of lines at feed that may be put together, found in the text and in the run.
+use trunnion_check::Settings;
+use trunnion_dialect::Plane;
+use trunnion_geometry::Vec3;
+use trunnion_interp::{ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, run};
+use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
+
+/// One line of a chain.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    /// Its block.
+    pub block: BlockId,
+    /// Where it ends, programmed coordinates, mm.
+    pub end: Vec3,
+}
+
+/// Lines one after the other with nothing between them: all but the first have no words but a number, G1, X Y Z and the feed that is in effect.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    /// Where it begins, mm.
+    pub start: Vec3,
+    /// Not empty.
+    pub lines: Vec<Line>,
+    /// The working plane.
+    pub plane: Plane,
+    /// mm per programmed length unit.
+    pub unit_mm: f64,
+    /// The block of the next motion, if that is a line at feed.
+    pub next_line: Option<BlockId>,
+}
+
+/// Why lines were left alone, most frequent reasons of a program first.
+pub(crate) type Reasons = Vec<(&'static str, u32)>;
+
+/// What a rewrite of chains sees of a program.
+pub(crate) struct Chains {
+    /// In the order of the text.
+    pub chains: Vec<Chain>,
+    /// Why other lines at feed are in no chain.
+    pub reasons: Reasons,
+}
+
+/// One motion, as far as a chain needs it.
+struct Seen {
+    block: BlockId,
+    ends: Result<(Vec3, Vec3), &'static str>,
+    linear: bool,
+    waits: bool,
+    plane: Plane,
+    unit_mm: f64,
+    /// All that is in effect is as at the motion before.
+    goes_on: bool,
+}
+
+struct Collector {
+    all: Vec<Seen>,
+    last: Option<Motion>,
+}
+
+impl Sink for Collector {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.all.push(Seen {
+            block: motion.block,
+            ends: ends(motion, state),
+            linear: motion.kind == MotionKind::Linear,
+            waits: matches!(motion.kind, MotionKind::Dwell(_)),
+            plane: state.coordinates.plane(),
+            unit_mm: state.coordinates.unit_mm(),
+            goes_on: self.last.is_some_and(|last| goes_on(&last, motion)),
+        });
+        self.last = Some(*motion);
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+/// Both ends of a line that may be put together with others; else why not.
+fn ends(motion: &Motion, state: &ModalState) -> Result<(Vec3, Vec3), &'static str> {
+    if motion.kind != MotionKind::Linear {
+        return Err("");
+    }
+    let stands =
+        (3..9).all(|axis| motion.start.get(axis) == motion.end.get(axis) && motion.says_way & (1 << axis) == 0);
+    let turned = matches!(motion.orientation, Orientation::Vector(start, end) if start != Some(end));
+    if motion.chain != ChainId::MAIN {
+        Err("it is in a called program")
+    } else if state.coordinates.incremental() {
+        Err("it is incremental (G91)")
+    } else if state.coordinates.arc_centre_absolute() {
+        Err("the centres of arcs are absolute (G90.1)")
+    } else if state.compensation != 0 {
+        Err("cutter radius compensation is on (G41, G42)")
+    } else if matches!(motion.feed, Feed::InverseTime(_)) {
+        Err("the feed is inverse time (G93)")
+    } else if matches!(motion.feed, Feed::Unknown) || motion.spin.is_some() {
+        Err("the feed or the spindle's speed is not known")
+    } else if motion.tcp {
+        Err("tool centre point control is on")
+    } else if motion.machine_coordinates || motion.tilt.swivel != Swivel::No || motion.tilt.free != 0 {
+        Err("it is programmed in machine coordinates or only turns the tool")
+    } else if !stands || turned {
+        Err("a rotary axis moves")
+    } else {
+        motion
+            .start
+            .xyz()
+            .zip(motion.end.xyz())
+            .ok_or("its position is unknown")
+    }
+}
+
+/// Whether everything that is in effect is the same at both motions.
+fn goes_on(last: &Motion, motion: &Motion) -> bool {
+    let same = |a: f64, b: f64| a == b || a.is_nan() && b.is_nan();
+    last.end == motion.start
+        && last.feed == motion.feed
+        && last.spindle_on == motion.spindle_on
+        && last.spindle_rpm == motion.spindle_rpm
+        && last.tcp == motion.tcp
+        && last.tool == motion.tool
+        && last.tilt == motion.tilt
+        && same(last.tool_length_mm, motion.tool_length_mm)
+        && last.zero.iter().zip(&motion.zero).all(|(a, b)| same(*a, *b))
+}
+
+/// What the text of a block allows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Text {
+    /// Nothing but a number, G1, X Y Z, and F.
+    Plain,
+    /// The same with a comment: it may begin a chain.
+    Commented,
+    /// No word at all.
+    Blank,
+    /// Something else.
+    Other,
+}
+
+fn text_of(block: &Block<'_>) -> Text {
+    let mut found = Text::Blank;
+    for item in block.items() {
+        match item {
+            Item::Comment(_) => found = Text::Commented,
+            Item::Word(word) => {
+                let Value::Number(value) = word.value else {
+                    return Text::Other;
+                };
+                match word.address {
+                    Address::Letter(b'N' | b'X' | b'Y' | b'Z' | b'F') => {}
+                    Address::Letter(b'G') if value.to_integer() == Some(1) => {}
+                    _ => return Text::Other,
+                }
+                if found == Text::Blank {
+                    found = Text::Plain;
+                }
+            }
+            _ => return Text::Other,
+        }
+    }
+    found
+}
+
+/// Whether a block switches exact stop on or off.
+fn exact_stop(block: &Block<'_>) -> Option<bool> {
+    let mut found = None;
+    for word in block.words() {
+        if let (Address::Letter(b'G'), Value::Number(value)) = (word.address, word.value) {
+            let tenths = (value.to_f64() * 10.0).round() as i64;
+            match tenths {
+                600 | 610 | 611 => found = Some(true),
+                620 | 630 | 640..=649 | 6410..=6459 => found = Some(false),
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
+/// Whether the words of X Y Z are where the motion ends: no frame, mirror or scale is between them.
+fn is_literal(block: &Block<'_>, end: &Vec3, unit_mm: f64) -> bool {
+    block.words().all(|word| match (word.address, word.value) {
+        (Address::Letter(letter @ b'X'..=b'Z'), Value::Number(value)) => {
+            let at = end[usize::from(letter - b'X')];
+            (value.to_f64() * unit_mm - at).abs() <= 1e-9 * (1.0 + at.abs())
+        }
+        _ => true,
+    })
+}
+
+/// The chains of a program of at least so many lines.
+pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -> Chains {
+    let mut collector = Collector {
+        all: Vec::new(),
+        last: None,
+    };
+    run(program, settings.dialect, &settings.setup, &mut collector);
+    let seen = collector.all;
+    let mut found = Chains {
+        chains: Vec::new(),
+        reasons: Vec::new(),
+    };
+    let mut open: Option<Chain> = None;
+    let mut stops = false;
+    let mut at = 0;
+    let mut close = |open: &mut Option<Chain>, next: Option<&Seen>| {
+        if let Some(mut chain) = open.take().filter(|chain| chain.lines.len() >= least) {
+            chain.next_line = next.filter(|next| next.linear).map(|next| next.block);
+            found.chains.push(chain);
+        }
+    };
+    for block in program.blocks() {
+        let mut motions = 0;
+        while seen.get(at + motions).is_some_and(|seen| seen.block == block.id()) {
+            motions += 1;
+        }
+        let next = seen[at + motions..].iter().find(|seen| !seen.waits);
+        let text = text_of(&block);
+        if text == Text::Other
+            && let Some(on) = exact_stop(&block)
+        {
+            stops = on;
+        }
+        if motions == 0 {
+            if text != Text::Blank {
+                close(&mut open, next);
+            }
+            continue;
+        }
+        let one = &seen[at];
+        at += motions;
+        let why = match &one.ends {
+            _ if motions > 1 => Some("a block makes several motions"),
+            Err(why) => Some(*why),
+            Ok(_) if stops => Some("exact stop is on (G61, G60): each block ends with a stop"),
+            Ok(_) if text == Text::Other => Some("its block has other words than a number, G1, X, Y, Z and F"),
+            Ok((_, end)) if !is_literal(&block, end, one.unit_mm) => {
+                Some("the words are not the position: a frame, a scale or a diameter is active")
+            }
+            Ok(_) => None,
+        };
+        if let Some(why) = why {
+            close(&mut open, seen[at - motions..].iter().find(|seen| !seen.waits));
+            if one.linear && !why.is_empty() {
+                match found.reasons.iter_mut().find(|(known, _)| *known == why) {
+                    Some((_, count)) => *count += 1,
+                    None => found.reasons.push((why, 1)),
+                }
+            }
+            continue;
+        }
+        let Ok((start, end)) = one.ends else { continue };
+        let line = Line { block: block.id(), end };
+        match &mut open {
+            Some(chain) if one.goes_on && text == Text::Plain && chain.plane == one.plane => chain.lines.push(line),
+            _ => {
+                close(&mut open, Some(one));
+                open = Some(Chain {
+                    start,
+                    lines: vec![line],
+                    plane: one.plane,
+                    unit_mm: one.unit_mm,
+                    next_line: None,
+                });
+            }
+        }
+    }
+    close(&mut open, None);
+    found.reasons.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
+    found
+}

@@ -1,0 +1,171 @@
+//! Puts short lines together into arcs, helices and longer lines: the fewest blocks within a tolerance.
+//!
+//! # Why
+//! A curve as a thousand short lines makes a long file, a control that runs out of blocks, and facets on the part. G2 and G3 say the same in a
+//! few blocks, and the control keeps its feed.
+//!
+//! # How
+//! A chain of lines with one feed and nothing between them is divided into the fewest arcs and lines: the shortest path over its points.
+//! A part may become an arc if a circle through its two ends comes near all its points (`--source points`), and also near the lines
+//! between them (`--source chords`, the default). All centres that serve are found, and then one whose numbers, rounded to the digits of the
+//! program, still serve. A part that cannot be written so is divided again.
+//!
+//! # Example
+//! ```gcode before fanuc-30i mill-3axis
+//! G21 G90 G94 G17 G54
+//! G0 X20. Y0. Z5. S8000 M3
+//! N10 G1 Z0. F500
+//! N20 X19.924 Y1.743
+//! N30 X19.696 Y3.473
+//! N40 X19.319 Y5.176
+//! N50 X18.794 Y6.840
+//! N60 X18.126 Y8.452
+//! N70 X17.321 Y10.000
+//! N80 Y20. (to the side)
+//! M30
+//! ```
+//! ```gcode after
+//! G21 G90 G94 G17 G54
+//! G0 X20. Y0. Z5. S8000 M3
+//! N10 G1 Z0. F500
+//! N20 G3 X17.321 Y10.000 I-20.000 J0.000
+//! N80 G1 Y20. (to the side)
+//! M30
+//! ```
+//!
+//! # Claim
+//! The new path and the old one are nowhere farther apart than the tolerance, both walked from start to end; with `--source points` this is
+//! claimed of the programmed points only. Feed, spindle, offsets and all else are the same.
+//!
+//! # Traps
+//! - A control slows down in arcs where it does not on lines; the programmed feed stays as it is.
+//! - Arcs are at most 350 degrees and 10 m in radius, and never have equal ends; a whole circle becomes two.
+//! - A block with a comment begins a new piece, so comments stay. Words other than a number, G1, X, Y, Z and F end a chain.
+//! - On a Sinumerik arcs are only written in the active plane, because another plane turns the tool's length.
+//! - Left alone, with the reason: G41 and G42, G91, G93, exact stop, tool centre point control, moving rotary axes, frames, G90.1.
+//! - With `--source points` no arc passes a corner of more than 30 degrees.
+//!
+//! # Sources
+//! Vickers and Bradley, curved surface machining through circular arc interpolation (1992), for arcs through points; docs/kinematics.md#arcs-through-points.
+use super::Body;
+use crate::chain_words::{Hand, write};
+use crate::pieces::{Limits, divide};
+use crate::polyline::{Chain, Reasons, chains};
+use crate::style::NumberStyle;
+use crate::{Options, Place, Proposal, Proposed};
+use trunnion_certify::Claim;
+use trunnion_check::Settings;
+use trunnion_dialect::Plane;
+use trunnion_geometry::Vec3;
+use trunnion_syntax::{Address, Format, Program, Value};
+
+pub(super) const REWRITE: Body = Body { cures: &[], propose };
+
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+    if program.options().format == Format::Apt {
+        return Err("APT: arcs are not written there".into());
+    }
+    let found = chains(program, settings, 2);
+    let (hand, styles) = (Hand::of(program), centre_styles(program));
+    let (mut places, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
+    // chains that follow each other directly are one place: the first may end with an arc, and then the next begins with G1
+    for group in found
+        .chains
+        .chunk_by(|a, b| a.next_line == b.lines.first().map(|line| line.block))
+    {
+        let mut written = Vec::new();
+        for chain in group {
+            let planes = planes(settings, chain);
+            let limits = Limits {
+                tolerance_mm: options.tolerance_mm,
+                source: options.source,
+                planes: &planes,
+                styles: Some(styles),
+                unit_mm: chain.unit_mm,
+                dialect: settings.dialect,
+            };
+            let divided = divide(&points(chain), &limits);
+            was += chain.lines.len();
+            is += divided.pieces.len();
+            unrounded += divided.unrounded;
+            arcs += divided.pieces.iter().filter(|piece| piece.arc.is_some()).count();
+            written.push((chain, divided.pieces));
+        }
+        let edits = write(program, &hand, &written);
+        if !edits.is_empty() {
+            places.push(Place::around(program, edits));
+        }
+    }
+    if places.is_empty() {
+        return match left_alone(&found.reasons) {
+            Some(why) if found.chains.is_empty() => Err(format!("there are no lines to put together: {why}").into()),
+            _ => Ok(None),
+        };
+    }
+    let mut summary =
+        format!("{was} lines become {is} blocks, {arcs} of them arcs ({unrounded} blocks before rounding)");
+    if let Some(why) = left_alone(&found.reasons) {
+        summary.push_str("; left alone: ");
+        summary.push_str(&why);
+    }
+    Ok(Some(Proposal {
+        places,
+        claim: Claim::RefittedPath {
+            tolerance_mm: options.tolerance_mm,
+            source: options.source,
+        },
+        summary,
+    }))
+}
+
+/// The points of a chain, with its start.
+fn points(chain: &Chain) -> Vec<Vec3> {
+    core::iter::once(chain.start)
+        .chain(chain.lines.iter().map(|line| line.end))
+        .collect()
+}
+
+/// Planes in which arcs may be written: first the one that is active.
+fn planes(settings: &Settings<'_>, chain: &Chain) -> Vec<Plane> {
+    let mut planes = vec![chain.plane];
+    if !settings.dialect.quirks.user_names() {
+        let others = [Plane::Xy, Plane::Zx, Plane::Yz].into_iter();
+        planes.extend(others.filter(|plane| *plane != chain.plane));
+    }
+    planes
+}
+
+/// How I, J and K are written: like those that are there, else like X, Y and Z together.
+fn centre_styles(program: &Program) -> [NumberStyle; 3] {
+    let texts = |letters: &'static [u8]| {
+        let words = program.blocks().flat_map(|block| block.words().collect::<Vec<_>>());
+        let own = words.filter(move |word| {
+            matches!(word.address, Address::Letter(letter) if letters.contains(&letter))
+                && matches!(word.value, Value::Number(_))
+        });
+        own.map(|word| program.text(word.value_range).into_owned())
+            .collect::<Vec<_>>()
+    };
+    let learn = |texts: &[String]| NumberStyle::learn(texts.iter().map(String::as_str));
+    let all = learn(&texts(b"XYZ")).unwrap_or(NumberStyle {
+        decimals: 3,
+        trims: false,
+        whole_point: true,
+        leading_zero: true,
+    });
+    // fewer digits than those of the coordinates would only make worse arcs
+    let style = learn(&texts(b"IJK"))
+        .filter(|style| style.decimals >= all.decimals)
+        .unwrap_or(all);
+    [style; 3]
+}
+
+/// Why other lines were not looked at.
+fn left_alone(reasons: &Reasons) -> Option<String> {
+    let texts: Vec<String> = reasons
+        .iter()
+        .take(3)
+        .map(|(why, count)| format!("{count} lines ({why})"))
+        .collect();
+    (!texts.is_empty()).then(|| texts.join("; "))
+}

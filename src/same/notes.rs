@@ -32,6 +32,7 @@ impl Steps<'_> {
                 process: before.1,
             });
             let mut variables = (lost || own).then(|| self.interpreter.known_variables());
+            self.run.actions.add_variables(variables.as_ref().map_or(0, Vec::len));
             if let Some(variables) = variables.as_mut().filter(|_| own_locals) {
                 variables.retain(|variable| !is_local(&variable.name));
             }

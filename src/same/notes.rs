@@ -52,7 +52,9 @@ impl Steps<'_> {
             match &mut waiting.what {
                 Waits::Effect(Effect::Set { to: words, .. }, _) if words.is_empty() => {}
                 Waits::Effect(Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words), _) => {
+                    let written = words.len();
                     self.interpreter.add_values(words);
+                    self.run.actions.add_variables(words.len() - written);
                 }
                 Waits::Effect(Effect::Store(_) | Effect::End(_), _) | Waits::Restated(..) | Waits::Lost => {}
             }

@@ -81,8 +81,9 @@ impl Sink for Run<'_> {
         }
         self.count += 1;
         let Placed { block, effect, reach } = effect;
-        let open = matches!(effect, Effect::Unmodelled(_)) || reach == Reach::Everything;
-        self.actions.add(if open { Actions::OPEN } else { 1 });
+        if matches!(effect, Effect::Unmodelled(_)) || reach == Reach::Everything {
+            self.actions.add(Actions::OPEN);
+        }
         self.wait(self.count, block, Waits::Effect(effect, reach));
     }
 }
@@ -351,6 +352,9 @@ impl<'a> Steps<'a> {
                 }
             };
             self.since.disturbed |= reach != Reach::Itself;
+            // a setting that stays as it is, such as the feed that a block repeats, is none
+            let stays = matches!(&effect, Effect::Set { key, to } if run.process.get(key) == to);
+            run.actions.add(u64::from(!stays));
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows

@@ -24,7 +24,9 @@ impl Variables for Some5 {
 /// One past its last byte.
 fn compiled(text: &str) -> Result<u32, FormulaErrorKind> {
     let range = TextRange::new(0, text.len() as u32);
-    sinumerik(text.as_bytes(), range).map(|found| found.1).map_err(|error| error.kind)
+    sinumerik(text.as_bytes(), range)
+        .map(|found| found.1)
+        .map_err(|error| error.kind)
 }
 
 fn value(text: &str) -> Result<(f64, String), FormulaErrorKind> {

@@ -217,6 +217,12 @@ impl Certificate {
             Claim::SamePoses { .. } => "same poses at all block ends",
             Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
+            Claim::AdaptedFeed { .. } => {
+                "the same but for feeds, which keep the axes within their speeds: path, spindle, tool and all else"
+            }
+            Claim::InsertedPoints { .. } => {
+                "the same, with points put in that keep the tip near the programmed segments"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",
         };

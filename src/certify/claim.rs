@@ -44,6 +44,26 @@ pub enum Claim {
         /// The least cost of reaching each state of the graph, in billionths of the cost's unit; none where it cannot be reached.
         labels: Vec<Option<u64>>,
     },
+    /// All of [`Self::SameToolPath`] but the feeds of cuts. A feed that differs is no higher than the one before, or than the one asked for, and no
+    /// axis is faster than its highest speed with it; it is lower only where an axis would be too fast (`adapt-feed`). Under inverse time (G93)
+    /// the same holds for the time of the block.
+    AdaptedFeed {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// The feed asked for, mm/min: cuts that are slower may be made as fast as this. 0: none is made faster.
+        asked_mm_min: f64,
+    },
+    /// All of [`Self::SameToolPath`], but a line without tool centre point control may be made in several pieces. Each piece keeps the tip within
+    /// `tolerance_mm` of the straight segment that the original line programs, and ends where the rotary axes of that line come past, within
+    /// `tolerance_deg` (`insert-points`). Nothing is claimed of the path between the ends of the original line, which may be farther off.
+    InsertedPoints {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -67,9 +87,12 @@ impl Claim {
     pub fn point_height_mm(&self) -> f64 {
         match self {
             Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
-            Self::SamePoses { .. } | Self::LeastPostures { .. } | Self::SameToolPath { .. } | Self::SamePath { .. } => {
-                0.0
-            }
+            Self::SamePoses { .. }
+            | Self::LeastPostures { .. }
+            | Self::AdaptedFeed { .. }
+            | Self::InsertedPoints { .. }
+            | Self::SameToolPath { .. }
+            | Self::SamePath { .. } => 0.0,
         }
     }
 
@@ -90,6 +113,15 @@ impl Claim {
                 tolerance_deg,
                 ..
             }
+            | Self::AdaptedFeed {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
+            | Self::InsertedPoints {
+                tolerance_mm,
+                tolerance_deg,
+            }
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
@@ -103,6 +135,9 @@ impl Claim {
 
     /// Whether it is a rewrite's claim: then nothing but numbers of coordinate words may differ in the text.
     pub fn is_rewrite(&self) -> bool {
-        !matches!(self, Self::SameToolPath { .. } | Self::SamePath { .. })
+        !matches!(
+            self,
+            Self::AdaptedFeed { .. } | Self::InsertedPoints { .. } | Self::SameToolPath { .. } | Self::SamePath { .. }
+        )
     }
 }

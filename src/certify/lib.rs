@@ -4,6 +4,7 @@
 //! It knows neither rules nor rewrites nor any search: what it trusts is floors 0 to 3 and itself.
 mod canonical;
 mod certificate;
+mod chain;
 mod chosen;
 mod claim;
 mod compare;
@@ -11,8 +12,10 @@ pub mod conversion;
 mod curve;
 mod difference;
 mod digest;
+mod feed;
 mod library;
 mod path;
+mod pieces;
 pub mod postures;
 mod proof;
 mod recheck;
@@ -24,6 +27,7 @@ pub use certificate::{
     Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, SCHEMA, TextChange, TextDigest,
     Worst, WorstChanges,
 };
+pub use chain::{CHAIN_SCHEMA, Chain, ChainStep};
 pub use claim::Claim;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
 pub use verdict::{Gap, Outcome, Witness};

@@ -177,7 +177,8 @@ fn prove(
     let asked = trunnion_same::Claim {
         mm,
         deg: degrees,
-        frees_feed: false,
+        pieces: matches!(claim, Claim::InsertedPoints { .. }),
+        frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
         across: false,
         straight_rapids: false,
         plane_counts: true,
@@ -261,14 +262,19 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let fine = [mm, degrees, claim.point_height_mm()]
+    let asked = if let Claim::AdaptedFeed { asked_mm_min, .. } = claim {
+        *asked_mm_min
+    } else {
+        0.0
+    };
+    let fine = [mm, degrees, claim.point_height_mm(), asked]
         .iter()
         .all(|value| value.is_finite() && *value >= 0.0);
     if fine {
         Ok(())
     } else {
         Err(Outcome::refuted(
-            "claim: tolerances and radius must be finite and not negative",
+            "claim: tolerances, radius and feed must be finite and not negative",
         ))
     }
 }

@@ -1,9 +1,12 @@
-//! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name appears in two lists here.
+//! The list of rewrites, in the order in which `fix` applies them: postures first, then paths, then feeds. A rewrite is one file in `rewrites/`; its name
+//! appears in two lists here.
+mod adapt_feed;
+mod insert_points;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
 
-use crate::{Options, Proposal, Rewrite};
+use crate::{Options, Proposed, Rewrite};
 use trunnion_check::{Settings, header};
 use trunnion_syntax::Program;
 
@@ -13,7 +16,7 @@ pub(crate) struct Body {
     /// Rules whose findings it may fix.
     pub(crate) cures: &'static [&'static str],
     /// Proposes; see [`Rewrite::propose`].
-    pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Result<Option<Proposal>, String>,
+    pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Proposed,
 }
 
 /// The rewrites of the files named: name from the file's name, documentation from the file's header. The `mod` lines stay
@@ -35,9 +38,9 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![smooth_pole, switch_angles, unwind_rotary];
+static REWRITES: &[&Rewrite] = table![switch_angles, unwind_rotary, smooth_pole, insert_points, adapt_feed];
 
-/// All rewrites, by name.
+/// All rewrites, in the order in which they are applied.
 pub fn rewrites() -> &'static [&'static Rewrite] {
     REWRITES
 }
@@ -45,4 +48,45 @@ pub fn rewrites() -> &'static [&'static Rewrite] {
 /// A rewrite by name.
 pub fn rewrite(name: &str) -> Option<&'static Rewrite> {
     rewrites().iter().copied().find(|rewrite| rewrite.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    /// What a rule offers and what a rewrite fixes are one list: every call of `fix_...` in a rule stands in the rewrite's `cures`.
+    #[test]
+    fn rules_and_rewrites_agree_on_what_is_fixed() {
+        let rules = concat!(env!("CARGO_MANIFEST_DIR"), "/../check/rules");
+        let calls = [
+            (".fix_pole(", "smooth-pole"),
+            (".fix_turns(", "unwind-rotary"),
+            (".fix_posture(", "switch-angles"),
+            (".fix_feed(", "adapt-feed"),
+            (".fix_points(", "insert-points"),
+        ];
+        let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();
+        for entry in std::fs::read_dir(rules).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let name = path.file_stem().expect("a name").to_string_lossy().replace('_', "-");
+            let text = std::fs::read_to_string(&path).expect("text");
+            for (call, rewrite) in calls {
+                if text.contains(call) {
+                    offered.insert((name.clone(), rewrite));
+                }
+            }
+        }
+        assert!(offered.len() > 10, "{offered:?}");
+        for (rule, name) in &offered {
+            let rewrite = super::rewrite(name).expect("a rewrite");
+            assert!(rewrite.cures.contains(&rule.as_str()), "{rule} offers {name}");
+        }
+        for rewrite in super::rewrites().iter().filter(|rewrite| !rewrite.cures.is_empty()) {
+            assert!(
+                offered.iter().any(|(_, name)| *name == rewrite.name),
+                "no rule offers {}",
+                rewrite.name
+            );
+        }
+    }
 }

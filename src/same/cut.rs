@@ -50,7 +50,7 @@ fn is_coupled(step: &Step) -> bool {
 
 /// Whether a motion may be made in several pieces without a difference: not if each piece ends with a stop, has its own time, or is coupled
 /// to the spindle.
-fn may_be_cut(step: &Step) -> bool {
+pub(crate) fn may_be_cut(step: &Step) -> bool {
     let stops = step.process.get("path-control").first();
     let stops = stops.is_some_and(|code| matches!(code.name.as_ref(), "G60" | "G61" | "G61.1"));
     !stops

@@ -1,6 +1,9 @@
 //! Rewrites and their certificates on published rows, on hard cases and on random chains.
 
+mod everywhere;
+mod feeds;
 mod mutants;
+mod points;
 mod random;
 mod smoothing;
 mod strategy_2;

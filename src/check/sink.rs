@@ -3,6 +3,7 @@ use crate::caller::Part;
 use crate::diagnostic::Origin;
 use crate::finding::Draft;
 use crate::keyed::Keyed;
+use crate::nearest::NearCodes;
 use crate::runs::{Log, Merge, Repeat};
 use crate::slip::letter_o;
 use crate::suppress::Suppressions;
@@ -52,6 +53,7 @@ pub(crate) struct Reporter<'a> {
     judges_machine: bool,
     /// Where words with a letter O for a zero begin, each reported once.
     slips: BTreeSet<u32>,
+    near: NearCodes<'a>,
 }
 
 impl<'a> Reporter<'a> {
@@ -74,6 +76,7 @@ impl<'a> Reporter<'a> {
             part: OnceCell::new(),
             judges_machine: false,
             slips: BTreeSet::new(),
+            near: NearCodes::new(dialect),
         }
     }
 
@@ -103,6 +106,11 @@ impl<'a> Reporter<'a> {
     /// The dialect that the program is read in.
     pub(crate) fn dialect(&self) -> &'a Dialect {
         self.dialect
+    }
+
+    /// The code that a text resembles.
+    pub(crate) fn near_code(&mut self, text: &str) -> Option<String> {
+        self.near.of(text)
     }
 
     /// The text of a range to be quoted: its first 40 characters, and `...` where there are more.

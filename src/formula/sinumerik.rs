@@ -47,6 +47,7 @@ pub fn sinumerik(source: &[u8], range: TextRange) -> Result<(Formula, u32), Form
         waiting: Vec::new(),
         height: 0,
         depth: 0,
+        one_index_to: 0,
     };
     match reader.run() {
         Ok(()) => {
@@ -78,6 +79,8 @@ struct Reader<'s> {
     waiting: Vec<Waiting>,
     height: usize,
     depth: usize,
+    /// A bracket that opens before this byte holds one index: brackets inside each other are looked through once.
+    one_index_to: u32,
 }
 
 fn is_name(byte: u8) -> bool {

@@ -142,6 +142,11 @@ impl Flow {
         self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.all())
     }
 
+    /// The one of [`Self::all_variables`] with this name.
+    pub(crate) fn known_variable(&self, name: &str) -> Option<crate::Argument> {
+        self.deep.as_ref()?.variables.of_all(name)
+    }
+
     /// The value of a variable of Macro B as it is written.
     pub(crate) fn variable(&self, text: &str) -> Option<f64> {
         self.deep.as_ref()?.variables.written(text)

@@ -4,6 +4,7 @@
 //! they are written, a variable of DEF is zero before that and local to its program, R parameters are not. Expressions:
 //! [`trunnion_formula::sinumerik`].
 mod field;
+mod named;
 mod words;
 
 use crate::Argument;
@@ -205,23 +206,6 @@ impl Own {
             .iter()
             .map(|(name, text)| Argument::text(name.to_string(), text));
         values.chain(texts).collect()
-    }
-    /// The known values of the variables that a text names.
-    pub(crate) fn named_in(&self, text: &str) -> Vec<Argument> {
-        let lower = text.to_ascii_lowercase();
-        let words: Vec<&str> = lower
-            .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
-            .collect();
-        if !words
-            .iter()
-            .any(|word| self.scope.sorts.contains_key(*word) || self.texts.contains_key(*word))
-        {
-            return Vec::new();
-        }
-        let stem = |name: &str| name.split('[').next().unwrap_or_default().to_owned();
-        let mut all = self.all();
-        all.retain(|argument| words.contains(&stem(&argument.name).as_str()));
-        all
     }
     /// A subprogram begins with its own variables; returns those of the caller.
     pub(crate) fn begin_scope(&mut self) -> Scope {

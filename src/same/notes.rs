@@ -32,6 +32,7 @@ impl Steps<'_> {
                 process: before.1,
             });
             let mut variables = (lost || own).then(|| self.interpreter.known_variables());
+            self.run.actions.add_variables(variables.as_ref().map_or(0, Vec::len));
             if let Some(variables) = variables.as_mut().filter(|_| own_locals) {
                 variables.retain(|variable| !is_local(&variable.name));
             }
@@ -51,7 +52,9 @@ impl Steps<'_> {
             match &mut waiting.what {
                 Waits::Effect(Effect::Set { to: words, .. }, _) if words.is_empty() => {}
                 Waits::Effect(Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words), _) => {
+                    let written = words.len();
                     self.interpreter.add_values(words);
+                    self.run.actions.add_variables(words.len() - written);
                 }
                 Waits::Effect(Effect::Store(_) | Effect::End(_), _) | Waits::Restated(..) | Waits::Lost => {}
             }

@@ -1,4 +1,5 @@
 //! A program as a stream of what it does: only the steps of the current block are kept.
+use crate::actions::Actions;
 use crate::counted::Counted;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
@@ -32,6 +33,8 @@ pub(crate) struct Run<'a> {
     pub(crate) waiting: VecDeque<Waiting>,
     /// Effects so far.
     pub(crate) count: u32,
+    /// What was done so far apart from motions, and how much of that is followed.
+    pub(crate) actions: Actions,
     pub(crate) process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
@@ -78,6 +81,9 @@ impl Sink for Run<'_> {
         }
         self.count += 1;
         let Placed { block, effect, reach } = effect;
+        if matches!(effect, Effect::Unmodelled(_)) || reach == Reach::Everything {
+            self.actions.add(Actions::OPEN);
+        }
         self.wait(self.count, block, Waits::Effect(effect, reach));
     }
 }
@@ -143,6 +149,7 @@ impl<'a> Steps<'a> {
                 motions: VecDeque::new(),
                 waiting: VecDeque::new(),
                 count: 0,
+                actions: Actions::new(input.program.block_count(), setup.limits.steps),
                 process: Arc::default(),
                 stores: BTreeMap::new(),
                 stop: None,
@@ -262,6 +269,12 @@ impl<'a> Steps<'a> {
             self.over = true;
             return None;
         }
+        if let Some(why) = self.run.actions.exceeded() {
+            let block = self.ready.back().map_or(BlockId(0), Item::block);
+            self.run.stop.get_or_insert(Stop { block, why });
+            self.over = true;
+            return None;
+        }
         let before = self.interpreter.situation();
         let (losses, effects) = (self.interpreter.losses(), self.run.count);
         let settings = Arc::clone(&self.run.process);
@@ -274,6 +287,7 @@ impl<'a> Steps<'a> {
         }
         let (mut missing, mut own_locals) = (false, false);
         for block in std::mem::take(&mut self.run.missing) {
+            self.run.actions.add(Actions::MISSING);
             let text = self.input.program.text(self.input.program.block(block).range());
             let text = if self.input.dialect.quirks.user_names() {
                 // what is between parentheses are arguments
@@ -338,6 +352,9 @@ impl<'a> Steps<'a> {
                 }
             };
             self.since.disturbed |= reach != Reach::Itself;
+            // a setting that stays as it is, such as the feed that a block repeats, is none
+            let stays = matches!(&effect, Effect::Set { key, to } if run.process.get(key) == to);
+            run.actions.add(u64::from(!stays));
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows

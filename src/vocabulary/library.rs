@@ -70,7 +70,7 @@ impl Default for Limits {
         Self {
             blocks: 10_000_000,
             steps: 1_000_000,
-            held: 200_000,
+            held: 150_000,
             depth: 100,
         }
     }

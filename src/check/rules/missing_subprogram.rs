@@ -36,7 +36,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let caller = caller
             .as_ref()
             .map_or_else(String::new, |place| format!(", called in {place}"));
-        let near = crate::nearest::nearest_code(name, out.dialect());
+        let near = out.near_code(name);
         let refused = searched.iter().find_map(|place| place.refused.as_ref());
         let draft = out.report(
             fault.range,

@@ -20,7 +20,6 @@
 //!
 //! # Sources
 //! * docs/contract.md#verdicts
-use crate::nearest::nearest_code;
 use crate::prelude::*;
 use trunnion_interp::Lacks;
 
@@ -39,7 +38,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         return;
     }
     if let FaultKind::NotModelled { what } = &fault.kind {
-        let near = nearest_code(what, out.dialect());
+        let near = out.near_code(what);
         let hint = near
             .as_ref()
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));

@@ -20,7 +20,6 @@
 //!
 //! # Sources
 //! * grammar/README.md, the dialect tables and their sources.
-use crate::nearest::nearest_code;
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check)]);
@@ -33,7 +32,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     }
     let text = out.text(fault.range);
     let dialect = &out.dialect().name;
-    let near = nearest_code(&text, out.dialect());
+    let near = out.near_code(&text);
     let message = match &near {
         Some(near) => format!("{dialect} has no code {text}; did you mean `{near}`?"),
         None => format!("{dialect} has no code {text}"),

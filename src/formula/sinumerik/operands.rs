@@ -107,9 +107,16 @@ impl<'s> Reader<'s> {
     }
 
     /// Whether the bracket at the cursor holds one expression, which is no text.
-    fn has_one_index(&self) -> bool {
+    fn has_one_index(&mut self) -> bool {
+        if self.at < self.one_index_to {
+            return true;
+        }
         let inside = self.rest().split(|&byte| byte == b']').next().unwrap_or_default();
-        !inside.iter().any(|byte| matches!(byte, b',' | b'"'))
+        let one = !inside.iter().any(|byte| matches!(byte, b',' | b'"'));
+        if one {
+            self.one_index_to = self.at + inside.len() as u32;
+        }
+        one
     }
 
     /// Skips a bracket and its contents.

@@ -88,9 +88,7 @@ impl<'d> Engine<'d> for Iso<'d> {
             found.push(argument);
             if lost {
                 // it may still have the value from before it was lost
-                let mut before = self.flow.all_variables();
-                before.retain(|known| known.name == name);
-                found.extend(before);
+                found.extend(self.flow.known_variable(&name));
             }
         }
         found

@@ -147,6 +147,19 @@ impl Variables {
             .map(|(name, value)| crate::Argument::number(name, value))
             .collect()
     }
+    /// The entry of [`Self::all`] with this name.
+    pub(crate) fn of_all(&self, name: &str) -> Option<crate::Argument> {
+        let bare = name.strip_prefix('#')?;
+        let number = bare.parse().ok().filter(|number: &u32| number.to_string() == bare);
+        let local = number.and_then(|number| self.locals.get((number as usize).checked_sub(1)?));
+        let value = match (local, number) {
+            (Some(local), _) => *local,
+            (None, Some(number)) => self.common.get(&number).copied().flatten(),
+            (None, None) => self.named.get(bare).copied(),
+        };
+        let value = value.filter(|value| !value.is_nan())?;
+        Some(crate::Argument::number(name.to_owned(), value))
+    }
     /// #500 to #999 with their values, as far as they are known: they keep their values after the program ends (Series 30i operator's manual, custom macro).
     pub(crate) fn kept(&self) -> Vec<(String, f64)> {
         let kept = self.common.range(500..).filter(|_| !self.lost);

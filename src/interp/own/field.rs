@@ -12,6 +12,14 @@ pub(super) struct Field {
     elements: Vec<Option<f64>>,
 }
 
+impl Field {
+    /// The known elements, by name.
+    fn known<'a>(&'a self, stem: &'a str) -> impl Iterator<Item = (Box<str>, f64)> + 'a {
+        let known = self.elements.iter().enumerate();
+        known.filter_map(move |(index, value)| Some((format!("{stem}[{index}]").into(), (*value)?)))
+    }
+}
+
 impl Own {
     /// `A[3]=SET(1,2,3)` after DEF; whether all its elements are known.
     pub(super) fn define_field(&mut self, sort: Sort, text: &str) -> bool {
@@ -118,10 +126,13 @@ impl Own {
 
     /// All that are known, by name.
     pub(super) fn elements(&self) -> impl Iterator<Item = (Box<str>, f64)> {
-        self.scope.fields.iter().flat_map(|(stem, field)| {
-            let known = field.elements.iter().enumerate();
-            known.filter_map(move |(index, value)| Some((format!("{stem}[{index}]").into(), (*value)?)))
-        })
+        self.scope.fields.iter().flat_map(|(stem, field)| field.known(stem))
+    }
+
+    /// The known elements of one field.
+    pub(super) fn elements_of(&self, stem: &str) -> impl Iterator<Item = (Box<str>, f64)> {
+        let found = self.scope.fields.get_key_value(stem).into_iter();
+        found.flat_map(|(stem, field)| field.known(stem))
     }
 
     pub(super) fn lose_fields(&mut self) {

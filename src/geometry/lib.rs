@@ -3,6 +3,7 @@
 //! It does not know programs, dialects or machines.
 pub mod arc;
 pub mod math;
+pub mod plane;
 
 /// A vector or point in three dimensions, mm where it is a length.
 pub type Vec3 = nalgebra::Vector3<f64>;

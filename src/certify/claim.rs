@@ -44,6 +44,21 @@ pub enum Claim {
         /// The least cost of reaching each state of the graph, in billionths of the cost's unit; none where it cannot be reached.
         labels: Vec<Option<u64>>,
     },
+    /// The programs do the same but for rapid motions (`reroute-rapid`): each run of rapid motions with nothing between them begins and ends where it did
+    /// within the tolerances, and everything else is as in [`Self::SameToolPath`]. In each run that differs no rotary axis turns, the tool goes no
+    /// lower along its axis than it did before, and every motion of the program after keeps the tool, with its holder where one is declared, at least
+    /// `clearance_mm` away from all declared obstacles: exactly, not by samples, and where the axes of a rapid may not arrive together, on all
+    /// paths that they may take.
+    ClearRapids {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// mm.
+        clearance_mm: f64,
+        /// Work offsets and tool lengths that are not declared are taken as zero; else rapids that depend on one are unknown.
+        assumed_zeros: bool,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -67,9 +82,11 @@ impl Claim {
     pub fn point_height_mm(&self) -> f64 {
         match self {
             Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
-            Self::SamePoses { .. } | Self::LeastPostures { .. } | Self::SameToolPath { .. } | Self::SamePath { .. } => {
-                0.0
-            }
+            Self::SamePoses { .. }
+            | Self::LeastPostures { .. }
+            | Self::ClearRapids { .. }
+            | Self::SameToolPath { .. }
+            | Self::SamePath { .. } => 0.0,
         }
     }
 
@@ -90,6 +107,11 @@ impl Claim {
                 tolerance_deg,
                 ..
             }
+            | Self::ClearRapids {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
@@ -101,8 +123,11 @@ impl Claim {
         }
     }
 
-    /// Whether it is a rewrite's claim: then nothing but numbers of coordinate words may differ in the text.
+    /// Whether it is the claim of a rewrite that only changes coordinates: then nothing but numbers of coordinate words may differ in the text.
     pub fn is_rewrite(&self) -> bool {
-        !matches!(self, Self::SameToolPath { .. } | Self::SamePath { .. })
+        !matches!(
+            self,
+            Self::ClearRapids { .. } | Self::SameToolPath { .. } | Self::SamePath { .. }
+        )
     }
 }

@@ -168,7 +168,7 @@ impl Pair<'_> {
     }
 
     /// Programmed alike, from a like state.
-    fn alike(old: &Leg, new: &Leg) -> bool {
+    pub(crate) fn alike(old: &Leg, new: &Leg) -> bool {
         old.start == new.start && old.known_joints == new.known_joints && old.motion == at_block_of(old, &new.motion)
     }
 
@@ -283,7 +283,7 @@ impl Pair<'_> {
         let claimed = match self.claim {
             Claim::SameBallCentre { .. } | Claim::LeastPostures { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
-            Claim::SameToolPath { .. } | Claim::SamePath { .. } => true,
+            Claim::ClearRapids { .. } | Claim::SameToolPath { .. } | Claim::SamePath { .. } => true,
         };
         let (mm, degrees) = self.claim.tolerances();
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));

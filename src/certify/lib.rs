@@ -15,14 +15,15 @@ mod library;
 mod path;
 pub mod postures;
 mod proof;
+mod rapids;
 mod recheck;
 mod text;
 mod unlike;
 mod verdict;
 
 pub use certificate::{
-    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, SCHEMA, TextChange, TextDigest,
-    Worst, WorstChanges,
+    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RapidChanges, RotaryChange, SCHEMA, TextChange,
+    TextDigest, Worst, WorstChanges,
 };
 pub use claim::Claim;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};

@@ -1,7 +1,8 @@
 //! The proof so far: what comparing pairs of motions has found.
-use crate::certificate::{MotionCounts, PostureCosts, RotaryChange, Worst, WorstChanges};
+use crate::certificate::{MotionCounts, PostureCosts, RapidChanges, RotaryChange, Worst, WorstChanges};
 use crate::chosen::Chosen;
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
+use crate::rapids::{ChangedRun, same_rapid};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
 use trunnion_machine::{Leg, Machine};
@@ -20,29 +21,24 @@ pub(crate) struct Proof<'a> {
     pub(crate) changes: Vec<crate::certificate::MotionChange>,
     /// Positions of the rotary axes, where the claim is about postures.
     chosen: Option<Chosen<'a>>,
+    /// Runs of rapids that differ.
+    pub(crate) rapids: Option<RapidChanges>,
     /// What ended the proof, where that was a pair of motions.
     pub(crate) failed: Option<Outcome>,
 }
 
 impl Judge for Proof<'_> {
     fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
-        self.add(before, after).map_err(|outcome| {
-            let verdict = if matches!(outcome, Outcome::Unknown(_)) {
-                Verdict::Unknown
-            } else {
-                Verdict::Differs
-            };
-            let what = match &outcome {
-                Outcome::Refuted(witness) => witness.message.clone(),
-                _ => String::new(),
-            };
-            self.failed = Some(outcome);
-            verdict(Difference {
-                before: Some(before.motion.block),
-                after: Some(after.motion.block),
-                what,
-            })
-        })
+        self.add(before, after)
+            .map_err(|outcome| self.fail(outcome, before, after))
+    }
+
+    fn rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Verdict> {
+        if before.len() == after.len() && before.iter().zip(after).all(|(was, is)| same_rapid(was, is)) {
+            return before.iter().zip(after).try_for_each(|(was, is)| self.pair(was, is));
+        }
+        self.changed_rapids(before, after)
+            .map_err(|outcome| self.fail(outcome, &before[0], &after[0]))
     }
 
     fn cut(&mut self, off: f64) {
@@ -73,6 +69,7 @@ impl<'a> Proof<'a> {
             rotary: machine.rotary.iter().map(axis).collect(),
             changes: Vec::new(),
             chosen: matches!(claim, Claim::LeastPostures { .. }).then(|| Chosen::new(machine)),
+            rapids: None,
             failed: None,
         }
     }
@@ -120,6 +117,49 @@ impl<'a> Proof<'a> {
             ) => chosen.judge(*cost, labels, *tolerance_deg).map(Some),
             _ => Ok(None),
         }
+    }
+
+    /// What ends the proof at a pair of steps.
+    fn fail(&mut self, outcome: Outcome, before: &Step, after: &Step) -> Verdict {
+        let verdict = if matches!(outcome, Outcome::Unknown(_)) {
+            Verdict::Unknown
+        } else {
+            Verdict::Differs
+        };
+        let what = match &outcome {
+            Outcome::Refuted(witness) => witness.message.clone(),
+            _ => String::new(),
+        };
+        self.failed = Some(outcome);
+        verdict(Difference {
+            before: Some(before.motion.block),
+            after: Some(after.motion.block),
+            what,
+        })
+    }
+
+    /// A run of rapids that differs.
+    fn changed_rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Outcome> {
+        let lines: Vec<u32> = after.iter().map(|step| self.line(step.motion.block)).collect();
+        let mut total = self.rapids.unwrap_or_default();
+        let run = ChangedRun {
+            machine: self.machine,
+            claim: self.claim,
+            first: Place {
+                motion: self.motions.total as usize,
+                line: lines[0],
+            },
+            lines: &lines,
+        };
+        let residuals = run.judge(before, after, &mut total)?;
+        self.rapids = Some(total);
+        for (mm, degrees) in residuals {
+            raise(&mut self.worst.forward_residual_mm, mm, run.first);
+            raise(&mut self.worst.forward_residual_deg, degrees, run.first);
+        }
+        self.motions.total += before.len() as u64;
+        self.motions.changed += before.len() as u64;
+        Ok(())
     }
 
     fn line(&self, block: BlockId) -> u32 {

@@ -183,7 +183,8 @@ fn prove(
         plane_counts: true,
         no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
-        cuts: !claim.is_rewrite(),
+        cuts: matches!(claim, Claim::SameToolPath { .. } | Claim::SamePath { .. }),
+        rapid_runs: matches!(claim, Claim::ClearRapids { .. }),
         exact: None,
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
@@ -225,6 +226,7 @@ fn prove(
         worst: proof.worst,
         rotary: proof.rotary,
         postures,
+        rapids: proof.rapids,
         changes: proof.changes,
         seal_sha256: String::new(),
     }
@@ -261,14 +263,18 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let fine = [mm, degrees, claim.point_height_mm()]
+    let clearance = match claim {
+        Claim::ClearRapids { clearance_mm, .. } => *clearance_mm,
+        _ => 0.0,
+    };
+    let fine = [mm, degrees, claim.point_height_mm(), clearance]
         .iter()
         .all(|value| value.is_finite() && *value >= 0.0);
     if fine {
         Ok(())
     } else {
         Err(Outcome::refuted(
-            "claim: tolerances and radius must be finite and not negative",
+            "claim: tolerances, radius and clearance must be finite and not negative",
         ))
     }
 }

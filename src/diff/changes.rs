@@ -112,6 +112,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         no_rotary: false,
         path_only,
         cuts: true,
+        rapid_runs: false,
         exact: None,
     };
     let mut near = Near {

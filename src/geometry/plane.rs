@@ -7,7 +7,7 @@ mod route;
 pub use barrier::{MITRE_LIMIT, barrier};
 pub use cover::Cover;
 pub use polygon::{Polygon, PolygonFault, point_distance, segment_distance};
-pub use route::{Route, shortest_route};
+pub use route::{Route, cheapest_route, shortest_route};
 
 /// A point or vector of the plane, mm.
 pub type Point = nalgebra::Vector2<f64>;

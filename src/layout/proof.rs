@@ -36,6 +36,7 @@ pub(crate) fn first_difference(
         plane_counts: true,
         no_rotary: false,
         cuts: false,
+        rapid_runs: false,
         exact: Some(Exact {
             frees_block_numbers: renumbered,
             most_blocks,

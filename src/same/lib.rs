@@ -15,6 +15,7 @@ mod item;
 mod near;
 mod notes;
 mod process;
+mod rapids;
 mod since;
 mod steps;
 mod twins;

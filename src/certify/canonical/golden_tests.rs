@@ -124,6 +124,7 @@ fn tools_offsets_and_variables() {
         shape: Some(ToolShape::Bull(0.5)),
         diameter_mm: None,
         length_mm: Some(120.25),
+        holder_mm: None,
     };
     assert_eq!(hex(&tool), TOOL);
     let offset = WorkOffset {

@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 pub struct Route {
     /// From the start to the end, both included.
     pub points: Vec<Point>,
-    /// mm.
+    /// mm, or what its legs cost.
     pub length: f64,
 }
 
@@ -47,26 +47,42 @@ impl PartialOrd for Step {
 /// The shortest route from one point to another that does not enter the interior of the union; it may touch it. `None` where there is none:
 /// an end is inside, or enclosed.
 pub fn shortest_route(cover: &Cover, from: &Point, to: &Point) -> Option<Route> {
+    cheapest_route(cover, (from, to), &[], Point::norm, |_, _| true)
+}
+
+/// The cheapest route by a norm of its legs, such as the time of the slower axis. `further`: points at which it may turn as well as at the corners;
+/// `admits`: a leg must satisfy it too.
+pub fn cheapest_route(
+    cover: &Cover,
+    (from, to): (&Point, &Point),
+    further: &[Point],
+    norm: impl Fn(&Point) -> f64,
+    admits: impl Fn(&Point, &Point) -> bool,
+) -> Option<Route> {
     if cover.encloses(from) || cover.encloses(to) {
         return None;
     }
-    if !cover.is_entered(from, to) {
-        let length = (to - from).norm();
-        return Some(Route {
-            points: vec![*from, *to],
-            length,
-        });
-    }
+    let sees = |a: &Point, b: &Point| admits(a, b) && !cover.is_entered(a, b);
     let mut points = vec![*from, *to];
-    points.extend(cover.turning_points());
-    let best = search(&points, |a, b| !cover.is_entered(a, b))?;
+    if !sees(from, to) {
+        points.extend(cover.turning_points());
+        points.extend(further.iter().filter(|point| !cover.encloses(point)));
+    }
+    let best = search(&points, &norm, sees)?;
     let route: Vec<Point> = best.iter().map(|&index| points[index]).collect();
-    let length = route.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-    Some(Route { points: route, length })
+    let cost = route.windows(2).map(|pair| norm(&(pair[1] - pair[0]))).sum();
+    Some(Route {
+        points: route,
+        length: cost,
+    })
 }
 
 /// The cheapest way from point 0 to point 1, by their indices; `sees` says whether one point sees another.
-fn search(points: &[Point], sees: impl Fn(&Point, &Point) -> bool) -> Option<Vec<usize>> {
+fn search(
+    points: &[Point],
+    norm: &impl Fn(&Point) -> f64,
+    sees: impl Fn(&Point, &Point) -> bool,
+) -> Option<Vec<usize>> {
     let goal = points[1];
     let mut parent: Vec<Option<usize>> = vec![None; points.len()];
     let mut heap = BinaryHeap::from([Step {
@@ -91,9 +107,9 @@ fn search(points: &[Point], sees: impl Fn(&Point, &Point) -> bool) -> Option<Vec
         }
         for (next, point) in points.iter().enumerate() {
             if parent[next].is_none() {
-                let length = length + (point - points[to]).norm();
+                let length = length + norm(&(point - points[to]));
                 heap.push(Step {
-                    least: length + (goal - point).norm(),
+                    least: length + norm(&(goal - point)),
                     length,
                     to: next,
                     from: to,

@@ -1,4 +1,5 @@
 //! Shortest routes round barriers: the example of paper 001, clearances, scenes with lengths that another program computed.
+#![allow(clippy::print_stdout, reason = "a skipped test says so")]
 use proptest::prelude::*;
 use trunnion_geometry::plane::{Cover, Point, Polygon, barrier, shortest_route};
 

@@ -3,6 +3,8 @@
 //! It does no I/O and never vouches for itself.
 mod posed_words;
 mod propose;
+mod rapid_route;
+mod rapid_runs;
 mod reposition;
 mod rewrites;
 mod shortest_path;

@@ -1,4 +1,5 @@
 //! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name appears in two lists here.
+mod reroute_rapid;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
@@ -35,7 +36,7 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![smooth_pole, switch_angles, unwind_rotary];
+static REWRITES: &[&Rewrite] = table![reroute_rapid, smooth_pole, switch_angles, unwind_rotary];
 
 /// All rewrites, by name.
 pub fn rewrites() -> &'static [&'static Rewrite] {

@@ -195,6 +195,32 @@ impl Space {
         self.is_clear(height, point, point)
     }
 
+    /// What the linear axes travel for a way of the tip in this space, with their joints, mm; `None` where they do not span it.
+    pub fn travel(&self, machine: &Machine, joints: &Joints, way: &Vec3) -> Option<[(usize, f64); 3]> {
+        let (columns, _) = axes_in(machine, joints, self.tool_length, self.frame);
+        let travel = columns.try_inverse()? * way;
+        let joint = |slot: usize| machine.constants.linear[machine.constants.solved[slot]].joint;
+        Some([0, 1, 2].map(|slot| (joint(slot), travel[slot])))
+    }
+
+    /// Where 1 mm more in the words X, Y and Z moves the tip: words of the tip in the workpiece frame, or of the linear axes.
+    pub fn directions(&self, machine: &Machine, joints: &Joints, of_tip: bool) -> Option<(Vec3, Vec3, Vec3)> {
+        let (here, _) = axes_in(machine, joints, self.tool_length, self.frame);
+        if of_tip {
+            let (workpiece, _) = axes_in(machine, joints, self.tool_length, 0);
+            let turn = here * workpiece.try_inverse()?;
+            return Some((turn.column(0).into(), turn.column(1).into(), turn.column(2).into()));
+        }
+        let mut columns = [None; 3];
+        for (slot, &index) in machine.constants.solved.iter().enumerate() {
+            let axis = &machine.axes[machine.constants.linear[index].joint];
+            let letter = b"XYZ".iter().position(|letter| *letter == axis.letter);
+            let scale = if axis.extra.diameter { 0.5 } else { 1.0 };
+            columns[letter?] = Some(Vec3::from(here.column(slot)) * scale);
+        }
+        Some((columns[0]?, columns[1]?, columns[2]?))
+    }
+
     /// The first obstacle that a straight line comes too near to, by its index.
     pub fn blocked_by(&self, from: &Vec3, to: &Vec3) -> Option<usize> {
         self.obstacles.iter().position(|obstacle| {

@@ -55,7 +55,7 @@ use crate::reposition::Writer;
 use crate::slots::{Scheme, Styles, styles};
 use crate::stations::{Station, chain, largest_step, stance, straighten, window};
 use crate::survey::{Point, Tip, survey};
-use crate::{Options, Proposal};
+use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::{deg, rad};
@@ -63,7 +63,13 @@ use trunnion_machine::{Machine, NoStance};
 use trunnion_syntax::{LineIndex, Program, TextEdit};
 
 pub(super) const REWRITE: Body = Body {
-    cures: &["pole-flip", "axis-overspeed", "feed-drop"],
+    cures: &[
+        "axis-overspeed",
+        "excess-rotary-travel",
+        "fast-pole",
+        "feed-drop",
+        "pole-flip",
+    ],
     propose,
 };
 
@@ -71,9 +77,9 @@ pub(super) const REWRITE: Body = Body {
 struct Smoothed {
     edits: Vec<TextEdit>,
     ball_radius: f64,
-    /// Index of the window's last point.
+    /// Indices of the window's first and last point, and the lines of its ends.
+    first: usize,
     last: usize,
-    /// Lines of the ends.
     lines: (u32, u32),
     /// Largest step of the rotary axis before and after, deg.
     steps: (f64, f64),
@@ -86,7 +92,6 @@ struct Memory {
     styles: Vec<(Scheme, Styles)>,
 }
 
-/// What is the same for all windows.
 struct Task<'a> {
     program: &'a Program,
     machine: &'a Machine,
@@ -95,7 +100,7 @@ struct Task<'a> {
     lines: LineIndex,
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and poles depend on the machine (--machine)".into());
     };
@@ -112,30 +117,39 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     };
     let flips: Vec<usize> = (0..points.len()).filter(|&index| task.flips(index)).collect();
     if flips.is_empty() {
-        return task.unknown_position().map_or(Ok(None), Err);
+        return task.unknown_position().map_or(Ok(None), |reason| Err(reason.into()));
     }
     let mut memory = Memory::default();
     let mut done: Option<usize> = None;
     let mut radius = None;
-    let (mut windows, mut reasons) = (Vec::new(), Vec::new());
+    let mut windows = Vec::new();
+    let mut places = Vec::new();
     for flip in flips {
         if done.is_some_and(|last| flip <= last) {
             continue;
         }
-        match task.smooth(flip, &mut memory) {
-            Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => {
-                done = Some(smoothed.last);
-                windows.push(smoothed);
+        let smoothed = match task.smooth(flip, &mut memory) {
+            Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => smoothed,
+            Ok(_) => {
+                let why = "a different ball radius, which needs a separate run";
+                places.push(task.place(flip, Change::Refused(why.to_owned())));
+                continue;
             }
-            Ok(_) => reasons.push(format!(
-                "line {}: a different ball radius, which needs a separate run",
-                task.line(flip)
-            )),
-            Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
-        }
+            Err(change) => {
+                places.push(task.place(flip, change));
+                continue;
+            }
+        };
+        done = Some(smoothed.last);
+        places.push(Place {
+            first: points[smoothed.first].block,
+            last: points[smoothed.last].block,
+            change: Change::Edits(smoothed.edits.clone()),
+        });
+        windows.push(smoothed);
     }
     let Some(ball_radius_mm) = radius else {
-        return Err(some_of(&reasons));
+        return Err(Refusal::Places(places));
     };
     let claim = Claim::SameBallCentre {
         ball_radius_mm,
@@ -143,15 +157,10 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         tolerance_deg: options.tolerance_deg,
     };
     let letter = char::from(machine.axes[machine.rotary[0]].letter);
-    let mut summary = summary(&windows, letter);
-    if !reasons.is_empty() {
-        summary.push_str("; not changed: ");
-        summary.push_str(&some_of(&reasons));
-    }
     Ok(Some(Proposal {
-        edits: windows.into_iter().flat_map(|window| window.edits).collect(),
+        places,
         claim,
-        summary,
+        summary: summary(&windows, letter),
     }))
 }
 
@@ -175,54 +184,52 @@ fn summary(windows: &[Smoothed], letter: char) -> String {
     )
 }
 
-/// The first three reasons, and how many there are beyond.
-fn some_of(reasons: &[String]) -> String {
-    let mut text = reasons
-        .iter()
-        .take(3)
-        .map(String::as_str)
-        .collect::<Vec<_>>()
-        .join("; ");
-    if reasons.len() > 3 {
-        text.push_str("; and more like these: ");
-        text.push_str(&(reasons.len() - 3).to_string());
-    }
-    text
-}
-
 /// Why a motion with a flip cannot be changed.
-fn obstacle(point: &Point) -> Option<String> {
+fn obstacle(point: &Point) -> Option<Change> {
     if !point.tcp {
-        return Some("tool centre point control is off, so turning the table would move the tip".into());
+        return Some(Change::Refused(
+            "tool centre point control is off, so turning the table would move the tip".into(),
+        ));
     }
     if !point.linear {
-        return Some("the motion is an arc: the rewrite handles straight motions".into());
+        return Some(Change::Refused(
+            "the motion is an arc: the rewrite handles straight motions".into(),
+        ));
     }
     if !point.from_known {
-        return Some("the position before the motion is unknown".into());
+        return Some(Change::Refused("the position before the motion is unknown".into()));
     }
     tool_obstacle(point)
 }
 
 /// Why a tool or its coordinates cannot be turned.
-fn tool_obstacle(point: &Point) -> Option<String> {
+fn tool_obstacle(point: &Point) -> Option<Change> {
     match point.tip {
-        Tip::Undeclared => Some(
+        Tip::Undeclared => Some(Change::Possible(
             "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
                 .into(),
-        ),
-        Tip::Other => Some("the tool is not a ball: its contact with the surface would move".into()),
-        Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
+        )),
+        Tip::Other => Some(Change::Refused("the tool is not a ball: its contact with the surface would move".into())),
+        Tip::Ball(_) if point.incremental => Some(Change::Refused("coordinates are incremental (G91)".into())),
         Tip::Ball(_) => None,
     }
 }
 
-/// Axis letters with commas between them.
-fn in_words(letters: &str) -> String {
-    letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
+fn refused(why: impl Into<String>) -> Change {
+    Change::Refused(why.into())
 }
 
 impl Task<'_> {
+    /// One motion as a place.
+    fn place(&self, index: usize, change: Change) -> Place {
+        let block = self.points[index].block;
+        Place {
+            first: block,
+            last: block,
+            change,
+        }
+    }
+
     /// The rule pole-flip fires here.
     fn flips(&self, index: usize) -> bool {
         let point = &self.points[index];
@@ -252,7 +259,10 @@ impl Task<'_> {
         };
         let index = self.points.iter().position(unknown)?;
         let why = match &self.points[index].end {
-            Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
+            Err(NoStance::PositionUnknown(letters)) => format!(
+                "the position of {} is unknown",
+                letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
+            ),
             Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
             Err(NoStance::HeldElsewhere { axis, .. }) => {
                 format!(
@@ -269,13 +279,13 @@ impl Task<'_> {
     }
 
     /// Smooths the window around one flip.
-    fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, String> {
+    fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, Change> {
         let point = &self.points[flip];
         if let Some(obstacle) = obstacle(point) {
             return Err(obstacle);
         }
         let Tip::Ball(ball_radius) = point.tip else {
-            return Err("the tool is not a ball".into());
+            return Err(refused("the tool is not a ball"));
         };
         let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
             && memory.chain.last().is_some_and(|station| flip <= station.last);
@@ -284,23 +294,23 @@ impl Task<'_> {
         }
         let stations = &memory.chain;
         let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
-            return Err("there is no point between the two fixed ends".into());
+            return Err(refused("there is no point between the two fixed ends"));
         };
         let stations = &stations[left..=right];
         let writer = self.writer(point, ball_radius, &mut memory.styles);
         // slightly less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let q = straighten(self.machine, stations, room)
-            .ok_or_else(|| "the rotary axis is already outside its limits".to_string())?;
+            .ok_or_else(|| refused("the rotary axis is already outside its limits"))?;
         let before = largest_step(stations.iter().map(|station| station.q));
         let after = largest_step(q.iter().copied());
         if after > 0.99 * before {
-            return Err(format!(
+            return Err(Change::Possible(format!(
                 "within {} deg the largest step can only be reduced from {:.3} deg to {:.3} deg (--tolerance-deg)",
                 self.options.tolerance_deg,
                 deg(before),
                 deg(after)
-            ));
+            )));
         }
         let (edits, written) = self.write(&writer, stations, &q)?;
         let last = stations[stations.len() - 1].first;
@@ -309,6 +319,7 @@ impl Task<'_> {
         Ok(Smoothed {
             edits,
             ball_radius,
+            first: stations[0].last + 1,
             last,
             lines,
             steps,
@@ -343,8 +354,8 @@ impl Task<'_> {
 
     /// Edits for all points between the ends, and for what the last one takes over from them; and the rotary joint as written, rad,
     /// each station.
-    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<(Vec<TextEdit>, Vec<f64>), String> {
-        let unknown = || "a position inside the window is unknown".to_string();
+    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<(Vec<TextEdit>, Vec<f64>), Change> {
+        let unknown = || refused("a position inside the window is unknown");
         let last = stations.len() - 1;
         let start = stance(&self.points[stations[0].last]).ok_or_else(unknown)?;
         let mut current = writer.programmed(start);
@@ -362,15 +373,17 @@ impl Task<'_> {
                     return Err(obstacle);
                 }
                 if point.rotary_zero != writer.rotary_zero {
-                    return Err("the work offset of the rotary axis changes inside the window".into());
+                    return Err(refused("the work offset of the rotary axis changes inside the window"));
                 }
-                let q = writer.turn(
-                    point.block,
-                    stance(point).ok_or_else(unknown)?,
-                    q,
-                    &mut current,
-                    &mut edits,
-                )?;
+                let q = writer
+                    .turn(
+                        point.block,
+                        stance(point).ok_or_else(unknown)?,
+                        q,
+                        &mut current,
+                        &mut edits,
+                    )
+                    .map_err(refused)?;
                 if index == station.first {
                     written.push(q);
                 }
@@ -378,7 +391,10 @@ impl Task<'_> {
         }
         written.push(stations[last].q);
         let end = &self.points[stations[last].first];
-        writer.restore(end.block, stance(end).ok_or_else(unknown)?, &mut current, &mut edits)?;
+        let stance = stance(end).ok_or_else(unknown)?;
+        writer
+            .restore(end.block, stance, &mut current, &mut edits)
+            .map_err(refused)?;
         Ok((edits, written))
     }
 }

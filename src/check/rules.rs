@@ -51,6 +51,7 @@ mod pole_flip;
 mod porting;
 mod position_unknown;
 mod program_alarm;
+mod rapid_through_obstacle;
 mod rejected_block;
 mod repeated_word;
 mod spindle_off_cut;
@@ -142,6 +143,7 @@ static RULES: &[&Rule] = table![
     pole_crossing,
     pole_flip,
     porting,
+    rapid_through_obstacle,
     position_unknown,
     program_alarm,
     rejected_block,

@@ -1,8 +1,6 @@
 //! The way of a run of rapid motions past obstacles: what of the run is kept, the cheapest way for the rest, and its points in the digits of the program.
 use crate::rapid_runs::Rapid;
-use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
-use trunnion_geometry::plane::Point;
 use trunnion_machine::{Joints, Machine, Nearness, NoRoute, Space, Stance, ToolBody, nearness};
 
 /// Coordinates that differ by no more are the same, mm.
@@ -32,6 +30,27 @@ pub(crate) struct Way {
     pub length: [f64; 2],
 }
 
+/// Why a run that is not clear, or too long, stays as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Stay {
+    /// Something is not declared.
+    Missing(String),
+    /// Nothing would help.
+    Refused(String),
+}
+
+impl From<&str> for Stay {
+    fn from(why: &str) -> Self {
+        Self::Refused(why.to_owned())
+    }
+}
+
+impl From<String> for Stay {
+    fn from(why: String) -> Self {
+        Self::Refused(why)
+    }
+}
+
 /// How points are rounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
@@ -42,7 +61,6 @@ pub(crate) struct Grid {
 /// A run with what is needed to plan it.
 pub(crate) struct Planner<'a> {
     pub machine: &'a Machine,
-    pub settings: &'a Settings<'a>,
     pub run: &'a [Rapid],
     pub keep: f64,
     pub measure: Measure,
@@ -71,19 +89,21 @@ impl Frame {
 
 impl Planner<'_> {
     /// A new way; `None` where the run is clear and no other is shorter. `Err`: it is not clear, and why it stays.
-    pub(crate) fn plan(&self, grid: Grid) -> Result<Option<Way>, String> {
+    pub(crate) fn plan(&self, grid: Grid) -> Result<Option<Way>, Stay> {
         let stances = self.stances()?;
         let first = &self.run[0];
         if let Some(why) = first.fixed {
             return self.only_if_clear(why);
         }
         let Some(body) = first.tool.as_ref().and_then(ToolBody::of) else {
-            return Err("the diameter of the tool is not declared: [[tool]] diameter in trunnion.toml".into());
+            return Err(Stay::Missing(
+                "the diameter of the tool is not declared: [[tool]] diameter in trunnion.toml".into(),
+            ));
         };
         if !first.declared {
-            return Err(
-                "a work offset or tool length is not declared, so it is unknown where the obstacles are".into(),
-            );
+            return Err(Stay::Missing(
+                "the work offset or the tool length is not declared, so it is unknown where the obstacles are: [work_offsets] and [[tool]] length in trunnion.toml".into(),
+            ));
         }
         let tool_length = stances[stances.len() - 1].tool_length;
         let space = match Space::new(self.machine, &stances[0].joints, tool_length, &body, self.keep) {
@@ -113,7 +133,8 @@ impl Planner<'_> {
                 return Err(format!(
                     "the {line} along the tool is inside the clearance of {}",
                     space.obstacles()[which].name
-                ));
+                )
+                .into());
             }
         }
         if middle.is_empty() {
@@ -130,7 +151,7 @@ impl Planner<'_> {
         let (mut points, is) = match route {
             Ok(found) => found,
             Err(_) if clear => return Ok(None),
-            Err(why) => return Err(why),
+            Err(why) => return Err(why.into()),
         };
         if clear && was - is <= was * LEAST_GAIN + LEAST_GAIN_MM * cost(&Vec3::x()).max(cost(&Vec3::y())) * 4.0 {
             return Ok(None);
@@ -162,10 +183,10 @@ impl Planner<'_> {
     }
 
     /// A run that cannot be changed: nothing to say if it is clear.
-    fn only_if_clear(&self, why: &str) -> Result<Option<Way>, String> {
+    fn only_if_clear(&self, why: &str) -> Result<Option<Way>, Stay> {
         let body = self.run[0].tool.as_ref().and_then(ToolBody::of);
         let clear = body.is_some_and(|body| (0..self.run.len()).all(|index| self.is_clear(index, &body)));
-        if clear { Ok(None) } else { Err(why.to_owned()) }
+        if clear { Ok(None) } else { Err(why.into()) }
     }
 
     fn is_clear(&self, index: usize, body: &ToolBody) -> bool {
@@ -190,46 +211,18 @@ impl Planner<'_> {
     fn route(
         &self,
         space: &Space,
-        (from, to): (&Vec3, &Vec3),
+        ends: (&Vec3, &Vec3),
         cost: &impl Fn(&Vec3) -> f64,
     ) -> Result<(Vec<Vec3>, f64), String> {
-        let mut best: Option<(Vec<Vec3>, f64)> = None;
-        let mut why = None;
-        for height in space.heights(from.z.max(to.z)) {
-            let (rise, fall) = (Vec3::new(0.0, 0.0, height - from.z), Vec3::new(0.0, 0.0, to.z - height));
-            let least = cost(&rise) + cost(&fall) + cost(&(to - from).xy().push(0.0));
-            if best.as_ref().is_some_and(|(_, known)| *known <= least) || !self.reaches(space, height) {
-                continue;
-            }
-            let norm = |way: &Point| cost(&way.push(0.0));
-            let found = space.route_at(height, (&from.xy(), &to.xy()), norm);
-            let (flat, across) = match found {
-                Ok(found) => found,
-                Err(no) => {
-                    why.get_or_insert(no);
-                    continue;
+        space
+            .way(ends, cost, |height| self.reaches(space, height))
+            .map_err(|no| match no {
+                NoRoute::EndInside(which, end) => {
+                    let end = if end == 0 { "start" } else { "end" };
+                    format!("the {end} is inside the clearance of {}", space.obstacles()[which].name)
                 }
-            };
-            if !space.may_descend(&to.xy(), to.z) || !space.may_descend(&from.xy(), from.z) {
-                why.get_or_insert(NoRoute::Enclosed);
-                continue;
-            }
-            let total = cost(&rise) + across + cost(&fall);
-            if best.as_ref().is_none_or(|(_, known)| total < *known) {
-                let mut points = vec![*from];
-                points.extend(flat.iter().map(|point| point.push(height)));
-                points.push(*to);
-                points.dedup_by(|a, b| (*a - *b).norm() <= SAME_MM);
-                best = Some((points, total));
-            }
-        }
-        best.ok_or_else(|| match why {
-            Some(NoRoute::EndInside(which, end)) => {
-                let end = if end == 0 { "start" } else { "end" };
-                format!("the {end} is inside the clearance of {}", space.obstacles()[which].name)
-            }
-            _ => "no way past the obstacles stays inside the travel of the axes".to_owned(),
-        })
+                NoRoute::Enclosed => "no way past the obstacles stays inside the travel of the axes".to_owned(),
+            })
     }
 
     /// Whether the axes reach a height.

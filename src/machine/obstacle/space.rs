@@ -165,6 +165,47 @@ impl Space {
         Err(NoRoute::Enclosed)
     }
 
+    /// The cheapest way between two places: straight up, past the obstacles at one height, straight down. `reaches`: whether the axes reach a height.
+    /// With what it costs.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn way(
+        &self,
+        (from, to): (&Vec3, &Vec3),
+        cost: impl Fn(&Vec3) -> f64,
+        reaches: impl Fn(f64) -> bool,
+    ) -> Result<(Vec<Vec3>, f64), NoRoute> {
+        let mut best: Option<(Vec<Vec3>, f64)> = None;
+        let mut why = None;
+        for (point, height, end) in [(from, from.z, 0), (to, to.z, 1)] {
+            if !self.is_clear(height, &point.xy(), &point.xy()) {
+                let which = self.blocked_by(point, point);
+                return Err(which.map_or(NoRoute::Enclosed, |which| NoRoute::EndInside(which, end)));
+            }
+        }
+        for height in self.heights(from.z.max(to.z)) {
+            let upright = cost(&Vec3::new(0.0, 0.0, height - from.z)) + cost(&Vec3::new(0.0, 0.0, to.z - height));
+            let least = upright + cost(&(to - from).xy().push(0.0));
+            if best.as_ref().is_some_and(|(_, known)| *known <= least) || !reaches(height) {
+                continue;
+            }
+            match self.route_at(height, (&from.xy(), &to.xy()), |way| cost(&way.push(0.0))) {
+                Ok((flat, across)) if best.as_ref().is_none_or(|(_, known)| upright + across < *known) => {
+                    let level = flat.iter().map(|point| point.push(height));
+                    let mut points: Vec<Vec3> = core::iter::once(*from).chain(level).chain([*to]).collect();
+                    points.dedup_by(|a, b| (*a - *b).norm() <= SLACK_MM);
+                    best = Some((points, upright + across));
+                }
+                Ok(_) => {}
+                Err(no) => {
+                    why.get_or_insert(no);
+                }
+            }
+        }
+        best.ok_or(why.unwrap_or(NoRoute::Enclosed))
+    }
+
     /// Whether a level leg keeps its distance from everything, to the last digit.
     pub fn is_clear(&self, height: f64, from: &Point, to: &Point) -> bool {
         let straight = self

@@ -51,15 +51,15 @@
 //! Paper on a minimum route for machine tool travel (control barrier); docs/kinematics.md#obstacles; Hart, Nilsson, Raphael, A formal basis for the
 //! heuristic determination of minimum cost paths (1968).
 use super::Body;
-use crate::rapid_route::{Grid, Measure, Planner, Way};
+use crate::rapid_route::{Grid, Measure, Planner, Stay, Way};
 use crate::rapid_runs::{Rapid, rapid_runs};
 use crate::style::NumberStyle;
-use crate::{Options, Proposal};
+use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_certify::postures::PostureCost;
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
-use trunnion_syntax::{Address, Item, LineIndex, Program, TextEdit, TextRange, Value, Word};
+use trunnion_syntax::{Address, Item, Program, TextEdit, TextRange, Value, Word};
 
 pub(super) const REWRITE: Body = Body {
     cures: &["rapid-through-obstacle", "excess-rapid-travel"],
@@ -72,33 +72,34 @@ const LEAST_DIGITS: [usize; 2] = [3, 4];
 /// Ends of a run are equal within this, mm: numbers are computed, not measured.
 const SAME_MM: f64 = 1e-6;
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
-        return Err("no machine is named, and obstacles stand in a machine (--machine)".into());
+        return Err(Refusal::missing(
+            "no machine is named, and obstacles stand in a machine (--machine)",
+        ));
     };
     if machine.obstacles.is_empty() {
-        return Err(
-            "no obstacle is declared, so nothing says what a shorter way would pass: [[obstacle]] in trunnion.toml"
-                .into(),
-        );
+        return Err(Refusal::missing(
+            "no obstacle is declared, so nothing says what a shorter way would pass: [[obstacle]] in trunnion.toml",
+        ));
     }
     let keep = machine.tolerances.clearance_mm();
     let measure = match options.cost {
         PostureCost::Time => Measure::Time,
         PostureCost::Travel | PostureCost::Deviation => Measure::Length,
     };
-    if let (Measure::Time, Some(letter)) = (measure, PostureCost::Time.lacks(machine)) {
-        return Err(format!(
+    let slow = |joint: &&usize| machine.axes[**joint].max_speed.is_none_or(|speed| speed <= 0.0);
+    if let (Measure::Time, Some(&joint)) = (measure, machine.linear.iter().find(slow)) {
+        let letter = char::from(machine.axes[joint].letter);
+        return Err(Refusal::missing(format!(
             "the machine file does not declare the highest speed of {letter}, and --cost time depends on it"
-        ));
+        )));
     }
-    let lines = LineIndex::new(program.source());
-    let (mut edits, mut refusals) = (Vec::new(), Vec::new());
+    let mut places = Vec::new();
     let (mut runs, mut length) = (0, [0.0; 2]);
     for run in rapid_runs(program, settings, machine)? {
         let planner = Planner {
             machine,
-            settings,
             run: &run,
             keep,
             measure,
@@ -107,35 +108,42 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         let grid = Grid {
             step_mm: 2.0 * style.numbers.rounding() * run[0].unit_mm,
         };
-        match planner.plan(grid) {
-            Ok(None) => {}
+        let change = match planner.plan(grid) {
+            Ok(None) => continue,
             Ok(Some(way)) => {
                 runs += 1;
                 length = [length[0] + way.length[0], length[1] + way.length[1]];
-                edits.extend(write(program, &run, &way, &style));
+                Change::Edits(write(program, &run, &way, &style))
             }
-            Err(why) => {
-                let (line, _) = lines.line_column(program.source(), program.block(run[0].block).range().start);
-                refusals.push(format!("line {line}: {why}"));
-            }
-        }
+            Err(Stay::Missing(why)) => Change::Possible(why),
+            Err(Stay::Refused(why)) => Change::Refused(why),
+        };
+        places.push(Place {
+            first: run[0].block,
+            last: run[run.len() - 1].block,
+            change,
+        });
     }
-    if edits.is_empty() {
-        return refusals.into_iter().next().map_or(Ok(None), Err);
+    if places.is_empty() {
+        return Ok(None);
     }
-    let mut summary = format!("{runs} ways of rapid motions: {:.6} -> {:.6} mm", length[0], length[1]);
-    if !refusals.is_empty() {
-        summary.push_str(&format!("; not changed: {}", refusals.join("; ")));
+    if runs == 0 {
+        return Err(Refusal::Places(places));
     }
     Ok(Some(Proposal {
-        edits,
+        places,
         claim: Claim::ClearRapids {
             tolerance_mm: SAME_MM,
             tolerance_deg: SAME_MM,
             clearance_mm: keep,
             assumed_zeros: settings.assume.work_offset && settings.assume.tool_length,
         },
-        summary,
+        summary: format!(
+            "{runs} {} of rapid motions: {:.6} -> {:.6} mm",
+            if runs == 1 { "run" } else { "runs" },
+            length[0],
+            length[1]
+        ),
     }))
 }
 

@@ -90,8 +90,12 @@ impl Frame {
 impl Planner<'_> {
     /// A new way; `None` where the run is clear and no other is shorter. `Err`: it is not clear, and why it stays.
     pub(crate) fn plan(&self, grid: Grid) -> Result<Option<Way>, Stay> {
-        let stances = self.stances()?;
         let first = &self.run[0];
+        if first.leg.start.is_none() {
+            // nothing is checked from a position that is unknown
+            return Ok(None);
+        }
+        let stances = self.stances()?;
         if let Some(why) = first.fixed {
             return self.only_if_clear(why);
         }
@@ -174,7 +178,6 @@ impl Planner<'_> {
         let mut stances = Vec::new();
         for rapid in self.run {
             if stances.is_empty() {
-                // nothing is checked from a position that is unknown
                 stances.push(rapid.leg.start.ok_or("the position before it is unknown")?);
             }
             stances.push(*rapid.leg.end.as_ref().map_err(|_| "its end is unknown")?);

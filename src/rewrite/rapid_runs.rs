@@ -62,6 +62,7 @@ impl Sink for Collector<'_, '_> {
         let same = |first: &Rapid| {
             let (a, b) = (&first.leg.motion, &rapid.leg.motion);
             first.fixed.is_none()
+                && first.leg.start.is_some()
                 && first.tool == rapid.tool
                 && a.zero.iter().zip(&b.zero).all(|(a, b)| a.to_bits() == b.to_bits())
                 && a.tool_length_mm.to_bits() == b.tool_length_mm.to_bits()

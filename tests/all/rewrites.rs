@@ -2,6 +2,7 @@
 
 mod mutants;
 mod random;
+mod routing;
 mod smoothing;
 mod strategy_2;
 mod switching;

@@ -195,4 +195,47 @@ mod tests {
         assert_eq!(found(-100.0), []);
         assert_eq!(found(50.0), [Status::Fail]);
     }
+
+    /// The program of the thesis cuts its wall at rapid: N257 to N323 run in the material, N256 enters and N324 leaves it.
+    #[test]
+    fn the_wall_of_the_thesis_is_cut_at_rapid() {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../../shared/data/pocket-1999/pocket.nc"
+        );
+        let Ok(text) = std::fs::read_to_string(path) else {
+            return;
+        };
+        let mut machine = crate::fixture::machine("mill-3axis+wall").unwrap();
+        let inch = 25.4;
+        let corners = [[0.0, 0.0], [2.5, 0.0], [2.5, 2.5], [0.0, 2.5]]
+            .map(|[x, y]| trunnion_geometry::plane::Point::new(x * inch, y * inch));
+        let stock = &mut machine.obstacles.0[0];
+        stock.footprint =
+            trunnion_machine::Footprint::Polygon(trunnion_geometry::plane::Polygon::new(&corners).unwrap());
+        (stock.bottom, stock.top) = (-inch, -0.2 * inch);
+        let setup = trunnion_interp::Setup {
+            tools: vec![crate::config::parse_tool_flag("ball:3.175").unwrap()],
+            control: trunnion_interp::ControlData {
+                units: Some(trunnion_interp::LengthUnit::Inch),
+                ..Default::default()
+            },
+            ..Default::default()
+        };
+        let report = crate::fixture::check_with(&machine, "iso-6983", &text, setup);
+        let line = |number: &str| {
+            text.lines()
+                .position(|line| line.starts_with(number))
+                .map(|at| at as u32 + 1)
+                .unwrap()
+        };
+        let wall = report
+            .diagnostics
+            .iter()
+            .find(|d| d.rule == "rapid-through-obstacle" && d.count > 60 && d.message.contains("in rapid"));
+        let wall = wall.expect("the wall");
+        let index = trunnion_syntax::LineIndex::new(text.as_bytes());
+        let first = index.line_column(text.as_bytes(), wall.range.start).0;
+        assert_eq!((first, wall.count), (line("N256"), 69));
+    }
 }

@@ -48,7 +48,7 @@
 //! - The column above the tool up to the spindle counts, a tool below an overhanging obstacle is not allowed.
 //!
 //! # Sources
-//! Paper on a minimum route for machine tool travel (control barrier); docs/kinematics.md#obstacles; Hart, Nilsson, Raphael, A formal basis for the
+//! Minimum-route paper (control barrier); docs/kinematics.md#obstacles; Hart, Nilsson, Raphael, A formal basis for the
 //! heuristic determination of minimum cost paths (1968).
 use super::Body;
 use crate::rapid_route::{Grid, Measure, Planner, Stay, Way};
@@ -189,8 +189,16 @@ fn write(program: &Program, run: &[Rapid], way: &Way, style: &Style) -> Vec<Text
     }
     let block = program.block(run[last].block);
     let words: Vec<Word> = block.words().collect();
-    let code = words.iter().find(|word| word.address == Address::Letter(b'G'));
-    let code = code.map(|word| program.text(word.range).into_owned());
+    let code_of = |rapid: &Rapid| {
+        let code = program
+            .block(rapid.block)
+            .words()
+            .find(|word| word.address == Address::Letter(b'G'));
+        code.map(|word| program.text(word.range).into_owned())
+    };
+    let own = code_of(&run[last]);
+    // G0 of a block that goes is written in the first one that stays
+    let mut code = own.clone().or_else(|| run[first..last].iter().find_map(code_of));
     let range = block.range();
     let blank = if program.bytes(range).contains(&b' ') { " " } else { "" };
     let mut at = run[first].leg.motion.start.xyz().unwrap_or_default();
@@ -200,6 +208,7 @@ fn write(program: &Program, run: &[Rapid], way: &Way, style: &Style) -> Vec<Text
     for point in &way.points[..count - 1] {
         let words = moved(&at, point, style);
         lines.push_str(&code.iter().cloned().chain(words).collect::<Vec<_>>().join(blank));
+        code.clone_from(&own);
         lines.push_str(newline);
         at = *point;
     }
@@ -207,6 +216,13 @@ fn write(program: &Program, run: &[Rapid], way: &Way, style: &Style) -> Vec<Text
         range: TextRange::new(range.start, range.start),
         new_text: lines,
     });
+    let coordinate = words.iter().find(|word| word.address != Address::Letter(b'N'));
+    if let (1, None, Some(code), Some(word)) = (count, &own, &code, coordinate) {
+        edits.push(TextEdit {
+            range: TextRange::new(word.range.start, word.range.start),
+            new_text: format!("{code}{blank}"),
+        });
+    }
     // coordinates that the last block did not need to name
     let named = |letter: u8| words.iter().any(|word| word.address == Address::Letter(letter));
     let missing: Vec<String> = (0..3)

@@ -20,7 +20,7 @@ pub(crate) struct Trail {
     pub(crate) clamps: Clamps,
     /// Declared length of the tool in use with the current leg, mm.
     pub(crate) own_length_mm: Option<f64>,
-    /// What is declared about the tool in use, on a machine with obstacles.
+    /// What is declared about the tool in use.
     pub(crate) tool: Option<Tool>,
     /// The undeclared values that the current leg depends on.
     pub(crate) undeclared: Undeclared,

@@ -77,6 +77,23 @@ impl core::ops::Deref for Obstacles {
 }
 
 impl Obstacle {
+    /// One line for people.
+    pub fn in_words(&self) -> String {
+        let shape = match &self.footprint {
+            Footprint::Polygon(polygon) => format!("a prism with {} sides", polygon.corners().len()),
+            Footprint::Circle { centre, radius } => {
+                format!("a cylinder of radius {radius} mm about X{} Y{}", centre.x, centre.y)
+            }
+        };
+        let moves = self
+            .axis
+            .map_or(String::new(), |axis| format!(", moves with {}", char::from(axis)));
+        format!(
+            "obstacle {}: {shape}, Z {} to {} mm{moves}",
+            self.name, self.bottom, self.top
+        )
+    }
+
     /// The frame that it moves with: how many axes of the chain, counted from the workpiece, lie between the workpiece and it. `None` where the
     /// machine has no such axis.
     pub fn frame(&self, machine: &Machine) -> Option<usize> {

@@ -1,6 +1,7 @@
 //! The way of a run of rapid motions past obstacles: what of the run is kept, the cheapest way for the rest, and its points in the digits of the program.
 use crate::rapid_runs::Rapid;
 use trunnion_geometry::Vec3;
+use trunnion_geometry::plane::Cover;
 use trunnion_machine::{Joints, Machine, Nearness, NoRoute, Space, Stance, ToolBody, nearness};
 
 /// Coordinates that differ by no more are the same, mm.
@@ -337,11 +338,20 @@ fn rounded_within(
             })
             .collect()
     };
+    // the barriers with their mitred corners, not only the distance
+    let mut covers: Vec<(f64, Cover)> = Vec::new();
+    for z in points.iter().map(height) {
+        if covers.iter().all(|(known, _)| (known - z).abs() > SAME_MM) {
+            covers.push((z, space.cover(z)));
+        }
+    }
     let clear = |a: &Vec3, b: &Vec3| {
         if (a.z - b.z).abs() > SAME_MM {
             return (a.xy() - b.xy()).norm() <= SAME_MM && space.may_descend(&a.xy(), a.z.min(b.z));
         }
-        space.is_clear(a.z, &a.xy(), &b.xy())
+        let cover = covers.iter().find(|(z, _)| (z - a.z).abs() <= SAME_MM);
+        let entered = cover.is_none_or(|(_, cover)| cover.is_entered(&a.xy(), &b.xy()));
+        !entered && space.is_clear(a.z, &a.xy(), &b.xy())
     };
     // layer by layer: cost, the candidate before it
     let mut layers: Vec<Vec<(Vec3, f64, usize)>> = vec![vec![(*first, 0.0, 0)]];

@@ -232,6 +232,7 @@ fn a_certificate_without_its_seal() {
             travel_after_deg: 4.0,
         }],
         postures: None,
+        rapids: None,
         changes: vec![MotionChange {
             motion: 1,
             line: 2,

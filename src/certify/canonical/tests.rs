@@ -330,32 +330,8 @@ fn every_fact_of_a_machine_counts() {
             |m| m.tolerances.tip_mm += 1.0,
             |m| m.tolerances.near_mm += 1.0,
             |m| m.tolerances.clearance_mm = Some(1.0),
-            |m| m.obstacles.0.push(obstacle(Some(b'C'), 0.0)),
-            |m| m.obstacles.0.push(obstacle(None, 0.0)),
-            |m| m.obstacles.0.push(obstacle(None, 1.0)),
-            |m| m.obstacles.0.push(square()),
         ],
     );
-}
-
-fn obstacle(axis: Option<u8>, bottom: f64) -> trunnion_machine::Obstacle {
-    let centre = trunnion_geometry::plane::Point::new(1.0, 2.0);
-    trunnion_machine::Obstacle {
-        name: "clamp".into(),
-        axis,
-        footprint: trunnion_machine::Footprint::Circle { centre, radius: 3.0 },
-        bottom,
-        top: 5.0,
-    }
-}
-
-fn square() -> trunnion_machine::Obstacle {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(trunnion_geometry::plane::Point::from);
-    let polygon = trunnion_geometry::plane::Polygon::new(&corners).expect("a square");
-    trunnion_machine::Obstacle {
-        footprint: trunnion_machine::Footprint::Polygon(polygon),
-        ..obstacle(None, 0.0)
-    }
 }
 
 fn sign() -> trunnion_machine::AxisSign {

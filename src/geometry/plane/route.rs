@@ -6,6 +6,9 @@ use super::{Cover, Point};
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+/// A point this near to the line between its neighbours is no turn, mm.
+const STRAIGHT: f64 = 1e-9;
+
 /// A route.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
@@ -69,7 +72,8 @@ pub fn cheapest_route(
         points.extend(further.iter().filter(|point| !cover.encloses(point)));
     }
     let best = search(&points, &norm, sees)?;
-    let route: Vec<Point> = best.iter().map(|&index| points[index]).collect();
+    let mut route: Vec<Point> = best.iter().map(|&index| points[index]).collect();
+    straighten(&mut route);
     let cost = route.windows(2).map(|pair| norm(&(pair[1] - pair[0]))).sum();
     Some(Route {
         points: route,
@@ -118,4 +122,16 @@ fn search(
         }
     }
     None
+}
+
+/// Leaves out points on the straight line between their neighbours.
+fn straighten(route: &mut Vec<Point>) {
+    let mut at = 1;
+    while at + 1 < route.len() {
+        if super::point_distance(&route[at], &route[at - 1], &route[at + 1]) <= STRAIGHT {
+            route.remove(at);
+        } else {
+            at += 1;
+        }
+    }
 }

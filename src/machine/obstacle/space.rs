@@ -206,6 +206,11 @@ impl Space {
         best.ok_or(why.unwrap_or(NoRoute::Enclosed))
     }
 
+    /// What is in the way at a height, united.
+    pub fn cover(&self, height: f64) -> Cover {
+        Cover::new(self.rings(height))
+    }
+
     /// Whether a level leg keeps its distance from everything, to the last digit.
     pub fn is_clear(&self, height: f64, from: &Point, to: &Point) -> bool {
         let straight = self

@@ -1,5 +1,5 @@
 //! Each fact about an obstacle changes the digest of its machine.
-use crate::digest::machine_digest;
+use crate::digest::{machine_digest, setup_digest};
 use std::collections::BTreeSet;
 
 fn obstacle(axis: Option<u8>, bottom: f64) -> trunnion_machine::Obstacle {
@@ -44,4 +44,24 @@ fn obstacles_are_part_of_a_machine() {
     let mut named = obstacle(None, 0.0);
     named.name = "vice".into();
     assert_eq!(with(&[named]), with(&[obstacle(None, 0.0)]));
+}
+
+#[test]
+fn clearance_and_holder_count_where_they_are_declared() {
+    let mut machine = trunnion_machine::builtin("mill-3axis").expect("built in").clone();
+    let plain = machine_digest(&machine);
+    machine.tolerances.clearance_mm = Some(1.0);
+    assert_ne!(machine_digest(&machine), plain);
+    let setup = |holder_mm: Option<f64>| trunnion_interp::Setup {
+        tools: vec![trunnion_interp::Tool {
+            number: 1,
+            shape: None,
+            diameter_mm: Some(8.0),
+            length_mm: None,
+            holder_mm,
+        }],
+        ..Default::default()
+    };
+    let digests = [None, Some(40.0), Some(50.0)].map(|holder| setup_digest(&setup(holder)));
+    assert!(digests[0] != digests[1] && digests[1] != digests[2]);
 }

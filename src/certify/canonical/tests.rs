@@ -177,12 +177,6 @@ fn every_fact_of_a_setup_counts() {
                     ..tool(None)
                 });
             },
-            |s| {
-                s.tools.push(Tool {
-                    holder_mm: Some(10.0),
-                    ..tool(None)
-                });
-            },
             |s| s.work_offsets.push(offset("G54", 0.0)),
             |s| s.work_offsets.push(offset("G55", 0.0)),
             |s| s.work_offsets.push(offset("G54", 1.0)),
@@ -329,7 +323,6 @@ fn every_fact_of_a_machine_counts() {
             |m| m.control.chip_break_retract_mm = Some(1.0),
             |m| m.tolerances.tip_mm += 1.0,
             |m| m.tolerances.near_mm += 1.0,
-            |m| m.tolerances.clearance_mm = Some(1.0),
         ],
     );
 }

@@ -243,6 +243,9 @@ impl Certificate {
             Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
             Claim::ClearRapids { .. } => "the same but for rapids, which keep clear of the obstacles",
+            Claim::AdaptedFeed { .. } => {
+                "the same but for feeds, which keep the axes within their speeds: path, spindle, tool and all else"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",
         };

@@ -59,6 +59,17 @@ pub enum Claim {
         /// Work offsets and tool lengths that are not declared are taken as zero; else rapids that depend on one are unknown.
         assumed_zeros: bool,
     },
+    /// All of [`Self::SameToolPath`] but the feeds of cuts. A feed that differs is no higher than the one before, or than the one asked for, and no
+    /// axis is faster than its highest speed with it; it is lower only where an axis would be too fast (`adapt-feed`). Under inverse time (G93)
+    /// the same holds for the time of the block.
+    AdaptedFeed {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// The feed asked for, mm/min: cuts that are slower may be made as fast as this. 0: none is made faster.
+        asked_mm_min: f64,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -85,6 +96,7 @@ impl Claim {
             Self::SamePoses { .. }
             | Self::LeastPostures { .. }
             | Self::ClearRapids { .. }
+            | Self::AdaptedFeed { .. }
             | Self::SameToolPath { .. }
             | Self::SamePath { .. } => 0.0,
         }
@@ -112,6 +124,11 @@ impl Claim {
                 tolerance_deg,
                 ..
             }
+            | Self::AdaptedFeed {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
@@ -127,7 +144,7 @@ impl Claim {
     pub fn is_rewrite(&self) -> bool {
         !matches!(
             self,
-            Self::ClearRapids { .. } | Self::SameToolPath { .. } | Self::SamePath { .. }
+            Self::ClearRapids { .. } | Self::AdaptedFeed { .. } | Self::SameToolPath { .. } | Self::SamePath { .. }
         )
     }
 }

@@ -57,7 +57,7 @@ impl Pair<'_> {
     pub(crate) fn compare(&self) -> Result<Compared, Outcome> {
         self.same_kind()?;
         let (old, new) = (self.before_leg()?, self.after_leg()?);
-        let alike = Self::alike(old, new);
+        let alike = self.alike(old, new);
         let (was, is) = match (&old.end, &new.end) {
             (Ok(was), Ok(is)) => (was, is),
             (Err(_), Err(_)) if alike => return Ok(Compared::UnknownAlike),
@@ -120,7 +120,7 @@ impl Pair<'_> {
     }
 
     pub(super) fn unknown(&self, message: &str) -> Outcome {
-        Outcome::unknown(format!("line {}: {message}", self.at.line))
+        Outcome::unknown_at(Some(self.at.line), format!("line {}: {message}", self.at.line))
     }
 
     fn no_pose(&self, which: &str, why: &NoStance) -> Outcome {
@@ -168,8 +168,13 @@ impl Pair<'_> {
     }
 
     /// Programmed alike, from a like state.
-    pub(crate) fn alike(old: &Leg, new: &Leg) -> bool {
-        old.start == new.start && old.known_joints == new.known_joints && old.motion == at_block_of(old, &new.motion)
+    fn alike(&self, old: &Leg, new: &Leg) -> bool {
+        let mut motion = at_block_of(old, &new.motion);
+        if matches!(self.claim, Claim::AdaptedFeed { .. }) {
+            // the path does not depend on it
+            motion.feed = old.motion.feed;
+        }
+        old.start == new.start && old.known_joints == new.known_joints && old.motion == motion
     }
 
     /// A ball of the claimed radius must be declared where the motion differs.
@@ -283,7 +288,10 @@ impl Pair<'_> {
         let claimed = match self.claim {
             Claim::SameBallCentre { .. } | Claim::LeastPostures { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
-            Claim::ClearRapids { .. } | Claim::SameToolPath { .. } | Claim::SamePath { .. } => true,
+            Claim::AdaptedFeed { .. }
+            | Claim::ClearRapids { .. }
+            | Claim::SameToolPath { .. }
+            | Claim::SamePath { .. } => true,
         };
         let (mm, degrees) = self.claim.tolerances();
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));
@@ -309,7 +317,7 @@ pub(crate) fn process_differs(old: &Motion, new: &Motion) -> bool {
 }
 
 /// A motion with the block of another leg, so that the block's number does not affect a comparison.
-fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
+pub(crate) fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
     Motion {
         block: leg.motion.block,
         chain: leg.motion.chain,

@@ -12,6 +12,7 @@ pub mod conversion;
 mod curve;
 mod difference;
 mod digest;
+mod feed;
 mod library;
 mod path;
 pub mod postures;

@@ -202,6 +202,9 @@ impl<'a> Proof<'a> {
             before: was,
             after: is,
         };
+        if let Claim::AdaptedFeed { asked_mm_min, .. } = self.claim {
+            crate::feed::adapted(self.machine, [old, new], *asked_mm_min).map_err(|gap| gap.at(at.motion, at.line))?;
+        }
         match pair.compare()? {
             Compared::Same => {}
             Compared::UnknownAlike => self.motions.unknown += 1,

@@ -1,7 +1,7 @@
 //! A run of rapid motions that differs between two programs: same ends, no lower, and clear of all obstacles. Nothing is searched here: each motion
 //! of the program after is measured against each obstacle.
 use crate::certificate::RapidChanges;
-use crate::compare::{Pair, Place, above, forward_residual};
+use crate::compare::{Place, above, at_block_of, forward_residual};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
 use trunnion_geometry::math::angle_between;
@@ -24,7 +24,10 @@ pub(crate) struct ChangedRun<'a> {
 /// Whether a rapid is the same in both programs.
 pub(crate) fn same_rapid(was: &Step, is: &Step) -> bool {
     match (&was.leg, &is.leg) {
-        (Some(old), Some(new)) => old.end == new.end && Pair::alike(old, new),
+        (Some(old), Some(new)) => {
+            let same_motion = old.motion == at_block_of(old, &new.motion);
+            old.end == new.end && old.start == new.start && old.known_joints == new.known_joints && same_motion
+        }
         _ => false,
     }
 }

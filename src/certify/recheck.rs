@@ -177,13 +177,13 @@ fn prove(
     let asked = trunnion_same::Claim {
         mm,
         deg: degrees,
-        frees_feed: false,
+        frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
         across: false,
         straight_rapids: false,
         plane_counts: true,
         no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
-        cuts: matches!(claim, Claim::SameToolPath { .. } | Claim::SamePath { .. }),
+        cuts: !claim.is_rewrite() && !matches!(claim, Claim::ClearRapids { .. }),
         rapid_runs: matches!(claim, Claim::ClearRapids { .. }),
         exact: None,
     };
@@ -263,18 +263,19 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let clearance = match claim {
+    let further = match claim {
         Claim::ClearRapids { clearance_mm, .. } => *clearance_mm,
+        Claim::AdaptedFeed { asked_mm_min, .. } => *asked_mm_min,
         _ => 0.0,
     };
-    let fine = [mm, degrees, claim.point_height_mm(), clearance]
+    let fine = [mm, degrees, claim.point_height_mm(), further]
         .iter()
         .all(|value| value.is_finite() && *value >= 0.0);
     if fine {
         Ok(())
     } else {
         Err(Outcome::refuted(
-            "claim: tolerances, radius and clearance must be finite and not negative",
+            "claim: tolerances, radius, clearance and feed must be finite and not negative",
         ))
     }
 }

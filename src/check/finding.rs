@@ -180,6 +180,11 @@ impl<'p> Draft<'p> {
         self
     }
 
+    /// The rewrite that writes the feed that the axes allow.
+    pub(crate) fn fix_feed(&mut self) -> &mut Self {
+        self.fix("adapt-feed")
+    }
+
     /// The rewrite that chooses other postures and turns, where they are programmed and the machine has them.
     pub(crate) fn fix_posture(&mut self, view: &LegView<'_>) -> &mut Self {
         let vector = matches!(view.motion().orientation, trunnion_interp::Orientation::Vector(..));

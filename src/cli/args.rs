@@ -1,4 +1,8 @@
 //! The command line arguments; docs/commands.md lists the commands.
+mod fix;
+
+pub(crate) use fix::Fix;
+
 use super::{
     check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
     surface::Surface,
@@ -214,46 +218,6 @@ pub(crate) struct Canon {
     /// Additional decimals of each number after those that rs274 prints.
     #[arg(long, value_name = "N", default_value_t = 0, hide = true)]
     pub(crate) more_decimals: u8,
-}
-
-/// `fix`
-#[derive(clap::Args)]
-pub(crate) struct Fix {
-    /// The program.
-    pub(crate) file: PathBuf,
-    /// Use only these rewrites (`all`: every one). Default: all that fix a reported finding.
-    #[arg(long, value_delimiter = ',', value_name = "NAME")]
-    pub(crate) rewrite: Vec<String>,
-    /// Change only what touches these lines of the program. A rewrite of the whole program is applied whole or not at all.
-    #[arg(long, value_name = "FIRST[-LAST]", value_parser = super::fix::lines)]
-    pub(crate) lines: Option<(u32, u32)>,
-    /// How far the tip (for ball tools: the centre of the ball) may move, in mm.
-    #[arg(long, value_name = "MM")]
-    pub(crate) tolerance_mm: Option<f64>,
-    /// How far the tool axis may turn, in degrees.
-    #[arg(long, value_name = "DEG")]
-    pub(crate) tolerance_deg: Option<f64>,
-    /// switch-angles: what the postures of the whole program are chosen by. Default: `cost` of [fix] in trunnion.toml, else travel.
-    #[arg(long, value_enum)]
-    pub(crate) cost: Option<super::fix::CostOf>,
-    /// On standard output: a unified diff, or what became of every place and what is gained (JSON).
-    #[arg(long, value_enum, default_value = "text", conflicts_with = "diff")]
-    pub(crate) format: ListFormat,
-    /// Print a unified diff (the default).
-    #[arg(long)]
-    pub(crate) diff: bool,
-    /// Replace the file safely: write a new file next to it, flush it, rename it.
-    #[arg(long)]
-    pub(crate) write: bool,
-    /// With --write: keep the original as FILE.bak.
-    #[arg(long, requires = "write")]
-    pub(crate) backup: bool,
-    /// Write the result to this file.
-    #[arg(short, long, value_name = "FILE", conflicts_with = "write")]
-    pub(crate) output: Option<PathBuf>,
-    /// Write the certificate (JSON) to this file; several rewrites make a chain of certificates.
-    #[arg(long, value_name = "FILE.json")]
-    pub(crate) certificate: Option<PathBuf>,
 }
 
 /// `certify`

@@ -129,8 +129,12 @@ fn options(command: &Fix, loaded: &Loaded) -> Result<Options, Failure> {
         tolerance_mm: command.tolerance_mm.unwrap_or(settings.tolerance_mm),
         tolerance_deg: command.tolerance_deg.unwrap_or(settings.tolerance_deg),
         cost: cost.unwrap_or(settings.cost),
+        feed_mm_min: command.feed.unwrap_or(settings.feed_mm_min),
     };
     let good = |value: f64| value.is_finite() && value > 0.0;
+    if command.feed.is_some_and(|feed| !good(feed)) {
+        return Err(Failure::new("--feed must be a positive number, in mm/min"));
+    }
     if !good(options.tolerance_mm) || !good(options.tolerance_deg) {
         return Err(Failure::new(
             "--tolerance-mm and --tolerance-deg must be positive numbers",

@@ -14,6 +14,8 @@ pub struct Options {
     pub tolerance_deg: f64,
     /// What a sequence of postures is chosen by (`switch-angles`).
     pub cost: PostureCost,
+    /// Cuts that are slower than this are made as fast as the axes allow, up to this, mm/min (`adapt-feed`). 0: none is made faster.
+    pub feed_mm_min: f64,
 }
 
 impl Default for Options {
@@ -22,6 +24,7 @@ impl Default for Options {
             tolerance_mm: 0.001,
             tolerance_deg: 0.1,
             cost: PostureCost::default(),
+            feed_mm_min: 0.0,
         }
     }
 }
@@ -38,6 +41,7 @@ impl Options {
                 FixCost::Time => PostureCost::Time,
                 FixCost::Deviation => PostureCost::Deviation,
             }),
+            ..defaults
         }
     }
 }

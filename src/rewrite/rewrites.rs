@@ -1,4 +1,6 @@
-//! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name appears in two lists here.
+//! The list of rewrites, in the order in which `fix` applies them: postures first, then paths, then feeds. A rewrite is one file in `rewrites/`; its name
+//! appears in two lists here.
+mod adapt_feed;
 mod reroute_rapid;
 mod smooth_pole;
 mod switch_angles;
@@ -36,9 +38,9 @@ macro_rules! table {
     };
 }
 
-static REWRITES: &[&Rewrite] = table![reroute_rapid, smooth_pole, switch_angles, unwind_rotary];
+static REWRITES: &[&Rewrite] = table![switch_angles, unwind_rotary, smooth_pole, reroute_rapid, adapt_feed];
 
-/// All rewrites, by name.
+/// All rewrites, in the order in which they are applied.
 pub fn rewrites() -> &'static [&'static Rewrite] {
     REWRITES
 }
@@ -60,6 +62,7 @@ mod tests {
             (".fix_pole(", "smooth-pole"),
             (".fix_turns(", "unwind-rotary"),
             (".fix_posture(", "switch-angles"),
+            (".fix_feed(", "adapt-feed"),
         ];
         let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();
         for entry in std::fs::read_dir(rules).expect("a folder") {

@@ -1,5 +1,7 @@
 //! Rewrites and their certificates on published rows, on hard cases and on random chains.
 
+mod everywhere;
+mod feeds;
 mod mutants;
 mod random;
 mod routing;

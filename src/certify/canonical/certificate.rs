@@ -111,6 +111,16 @@ impl Encode for Claim {
             } => out.variant(4, |fields| {
                 fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
+            Self::AdaptedFeed {
+                tolerance_mm,
+                tolerance_deg,
+                asked_mm_min,
+            } => out.variant(8, |fields| {
+                fields
+                    .field(1, tolerance_mm)
+                    .field(2, tolerance_deg)
+                    .field(3, asked_mm_min);
+            }),
             Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,

@@ -91,7 +91,7 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
         if let Some(feed) = feed {
             draft.value(cut.feed_keys()[0], feed);
         }
-        draft.fix_pole(cut).fix_turns(cut);
+        draft.fix_pole(cut).fix_turns(cut).fix_feed();
     });
 }
 
@@ -138,6 +138,7 @@ fn overrun(cut: &facts::Cut<'_>, seconds: f64, out: &mut Reporter<'_>) {
                 .value("time_s", seconds)
                 .value("time_bound_s", least.seconds);
             speed_values(draft, axis, needed, least.axis_limit);
+            draft.fix_feed();
         },
     );
 }

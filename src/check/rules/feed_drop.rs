@@ -74,7 +74,8 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
             .value("share_percent", share * 100.0)
             .value_text("limiting_axis", name)
             .fix_pole(cut)
-            .fix_turns(cut);
+            .fix_turns(cut)
+            .fix_feed();
     });
 }
 

@@ -1,0 +1,351 @@
+//! Writes the feed that the axes allow, where the programmed one asks for more.
+//!
+//! # Why
+//! Near the pole, or far from the rotary axes, a feed that looks harmless asks an axis for more than its highest speed. Some controls slow down,
+//! some stop with an alarm, and some leave the path. A feed that the axes can follow is the same on every control, and the time of
+//! the program is then known.
+//!
+//! # How
+//! In each cut the highest feed at which no axis exceeds its speed is computed, over the whole block. Where the programmed feed is
+//! higher, the block gets the highest feed that the digits of an F word can say below the limit, and the next block that allows more gets its own feed
+//! back. Under inverse time (G93) the block gets the shortest time that the axes need. With `--feed` a cut that is slower than
+//! asked is made as fast as the axes allow, up to that feed.
+//!
+//! # Example
+//! ```gcode before sinumerik-840d mikron-ucp710
+//! TRAORI
+//! G0 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 S8000 M3
+//! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822 F2000
+//! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595
+//! N2940 G1 X-28.38873 Y-1.28023 Z59.95290 A-0.79 C-3.086
+//! N2950 G1 X-28.39015 Y-1.01049 Z59.97066 A-1.676 C-0.905
+//! M30
+//! ```
+//! ```gcode after
+//! TRAORI
+//! G0 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 S8000 M3
+//! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822 F1506
+//! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595 F46
+//! N2940 G1 X-28.38873 Y-1.28023 Z59.95290 A-0.79 C-3.086 F33
+//! N2950 G1 X-28.39015 Y-1.01049 Z59.97066 A-1.676 C-0.905 F892
+//! M30
+//! ```
+//!
+//! # Claim
+//! The programs do the same but for the feeds of cuts. No feed is higher than before (or than `--feed`), a feed is lower only where an axis would exceed its
+//! highest speed, and no axis exceeds it with a feed that was changed.
+//!
+//! # Traps
+//! - A lower feed changes the load of the tooth and may rub; a path around the pole (`smooth-pole`, `switch-angles`) is better where it
+//!   exists. `fix` applies this rewrite last.
+//! - Only highest speeds of axes are looked at, not accelerations.
+//! - `--feed` makes plunges faster too: name the lines with `--lines`.
+//! - Feeds per revolution, feeds of motions of rotary axes alone, and F words with expressions are left as they are.
+//!
+//! # Sources
+//! docs/kinematics.md#axis-speed-and-feed.
+use super::Body;
+use crate::style::NumberStyle;
+use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
+use trunnion_certify::Claim;
+use trunnion_check::Settings;
+use trunnion_interp::{Fault, Feed, ModalState, Motion, Sink, run};
+use trunnion_machine::{Follower, Machine, feed_limit_tight, shortest_time};
+use trunnion_syntax::{Address, BlockId, Program, TextEdit, TextRange, Value};
+
+pub(super) const REWRITE: Body = Body {
+    cures: &["axis-overspeed", "feed-drop"],
+    propose,
+};
+
+/// Most decimals of a feed that is written.
+const MOST_DECIMALS: usize = 3;
+
+/// What the axes allow in a block.
+#[derive(Clone, Copy, Debug)]
+struct Cut {
+    block: BlockId,
+    /// G93.
+    inverse: bool,
+    /// F as programmed: mm/min, or blocks per minute.
+    feed: f64,
+    /// The highest F that the axes allow, in the same unit; none where that is unknown.
+    limit: Option<f64>,
+    /// The F that is asked for, in the same unit.
+    asked: f64,
+}
+
+struct Collector<'m> {
+    machine: &'m Machine,
+    follower: Follower<'m>,
+    asked_mm_min: f64,
+    cuts: Vec<Cut>,
+}
+
+impl Sink for Collector<'_> {
+    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+        let leg = self.follower.follow(motion);
+        let cut = match motion.feed {
+            _ if !motion.is_feed() => return,
+            Feed::PerMinute(feed) => Cut {
+                block: motion.block,
+                inverse: false,
+                feed,
+                limit: feed_limit_tight(self.machine, &leg).map(|limit| limit.feed_mm_min),
+                asked: self.asked_mm_min,
+            },
+            Feed::InverseTime(feed) => Cut {
+                block: motion.block,
+                inverse: true,
+                feed,
+                limit: shortest_time(self.machine, &leg, 0.0).map(|time| 60.0 / time.seconds),
+                asked: if leg.length > 0.0 {
+                    self.asked_mm_min / leg.length
+                } else {
+                    0.0
+                },
+            },
+            Feed::PerRevolution(_) | Feed::Unknown | Feed::Rapid => return,
+        };
+        // a cycle makes several cuts in one block, and its F is for all of them
+        match self.cuts.last_mut().filter(|last| last.block == cut.block) {
+            Some(last) => {
+                last.limit = last.limit.zip(cut.limit).map(|(a, b)| a.min(b));
+                last.asked = last.asked.min(cut.asked);
+                if last.inverse != cut.inverse || last.feed != cut.feed {
+                    last.limit = None;
+                }
+            }
+            None => self.cuts.push(cut),
+        }
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+    let Some(machine) = settings.machine else {
+        return Err("no machine is named, and feeds depend on its axes (--machine)".into());
+    };
+    let mut collector = Collector {
+        machine,
+        follower: Follower::new(machine),
+        asked_mm_min: options.feed_mm_min,
+        cuts: Vec::new(),
+    };
+    run(program, settings.dialect, &settings.setup, &mut collector);
+    let mut writer = Writer::new(program);
+    for cut in &collector.cuts {
+        writer.cut(cut);
+    }
+    let changed = writer.changed;
+    let places = writer.finish();
+    if places.is_empty() {
+        return Ok(None);
+    }
+    if !places.iter().any(|place| matches!(place.change, Change::Edits(_))) {
+        return Err(Refusal::Places(places));
+    }
+    Ok(Some(Proposal {
+        places,
+        claim: Claim::AdaptedFeed {
+            tolerance_mm: options.tolerance_mm.min(1e-6),
+            tolerance_deg: options.tolerance_deg.min(1e-6),
+            asked_mm_min: options.feed_mm_min,
+        },
+        summary: format!("{changed} blocks get the feed that the axes allow"),
+    }))
+}
+
+/// Writes feeds into a program.
+struct Writer<'a> {
+    program: &'a Program,
+    style: NumberStyle,
+    /// The next block whose F word is not yet read.
+    next: u32,
+    /// The F word in effect in the program before, and in the one after; none before the first, and after one that is no number.
+    current: [Option<f64>; 2],
+    /// The place that is open: its blocks and edits so far.
+    open: Option<Place>,
+    places: Vec<Place>,
+    changed: usize,
+}
+
+impl<'a> Writer<'a> {
+    fn new(program: &'a Program) -> Self {
+        let words = program.blocks().flat_map(|block| block.words().collect::<Vec<_>>());
+        let texts: Vec<TextRange> = words
+            .filter(|word| word.address == Address::Letter(b'F') && matches!(word.value, Value::Number(_)))
+            .map(|word| word.value_range)
+            .collect();
+        let texts = texts
+            .iter()
+            .filter_map(|range| core::str::from_utf8(&program.source()[range.as_usize()]).ok());
+        // without any F word nothing is written
+        let style = NumberStyle::learn(texts).unwrap_or(NumberStyle {
+            decimals: 0,
+            trims: true,
+            whole_point: false,
+            leading_zero: true,
+        });
+        Self {
+            program,
+            style,
+            next: 0,
+            current: [None; 2],
+            open: None,
+            places: Vec::new(),
+            changed: 0,
+        }
+    }
+
+    fn finish(mut self) -> Vec<Place> {
+        self.places.extend(self.open.take());
+        self.places
+    }
+
+    /// The F word of a block: its number, and the bytes of that.
+    fn word(&self, block: BlockId) -> Option<(Option<f64>, TextRange)> {
+        let words = self.program.block(block).words();
+        let mut found = words.filter(|word| word.address == Address::Letter(b'F'));
+        let word = found.next()?;
+        let number = match word.value {
+            Value::Number(value) if found.next().is_none() => Some(value.to_f64()),
+            _ => None,
+        };
+        Some((number, word.value_range))
+    }
+
+    /// Takes over the F words before a block.
+    fn read_up_to(&mut self, block: BlockId) {
+        while self.next < block.0 {
+            if let Some((number, _)) = self.word(BlockId(self.next)) {
+                self.current = [number; 2];
+            }
+            self.next += 1;
+        }
+    }
+
+    fn cut(&mut self, cut: &Cut) {
+        self.read_up_to(cut.block);
+        self.next = cut.block.0 + 1;
+        let own = self.word(cut.block);
+        let before = own.map_or(self.current[0], |(number, _)| number);
+        let target = cut.target();
+        let wanted = match (before, target) {
+            (_, None) => Ok(before),
+            (None, Some(_)) => Err("the feed in effect is not a plain number in the text".to_owned()),
+            (Some(before), Some(target)) => self.written(cut, before, target).map(Some),
+        };
+        let wanted = wanted.unwrap_or_else(|why| {
+            self.places.extend(self.open.take());
+            self.places.push(Place {
+                first: cut.block,
+                last: cut.block,
+                change: Change::Refused(why),
+            });
+            before
+        });
+        let edit = match (wanted, own) {
+            (Some(value), Some((_, range))) if wanted != before => Some((range, self.text(value))),
+            (Some(value), None) if wanted != self.current[1] => {
+                let at = self.end_of_words(cut.block);
+                Some((
+                    TextRange::new(at, at),
+                    format!("{}F{}", self.blank(at), self.text(value)),
+                ))
+            }
+            _ => None,
+        };
+        self.current = [before, wanted];
+        if let Some((range, new_text)) = edit {
+            self.changed += usize::from(wanted != before);
+            self.edit(cut.block, TextEdit { range, new_text });
+        }
+        if before == wanted {
+            self.places.extend(self.open.take());
+        }
+    }
+
+    /// Adds an edit to the place that is open.
+    fn edit(&mut self, block: BlockId, edit: TextEdit) {
+        let open = self.open.get_or_insert_with(|| Place {
+            first: block,
+            last: block,
+            change: Change::Edits(Vec::new()),
+        });
+        open.last = block;
+        if let Change::Edits(edits) = &mut open.change {
+            edits.push(edit);
+        }
+    }
+
+    /// The F word that says `target` and no more, in the program's digits or a few more; the word before where it says as much.
+    fn written(&self, cut: &Cut, before: f64, target: f64) -> Result<f64, String> {
+        let ratio = cut.feed / before;
+        let known = if cut.inverse { &[1.0][..] } else { &[1.0, 25.4][..] };
+        if !known.iter().any(|known| (ratio - known).abs() < 1e-9 * known) {
+            return Err("the feed in effect does not come from the F word before it".to_owned());
+        }
+        let goal = target / ratio;
+        for decimals in self.style.decimals..=self.style.decimals.max(MOST_DECIMALS) {
+            let scale = 10f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX));
+            let value = (goal * scale).floor() / scale;
+            if value >= 0.99 * goal || decimals >= MOST_DECIMALS {
+                if value <= 0.0 {
+                    return Err(format!("the axes allow a feed of {goal:.6} only, which F cannot say"));
+                }
+                return Ok(if target > cut.feed { value.max(before) } else { value });
+            }
+        }
+        Ok(before)
+    }
+
+    /// A feed in the program's digits, or a few more where it needs them.
+    fn text(&self, value: f64) -> String {
+        let exact = |decimals: &usize| {
+            let style = NumberStyle {
+                decimals: *decimals,
+                ..self.style
+            };
+            style.write(value, false).parse() == Ok(value)
+        };
+        let decimals = (self.style.decimals..=self.style.decimals.max(MOST_DECIMALS)).find(exact);
+        let style = NumberStyle {
+            decimals: decimals.unwrap_or(MOST_DECIMALS),
+            ..self.style
+        };
+        style.write(value, false)
+    }
+
+    /// The byte after the last word of a block.
+    fn end_of_words(&self, block: BlockId) -> u32 {
+        let block = self.program.block(block);
+        block.words().last().map_or(block.range().start, |word| word.range.end)
+    }
+
+    /// A blank where the program has one before its F words.
+    fn blank(&self, at: u32) -> &'static str {
+        let source = self.program.source();
+        let line = source[..at as usize]
+            .rsplit(|&byte| byte == b'\n')
+            .next()
+            .unwrap_or_default();
+        if line.contains(&b' ') || source.windows(2).any(|pair| pair == b" F") {
+            " "
+        } else {
+            ""
+        }
+    }
+}
+
+impl Cut {
+    /// The feed that it is to have; none: the one that it has.
+    fn target(&self) -> Option<f64> {
+        let limit = self.limit?;
+        if limit < self.feed {
+            return Some(limit);
+        }
+        let raised = self.asked.min(limit);
+        (raised > self.feed).then_some(raised)
+    }
+}

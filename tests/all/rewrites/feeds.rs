@@ -1,0 +1,155 @@
+//! `adapt-feed`: what the axes allow, computed here from their speeds alone; and what its claim must refuse.
+use super::strategy_2::{certified, refused, run, settings};
+use trunnion::certify::{Claim, Outcome, certify, recheck};
+use trunnion::check::Settings;
+use trunnion::interp::Setup;
+use trunnion::machine;
+use trunnion::rewrite::{Attempt, Options};
+
+/// A program on mill-4axis-a: X Y Z and a table that turns about X.
+fn on_mill(dialect: &str) -> Settings<'static> {
+    let mut settings = settings(dialect, Setup::default());
+    settings.machine = machine::builtin("mill-4axis-a");
+    settings.assume = trunnion::check::Assume::ALL;
+    settings
+}
+
+fn adapt(text: &str, settings: &Settings<'_>, feed_mm_min: f64) -> Attempt {
+    let options = Options {
+        feed_mm_min,
+        ..Options::default()
+    };
+    run("adapt-feed", text, settings, &options)
+}
+
+/// The highest speed of an axis: mm/min, or deg/min.
+fn fastest(letter: u8) -> f64 {
+    let machine = machine::builtin("mill-4axis-a").expect("built in");
+    let axis = &machine.axes[machine.joint(letter).expect("an axis")];
+    let per_second = axis.max_speed.expect("declared");
+    60.0 * if letter < b'X' {
+        per_second.to_degrees()
+    } else {
+        per_second
+    }
+}
+
+/// Without tool centre point control the feed is that of X Y Z, and a turn of 90 deg over 1 mm limits it to (highest speed of A) / 90.
+#[test]
+fn only_the_block_that_an_axis_limits_is_slower() {
+    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X100 F2000\nX101 A90\nX200\nX300 F500\nX301 A91\nM30\n";
+    let allowed = (fastest(b'A') / 90.0 + 1e-9).floor();
+    assert!(allowed < 500.0);
+    let (after, certificate) = certified(adapt(text, &on_mill("fanuc-30i"), 0.0));
+    let expected = text
+        .replace("X101 A90", &format!("X101 A90 F{allowed}"))
+        .replace("X200\n", "X200 F2000\n");
+    assert_eq!(after, expected);
+    assert_eq!(certificate.motions.process_changed, 1);
+    assert!(
+        matches!(adapt(&after, &on_mill("fanuc-30i"), 0.0).outcome(), Ok(None)),
+        "once is enough"
+    );
+    // inch: the same path, feeds in inch per minute with the digits that they need
+    let inch = "G20 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X4 F80\nX4.1 A90\nX8\nM30\n";
+    let (after, _) = certified(adapt(inch, &on_mill("fanuc-30i"), 0.0));
+    let word = |text: &str| {
+        text.lines()
+            .nth(3)
+            .and_then(|line| line.split('F').nth(1)?.parse::<f64>().ok())
+    };
+    let limit = fastest(b'A') / 90.0 * 0.1;
+    let written = word(&after).expect("an F word");
+    assert!(written <= limit && written > 0.99 * limit, "{written} {limit}");
+}
+
+/// A cut that is slower than asked becomes as fast as asked, or as fast as the axes allow.
+#[test]
+fn what_crept_is_made_as_fast_as_asked() {
+    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X100 F50\nX101 A90\nX200\nM30\n";
+    let allowed = (fastest(b'A') / 90.0 + 1e-9).floor();
+    let (after, _) = certified(adapt(text, &on_mill("fanuc-30i"), 1500.0));
+    assert_eq!(
+        after,
+        text.replace("F50", "F1500")
+            .replace("A90", &format!("A90 F{allowed}"))
+            .replace("X200\n", "X200 F1500\n")
+    );
+    // inverse time: 1 mm at 1500 mm/min would take 0.04 s, the turn of 90 deg takes longer
+    let inverse = "G21 G90 G93 G17\nG0 X0 Y0 Z0 A0\nG1 X100 F15\nX101 A90 F2\nX201 A90 F2\nM30\n";
+    let (after, _) = certified(adapt(inverse, &on_mill("linuxcnc"), 1500.0));
+    let most = (fastest(b'A') / 90.0 + 1e-9).floor();
+    assert_eq!(
+        after,
+        inverse.replace("A90 F2\nX201 A90 F2", &format!("A90 F{most}\nX201 A90 F15"))
+    );
+}
+
+#[test]
+fn feeds_that_no_number_of_the_text_says_are_refused() {
+    let text = "G21 G90 G94 G17\n#1=2000\nG0 X0 Y0 Z0 A0\nG1 X100 F100\nG1 X101 A90 F#1\nM30\n";
+    let reason = refused(adapt(text, &on_mill("fanuc-30i"), 0.0));
+    assert!(
+        reason.contains("line 5") && reason.contains("not a plain number"),
+        "{reason}"
+    );
+    let text = "G21 G90 G95 G17\nG0 X0 Y0 Z0 A0 S100 M3\nG1 X100 F1\nX101 A90\nM30\n";
+    assert!(
+        matches!(adapt(text, &on_mill("fanuc-30i"), 0.0).outcome(), Ok(None)),
+        "feed per revolution"
+    );
+}
+
+/// What the claim promises is checked from the two texts.
+#[test]
+fn other_feeds_than_claimed_are_refuted() {
+    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X100 F2000\nX101 A90\nX200\nM30\n";
+    let settings = on_mill("fanuc-30i");
+    let machine = settings.machine.expect("a machine");
+    let claim = |asked_mm_min| Claim::AdaptedFeed {
+        tolerance_mm: 1e-6,
+        tolerance_deg: 1e-6,
+        asked_mm_min,
+    };
+    let judge = |after: &str, asked: f64| {
+        certify(
+            text.as_bytes(),
+            after.as_bytes(),
+            settings.dialect,
+            machine,
+            &settings.setup,
+            &claim(asked),
+        )
+    };
+    let refuted = |after: &str, asked: f64, what: &str| match judge(after, asked) {
+        Outcome::Refuted(witness) => assert!(witness.message.contains(what), "{witness}"),
+        other => panic!("{after}: {other:?}"),
+    };
+    let good = text.replace("A90", "A90 F40").replace("X200", "X200 F2000");
+    assert!(
+        matches!(judge(&good, 0.0), Outcome::Proved(_)),
+        "{:?}",
+        judge(&good, 0.0)
+    );
+    refuted(&good.replace("F40", "F400"), 0.0, "the axes allow");
+    refuted(&text.replace("F2000", "F2500"), 0.0, "is asked for");
+    refuted(&text.replace("F2000", "F1500"), 0.0, "which the axes allow");
+    refuted(&good.replace("X200 F2000", "X201 F2000"), 0.0, "");
+    let other_speed = judge(&good.replace("X200 F2000", "X200 S5 F2000"), 0.0);
+    assert!(!matches!(other_speed, Outcome::Proved(_)), "{other_speed:?}");
+    let raised = good.replace("X100 F2000", "X100 F2500");
+    assert!(matches!(judge(&raised, 2500.0), Outcome::Proved(_)));
+    refuted(&raised, 2400.0, "is asked for");
+    let Outcome::Proved(certificate) = judge(&good, 0.0) else {
+        panic!("proved above")
+    };
+    let again = recheck(
+        &certificate,
+        text.as_bytes(),
+        good.as_bytes(),
+        settings.dialect,
+        machine,
+        &settings.setup,
+    );
+    assert!(matches!(again, Outcome::Proved(_)));
+}

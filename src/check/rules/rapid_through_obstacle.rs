@@ -152,7 +152,18 @@ mod tests {
         assert_drawn(
             "gcode mill-3axis+wall",
             &format!(
-                "{TOOL}G0 X0 Y0 Z36\nG0 X90\nG0 Z35.5\nG0 X0\n;^^^^ rapid-through-obstacle: the tool goes through wall in rapid\nG0 X35.5 Z10\n;^^^^^^^^^^^ rapid-through-obstacle: the tool passes wall at 0.5 mm in rapid; 1 mm is to be kept\nG1 Y20 F500\nX36\nX37\n;^^ rapid-through-obstacle: the tool goes through wall while cutting\nM30\n"
+                "{TOOL}G0 X0 Y0 Z36\nG0 X90\nG0 Z35.5\nG0 X0\n;^^^^ rapid-through-obstacle: the tool goes through wall in rapid\nG0 X35.5 Z10\n;^^^^^^^^^^^ rapid-through-obstacle: the tool passes wall at 0.5 mm in rapid; 1 mm is to be kept\nM30\n"
+            ),
+        );
+    }
+
+    /// A cut may come as near as it likes.
+    #[test]
+    fn a_cut_may_touch_and_not_enter() {
+        assert_drawn(
+            "gcode mill-3axis+wall",
+            &format!(
+                "{TOOL}G0 X30 Y0 Z10\nG1 X36 F500\n;^^^^^^^^^^ missing-tool-length: T1 cuts\nX36.001\n;^^^^^^ rapid-through-obstacle: the tool goes through wall while cutting\nM30\n"
             ),
         );
     }

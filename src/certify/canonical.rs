@@ -45,6 +45,8 @@ mod tags;
 #[cfg(test)]
 mod golden_tests;
 #[cfg(test)]
+mod obstacle_tests;
+#[cfg(test)]
 mod tests;
 
 use trunnion_geometry::Vec3;

@@ -1,6 +1,7 @@
 //! What a proof records: digests of the inputs, the claim, and the numbers found.
 use crate::Claim;
 use crate::digest::seal_digest;
+use core::fmt::Write;
 use serde::{Deserialize, Serialize};
 
 /// Version of the certificate: of its JSON and of the canonical encoding that its digests and its seal are made from.
@@ -46,6 +47,9 @@ pub struct Certificate {
     /// What the postures cost, where the claim is that no others cost less.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub postures: Option<PostureCosts>,
+    /// The runs of rapid motions that differ, where the claim is that they are clear of obstacles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rapids: Option<RapidChanges>,
     /// Each motion that differs.
     pub changes: Vec<MotionChange>,
     /// SHA-256 of the canonical encoding of all fields above, so that an altered claim is noticed too.
@@ -164,6 +168,27 @@ pub struct PostureCosts {
     pub after: f64,
 }
 
+/// Runs of rapid motions that differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RapidChanges {
+    /// How many.
+    pub runs: u64,
+    /// Motions in them before.
+    pub motions_before: u64,
+    /// Motions in them after.
+    pub motions_after: u64,
+    /// Length of the tip's path in them before, mm.
+    pub length_before_mm: f64,
+    /// Length after, mm.
+    pub length_after_mm: f64,
+    /// The smallest horizontal distance of the tool from an obstacle in them after, mm; none where it always passes above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_distance_mm: Option<f64>,
+    /// Line in the program after with that distance, from 1; 0 where there is none.
+    pub line: u32,
+}
+
 /// One motion that differs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -231,6 +256,7 @@ impl Certificate {
             Claim::SamePoses { .. } => "same poses at all block ends",
             Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
+            Claim::ClearRapids { .. } => "the same but for rapids, which keep clear of the obstacles",
             Claim::AdaptedFeed { .. } => {
                 "the same but for feeds, which keep the axes within their speeds: path, spindle, tool and all else"
             }
@@ -252,6 +278,16 @@ impl Certificate {
             worst.path_bound_mm.value,
             worst.path_axis_bound_deg.value
         );
+        if let (Some(rapids), Claim::ClearRapids { clearance_mm, .. }) = (&self.rapids, &self.claim) {
+            let near = rapids.least_distance_mm.map_or("always above them".to_owned(), |mm| {
+                format!("nearest {mm:.6} mm at line {}", rapids.line)
+            });
+            let _ = write!(
+                text,
+                "; {} runs of rapids: {:.6} mm instead of {:.6} mm, at least {clearance_mm} mm from the obstacles ({near})",
+                rapids.runs, rapids.length_after_mm, rapids.length_before_mm
+            );
+        }
         if self.motions.unknown > 0 {
             text.push_str("; some positions are unknown, but both programs program them in the same words");
         }

@@ -44,6 +44,21 @@ pub enum Claim {
         /// The least cost of reaching each state of the graph, in billionths of the cost's unit; none where it cannot be reached.
         labels: Vec<Option<u64>>,
     },
+    /// The programs do the same but for rapid motions (`reroute-rapid`): each run of rapid motions with nothing between them begins and ends where it did
+    /// within the tolerances, and everything else is as in [`Self::SameToolPath`]. In each run that differs no rotary axis turns, the tool goes no
+    /// lower along its axis than it did before, and every motion of the program after keeps the tool, with its holder where one is declared, at least
+    /// `clearance_mm` away from all declared obstacles: exactly, not by samples, and where the axes of a rapid may not arrive together, on all
+    /// paths that they may take.
+    ClearRapids {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// mm.
+        clearance_mm: f64,
+        /// Work offsets and tool lengths that are not declared are taken as zero; else rapids that depend on one are unknown.
+        assumed_zeros: bool,
+    },
     /// All of [`Self::SameToolPath`] but the feeds of cuts. A feed that differs is no higher than the one before, or than the one asked for, and no
     /// axis is faster than its highest speed with it; it is lower only where an axis would be too fast (`adapt-feed`). Under inverse time (G93)
     /// the same holds for the time of the block.
@@ -113,6 +128,7 @@ impl Claim {
             Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
             Self::SamePoses { .. }
             | Self::LeastPostures { .. }
+            | Self::ClearRapids { .. }
             | Self::AdaptedFeed { .. }
             | Self::InsertedPoints { .. }
             | Self::SameToolPath { .. }
@@ -138,6 +154,11 @@ impl Claim {
                 tolerance_deg,
                 ..
             }
+            | Self::ClearRapids {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
             | Self::AdaptedFeed {
                 tolerance_mm,
                 tolerance_deg,
@@ -159,7 +180,7 @@ impl Claim {
         }
     }
 
-    /// Whether it is a rewrite's claim: then nothing but numbers of coordinate words may differ in the text.
+    /// Whether it is the claim of a rewrite that only changes coordinates: then nothing but numbers of coordinate words may differ in the text.
     pub fn is_rewrite(&self) -> bool {
         !matches!(
             self,
@@ -167,6 +188,7 @@ impl Claim {
                 | Self::InsertedPoints { .. }
                 | Self::SameToolPath { .. }
                 | Self::RefittedPath { .. }
+                | Self::ClearRapids { .. }
                 | Self::SamePath { .. }
         )
     }

@@ -292,6 +292,7 @@ impl Pair<'_> {
             | Claim::InsertedPoints { .. }
             | Claim::SameToolPath { .. }
             | Claim::RefittedPath { .. }
+            | Claim::ClearRapids { .. }
             | Claim::SamePath { .. } => true,
         };
         let (mm, degrees) = self.claim.tolerances();
@@ -318,7 +319,7 @@ pub(crate) fn process_differs(old: &Motion, new: &Motion) -> bool {
 }
 
 /// A motion with the block of another leg, so that the block's number does not affect a comparison.
-fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
+pub(crate) fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
     Motion {
         block: leg.motion.block,
         chain: leg.motion.chain,

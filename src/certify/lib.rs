@@ -18,14 +18,15 @@ mod path;
 mod pieces;
 pub mod postures;
 mod proof;
+mod rapids;
 mod recheck;
 mod text;
 mod unlike;
 mod verdict;
 
 pub use certificate::{
-    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, SCHEMA, TextChange, TextDigest,
-    Worst, WorstChanges,
+    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RapidChanges, RotaryChange, SCHEMA, TextChange,
+    TextDigest, Worst, WorstChanges,
 };
 pub use chain::{CHAIN_SCHEMA, Chain, ChainStep};
 pub use claim::{Claim, RefitSource};

@@ -1,7 +1,8 @@
 //! The proof so far: what comparing pairs of motions has found.
-use crate::certificate::{MotionCounts, PostureCosts, RotaryChange, Worst, WorstChanges};
+use crate::certificate::{MotionCounts, PostureCosts, RapidChanges, RotaryChange, Worst, WorstChanges};
 use crate::chosen::Chosen;
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
+use crate::rapids::{ChangedRun, same_rapid};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
 use trunnion_machine::{Leg, Machine};
@@ -22,29 +23,24 @@ pub(crate) struct Proof<'a> {
     chosen: Option<Chosen<'a>>,
     /// The line that is being made in pieces.
     begun: Option<crate::pieces::Begun>,
+    /// Runs of rapids that differ.
+    pub(crate) rapids: Option<RapidChanges>,
     /// What ended the proof, where that was a pair of motions.
     pub(crate) failed: Option<Outcome>,
 }
 
 impl Judge for Proof<'_> {
     fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
-        self.add(before, after).map_err(|outcome| {
-            let verdict = if matches!(outcome, Outcome::Unknown(_)) {
-                Verdict::Unknown
-            } else {
-                Verdict::Differs
-            };
-            let what = match &outcome {
-                Outcome::Refuted(witness) => witness.message.clone(),
-                _ => String::new(),
-            };
-            self.failed = Some(outcome);
-            verdict(Difference {
-                before: Some(before.motion.block),
-                after: Some(after.motion.block),
-                what,
-            })
-        })
+        self.add(before, after)
+            .map_err(|outcome| self.fail(outcome, before, after))
+    }
+
+    fn rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Verdict> {
+        if before.len() == after.len() && before.iter().zip(after).all(|(was, is)| same_rapid(was, is)) {
+            return before.iter().zip(after).try_for_each(|(was, is)| self.pair(was, is));
+        }
+        self.changed_rapids(before, after)
+            .map_err(|outcome| self.fail(outcome, &before[0], &after[0]))
     }
 
     fn piece(&mut self, before: &Step, after: &Step) -> Result<Option<bool>, Verdict> {
@@ -108,6 +104,7 @@ impl<'a> Proof<'a> {
             changes: Vec::new(),
             chosen: matches!(claim, Claim::LeastPostures { .. }).then(|| Chosen::new(machine)),
             begun: None,
+            rapids: None,
             failed: None,
         }
     }
@@ -155,6 +152,49 @@ impl<'a> Proof<'a> {
             ) => chosen.judge(*cost, labels, *tolerance_deg).map(Some),
             _ => Ok(None),
         }
+    }
+
+    /// What ends the proof at a pair of steps.
+    fn fail(&mut self, outcome: Outcome, before: &Step, after: &Step) -> Verdict {
+        let verdict = if matches!(outcome, Outcome::Unknown(_)) {
+            Verdict::Unknown
+        } else {
+            Verdict::Differs
+        };
+        let what = match &outcome {
+            Outcome::Refuted(witness) => witness.message.clone(),
+            _ => String::new(),
+        };
+        self.failed = Some(outcome);
+        verdict(Difference {
+            before: Some(before.motion.block),
+            after: Some(after.motion.block),
+            what,
+        })
+    }
+
+    /// A run of rapids that differs.
+    fn changed_rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Outcome> {
+        let lines: Vec<u32> = after.iter().map(|step| self.line(step.motion.block)).collect();
+        let mut total = self.rapids.unwrap_or_default();
+        let run = ChangedRun {
+            machine: self.machine,
+            claim: self.claim,
+            first: Place {
+                motion: self.motions.total as usize,
+                line: lines[0],
+            },
+            lines: &lines,
+        };
+        let residuals = run.judge(before, after, &mut total)?;
+        self.rapids = Some(total);
+        for (mm, degrees) in residuals {
+            raise(&mut self.worst.forward_residual_mm, mm, run.first);
+            raise(&mut self.worst.forward_residual_deg, degrees, run.first);
+        }
+        self.motions.total += before.len() as u64;
+        self.motions.changed += before.len() as u64;
+        Ok(())
     }
 
     fn line(&self, block: BlockId) -> u32 {

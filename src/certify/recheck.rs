@@ -212,6 +212,7 @@ fn prove(
         worst: proof.worst,
         rotary: proof.rotary,
         postures,
+        rapids: proof.rapids,
         changes: proof.changes,
         seal_sha256: String::new(),
     }
@@ -231,7 +232,8 @@ fn asked(claim: &Claim) -> trunnion_same::Claim {
         plane_counts: true,
         no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
-        cuts: !claim.is_rewrite(),
+        cuts: !claim.is_rewrite() && !matches!(claim, Claim::ClearRapids { .. }),
+        rapid_runs: matches!(claim, Claim::ClearRapids { .. }),
         refit: match *claim {
             Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
                 mm: tolerance_mm,
@@ -273,19 +275,20 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
-    let asked = match *claim {
+    let further = match *claim {
         Claim::AdaptedFeed { asked_mm_min, .. } => asked_mm_min,
         Claim::RefittedPath { tolerance_mm, .. } => tolerance_mm,
+        Claim::ClearRapids { clearance_mm, .. } => clearance_mm,
         _ => 0.0,
     };
-    let fine = [mm, degrees, claim.point_height_mm(), asked]
+    let fine = [mm, degrees, claim.point_height_mm(), further]
         .iter()
         .all(|value| value.is_finite() && *value >= 0.0);
     if fine {
         Ok(())
     } else {
         Err(Outcome::refuted(
-            "claim: tolerances, radius and feed must be finite and not negative",
+            "claim: tolerances, radius, clearance and feed must be finite and not negative",
         ))
     }
 }

@@ -16,7 +16,7 @@ use crate::{Assume, Severity};
 use trunnion_dialect::{Dialect, Foreign};
 use trunnion_geometry::rad;
 use trunnion_interp::{ControlData, Interpreter, Setup, power_on_state};
-use trunnion_machine::{Machine, Tolerances};
+use trunnion_machine::{Machine, Obstacle, Tolerances};
 
 /// Level of a rule in `trunnion.toml`: `[rules] pole-flip = "error"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +56,8 @@ pub struct Config {
     pub fix: FixSettings,
     /// Axis letters in `[work_offsets]` with their bytes in the file.
     pub offset_axes: Vec<(u8, core::ops::Range<usize>)>,
+    /// `[[obstacle]]`: added to those of the machine, each with bytes in the file where an axis that the machine lacks is reported.
+    pub obstacles: Vec<(Obstacle, core::ops::Range<usize>)>,
 }
 
 /// Why `trunnion.toml` cannot be used.
@@ -105,6 +107,10 @@ pub const TOLERANCES: &[(&str, &str)] = &[
         "pivot",
         "pivot-uncertainty: how far the uncertainty of the rotary axes may move the tip, mm",
     ),
+    (
+        "clearance",
+        "rapid-through-obstacle, reroute-rapid: how far rapid motions stay away from obstacles, mm",
+    ),
     ("pole_cone", "pole-flip: half angle of the cone around the pole, deg"),
     ("pole_angle", "pole-flip: change of the rotary axis, deg"),
     (
@@ -128,27 +134,34 @@ impl Config {
         file::parse(toml)
     }
 
-    /// Whether the machine that the file names has every axis the file's work offsets name.
+    /// Whether the machine that the file names has every axis that the file's work offsets and obstacles name.
     ///
     /// # Errors
     /// The first axis it lacks, with its place.
     pub fn check_axes(&self, machine: &Machine) -> Result<(), ConfigError> {
         let lacks = |letter: u8| machine.axes.iter().all(|axis| axis.letter != letter);
-        match self.offset_axes.iter().find(|(letter, _)| lacks(*letter)) {
+        let carriers = self
+            .obstacles
+            .iter()
+            .filter_map(|(obstacle, span)| Some((obstacle.axis?, span)));
+        let offsets = self.offset_axes.iter().map(|(letter, span)| (*letter, span));
+        match offsets.chain(carriers).find(|(letter, _)| lacks(*letter)) {
             None => Ok(()),
             Some((letter, span)) => Err(ConfigError {
-                message: format!("machine {} has no axis {}", machine.id, char::from(*letter)),
+                message: format!("machine {} has no axis {}", machine.id, char::from(letter)),
                 span: Some(span.clone()),
             }),
         }
     }
 
-    /// The machine with this file's tolerances in place of its own.
+    /// The machine with this file's tolerances in place of its own, and its obstacles in addition to its own.
     pub fn machine_with_tolerances(&self, machine: &Machine) -> Machine {
         let mut machine = machine.clone();
         for (name, value) in &self.tolerances {
             apply(&mut machine.tolerances, name, *value);
         }
+        let obstacles = self.obstacles.iter().map(|(obstacle, _)| obstacle.clone());
+        machine.obstacles.0.extend(obstacles);
         machine
     }
 }
@@ -162,6 +175,7 @@ fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
         "rotary_ratio" => tolerances.rotary_ratio = value,
         "linear_ratio" => tolerances.linear_ratio = value,
         "rapid_ratio" => tolerances.rapid_ratio = value,
+        "clearance" => tolerances.clearance_mm = Some(value),
         "pivot" => tolerances.pivot_mm = value,
         "pole_cone" => tolerances.pole_cone = rad(value),
         "pole_angle" => tolerances.pole_angle = rad(value),

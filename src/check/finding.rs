@@ -164,6 +164,14 @@ impl<'p> Draft<'p> {
         self
     }
 
+    /// The rewrite that leads rapid motions past the declared obstacles.
+    pub(crate) fn fix_rapid(&mut self, view: &LegView<'_>) -> &mut Self {
+        if !view.machine.obstacles.is_empty() {
+            self.fix("reroute-rapid");
+        }
+        self
+    }
+
     /// The rewrite that takes whole turns away, where an axis turns far.
     pub(crate) fn fix_turns(&mut self, view: &LegView<'_>) -> &mut Self {
         if view.turns_far() {

@@ -222,7 +222,7 @@ fn setup() -> Setup {
 }
 
 /// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis, `NAME+A.KEY` to axis A, `NAME+A.KEY=5` with
-/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures. Several keys come after each other.
+/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures; `NAME+wall` has an obstacle. Several keys come after each other.
 pub(crate) fn machine(name: &str) -> Result<Machine, String> {
     let none = || format!("no machine {name}");
     let Some((builtin, keys)) = name.split_once('+') else {
@@ -235,9 +235,13 @@ pub(crate) fn machine(name: &str) -> Result<Machine, String> {
     trunnion_machine::load(builtin, &more).map_err(|error| error.message)
 }
 
+/// What `NAME+wall` adds: a wall across X.
+const WALL: &str = "[[obstacle]]\nname = \"wall\"\nbox = [[40, -100, 0], [60, 100, 35]]\n";
+
 /// The text of a machine file with one key more.
 fn with_key(source: &str, key: &str) -> String {
     match key.split_once('.') {
+        _ if key == "wall" => format!("{source}\n{WALL}"),
         _ if key == "undeclared" => source.replace("branch = { rule = \"generic\" }", "#"),
         Some(("control", key)) => source.replacen("[control]\n", &format!("[control]\n{key}\n"), 1),
         Some((letter, key)) => {

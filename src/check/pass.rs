@@ -381,6 +381,7 @@ impl Pass<'_> {
         if let Some(follower) = &mut self.follower {
             self.trail.clamps = in_force.clamps;
             self.trail.own_length_mm = in_force.own_length_mm;
+            self.trail.tool = in_force.tool;
             self.trail.undeclared = self.assume.leaves(motion.undeclared);
             let mut leg = self.leg.take();
             if next {

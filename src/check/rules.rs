@@ -51,6 +51,7 @@ mod pole_flip;
 mod porting;
 mod position_unknown;
 mod program_alarm;
+mod rapid_through_obstacle;
 mod rejected_block;
 mod repeated_word;
 mod spindle_off_cut;
@@ -144,6 +145,7 @@ static RULES: &[&Rule] = table![
     porting,
     position_unknown,
     program_alarm,
+    rapid_through_obstacle,
     rejected_block,
     repeated_word,
     spindle_off_cut,

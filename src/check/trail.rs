@@ -3,7 +3,7 @@ use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{asin, rotate};
-use trunnion_interp::{Clamps, MotionKind, Undeclared};
+use trunnion_interp::{Clamps, MotionKind, Tool, Undeclared};
 use trunnion_machine::{Joints, Leg, Machine, Stance};
 use trunnion_syntax::BlockId;
 
@@ -20,6 +20,8 @@ pub(crate) struct Trail {
     pub(crate) clamps: Clamps,
     /// Declared length of the tool in use with the current leg, mm.
     pub(crate) own_length_mm: Option<f64>,
+    /// What is declared about the tool in use.
+    pub(crate) tool: Option<Tool>,
     /// The undeclared values that the current leg depends on.
     pub(crate) undeclared: Undeclared,
 }
@@ -84,7 +86,8 @@ pub(crate) struct Rapids {
     pub direct_turn: [f64; 2],
     tool: Option<u32>,
     net: Vec3,
-    from: Joints,
+    /// Where they start.
+    pub from: Joints,
 }
 
 impl Trail {
@@ -95,6 +98,7 @@ impl Trail {
             *self = Self {
                 clamps: self.clamps,
                 own_length_mm: self.own_length_mm,
+                tool: self.tool,
                 undeclared: self.undeclared,
                 ..Self::default()
             };

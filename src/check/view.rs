@@ -6,7 +6,7 @@ use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use trunnion_dialect::{Dialect, RotaryFeed};
 use trunnion_geometry::{deg, math};
-use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, Orientation, Swivel};
+use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, Orientation, Swivel, Tool};
 use trunnion_machine::{
     AxisKind, Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations,
     tip_deviation, windings,
@@ -61,6 +61,8 @@ pub(crate) struct InForce {
     pub(crate) tool_length_mm: Option<f64>,
     /// Declared length of the tool in use, mm.
     pub(crate) own_length_mm: Option<f64>,
+    /// What is declared about the tool in use.
+    pub(crate) tool: Option<Tool>,
     /// Coordinates are in a frame that is not modelled.
     pub(crate) frame_unknown: bool,
     /// S is a cutting speed (G96).
@@ -88,6 +90,7 @@ impl InForce {
         Self {
             tool_length_mm: state.length.mm(),
             own_length_mm: state.tool.own_length_mm(),
+            tool: state.tool.data(),
             frame_unknown: state.zero.is_lost(),
             surface_speed: state.spindle.surface_speed(),
             spindle_limit_rpm: state.spindle.limit_rpm(),

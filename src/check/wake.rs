@@ -4,8 +4,8 @@ use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
     Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn, LostArc, LostEnd,
-    NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, PoleCrossing, PolePass, PostureSwap, StrayingCut,
-    UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass, PostureSwap,
+    StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -187,6 +187,8 @@ wakes! {
         CableAxis,
         /// Any leg on a machine with an axis that must not turn while cutting, or that codes clamp.
         ClampedTurn,
+        /// A motion on a machine with obstacles.
+        Passing,
         /// A feed motion to which rapid motions led.
         Arrival,
         /// An end at which the machine's position is unknown, or that it cannot reach.

@@ -1,6 +1,7 @@
 //! `plot`: pictures of what the machine does, as SVG.
 mod gather;
 
+use super::legs::each_leg;
 use super::{
     Done,
     args::Global,
@@ -8,8 +9,10 @@ use super::{
     load::{self, Loaded},
 };
 use std::path::{Path, PathBuf};
-use trunnion_machine::Machine;
-use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, joints, path};
+use trunnion_interp::MotionKind;
+use trunnion_machine::{Machine, Space, ToolBody};
+use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, joints, path, route};
+use trunnion_syntax::LineIndex;
 
 pub(super) use gather::{gather, marks};
 
@@ -27,7 +30,7 @@ pub(crate) struct Plot {
     /// joints: draw over the travel of the tip, or over time.
     #[arg(long, value_enum, default_value = "way")]
     along: Axis,
-    /// axis-plane: a second program, drawn over the first as "after".
+    /// axis-plane, route: a second program, drawn over the first as "after".
     #[arg(long, value_name = "FILE")]
     after: Option<PathBuf>,
     /// axis-plane: draw only what is within this many degrees of the pole.
@@ -49,6 +52,8 @@ enum Kind {
     Deviation,
     /// The real path in space.
     Path,
+    /// Rapid motions past the declared obstacles, seen from above.
+    Route,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -148,8 +153,40 @@ fn draw(
             )?
         }
         Kind::Deviation => deviation(&head("Deviation of the tool tip"), record, tolerance)?,
+        Kind::Route => {
+            let after = match &command.after {
+                Some(file) => Some(gather(&load::load(global, file)?, machine, None)),
+                None => None,
+            };
+            let space = space(loaded, machine)?;
+            route(
+                &head("Rapid motions past obstacles"),
+                (machine, &space),
+                record,
+                after.as_ref(),
+            )?
+        }
         Kind::Path => path(&head("Path of the tool tip"), record, tolerance)?,
     })
+}
+
+/// The space of the obstacles at the first rapid motion of the program from a known position.
+fn space(loaded: &Loaded, machine: &Machine) -> Result<Space, PlotError> {
+    let index = LineIndex::new(loaded.program.source());
+    let mut found: Option<Result<Space, String>> = None;
+    each_leg(loaded, machine, &index, None, |leg, line, state| {
+        let (MotionKind::Rapid, Some(start), None) = (leg.motion.kind, &leg.start, &found) else {
+            return;
+        };
+        let body = state.tool.data().as_ref().and_then(ToolBody::of);
+        let space =
+            body.ok_or("the diameter of the tool is not declared: [[tool]] diameter in trunnion.toml".to_owned());
+        let keep = machine.tolerances.clearance_mm();
+        let space = space.and_then(|body| Space::new(machine, &start.joints, start.tool_length, &body, keep));
+        found = Some(space.map_err(|why| format!("line {line}: {why}")));
+    });
+    let none = || Err("nothing to draw: no rapid motion with a known path".to_owned());
+    found.unwrap_or_else(none).map_err(PlotError)
 }
 
 /// Why a picture is not drawn.

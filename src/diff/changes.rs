@@ -114,6 +114,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         path_only,
         cuts: true,
         refit: None,
+        rapid_runs: false,
         exact: None,
     };
     let mut near = Near {

@@ -4,6 +4,7 @@
 pub mod along;
 pub mod arc;
 pub mod math;
+pub mod plane;
 
 /// A vector or point in three dimensions, mm where it is a length.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -43,6 +43,7 @@ impl Apt<'_> {
                     shape,
                     diameter_mm: Some(diameter),
                     length_mm: None,
+                    holder_mm: None,
                 })
             }
             _ => {

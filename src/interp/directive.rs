@@ -202,5 +202,6 @@ fn assemble(number: u32, parts: &[Part]) -> Option<Directive> {
         shape,
         diameter_mm,
         length_mm,
+        holder_mm: None,
     }))
 }

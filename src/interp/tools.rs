@@ -47,6 +47,7 @@ fn lay(over: Option<&Tool>, under: Tool) -> Tool {
         shape,
         diameter_mm,
         length_mm: over.length_mm.or(under.length_mm),
+        holder_mm: over.holder_mm.or(under.holder_mm),
     }
 }
 
@@ -136,6 +137,7 @@ impl Tools {
             shape: None,
             diameter_mm: None,
             length_mm: None,
+            holder_mm: None,
         };
         let named = |tools| {
             number
@@ -219,6 +221,7 @@ mod tests {
             shape: None,
             diameter_mm: None,
             length_mm: Some(length_mm),
+            holder_mm: None,
         }
     }
 

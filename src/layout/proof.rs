@@ -38,6 +38,7 @@ pub(crate) fn first_difference(
         no_rotary: false,
         cuts: false,
         refit: None,
+        rapid_runs: false,
         exact: Some(Exact {
             frees_block_numbers: renumbered,
             most_blocks,

@@ -6,6 +6,7 @@ pub(crate) mod control;
 pub(crate) mod describe;
 pub(crate) mod formula;
 pub(crate) mod gantry;
+pub(crate) mod obstacle;
 pub(crate) mod places;
 pub(crate) mod raw;
 pub(crate) mod spec;

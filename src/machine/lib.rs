@@ -7,11 +7,13 @@ mod file;
 mod follow;
 mod import;
 mod kinematics;
+mod obstacle;
 mod path;
 
 pub use compare::{AlongBlock, Comparison, TipDifference};
 pub use file::builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use file::describe::{AxisDescription, Description, describe};
+pub use file::obstacle::RawObstacle;
 pub use file::spec::{MachineError, load};
 pub use follow::checkpoint::Memory;
 pub use follow::follower::Follower;
@@ -31,6 +33,10 @@ pub use kinematics::inverse::{Orientations, POLE_TOLERANCE, Postures, Solution, 
 pub use kinematics::selftest::{SelfTest, self_test};
 pub use kinematics::uncertainty::{AxisUncertainty, pivot_sensitivity_between};
 pub use kinematics::windings::{Windings, pole_angle, solution_s, windings};
+pub use obstacle::{
+    Footprint, Near, Nearness, NoRoute, Obstacle, Obstacles, SLACK_MM, Space, ToolBody, column_distance,
+    corridor_distance, nearness, tool_in_frame,
+};
 pub use path::block_path::{BlockPath, Moment};
 pub use path::deviation::{Deviation, joint_line_deviation, tip_deviation};
 pub use path::limits::{Excess, LIMIT_SLACK, limit_excess};

@@ -9,6 +9,7 @@ mod height_map;
 mod joints;
 mod path;
 mod record;
+mod route;
 mod scale;
 mod thin;
 
@@ -19,3 +20,4 @@ pub use height_map::height_map;
 pub use joints::{Along, joints};
 pub use path::path;
 pub use record::{Block, Mark, Record, Recorder, Sample};
+pub use route::route;

@@ -12,6 +12,8 @@ mod pieces;
 mod polyline;
 mod posed_words;
 mod propose;
+mod rapid_route;
+mod rapid_runs;
 mod reposition;
 mod rewrites;
 mod shortest_path;

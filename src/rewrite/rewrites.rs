@@ -5,6 +5,7 @@ mod drop_redundant;
 mod fit_arcs;
 mod insert_points;
 mod renumber;
+mod reroute_rapid;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
@@ -45,6 +46,7 @@ static REWRITES: &[&Rewrite] = table![
     switch_angles,
     unwind_rotary,
     smooth_pole,
+    reroute_rapid,
     fit_arcs,
     drop_redundant,
     insert_points,

@@ -7,6 +7,7 @@ use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::item::{Item, Sort, Step};
 use crate::process::{motion_difference, shown, stops, unlike};
+use crate::rapids;
 use crate::refit::{Following, Refit, Refitted, follow, may_begin};
 use crate::since::sets_from_here;
 use crate::steps::Steps;
@@ -39,6 +40,8 @@ pub struct Claim {
     pub pieces: bool,
     /// Lines may be put together into fewer lines and arcs; what is not, must be the same within `mm` and `deg`.
     pub refit: Option<Refit>,
+    /// Of rapid motions one after the other only the start of the first and the end of the last are compared: [`Judge::rapids`] decides.
+    pub rapid_runs: bool,
     /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, without any tolerance.
     pub exact: Option<Exact>,
 }
@@ -57,6 +60,15 @@ pub trait Judge {
     fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
         let _ = (before, after, found);
         Ok(())
+    }
+    /// Rapid motions one after the other, of both programs, with the same in effect.
+    fn rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Verdict> {
+        let block = |run: &[Step]| run.first().map(|step| step.motion.block);
+        Err(Verdict::Unknown(Difference {
+            before: block(before),
+            after: block(after),
+            what: "rapid motions are not judged as a run".to_owned(),
+        }))
     }
     /// A motion that the other program makes in pieces: the distance of the cut point from it, mm or deg.
     fn cut(&mut self, off: f64) {
@@ -100,6 +112,19 @@ fn walk(
     let mut b = next(after, claim);
     let mut following = None;
     while let (Some(was), Some(is)) = (&mut a, &mut b) {
+        if claim.rapid_runs && rapids::begins(Some(was)) && rapids::begins(Some(is)) {
+            let (left, right) = (was.clone(), is.clone());
+            let (Some(Item::Motion(was)), Some(Item::Motion(is))) = (a.take(), b.take()) else {
+                break;
+            };
+            let (old, rest) = rapids::run(*was, before, claim);
+            a = rest;
+            let (new, rest) = rapids::run(*is, after, claim);
+            b = rest;
+            let verdict = held(&old[0], &new[0], claim).and_then(|()| judge.rapids(&old, &new));
+            twins.judge(&left, &right, verdict)?;
+            continue;
+        }
         let found = pair(was, is, claim, judge, &mut following);
         let moved_on = match found {
             Ok(Paired::Both) => (true, true),
@@ -212,7 +237,7 @@ fn pair(
 }
 
 /// The next item that matters.
-fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
+pub(crate) fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
     steps.find(|item| match item {
         Item::Motion(step) => !(claim.cuts && is_idle(step)),
         Item::Happens { sort, .. } => !claim.path_only || *sort == Sort::Unmodelled,

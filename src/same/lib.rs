@@ -16,6 +16,7 @@ mod item;
 mod near;
 mod notes;
 mod process;
+mod rapids;
 mod refit;
 mod since;
 mod steps;

@@ -159,6 +159,8 @@ pub struct Held {
     pub ball_radius: Option<f64>,
     /// I, J and K are the tool's direction (Fanuc G43.5).
     pub vector_mode: bool,
+    /// What is declared about the tool in use.
+    pub tool: Option<trunnion_interp::Tool>,
 }
 
 /// A work offset by one name: G110 to G129 of a Haas are G154 P1 to P20 (Haas mill operator's manual, G154).
@@ -179,6 +181,7 @@ impl Held {
             length_of: state.length.of(),
             plane: state.coordinates.plane(),
             vector_mode: state.tool_axis.vectors(),
+            tool: state.tool.data(),
             ball_radius: match state.tool.shape() {
                 Some((trunnion_interp::ToolShape::Ball, diameter)) => Some(0.5 * diameter),
                 _ => None,

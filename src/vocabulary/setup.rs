@@ -24,6 +24,8 @@ pub struct Tool {
     pub diameter_mm: Option<f64>,
     /// mm, if declared.
     pub length_mm: Option<f64>,
+    /// Diameter of the holder above the tool, mm, if declared.
+    pub holder_mm: Option<f64>,
 }
 
 /// A work offset: the position of the part zero in machine coordinates.

@@ -6,6 +6,7 @@ mod fitting;
 mod mutants;
 mod points;
 mod random;
+mod routing;
 mod smoothing;
 mod strategy_2;
 mod switching;

@@ -1,8 +1,8 @@
 //! A certificate without its seal, and its claim.
 use super::{CanonicalV1, Encode};
 use crate::certificate::{
-    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, TextChange, TextDigest, Worst,
-    WorstChanges,
+    Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RapidChanges, RotaryChange, TextChange,
+    TextDigest, Worst, WorstChanges,
 };
 use crate::claim::Claim;
 
@@ -11,6 +11,7 @@ record! {
     Certificate {
         schema = 1, tool_version = 2, before = 3, after = 4, dialect = 5, machine = 6, setup_sha256 = 7, library = 8,
         claim = 9, text = 10, motions = 11, worst = 12, rotary = 13, changes = 14, after_dialect = 15, postures = 16,
+        rapids = 17,
     } without {
         seal_sha256,
     }
@@ -69,6 +70,13 @@ record! {
     MotionChange {
         motion = 1, line = 2, point_shift_mm = 3, tip_shift_mm = 4, axis_change_deg = 5, rotary_change_deg = 6,
         path_sampled_mm = 7, path_bound_mm = 8, path_axis_bound_deg = 9,
+    }
+}
+
+record! {
+    RapidChanges {
+        runs = 1, motions_before = 2, motions_after = 3, length_before_mm = 4, length_after_mm = 5, least_distance_mm = 6,
+        line = 7,
     }
 }
 
@@ -133,6 +141,18 @@ impl Encode for Claim {
             }),
             Self::RefittedPath { tolerance_mm, source } => out.variant(7, |fields| {
                 fields.field(1, tolerance_mm).field(2, source);
+            }),
+            Self::ClearRapids {
+                tolerance_mm,
+                tolerance_deg,
+                clearance_mm,
+                assumed_zeros,
+            } => out.variant(6, |fields| {
+                fields
+                    .field(1, tolerance_mm)
+                    .field(2, tolerance_deg)
+                    .field(3, clearance_mm)
+                    .field(4, assumed_zeros);
             }),
         }
     }

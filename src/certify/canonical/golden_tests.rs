@@ -126,6 +126,7 @@ fn tools_offsets_and_variables() {
         shape: Some(ToolShape::Bull(0.5)),
         diameter_mm: None,
         length_mm: Some(120.25),
+        holder_mm: None,
     };
     assert_eq!(hex(&tool), TOOL);
     let offset = WorkOffset {
@@ -238,6 +239,7 @@ fn a_certificate_without_its_seal() {
             travel_after_deg: 4.0,
         }],
         postures: None,
+        rapids: None,
         changes: vec![MotionChange {
             motion: 1,
             line: 2,

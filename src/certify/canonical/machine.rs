@@ -1,14 +1,15 @@
 //! A machine: chain, limits, speeds, control and thresholds.
 use super::{CanonicalV1, Encode};
 use trunnion_machine::{
-    Axis, AxisExtra, AxisSign, Branch, Control, Criterion, Gantry, Home, Limits, Machine, PostureWords, Tolerances,
+    Axis, AxisExtra, AxisSign, Branch, Control, Criterion, Footprint, Gantry, Home, Limits, Machine, Obstacle,
+    Obstacles, PostureWords, Tolerances,
 };
 
 // The rest is prose, or the axes in a form made for speed, or bodies, which no proof looks at.
 record! {
     Machine {
         id = 1, axes = 2, tool_axis = 3, gauge_point = 4, home = 5, control = 6, tolerances = 7, gantries = 8,
-        absent = 9,
+        absent = 9, obstacles = 10,
     } without {
         name, sources, rotary, linear, joint_of_letter, constants, bodies, not_used, warnings, checks, not_judged,
     }
@@ -74,7 +75,7 @@ record! {
     Tolerances {
         tip_mm = 1, pole_cone = 2, pole_angle = 3, swap_excess = 4, pole_touch = 5, feed_drop_warning = 6,
         feed_drop_error = 7, orientation = 8, swept_mm = 9, rotary_ratio = 10, linear_ratio = 11, rapid_ratio = 12,
-        pivot_mm = 13, near_mm = 14,
+        pivot_mm = 13, near_mm = 14, clearance_mm = 15,
     }
 }
 
@@ -98,6 +99,39 @@ impl Encode for Criterion {
             }),
             Self::Value(axis) => out.variant(3, |fields| {
                 fields.field(1, axis);
+            }),
+        }
+    }
+}
+
+record! {
+    Obstacle {
+        axis = 1, footprint = 2, bottom = 3, top = 4,
+    } without {
+        // for people
+        name,
+    }
+}
+
+/// None: a machine of the versions that knew no obstacles.
+impl Encode for Obstacles {
+    fn encode(&self, out: &mut CanonicalV1) {
+        self.0.encode(out);
+    }
+    fn is_nothing(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl Encode for Footprint {
+    fn encode(&self, out: &mut CanonicalV1) {
+        match self {
+            Self::Polygon(polygon) => out.variant(1, |fields| {
+                let corners: Vec<[f64; 2]> = polygon.corners().iter().map(|corner| [corner.x, corner.y]).collect();
+                fields.field(1, &corners);
+            }),
+            Self::Circle { centre, radius } => out.variant(2, |fields| {
+                fields.field(1, &[centre.x, centre.y]).field(2, radius);
             }),
         }
     }

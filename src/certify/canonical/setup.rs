@@ -14,7 +14,7 @@ record! {
 
 record! {
     Tool {
-        number = 1, shape = 2, diameter_mm = 3, length_mm = 4,
+        number = 1, shape = 2, diameter_mm = 3, length_mm = 4, holder_mm = 5,
     }
 }
 

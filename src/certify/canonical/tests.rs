@@ -225,6 +225,7 @@ fn tool(shape: Option<ToolShape>) -> Tool {
         shape,
         diameter_mm: None,
         length_mm: None,
+        holder_mm: None,
     }
 }
 

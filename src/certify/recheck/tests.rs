@@ -253,6 +253,7 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
         shape: None,
         diameter_mm: None,
         length_mm: Some(length),
+        holder_mm: None,
     };
     let offset = |name: &str, x: f64| {
         let mut values = [0.0; 9];
@@ -366,6 +367,7 @@ fn a_certificate_is_for_its_inputs_only() {
         shape: None,
         diameter_mm: None,
         length_mm: None,
+        holder_mm: None,
     });
     let none = Setup::default();
     let spaced = format!("{BEFORE}\n");

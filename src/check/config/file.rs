@@ -38,6 +38,8 @@ struct File {
     #[serde(default)]
     tool: Vec<Spanned<FileTool>>,
     #[serde(default)]
+    obstacle: Vec<Spanned<trunnion_machine::RawObstacle>>,
+    #[serde(default)]
     format: super::FormatSettings,
     #[serde(default)]
     fix: super::fix::FileFix,
@@ -62,9 +64,7 @@ struct FileTool {
     diameter: Option<Spanned<f64>>,
     corner_radius: Option<Spanned<f64>>,
     length: Option<Spanned<f64>>,
-    /// Read, kept for the collision floor to come; no check uses it yet.
-    #[serde(rename = "holder")]
-    _holder: Option<toml::Value>,
+    holder: Option<Spanned<toml::Value>>,
 }
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
@@ -133,6 +133,10 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         }
         config.setup.tools.push(tool);
     }
+    config.obstacles = trunnion_machine::RawObstacle::check_all(&file.obstacle).map_err(|fault| ConfigError {
+        message: fault.message,
+        span: fault.span,
+    })?;
     for (name, values) in file.work_offsets {
         let axes = values
             .keys()
@@ -263,7 +267,34 @@ fn declared_tool(entry: &Spanned<FileTool>) -> Result<Tool, ConfigError> {
         shape,
         diameter_mm: diameter,
         length_mm: value(&tool.length),
+        holder_mm: holder(tool.holder.as_ref())?,
     })
+}
+
+/// The diameter of a holder, mm: `holder = { diameter = 50 }`. Of one that only has a name it is not declared.
+fn holder(written: Option<&Spanned<toml::Value>>) -> Result<Option<f64>, ConfigError> {
+    let Some(written) = written else { return Ok(None) };
+    let table = match written.get_ref() {
+        toml::Value::String(_) => return Ok(None),
+        toml::Value::Table(table) => table,
+        _ => return Err(at(written, "`holder` must be a name in quotes or `{ diameter = MM }`")),
+    };
+    if let Some(key) = table.keys().find(|key| *key != "diameter") {
+        let hint = or_known(key, &["diameter"], "keys");
+        return Err(at(written, format!("unknown key `{key}` of `holder`{hint}")));
+    }
+    let diameter = table.get("diameter").and_then(|value| match value {
+        toml::Value::Integer(whole) => Some(*whole as f64),
+        toml::Value::Float(number) => Some(*number),
+        _ => None,
+    });
+    match diameter {
+        Some(mm) if mm > 0.0 && mm.is_finite() => Ok(Some(mm)),
+        _ => Err(at(
+            written,
+            "`diameter` of `holder` must be a number in mm, greater than 0",
+        )),
+    }
 }
 
 /// Whether some dialect has a settable work offset of this name, as the interpreter spells it.

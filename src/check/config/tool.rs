@@ -26,6 +26,7 @@ pub fn parse_tool_flag(text: &str) -> Result<Tool, String> {
         shape: Some(shape),
         diameter_mm: Some(diameter),
         length_mm: None,
+        holder_mm: None,
     })
 }
 

@@ -46,7 +46,23 @@ pub(crate) struct Arrival<'v> {
     view: &'v LegView<'v>,
     pub(crate) rapids: &'v Rapids,
 }
-over_view!(LostEnd, LostArc, Arrival);
+
+/// A motion between known positions on a machine with obstacles.
+pub(crate) struct Passing<'v> {
+    view: &'v LegView<'v>,
+}
+over_view!(LostEnd, LostArc, Arrival, Passing);
+
+impl<'v> Passing<'v> {
+    #[inline]
+    pub(crate) fn may(look: &Look<'_>) -> bool {
+        !look.of.machine.obstacles.is_empty()
+    }
+    pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
+        let moves = view.stances().is_some() && !matches!(view.motion().kind, MotionKind::Dwell(_));
+        (moves && !view.machine.obstacles.is_empty()).then_some(Self { view })
+    }
+}
 
 impl<'v> Arrival<'v> {
     #[inline]

@@ -28,10 +28,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Heuristic: obstacles are not known, and a detour around a clamp is not wasted. The rule judges consecutive rapid
-//! motions between two feed motions with one tool. It compares the travel of the linear axes across the tool (a
+//! Heuristic: a detour around a clamp is not wasted, and only declared obstacles (`[[obstacle]]`) are known. The rule judges
+//! consecutive rapid motions between two feed motions with one tool. It compares the travel of the linear axes across the tool (a
 //! retract along the tool is not counted) and the turn of each rotary axis with the direct distance between the
-//! same ends. A direct distance below 0.1 mm or 0.1 deg counts as that; a detour below 10 mm or 10 deg is not
+//! same ends; where obstacles are declared and no rotary axis turns, with the shortest way past them, which `reroute-rapid` takes. A direct distance below 0.1 mm or 0.1 deg counts as that; a detour below 10 mm or 10 deg is not
 //! reported.
 //!
 //! # Thresholds
@@ -42,6 +42,7 @@
 use crate::place::code_range;
 use crate::prelude::*;
 use trunnion_geometry::rad;
+use trunnion_machine::{Space, ToolBody};
 
 pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Arrival(check)]);
 
@@ -68,18 +69,24 @@ fn check(arrival: &facts::Arrival<'_>, out: &mut Reporter<'_>) {
             .help("move there directly if nothing is in the way")
             .related(first, "the rapid motions start here");
     };
-    if far(rapids.way_mm, rapids.direct_mm, 1.0) {
+    let past = past_obstacles(arrival);
+    let least_mm = past.unwrap_or(rapids.direct_mm).max(rapids.direct_mm);
+    if far(rapids.way_mm, least_mm, 1.0) {
         out.event(|draft| {
-            let (way, direct) = (mm(rapids.way_mm), mm(rapids.direct_mm));
+            let (way, direct) = (mm(rapids.way_mm), mm(least_mm));
+            let which = if past.is_some() {
+                "the shortest way past the obstacles"
+            } else {
+                "the direct distance"
+            };
             words(
                 draft,
-                format!(
-                    "the rapid motions to this block travel {way} across the tool; the direct distance is {direct}"
-                ),
+                format!("the rapid motions to this block travel {way} across the tool; {which} is {direct}"),
             );
             draft
+                .fix_rapid(arrival)
                 .value("value_mm", rapids.way_mm)
-                .value("direct_mm", rapids.direct_mm);
+                .value("direct_mm", least_mm);
         });
     }
     for (slot, &axis) in arrival.machine.rotary.iter().enumerate().take(2) {
@@ -99,6 +106,21 @@ fn check(arrival: &facts::Arrival<'_>, out: &mut Reporter<'_>) {
             });
         }
     }
+}
+
+/// Travel across the tool on the shortest way past the declared obstacles, mm; `None` where it is not known.
+fn past_obstacles(arrival: &facts::Arrival<'_>) -> Option<f64> {
+    let (machine, rapids) = (arrival.machine, arrival.rapids);
+    if machine.obstacles.is_empty() || rapids.turned != [0.0; 2] || arrival.trail.undeclared.any() {
+        return None;
+    }
+    let body = arrival.trail.tool.as_ref().and_then(ToolBody::of)?;
+    let end = arrival.leg.start.as_ref()?;
+    let keep = machine.tolerances.clearance_mm();
+    let space = Space::new(machine, &rapids.from, end.tool_length, &body, keep).ok()?;
+    let ends = (space.tip(machine, &rapids.from), space.tip(machine, &end.joints));
+    let (points, _) = space.way((&ends.0, &ends.1), |way| way.norm(), |_| true).ok()?;
+    Some(points.windows(2).map(|pair| (pair[1] - pair[0]).xy().norm()).sum())
 }
 
 #[cfg(test)]

@@ -368,5 +368,6 @@ fn control(machine: &Machine) -> Vec<String> {
             char::from(gantry.leader)
         )
     }));
+    lines.extend(machine.obstacles.iter().map(crate::Obstacle::in_words));
     lines
 }

@@ -1,4 +1,5 @@
 //! The machine file as it is written: the shape of schema `ncmachine/1`, units as in the file. Unknown keys are errors.
+use crate::file::obstacle::RawObstacle;
 use core::fmt;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -30,6 +31,8 @@ pub(crate) struct RawMachine {
     pub(crate) tolerances: RawTolerances,
     #[serde(default)]
     pub(crate) body: Vec<RawBody>,
+    #[serde(default)]
+    pub(crate) obstacle: Vec<Spanned<RawObstacle>>,
     #[serde(default)]
     pub(crate) check: Vec<Spanned<RawCheck>>,
     #[serde(default)]
@@ -287,6 +290,7 @@ pub(crate) struct RawTolerances {
     pub(crate) rapid_ratio: Option<Number>,
     pub(crate) pivot: Option<Number>,
     pub(crate) collision_near: Option<Number>,
+    pub(crate) clearance: Option<Number>,
     pub(crate) pole_cone: Option<Number>,
     pub(crate) pole_angle: Option<Number>,
     pub(crate) pole_touch: Option<Number>,

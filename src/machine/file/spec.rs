@@ -3,9 +3,10 @@ use crate::file::absent::complete;
 use crate::file::check_rows::verify;
 use crate::file::control::control;
 use crate::file::gantry::Rails;
+use crate::file::obstacle::obstacles;
 use crate::file::raw::{Number, RawBody, RawMachine, RawTolerances, RawUnits};
 use crate::file::unused_keys::{not_judged, not_used};
-use crate::file::validate::{Fault, axis, point, positive, unit_vector, usual_direction};
+use crate::file::validate::{Fault, axis, non_negative, point, positive, unit_vector, usual_direction};
 use crate::kinematics::held_axes::Carried;
 use crate::{Axis, AxisKind, Body, Constants, Gantry, Home, MAX_AXES, Machine, Side, Tolerances};
 use core::ops::Range;
@@ -99,7 +100,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         .chain(raw.spindle.note.iter().map(|text| format!("spindle: {text}")))
         .collect();
     let carried = Carried::by(&chain.axes);
-    let machine = Machine {
+    let mut machine = Machine {
         not_used: not_used(raw),
         not_judged: not_judged(raw),
         id: id.to_owned(),
@@ -117,11 +118,13 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         joint_of_letter,
         constants: chain.constants,
         bodies: bodies(&raw.body, &chain.axes[..chain.written])?,
+        obstacles: crate::Obstacles::default(),
         absent: chain.absent,
         gantries: chain.gantries,
         axes: chain.axes,
     };
     verify(&raw.check, &machine)?;
+    machine.obstacles = crate::Obstacles(obstacles(&raw.obstacle, &machine)?);
     Ok(machine)
 }
 
@@ -324,6 +327,7 @@ fn tolerances(raw: &RawTolerances) -> Result<Tolerances, Fault> {
         linear_ratio: ratio("linear_ratio", raw.linear_ratio.as_ref(), default.linear_ratio)?,
         rapid_ratio: ratio("rapid_ratio", raw.rapid_ratio.as_ref(), default.rapid_ratio)?,
         pivot_mm: positive("pivot", raw.pivot.as_ref())?.unwrap_or(default.pivot_mm),
+        clearance_mm: non_negative("clearance", raw.clearance.as_ref())?,
         near_mm: positive("collision_near", raw.collision_near.as_ref())?.unwrap_or(default.near_mm),
         pole_cone: angle("pole_cone", raw.pole_cone.as_ref(), default.pole_cone)?,
         pole_angle: angle("pole_angle", raw.pole_angle.as_ref(), default.pole_angle)?,

@@ -244,6 +244,15 @@ pub struct Tolerances {
     pub pivot_mm: f64,
     /// near-miss: clearance below which a warning is given, mm.
     pub near_mm: f64,
+    /// Distance that rapid motions keep from obstacles, mm; `None`: not declared, see [`Tolerances::clearance_mm`].
+    pub clearance_mm: Option<f64>,
+}
+
+impl Tolerances {
+    /// Distance that rapid motions keep from obstacles, mm: 1 mm where it is not declared.
+    pub fn clearance_mm(&self) -> f64 {
+        self.clearance_mm.unwrap_or(1.0)
+    }
 }
 
 impl Default for Tolerances {
@@ -264,6 +273,7 @@ impl Default for Tolerances {
             rapid_ratio: 2.0,
             pivot_mm: crate::kinematics::uncertainty::PIVOT_SENSITIVITY,
             near_mm: 2.0,
+            clearance_mm: None,
         }
     }
 }
@@ -313,6 +323,8 @@ pub struct Machine {
     pub absent: Option<u8>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
+    /// What the tool must not touch.
+    pub obstacles: crate::Obstacles,
     /// What the file declares and nothing uses yet, one sentence each: rules that depend on it judge without it.
     pub not_used: Vec<String>,
     /// What is suspicious about the file but usable, one sentence each.

@@ -46,6 +46,7 @@ pub(crate) fn tool(shape: ToolShape) -> Setup {
             shape: Some(shape),
             diameter_mm: Some(10.0),
             length_mm: None,
+            holder_mm: None,
         }],
         work_offsets: Vec::new(),
         ..Setup::default()

@@ -148,6 +148,7 @@ fn tools_and_lengths() {
         shape: None,
         diameter_mm: None,
         length_mm: Some(90.0),
+        holder_mm: None,
     }];
     let setup = Setup {
         tools,

@@ -64,6 +64,7 @@ fn compensation() {
             shape: None,
             diameter_mm: Some(10.0),
             length_mm: None,
+            holder_mm: None,
         }],
         ..Setup::default()
     };

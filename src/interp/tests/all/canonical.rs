@@ -130,6 +130,7 @@ fn a_tool_offset_keeps_its_length_when_the_unit_changes() {
             shape: None,
             diameter_mm: None,
             length_mm: Some(80.0),
+            holder_mm: None,
         }],
         ..Setup::default()
     };

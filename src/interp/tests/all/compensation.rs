@@ -9,6 +9,7 @@ fn setup(diameter: f64) -> Setup {
             shape: None,
             diameter_mm: Some(diameter),
             length_mm: None,
+            holder_mm: None,
         }],
         ..Setup::default()
     }

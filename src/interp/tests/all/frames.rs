@@ -272,6 +272,7 @@ fn a_tool_word_of_a_lathe_holds_its_offset() {
             shape: None,
             diameter_mm: Some(0.8),
             length_mm: None,
+            holder_mm: None,
         }],
         ..Setup::default()
     };

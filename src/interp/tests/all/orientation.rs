@@ -101,6 +101,7 @@ fn machine_coordinates_under_tcp_are_unknown() {
         shape: None,
         diameter_mm: None,
         length_mm: Some(80.0),
+        holder_mm: None,
     };
     let setup = Setup {
         tools: vec![tool],

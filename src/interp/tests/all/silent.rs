@@ -112,6 +112,7 @@ fn h_and_d_are_modal() {
         shape: None,
         diameter_mm: Some(10.0),
         length_mm: Some(length),
+        holder_mm: None,
     };
     let setup = Setup {
         tools: vec![tool(1, 100.0), tool(2, 150.0)],

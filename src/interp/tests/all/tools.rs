@@ -8,6 +8,7 @@ fn tool(number: u32, shape: Option<ToolShape>, diameter_mm: Option<f64>, length_
         shape,
         diameter_mm,
         length_mm,
+        holder_mm: None,
     }
 }
 

@@ -32,6 +32,7 @@ fn machine_coordinates_know_every_zero_and_the_tool_length() {
             shape: None,
             diameter_mm: None,
             length_mm: Some(7.0),
+            holder_mm: None,
         }],
         ..Setup::default()
     };

@@ -8,6 +8,7 @@ mod formulas;
 mod great_circle;
 mod guide_vane;
 mod led;
+mod obstacles;
 mod on_circle;
 mod orientation;
 mod programs;

@@ -1,0 +1,2 @@
+//! Tests of this floor.
+mod routes;

@@ -1,0 +1,263 @@
+//! A tool that is tilted, turns, or moves on an arc past an obstacle: proved clear, proved to touch, or undecided.
+//!
+//! The block is cut into pieces of time and the tool into pieces of its length. In the middle of a piece the distance is exact; within the piece
+//! each point of the tool moves by no more than a proven bound, axis by axis: the rate of the axis times the distance from it
+//! (docs/kinematics.md#obstacles).
+use super::frame::{radii, tool_in_frame};
+use super::{Footprint, Nearness, Obstacle, SLACK_MM, ToolBody};
+use crate::path::joint_path::JointPath;
+use crate::{AxisKind, Joints, Leg, Machine, Pose, RapidPath};
+use trunnion_geometry::Vec3;
+use trunnion_interp::MotionKind;
+
+/// No tool is longer, mm.
+const LONGEST_MM: f64 = 1000.0;
+
+/// Pieces that are looked at for one obstacle and one block.
+const MOST_PIECES: usize = 20_000;
+
+/// A piece is not cut where points of the tool move by less, mm.
+const FINEST_MM: f64 = 1e-4;
+
+/// A tool in one block.
+pub(super) struct Sweep<'a> {
+    machine: &'a Machine,
+    path: JointPath<'a>,
+    frame: usize,
+    /// Length that is compensated or declared, mm.
+    tool_length: f64,
+    body: &'a ToolBody,
+    /// The axes do not keep to the block's path: they arrive at their own times.
+    independent: bool,
+}
+
+/// A piece of time and of the tool's length.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    time: [f64; 2],
+    height: [f64; 2],
+}
+
+/// What is found for a distance to be kept.
+enum Found {
+    Clear,
+    Closer,
+    Undecided,
+}
+
+impl<'a> Sweep<'a> {
+    /// `None` where the path is not known.
+    pub(super) fn new(
+        machine: &'a Machine,
+        leg: &'a Leg,
+        body: &'a ToolBody,
+        (frame, tool_length): (usize, f64),
+    ) -> Option<Self> {
+        let independent = leg.motion.kind == MotionKind::Rapid && machine.control.rapid != RapidPath::Synchronous;
+        Some(Self {
+            machine,
+            path: JointPath::new(machine, leg)?,
+            frame,
+            tool_length,
+            body,
+            independent,
+        })
+    }
+
+    /// How near the tool comes to an obstacle.
+    pub(super) fn nearness(&self, obstacle: &Obstacle, keep: f64) -> Nearness {
+        let declared = self
+            .body
+            .length_mm
+            .or((self.tool_length > 0.0).then_some(self.tool_length));
+        let length = declared.unwrap_or(LONGEST_MM);
+        match self.search(obstacle, keep, length) {
+            Found::Clear => Nearness::Clear(keep),
+            _ if declared.is_none() => Nearness::Unknown("the length of the tool is not declared"),
+            Found::Closer if keep <= SLACK_MM => Nearness::Through,
+            Found::Closer => match self.search(obstacle, 0.0, length) {
+                Found::Closer => Nearness::Through,
+                Found::Clear => Nearness::Near(None),
+                Found::Undecided => Nearness::Unknown("whether the tool only comes near or touches is not decided"),
+            },
+            Found::Undecided if self.independent => {
+                Nearness::Unknown("the machine file does not say that the axes arrive together in a rapid")
+            }
+            Found::Undecided => Nearness::Unknown("the bounds of the tool's motion do not decide it"),
+        }
+    }
+
+    fn search(&self, obstacle: &Obstacle, keep: f64, length: f64) -> Found {
+        let mut pieces = vec![Piece {
+            time: [0.0, 1.0],
+            height: [0.0, length],
+        }];
+        let mut looked = 0;
+        let mut undecided = false;
+        while let Some(piece) = pieces.pop() {
+            looked += 1;
+            if looked > MOST_PIECES {
+                return Found::Undecided;
+            }
+            let [t0, t1] = piece.time;
+            let joints = self.path.joints(f64::midpoint(t0, t1));
+            let pose = tool_in_frame(self.machine, &joints, self.tool_length, self.frame);
+            let [low, high] = piece.height;
+            let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
+            let moves = self.displacement(&joints, piece.time, (middle, half));
+            if self.is_above(obstacle, keep, &pose, &joints, piece.time) {
+                continue;
+            }
+            let centre = pose.tip + pose.axis * middle;
+            let distance = distance(obstacle, &centre);
+            let radius = self.radius(piece.height);
+            if distance - moves - (radius * radius + half * half).sqrt() >= keep {
+                continue;
+            }
+            let least = self.radius([middle, middle]);
+            // the nearest point of the obstacle is beside this point of the tool, not beyond one of its ends
+            let beside = middle >= distance && length - middle >= distance;
+            if !self.independent && (distance == 0.0 || beside && distance < least + keep - SLACK_MM) {
+                return Found::Closer;
+            }
+            if self.independent && t1 - t0 >= 1.0 && half <= 0.5 || moves + half <= FINEST_MM {
+                undecided = true;
+                if self.independent {
+                    return Found::Undecided;
+                }
+                continue;
+            }
+            // what adds more to the bound is cut
+            if half >= moves || self.independent {
+                pieces.push(Piece {
+                    height: [low, middle],
+                    ..piece
+                });
+                pieces.push(Piece {
+                    height: [middle, high],
+                    ..piece
+                });
+            } else {
+                let between = f64::midpoint(t0, t1);
+                pieces.push(Piece {
+                    time: [t0, between],
+                    ..piece
+                });
+                pieces.push(Piece {
+                    time: [between, t1],
+                    ..piece
+                });
+            }
+        }
+        if undecided { Found::Undecided } else { Found::Clear }
+    }
+
+    /// The largest radius of the tool between two heights, mm.
+    fn radius(&self, [_, high]: [f64; 2]) -> f64 {
+        let holder = self.body.holder_mm.filter(|(_, above)| high >= *above);
+        holder.map_or(self.body.radius_mm, |(radius, _)| radius.max(self.body.radius_mm))
+    }
+
+    /// Rates of a joint in a part of the block, mm or rad per block.
+    fn rate(&self, joint: usize, [t0, t1]: [f64; 2]) -> f64 {
+        let rotary = self
+            .machine
+            .constants
+            .rotary()
+            .iter()
+            .position(|rotary| rotary.joint == joint);
+        match rotary {
+            Some(slot) => self.path.spin_bounds(t0, t1).rate[slot],
+            None => (self.path.end.joints[joint] - self.path.start.joints[joint]).abs(),
+        }
+    }
+
+    /// Upper bound of how far points of the tool, up to `half` (mm) from `middle` along it, are in the piece from where they are in the middle of
+    /// the time, as the obstacle sees them, mm.
+    fn displacement(&self, joints: &Joints, time: [f64; 2], (middle, half): (f64, f64)) -> f64 {
+        // independent axes may be anywhere between their ends at any time
+        let share = if self.independent {
+            1.0
+        } else {
+            0.5 * (time[1] - time[0])
+        };
+        let is_linear = |joint: &usize| self.machine.axes[*joint].kind == AxisKind::Linear;
+        let count = self.machine.axes.len();
+        let (mut fixed, mut turned) = (0.0, 0.0);
+        let path = self.path.track.bounds().0;
+        if self.path.tip && !self.independent {
+            fixed += path * share;
+            for (joint, radius) in radii(self.machine, joints, (self.tool_length, middle), 0) {
+                let turn = self.rate(joint, time) * share;
+                // about the tip, and about the axes that carry the obstacle
+                let own = if joint < self.frame { middle + radius } else { middle };
+                fixed += turn * (own + 2.0 * half);
+                turned += turn;
+            }
+            // their rates are not bounded here
+            let carried = (0..self.frame)
+                .filter(is_linear)
+                .any(|joint| self.rate(joint, time) > 0.0);
+            if carried {
+                return f64::INFINITY;
+            }
+        } else {
+            let lines = (self.frame..count)
+                .filter(is_linear)
+                .map(|joint| self.rate(joint, time));
+            // the sum of three components is at most the root of 3 times their length
+            fixed += (lines.sum::<f64>() + 1.75 * path) * share;
+            for (joint, radius) in radii(self.machine, joints, (self.tool_length, middle), self.frame) {
+                let turn = self.rate(joint, time) * share;
+                fixed += turn * (radius + half);
+                turned += turn;
+            }
+        }
+        // points come nearer to an axis or leave it while they move
+        if turned < 0.5 {
+            fixed / (1.0 - turned) * (1.0 + 1e-9)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Whether the plane through the tip at right angles to the tool has the whole obstacle below it during the piece of time.
+    fn is_above(&self, obstacle: &Obstacle, keep: f64, pose: &Pose, joints: &Joints, time: [f64; 2]) -> bool {
+        let share = if self.independent {
+            1.0
+        } else {
+            0.5 * (time[1] - time[0])
+        };
+        let turn: f64 = (0..self.machine.axes.len())
+            .filter(|joint| self.machine.axes[*joint].kind == AxisKind::Rotary)
+            .map(|joint| self.rate(joint, time) * share)
+            .sum();
+        let moves = self.displacement(joints, time, (0.0, 0.0));
+        corners(obstacle).iter().all(|(corner, around)| {
+            let arm = corner - pose.tip;
+            let sine = pose.axis.xy().norm();
+            arm.dot(&pose.axis) + around * sine + moves + (arm.norm() + around) * turn <= -keep
+        })
+    }
+}
+
+/// Points whose convex hull holds the obstacle, each with the radius of a horizontal circle about it, mm.
+fn corners(obstacle: &Obstacle) -> Vec<(Vec3, f64)> {
+    let heights = [obstacle.bottom, obstacle.top];
+    let at = |x: f64, y: f64, around: f64| heights.map(|z| (Vec3::new(x, y, z), around));
+    match &obstacle.footprint {
+        Footprint::Polygon(polygon) => polygon
+            .corners()
+            .iter()
+            .flat_map(|corner| at(corner.x, corner.y, 0.0))
+            .collect(),
+        Footprint::Circle { centre, radius } => at(centre.x, centre.y, *radius).to_vec(),
+    }
+}
+
+/// Distance of a point from an obstacle, mm; 0 inside.
+fn distance(obstacle: &Obstacle, point: &Vec3) -> f64 {
+    let flat = obstacle.footprint.distance(&point.xy());
+    let beyond = (obstacle.bottom - point.z).max(point.z - obstacle.top).max(0.0);
+    trunnion_geometry::math::hypot(flat, beyond)
+}

@@ -1,0 +1,231 @@
+//! Obstacles: the frame that they stand in, exact distances of an upright tool, and proofs for any other motion against dense samples.
+use crate::common::{motion, position};
+use proptest::prelude::*;
+use trunnion_geometry::Vec3;
+use trunnion_geometry::plane::{Point, Polygon};
+use trunnion_interp::{Motion, MotionKind};
+use trunnion_machine::{
+    BUILTIN_MACHINES, BlockPath, Follower, Footprint, Leg, Machine, Nearness, Obstacle, Obstacles, RapidPath, ToolBody,
+    builtin, forward, nearness, tool_in_frame,
+};
+
+fn prism(corners: &[[f64; 2]], bottom: f64, top: f64) -> Obstacle {
+    let corners: Vec<Point> = corners.iter().map(|&corner| Point::from(corner)).collect();
+    Obstacle {
+        name: "clamp".into(),
+        axis: None,
+        footprint: Footprint::Polygon(Polygon::new(&corners).expect("a polygon")),
+        bottom,
+        top,
+    }
+}
+
+/// A plain cylinder of this radius.
+fn body(radius_mm: f64, length_mm: Option<f64>) -> ToolBody {
+    ToolBody {
+        radius_mm,
+        holder_mm: None,
+        length_mm,
+    }
+}
+
+fn with(name: &str, obstacle: Obstacle) -> Machine {
+    let mut machine = builtin(name).expect("built in").clone();
+    machine.obstacles = Obstacles(vec![obstacle]);
+    machine
+}
+
+/// The leg of a motion between two positions.
+fn leg(machine: &Machine, kind: MotionKind, tcp: bool, [from, to]: [&[(u8, f64)]; 2]) -> Leg {
+    let mut follower = Follower::new(machine);
+    let (start, end) = (position(from), position(to));
+    let at = Motion {
+        end: start,
+        tcp,
+        kind: MotionKind::Rapid,
+        ..motion()
+    };
+    follower.follow(&at);
+    follower.follow(&Motion {
+        start,
+        end,
+        tcp,
+        kind,
+        ..motion()
+    })
+}
+
+#[test]
+fn the_frame_of_the_workpiece_is_that_of_forward_kinematics() {
+    for name in BUILTIN_MACHINES {
+        let machine = builtin(name).expect("built in");
+        let mut joints = [0.0; trunnion_machine::MAX_AXES];
+        for (index, value) in joints.iter_mut().enumerate().take(machine.axes.len()) {
+            *value = 0.3 + 0.21 * index as f64;
+        }
+        for (joint, value) in machine.held() {
+            joints[joint] = value;
+        }
+        let (own, known) = (
+            tool_in_frame(machine, &joints, 70.0, 0),
+            forward(machine, &joints, 70.0),
+        );
+        assert!(
+            (own.tip - known.tip).norm() < 1e-9 && (own.axis - known.axis).norm() < 1e-12,
+            "{name}"
+        );
+    }
+}
+
+/// A body that turns with C is where the part is; one without an axis stays where it is when the table turns.
+#[test]
+fn an_obstacle_turns_with_its_axis_only() {
+    let square = [[40.0, -5.0], [50.0, -5.0], [50.0, 5.0], [40.0, 5.0]];
+    let gap = |axis: Option<u8>, c: f64, x: f64, y: f64| {
+        let machine = with(
+            "mikron-ucp710",
+            Obstacle {
+                axis,
+                ..prism(&square, 0.0, 20.0)
+            },
+        );
+        let down = |z: f64| vec![(b'X', x), (b'Y', y), (b'Z', z), (b'A', 0.0), (b'C', c)];
+        let (from, to) = (down(100.0), down(10.0));
+        let leg = leg(&machine, MotionKind::Linear, false, [&from, &to]);
+        nearness(&machine, &leg, &body(2.0, None), 0.0)[0].nearness
+    };
+    assert_eq!(gap(Some(b'C'), 0.0, 45.0, 0.0), Nearness::Through);
+    assert_eq!(gap(None, 0.0, 45.0, 0.0), Nearness::Through);
+    assert_eq!(gap(None, 90.0, 45.0, 0.0), Nearness::Through);
+    assert!(matches!(gap(Some(b'C'), 90.0, 45.0, 0.0), Nearness::Clear(mm) if mm > 10.0));
+    // C turns the part clockwise against the tool or the other way round: it is on one of the two sides
+    let sides = [gap(Some(b'C'), 90.0, 0.0, 45.0), gap(Some(b'C'), 90.0, 0.0, -45.0)];
+    assert_eq!(
+        sides.iter().filter(|side| **side == Nearness::Through).count(),
+        1,
+        "{sides:?}"
+    );
+}
+
+#[test]
+fn an_upright_tool_is_judged_exactly() {
+    let machine = with(
+        "mill-3axis",
+        prism(&[[10.0, 10.0], [20.0, 10.0], [20.0, 20.0], [10.0, 20.0]], 0.0, 30.0),
+    );
+    let near = |from: [f64; 3], to: [f64; 3], radius: f64, keep: f64| {
+        let word = |at: [f64; 3]| vec![(b'X', at[0]), (b'Y', at[1]), (b'Z', at[2])];
+        let leg = leg(&machine, MotionKind::Rapid, false, [&word(from), &word(to)]);
+        nearness(&machine, &leg, &body(radius, None), keep)[0].nearness
+    };
+    // beside it, touching it with the clearance, nearer, through
+    assert_eq!(near([0.0, 5.0, 0.0], [30.0, 5.0, 0.0], 3.0, 1.0), Nearness::Clear(2.0));
+    assert_eq!(near([0.0, 5.0, 0.0], [30.0, 5.0, 0.0], 4.0, 1.0), Nearness::Clear(1.0));
+    assert_eq!(
+        near([0.0, 5.0, 0.0], [30.0, 5.0, 0.0], 4.5, 1.0),
+        Nearness::Near(Some(0.5))
+    );
+    assert_eq!(near([0.0, 5.0, 0.0], [30.0, 5.0, 0.0], 5.5, 1.0), Nearness::Through);
+    // the spindle follows the tool: also below the obstacle
+    assert_eq!(
+        near([0.0, 15.0, -50.0], [30.0, 15.0, -50.0], 3.0, 1.0),
+        Nearness::Through
+    );
+    // above it, with the clearance in Z
+    assert_eq!(
+        near([0.0, 15.0, 31.0], [30.0, 15.0, 31.0], 3.0, 1.0),
+        Nearness::Clear(f64::INFINITY)
+    );
+    assert!(matches!(
+        near([0.0, 15.0, 30.5], [30.0, 15.0, 30.5], 3.0, 1.0),
+        Nearness::Near(_) | Nearness::Through
+    ));
+    // down onto it from the side: only the low part counts
+    assert_eq!(
+        near([0.0, 15.0, 0.0], [3.0, 15.0, 40.0], 3.0, 1.0),
+        Nearness::Clear(4.675_000_000_075)
+    );
+    // a tool without radius may run along its side, not through it
+    assert_eq!(
+        near([0.0, 10.0, 0.0], [30.0, 10.0, 0.0], 0.0, 0.0),
+        Nearness::Clear(0.0)
+    );
+    assert_eq!(near([0.0, 10.1, 0.0], [30.0, 10.1, 0.0], 0.0, 0.0), Nearness::Through);
+}
+
+/// Where the axes may arrive one after the other, everything between the ends counts.
+#[test]
+fn independent_axes_may_pass_the_corner() {
+    let mut machine = with(
+        "mill-3axis",
+        prism(&[[20.0, 0.0], [30.0, 0.0], [30.0, 10.0], [20.0, 10.0]], 0.0, 30.0),
+    );
+    let (from, to) = (
+        [(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0)],
+        [(b'X', 25.0), (b'Y', 30.0), (b'Z', 0.0)],
+    );
+    let mut near = |rapid| {
+        machine.control.rapid = rapid;
+        let leg = leg(&machine, MotionKind::Rapid, false, [&from, &to]);
+        nearness(&machine, &leg, &body(1.0, None), 1.0)[0].nearness
+    };
+    assert!(matches!(near(RapidPath::Synchronous), Nearness::Clear(mm) if mm > 5.0));
+    assert!(matches!(near(RapidPath::Dogleg), Nearness::Unknown(_)));
+    assert!(matches!(near(RapidPath::Undeclared), Nearness::Unknown(_)));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    /// Tilted, turning, with and without tool centre point control: what is called clear is clear at 60 moments and 40 heights, what is called
+    /// through comes nearer than the radius.
+    #[test]
+    fn what_is_proved_holds_at_every_sample(
+        name in prop_oneof![Just("mikron-ucp710"), Just("ferrari-bc"), Just("fork-ca")],
+        from in (-60.0..60.0, -60.0..60.0, 0.0..80.0, 0.0..60.0, -90.0..90.0),
+        to in (-60.0..60.0, -60.0..60.0, 0.0..80.0, 0.0..60.0, -90.0..90.0),
+        turns in prop_oneof![Just(0.0), 0.0..1.0],
+        tcp in any::<bool>(),
+        rapid in any::<bool>(),
+        centre in proptest::array::uniform2(-60.0..60.0),
+        size in 3.0..25.0,
+        axis in any::<bool>(),
+        radius in 1.0..8.0,
+    ) {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [0.2, 0.1], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [centre[0] + size * x, centre[1] + size * y]);
+        let Some(base) = builtin(name) else { return Ok(()) };
+        let letters: Vec<u8> = base.rotary.iter().map(|&joint| base.axes[joint].letter).collect();
+        let carrier = axis.then(|| letters[0]);
+        let machine = with(name, Obstacle { axis: carrier, ..prism(&corners, -5.0, 25.0) });
+        let mut machine = machine;
+        machine.control.rapid = RapidPath::Synchronous;
+        let words = |at: (f64, f64, f64, f64, f64)| vec![(b'X', at.0), (b'Y', at.1), (b'Z', at.2), (letters[1], at.3), (letters[0], at.4)];
+        let end = (to.0, to.1, to.2, from.3 + turns * (to.3 - from.3), from.4 + turns * (to.4 - from.4));
+        let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
+        let length = 60.0;
+        let leg = leg(&machine, kind, tcp, [&words(from), &words(end)]);
+        prop_assume!(leg.start.is_some() && leg.end.is_ok());
+        let keep = 1.0;
+        let tool = body(radius, Some(length));
+        let found = nearness(&machine, &leg, &tool, keep)[0].nearness;
+        let path = BlockPath::new(&machine, &leg).expect("a path");
+        let frame = machine.obstacles[0].frame(&machine).expect("a frame");
+        let obstacle = &machine.obstacles[0];
+        let mut nearest = f64::INFINITY;
+        for time in 0..=60 {
+            let joints = path.at(f64::from(time) / 60.0).joints;
+            let pose = tool_in_frame(&machine, &joints, length, frame);
+            for height in 0..=40 {
+                let point: Vec3 = pose.tip + pose.axis * (length * f64::from(height) / 40.0);
+                let flat = obstacle.footprint.distance(&point.xy());
+                let beyond = (obstacle.bottom - point.z).max(point.z - obstacle.top).max(0.0);
+                nearest = nearest.min(flat.hypot(beyond));
+            }
+        }
+        match found {
+            // a point of the axis is at least the radius from what the cylinder does not touch, but near its ends
+            Nearness::Clear(_) => prop_assert!(nearest > 0.0, "{nearest}"),
+            Nearness::Through => prop_assert!(nearest < radius + 2.5, "{nearest} {radius}"),
+            _ => {}
+        }
+    }
+}

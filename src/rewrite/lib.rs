@@ -6,6 +6,7 @@ mod edited;
 mod gains;
 mod posed_words;
 mod propose;
+mod rapid_rounding;
 mod rapid_route;
 mod rapid_runs;
 mod reposition;

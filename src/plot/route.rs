@@ -50,24 +50,13 @@ pub fn route(
         .iter()
         .map(|obstacle| (obstacle.name.clone(), outline(&obstacle.footprint)))
         .collect();
-    let mut legend: Vec<Entry> = vec![
-        (Swatch::Filled(BODY), "obstacle".into()),
-        (Swatch::Filled(AROUND), "within radius and clearance".into()),
-        (Swatch::Line(BLUE), "cut".into()),
-        (
-            Swatch::Line(VERMILION),
-            if after.is_some() { "rapid before" } else { "rapid" }.into(),
-        ),
-    ];
-    if after.is_some() {
-        legend.push((Swatch::Line(GREEN), "rapid after".into()));
-    }
+    let legend = legend(after.is_some());
     sheet(header, &legend, |body| {
         let corners = barriers
             .iter()
             .flatten()
             .chain(outlines.iter().flat_map(|(_, corners)| corners));
-        let all: Vec<Point> = known().map(|point| point.xy()).chain(corners.copied()).collect();
+        let all: Vec<Point> = known().map(Vec3::xy).chain(corners.copied()).collect();
         let range = |axis: usize| {
             let values = all.iter().map(|point| point[axis]);
             let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -112,6 +101,23 @@ pub fn route(
             anchored(13.0, HPos::Left, VPos::Top).color(&GREY),
         )
     })
+}
+
+/// What the colours mean.
+fn legend(compared: bool) -> Vec<Entry> {
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Filled(BODY), "obstacle".into()),
+        (Swatch::Filled(AROUND), "within radius and clearance".into()),
+        (Swatch::Line(BLUE), "cut".into()),
+        (
+            Swatch::Line(VERMILION),
+            if compared { "rapid before" } else { "rapid" }.into(),
+        ),
+    ];
+    if compared {
+        legend.push((Swatch::Line(GREEN), "rapid after".into()));
+    }
+    legend
 }
 
 fn flat(point: &Point) -> (f64, f64) {

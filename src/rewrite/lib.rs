@@ -12,6 +12,7 @@ mod pieces;
 mod polyline;
 mod posed_words;
 mod propose;
+mod rapid_rounding;
 mod rapid_route;
 mod rapid_runs;
 mod reposition;

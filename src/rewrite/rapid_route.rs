@@ -1,11 +1,11 @@
 //! The way of a run of rapid motions past obstacles: what of the run is kept, the cheapest way for the rest, and its points in the digits of the program.
+use crate::rapid_rounding::rounded;
 use crate::rapid_runs::Rapid;
 use trunnion_geometry::Vec3;
-use trunnion_geometry::plane::Cover;
 use trunnion_machine::{Joints, Machine, Nearness, NoRoute, Space, Stance, ToolBody, nearness};
 
 /// Coordinates that differ by no more are the same, mm.
-const SAME_MM: f64 = 1e-9;
+pub(crate) const SAME_MM: f64 = 1e-9;
 
 /// A way is left alone if another one is cheaper by no more than this part of it, or by no more than rounding to the digits of the program may add (mm).
 const LEAST_GAIN: f64 = 1e-3;
@@ -68,20 +68,20 @@ pub(crate) struct Planner<'a> {
 }
 
 /// The linear map from programmed coordinates to the space: it only turns about the height.
-struct Frame {
+pub(crate) struct Frame {
     turn: [f64; 2],
     at: [Vec3; 2],
 }
 
 impl Frame {
     /// From a programmed position to the space.
-    fn to_space(&self, words: &Vec3) -> Vec3 {
+    pub(crate) fn to_space(&self, words: &Vec3) -> Vec3 {
         let [cos, sin] = self.turn;
         let way = words - self.at[0];
         self.at[1] + Vec3::new(cos * way.x - sin * way.y, sin * way.x + cos * way.y, way.z)
     }
     /// And back.
-    fn to_words(&self, place: &Vec3) -> Vec3 {
+    pub(crate) fn to_words(&self, place: &Vec3) -> Vec3 {
         let [cos, sin] = self.turn;
         let way = place - self.at[1];
         self.at[0] + Vec3::new(cos * way.x + sin * way.y, cos * way.y - sin * way.x, way.z)
@@ -283,114 +283,4 @@ impl Planner<'_> {
         }
         Ok(frame)
     }
-}
-
-/// Points in the digits of the program, none of them nearer to an obstacle: of the values around each point those that make the way cheapest.
-fn rounded(
-    space: &Space,
-    frame: &Frame,
-    points: &[Vec3],
-    grid: Grid,
-    cost: &impl Fn(&Vec3) -> f64,
-) -> Option<Vec<Vec3>> {
-    (1..=3).find_map(|reach| rounded_within(space, frame, points, (grid, reach), cost))
-}
-
-fn rounded_within(
-    space: &Space,
-    frame: &Frame,
-    points: &[Vec3],
-    (grid, reach): (Grid, i32),
-    cost: &impl Fn(&Vec3) -> f64,
-) -> Option<Vec<Vec3>> {
-    let step = grid.step_mm;
-    // a digit as it will be written, so that no residue of the multiplication counts
-    let digit = |count: f64| count * step;
-    let (first, last) = (points.first()?, points.last()?);
-    // a height between the ends is rounded up; all points but the ends are at one height, or above an end
-    let up = |z: f64| {
-        let words = frame.to_words(&Vec3::new(first.x, first.y, z)).z;
-        frame
-            .to_space(&Vec3::new(0.0, 0.0, digit((words / step - 1e-6).ceil())))
-            .z
-    };
-    let height = |point: &Vec3| {
-        let of_an_end = (point.z - first.z).abs() <= SAME_MM || (point.z - last.z).abs() <= SAME_MM;
-        if of_an_end { point.z } else { up(point.z) }
-    };
-    let candidates = |point: &Vec3| -> Vec<Vec3> {
-        let z = height(point);
-        if (point.xy() - first.xy()).norm() <= SAME_MM {
-            return vec![first.xy().push(z)];
-        }
-        if (point.xy() - last.xy()).norm() <= SAME_MM {
-            return vec![last.xy().push(z)];
-        }
-        let words = frame.to_words(point);
-        let middle = [(words.x / step).round(), (words.y / step).round()];
-        let around = -reach..=reach;
-        around
-            .clone()
-            .flat_map(|i| around.clone().map(move |j| [f64::from(i), f64::from(j)]))
-            .map(|[i, j]| {
-                let place = frame.to_space(&Vec3::new(digit(middle[0] + i), digit(middle[1] + j), words.z));
-                place.xy().push(z)
-            })
-            .collect()
-    };
-    // the barriers with their mitred corners, not only the distance
-    let mut covers: Vec<(f64, Cover)> = Vec::new();
-    for z in points.iter().map(height) {
-        if covers.iter().all(|(known, _)| (known - z).abs() > SAME_MM) {
-            covers.push((z, space.cover(z)));
-        }
-    }
-    let clear = |a: &Vec3, b: &Vec3| {
-        if (a.z - b.z).abs() > SAME_MM {
-            return (a.xy() - b.xy()).norm() <= SAME_MM && space.may_descend(&a.xy(), a.z.min(b.z));
-        }
-        let cover = covers.iter().find(|(z, _)| (z - a.z).abs() <= SAME_MM);
-        let entered = cover.is_none_or(|(_, cover)| cover.is_entered(&a.xy(), &b.xy()));
-        !entered && space.is_clear(a.z, &a.xy(), &b.xy())
-    };
-    // layer by layer: cost, the candidate before it
-    let mut layers: Vec<Vec<(Vec3, f64, usize)>> = vec![vec![(*first, 0.0, 0)]];
-    for (index, point) in points.iter().enumerate().skip(1) {
-        let ends = if index + 1 == points.len() {
-            vec![*last]
-        } else {
-            candidates(point)
-        };
-        let before = layers.last()?;
-        let reached: Vec<(Vec3, f64, usize)> = ends
-            .into_iter()
-            .filter_map(|place| {
-                let steps = before
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, (from, _, _))| clear(from, &place));
-                let costs = steps.map(|(at, (from, sum, _))| (sum + cost(&(place - from)), at));
-                let (sum, at) = costs.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-                Some((place, sum, at))
-            })
-            .collect();
-        if reached.is_empty() {
-            return None;
-        }
-        layers.push(reached);
-    }
-    let best = layers
-        .last()?
-        .iter()
-        .enumerate()
-        .min_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
-    let (mut at, mut way) = (best.0, Vec::new());
-    for layer in layers.iter().rev() {
-        let (place, _, from) = layer[at];
-        way.push(place);
-        at = from;
-    }
-    way.reverse();
-    way.dedup_by(|a, b| (*a - *b).norm() <= SAME_MM);
-    Some(way)
 }

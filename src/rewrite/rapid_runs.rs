@@ -54,7 +54,7 @@ impl Sink for Collector<'_, '_> {
             block,
             tool: state.tool.data(),
             unit_mm: state.coordinates.unit_mm(),
-            declared: left.zero & 0b111 == 0 && !left.length,
+            declared: left.zero.trailing_zeros() >= 3 && !left.length,
             leg,
             fixed,
         };

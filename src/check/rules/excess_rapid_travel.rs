@@ -41,7 +41,7 @@
 //! * docs/kinematics.md#travel-ratios
 use crate::place::code_range;
 use crate::prelude::*;
-use trunnion_geometry::rad;
+use trunnion_geometry::{Vec3, rad};
 use trunnion_machine::{Space, ToolBody};
 
 pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Arrival(check)]);
@@ -119,7 +119,7 @@ fn past_obstacles(arrival: &facts::Arrival<'_>) -> Option<f64> {
     let keep = machine.tolerances.clearance_mm();
     let space = Space::new(machine, &rapids.from, end.tool_length, &body, keep).ok()?;
     let ends = (space.tip(machine, &rapids.from), space.tip(machine, &end.joints));
-    let (points, _) = space.way((&ends.0, &ends.1), |way| way.norm(), |_| true).ok()?;
+    let (points, _) = space.way((&ends.0, &ends.1), Vec3::norm, |_| true).ok()?;
     Some(points.windows(2).map(|pair| (pair[1] - pair[0]).xy().norm()).sum())
 }
 

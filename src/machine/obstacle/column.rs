@@ -85,7 +85,7 @@ pub fn corridor_distance(obstacle: &Obstacle, from: &Vec3, moves: &[Vec3], keep:
     if lowest >= obstacle.top + keep - SLACK_MM {
         return None;
     }
-    let hull = hull(corners.iter().map(|corner| corner.xy()).collect());
+    let hull = hull(corners.iter().map(Vec3::xy).collect());
     let sides = (0..hull.len()).map(|index| {
         obstacle
             .footprint

@@ -272,6 +272,17 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
     Ok(())
 }
 
+/// How far lines that are put together may be from what takes their place.
+fn refit(claim: &Claim) -> Option<Refit> {
+    match *claim {
+        Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
+            mm: tolerance_mm,
+            points_only: source == RefitSource::Points,
+        }),
+        _ => None,
+    }
+}
+
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();

@@ -11,6 +11,7 @@ mod counted;
 mod cut;
 mod ending;
 mod exact;
+mod happens;
 mod input;
 mod item;
 mod near;

@@ -234,13 +234,7 @@ fn asked(claim: &Claim) -> trunnion_same::Claim {
         path_only: matches!(claim, Claim::SamePath { .. }),
         cuts: !claim.is_rewrite() && !matches!(claim, Claim::ClearRapids { .. }),
         rapid_runs: matches!(claim, Claim::ClearRapids { .. }),
-        refit: match *claim {
-            Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
-                mm: tolerance_mm,
-                points_only: source == RefitSource::Points,
-            }),
-            _ => None,
-        },
+        refit: refit(claim),
         exact: None,
     }
 }

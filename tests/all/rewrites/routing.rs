@@ -146,7 +146,7 @@ fn scenes_of_another_program() {
         let machine = mill(&prisms, 0.0);
         let (from, to) = (pair(&scene["origin"]), pair(&scene["destination"]));
         let expected = scene["length"].as_f64().expect("a length");
-        let direct = (from[0] - to[0]).hypot(from[1] - to[1]);
+        let direct = trunnion::geometry::math::hypot(from[0] - to[0], from[1] - to[1]);
         let attempt = reroute(&program(from, to, ""), &on(&machine, 0.0), PostureCost::Travel);
         match attempt.outcome() {
             Ok(None) => assert!((direct - expected).abs() < 1e-6, "scene {index}: {direct} {expected}"),

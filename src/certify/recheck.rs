@@ -184,13 +184,7 @@ fn prove(
         no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
         cuts: !claim.is_rewrite(),
-        refit: match *claim {
-            Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
-                mm: tolerance_mm,
-                points_only: source == RefitSource::Points,
-            }),
-            _ => None,
-        },
+        refit: refit(claim),
         exact: None,
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
@@ -263,6 +257,17 @@ fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Pr
         }
     }
     Ok(())
+}
+
+/// How far lines that are put together may be from what takes their place.
+fn refit(claim: &Claim) -> Option<Refit> {
+    match *claim {
+        Claim::RefittedPath { tolerance_mm, source } => Some(Refit {
+            mm: tolerance_mm,
+            points_only: source == RefitSource::Points,
+        }),
+        _ => None,
+    }
 }
 
 /// Tolerances and radius must be finite and not negative.

@@ -2,7 +2,6 @@
 use crate::pieces::{Piece, WrittenArc};
 use crate::polyline::Chain;
 use trunnion_dialect::Plane;
-use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Turning;
 use trunnion_syntax::{Address, Block, BlockId, Program, TextEdit, TextRange, Value, Word};
 
@@ -125,7 +124,8 @@ pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece
                     turns = false;
                 }
             }
-            write_block(program, hand, &blocks, &codes, centre, &mut edits);
+            let still = chain.still(piece.from, piece.to);
+            write_block(program, hand, &blocks, (&codes, centre, still), &mut edits);
         }
         if let (Some(last), true) = (chain.lines.last(), plane != chain.plane) {
             let line = format!("{}{}", hand.code(plane_code(chain.plane), false), hand.newline);
@@ -133,34 +133,31 @@ pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece
         }
     }
     if let (Some(block), true) = (chains.last().and_then(|(chain, _)| chain.next_line), turns) {
-        write_block(program, hand, &[block], &[1], &[], &mut edits);
+        write_block(program, hand, &[block], (&[1], &[], [false; 3]), &mut edits);
     }
     edits.0.sort_by_key(|edit| (edit.range.start, edit.range.end));
     edits.0
 }
 
 /// The edits that write `pieces` of a chain, all lines, without words that repeat what is in effect, sorted.
-pub(crate) fn lean(program: &Program, hand: &Hand, chain: &Chain, points: &[Vec3], pieces: &[Piece]) -> Vec<TextEdit> {
+pub(crate) fn lean(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Piece]) -> Vec<TextEdit> {
     let mut edits = Edits::default();
     for piece in pieces {
         let blocks: Vec<BlockId> = chain.lines[piece.from..piece.to]
             .iter()
             .map(|line| line.block)
             .collect();
-        let (start, end) = (points[piece.from], points[piece.to]);
+        let still = chain.still(piece.from, piece.to);
         let first = program.block(blocks[0]);
         let words: Vec<Word> = first.words().collect();
-        if start == end && piece.from > 0 {
+        if still == [true; 3] && piece.from > 0 {
             edits.delete_blocks(program, &blocks);
             continue;
         }
         let mut own = Edits::default();
-        write_block(program, hand, &blocks, &[], &[], &mut own);
+        write_block(program, hand, &blocks, (&[], &[], still), &mut own);
         let repeats = |word: &&Word| match word.address {
-            Address::Letter(letter @ b'X'..=b'Z') => {
-                let axis = usize::from(letter - b'X');
-                start[axis] == end[axis]
-            }
+            Address::Letter(letter @ b'X'..=b'Z') => still[usize::from(letter - b'X')],
             // at the first line of a chain they may say something new
             Address::Letter(b'F') => piece.from > 0,
             Address::Letter(b'G') => piece.from > 0 && is_number(word, 1),
@@ -206,13 +203,13 @@ fn start_of_next(program: &Program, block: BlockId) -> u32 {
     program.tokens().range(tokens.end - 1).end
 }
 
-/// Writes one motion in the place of those of `blocks`: with these G codes, the coordinates at which the last one ends, and a centre.
+/// Writes one motion in the place of those of `blocks`: with these G codes, the coordinates at which the last one ends but for those that stay, and a
+/// centre.
 fn write_block(
     program: &Program,
     hand: &Hand,
     blocks: &[BlockId],
-    codes: &[u8],
-    centre: &[(usize, String)],
+    (codes, centre, still): (&[u8], &[(usize, String)], [bool; 3]),
     edits: &mut Edits,
 ) {
     let Some((&first, rest)) = blocks.split_first() else {
@@ -254,6 +251,8 @@ fn write_block(
         let letter = b'X' + axis as u8;
         match coordinates.iter().find(|own| own.address == Address::Letter(letter)) {
             Some(own) => edits.replace(program, own.value_range, &program.text(word.value_range)),
+            // where it does not change, no word says so
+            None if still[axis] => {}
             None => {
                 let before = coordinates
                     .iter()

@@ -221,6 +221,7 @@ fn in_order(base: &Base, points: &[Flat], t: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trunnion_geometry::math::{cos, sin};
 
     fn on(radius: f64, from: f64, to: f64, count: u32, wave: f64) -> Vec<Flat> {
         (0..=count)
@@ -232,8 +233,8 @@ mod tests {
                     wave * f64::from(step % 3) - wave
                 };
                 [
-                    5.0 + (radius + wobble) * angle.cos(),
-                    -3.0 + (radius + wobble) * angle.sin(),
+                    5.0 + (radius + wobble) * cos(angle),
+                    -3.0 + (radius + wobble) * sin(angle),
                 ]
             })
             .collect()
@@ -271,7 +272,7 @@ mod tests {
     #[test]
     fn the_sag_of_lines_counts() {
         let points = on(20.0, 0.0, 90.0, 9, 0.0);
-        let sag = 20.0 * (1.0 - 5f64.to_radians().cos());
+        let sag = 20.0 * (1.0 - cos(5f64.to_radians()));
         assert!(circle(&points, 0.98 * sag, true).is_none() && circle(&points, 1.001 * sag, true).is_some());
     }
 

@@ -284,6 +284,22 @@ impl<'a> Points<'a> {
         (off <= self.limits.tolerance_mm && along.is_through()).then_some((arc, off))
     }
 
+    /// The centre of the circle that comes nearest to the points of a part, to a thousandth of the tolerance.
+    fn nearest(&self, from: usize, to: usize, plane: Plane) -> Option<Flat> {
+        let index = self.limits.planes.iter().position(|other| *other == plane)?;
+        let points = &self.flat[index][from..=to];
+        let (mut low, mut high) = (0.0, self.limits.tolerance_mm);
+        let mut found = None;
+        for _ in 0..10 {
+            let middle = 0.5 * (low + high);
+            match circle(points, middle, false) {
+                Some(circle) => (high, found) = (middle, Some(circle.centres[0])),
+                None => low = middle,
+            }
+        }
+        found
+    }
+
     /// The arc of a part with numbers as the program writes them; `None` where no rounding serves.
     fn written(&self, from: usize, to: usize) -> Option<WrittenArc> {
         let (plane, circle) = self.planes(from, to)?;
@@ -291,7 +307,8 @@ impl<'a> Points<'a> {
         let [first, second, _] = axes(plane);
         let unit = self.limits.unit_mm;
         let start = self.all[from];
-        for centre in circle.centres {
+        // the circle nearest to the points first: others serve, but look arbitrary
+        for centre in self.nearest(from, to, plane).into_iter().chain(circle.centres) {
             let numbers = |axis: usize, value: f64| {
                 let distance = (value - start[axis]) / unit;
                 let style = &styles[axis];
@@ -323,11 +340,9 @@ impl<'a> Points<'a> {
                     } else {
                         Turning::Clockwise
                     };
-                    return Some(WrittenArc {
-                        plane,
-                        turning,
-                        centre: [(first, one.clone()), (second, other.clone())],
-                    });
+                    let mut centre = [(first, one.clone()), (second, other.clone())];
+                    centre.sort();
+                    return Some(WrittenArc { plane, turning, centre });
                 }
             }
         }

@@ -29,6 +29,24 @@ pub(crate) struct Chain {
     pub next_line: Option<BlockId>,
 }
 
+impl Chain {
+    /// The start of a line, or the end of the last one, mm.
+    pub(crate) fn point(&self, index: usize) -> Vec3 {
+        index.checked_sub(1).map_or(self.start, |before| self.lines[before].end)
+    }
+
+    /// All points.
+    pub(crate) fn points(&self) -> Vec<Vec3> {
+        (0..=self.lines.len()).map(|index| self.point(index)).collect()
+    }
+
+    /// The axes X Y Z that are at the same place at two points.
+    pub(crate) fn still(&self, from: usize, to: usize) -> [bool; 3] {
+        let (start, end) = (self.point(from), self.point(to));
+        [0, 1, 2].map(|axis| start[axis] == end[axis])
+    }
+}
+
 /// Why lines were left alone, most frequent reasons of a program first.
 pub(crate) type Reasons = Vec<(&'static str, u32)>;
 

@@ -10,6 +10,7 @@ mod counted;
 mod cut;
 mod ending;
 mod exact;
+mod happens;
 mod input;
 mod item;
 mod near;

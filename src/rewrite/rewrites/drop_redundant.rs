@@ -63,10 +63,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     let hand = Hand::of(program);
     let (mut places, mut was, mut is, mut bytes) = (Vec::new(), 0, 0, 0);
     for chain in chains(program, settings, 1).chains {
-        let points: Vec<Vec3> = core::iter::once(chain.start)
-            .chain(chain.lines.iter().map(|line| line.end))
-            .collect();
-        let largest = points.iter().map(|point| point.amax()).fold(1.0, f64::max);
+        let points = chain.points();
+        let largest = points.iter().map(Vec3::amax).fold(1.0, f64::max);
         let limits = Limits {
             tolerance_mm: options.straight_mm.unwrap_or(EXACT * largest),
             source: RefitSource::Chords,
@@ -78,7 +76,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         let divided = divide(&points, &limits);
         was += chain.lines.len();
         is += divided.pieces.len();
-        let edits = lean(program, &hand, &chain, &points, &divided.pieces);
+        let edits = lean(program, &hand, &chain, &divided.pieces);
         if !edits.is_empty() {
             let saved = edits
                 .iter()

@@ -13,23 +13,23 @@
 //! # Example
 //! ```gcode before fanuc-30i mill-3axis
 //! G21 G90 G94 G17 G54
-//! G0 X20. Y0. Z5. S8000 M3
+//! G0 X2. Y0. Z5. S8000 M3
 //! N10 G1 Z0. F500
-//! N20 X19.924 Y1.743
-//! N30 X19.696 Y3.473
-//! N40 X19.319 Y5.176
-//! N50 X18.794 Y6.840
-//! N60 X18.126 Y8.452
-//! N70 X17.321 Y10.000
-//! N80 Y20. (to the side)
+//! N20 X1.9973 Y0.1047
+//! N30 X1.9890 Y0.2091
+//! N40 X1.9754 Y0.3129
+//! N50 X1.9563 Y0.4158
+//! N60 X1.9319 Y0.5176
+//! N70 X1.9021 Y0.6180
+//! N80 Y5. (to the side)
 //! M30
 //! ```
 //! ```gcode after
 //! G21 G90 G94 G17 G54
-//! G0 X20. Y0. Z5. S8000 M3
+//! G0 X2. Y0. Z5. S8000 M3
 //! N10 G1 Z0. F500
-//! N20 G3 X17.321 Y10.000 I-20.000 J0.000
-//! N80 G1 Y20. (to the side)
+//! N20 G3 X1.9021 Y0.6180 I-1.9986 J0.0001
+//! N80 G1 Y5. (to the side)
 //! M30
 //! ```
 //!
@@ -56,7 +56,6 @@ use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
-use trunnion_geometry::Vec3;
 use trunnion_syntax::{Address, Format, Program, Value};
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
@@ -84,7 +83,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
                 unit_mm: chain.unit_mm,
                 dialect: settings.dialect,
             };
-            let divided = divide(&points(chain), &limits);
+            let divided = divide(&chain.points(), &limits);
             was += chain.lines.len();
             is += divided.pieces.len();
             unrounded += divided.unrounded;
@@ -116,13 +115,6 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         },
         summary,
     }))
-}
-
-/// The points of a chain, with its start.
-fn points(chain: &Chain) -> Vec<Vec3> {
-    core::iter::once(chain.start)
-        .chain(chain.lines.iter().map(|line| line.end))
-        .collect()
 }
 
 /// Planes in which arcs may be written: first the one that is active.

@@ -234,6 +234,9 @@ impl Certificate {
             Claim::AdaptedFeed { .. } => {
                 "the same but for feeds, which keep the axes within their speeds: path, spindle, tool and all else"
             }
+            Claim::InsertedPoints { .. } => {
+                "the same, with points put in that keep the tip near the programmed segments"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::RefittedPath { .. } => "a refitted path",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",

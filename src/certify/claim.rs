@@ -55,6 +55,15 @@ pub enum Claim {
         /// The feed asked for, mm/min: cuts that are slower may be made as fast as this. 0: none is made faster.
         asked_mm_min: f64,
     },
+    /// All of [`Self::SameToolPath`], but a line without tool centre point control may be made in several pieces. Each piece keeps the tip within
+    /// `tolerance_mm` of the straight segment that the original line programs, and ends where the rotary axes of that line come past, within
+    /// `tolerance_deg` (`insert-points`). Nothing is claimed of the path between the ends of the original line, which may be farther off.
+    InsertedPoints {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -105,6 +114,7 @@ impl Claim {
             Self::SamePoses { .. }
             | Self::LeastPostures { .. }
             | Self::AdaptedFeed { .. }
+            | Self::InsertedPoints { .. }
             | Self::SameToolPath { .. }
             | Self::RefittedPath { .. }
             | Self::SamePath { .. } => 0.0,
@@ -133,6 +143,10 @@ impl Claim {
                 tolerance_deg,
                 ..
             }
+            | Self::InsertedPoints {
+                tolerance_mm,
+                tolerance_deg,
+            }
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
@@ -149,7 +163,11 @@ impl Claim {
     pub fn is_rewrite(&self) -> bool {
         !matches!(
             self,
-            Self::AdaptedFeed { .. } | Self::SameToolPath { .. } | Self::RefittedPath { .. } | Self::SamePath { .. }
+            Self::AdaptedFeed { .. }
+                | Self::InsertedPoints { .. }
+                | Self::SameToolPath { .. }
+                | Self::RefittedPath { .. }
+                | Self::SamePath { .. }
         )
     }
 }

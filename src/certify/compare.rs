@@ -289,6 +289,7 @@ impl Pair<'_> {
             Claim::SameBallCentre { .. } | Claim::LeastPostures { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
             Claim::AdaptedFeed { .. }
+            | Claim::InsertedPoints { .. }
             | Claim::SameToolPath { .. }
             | Claim::RefittedPath { .. }
             | Claim::SamePath { .. } => true,

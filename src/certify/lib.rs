@@ -15,6 +15,7 @@ mod digest;
 mod feed;
 mod library;
 mod path;
+mod pieces;
 pub mod postures;
 mod proof;
 mod recheck;

@@ -20,6 +20,8 @@ pub(crate) struct Proof<'a> {
     pub(crate) changes: Vec<crate::certificate::MotionChange>,
     /// Positions of the rotary axes, where the claim is about postures.
     chosen: Option<Chosen<'a>>,
+    /// The line that is being made in pieces.
+    begun: Option<crate::pieces::Begun>,
     /// What ended the proof, where that was a pair of motions.
     pub(crate) failed: Option<Outcome>,
 }
@@ -50,6 +52,33 @@ impl Judge for Proof<'_> {
         Ok(())
     }
 
+    fn piece(&mut self, before: &Step, after: &Step) -> Result<Option<bool>, Verdict> {
+        let (Some(old), Some(new)) = (&before.leg, &after.leg) else {
+            return Ok(None);
+        };
+        let at = Place {
+            motion: self.motions.total as usize,
+            line: self.line(after.motion.block),
+        };
+        let found = crate::pieces::piece(self.machine, [old, new], &mut self.begun, self.claim.tolerances());
+        let difference = |what: String| Difference {
+            before: Some(before.motion.block),
+            after: Some(after.motion.block),
+            what,
+        };
+        match found {
+            Ok(None) => Ok(None),
+            Ok(Some(piece)) => {
+                raise(&mut self.worst.path_bound_mm, piece.bound_mm, at);
+                self.motions.total += 1;
+                self.motions.changed += 1;
+                Ok(Some(piece.last))
+            }
+            Err(crate::pieces::Wrong::Refuted(what)) => Err(Verdict::Differs(difference(what))),
+            Err(crate::pieces::Wrong::Unknown(what)) => Err(Verdict::Unknown(difference(what.to_owned()))),
+        }
+    }
+
     fn cut(&mut self, off: f64) {
         let at = Place {
             motion: self.motions.total as usize,
@@ -78,6 +107,7 @@ impl<'a> Proof<'a> {
             rotary: machine.rotary.iter().map(axis).collect(),
             changes: Vec::new(),
             chosen: matches!(claim, Claim::LeastPostures { .. }).then(|| Chosen::new(machine)),
+            begun: None,
             failed: None,
         }
     }

@@ -177,6 +177,7 @@ fn prove(
     let asked = trunnion_same::Claim {
         mm,
         deg: degrees,
+        pieces: matches!(claim, Claim::InsertedPoints { .. }),
         frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
         across: false,
         straight_rapids: false,

@@ -177,6 +177,15 @@ impl<'p> Draft<'p> {
         self.fix("adapt-feed")
     }
 
+    /// The rewrite that puts points into a line, where the control does not guide the tip.
+    pub(crate) fn fix_points(&mut self, view: &LegView<'_>) -> &mut Self {
+        let plain = view.motion().kind == trunnion_interp::MotionKind::Linear && !view.motion().tcp;
+        if plain && matches!(view.motion().orientation, trunnion_interp::Orientation::Words) {
+            self.fix("insert-points");
+        }
+        self
+    }
+
     /// The rewrite that chooses other postures and turns, where they are programmed and the machine has them.
     pub(crate) fn fix_posture(&mut self, view: &LegView<'_>) -> &mut Self {
         let vector = matches!(view.motion().orientation, trunnion_interp::Orientation::Vector(..));

@@ -106,6 +106,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         mm: tolerance.mm,
         deg: tolerance.deg,
         frees_feed: false,
+        pieces: false,
         across: false,
         straight_rapids: false,
         plane_counts: true,

@@ -30,6 +30,7 @@ pub(crate) fn first_difference(
         mm: 0.0,
         deg: 0.0,
         frees_feed: false,
+        pieces: false,
         path_only: false,
         across: false,
         straight_rapids: false,

@@ -7,6 +7,7 @@ mod circle;
 mod edited;
 mod fewest;
 mod gains;
+mod line_points;
 mod pieces;
 mod polyline;
 mod posed_words;

@@ -3,6 +3,7 @@
 mod adapt_feed;
 mod drop_redundant;
 mod fit_arcs;
+mod insert_points;
 mod renumber;
 mod smooth_pole;
 mod switch_angles;
@@ -44,6 +45,7 @@ static REWRITES: &[&Rewrite] = table![
     switch_angles,
     unwind_rotary,
     smooth_pole,
+    insert_points,
     fit_arcs,
     drop_redundant,
     adapt_feed,
@@ -73,6 +75,7 @@ mod tests {
             (".fix_turns(", "unwind-rotary"),
             (".fix_posture(", "switch-angles"),
             (".fix_feed(", "adapt-feed"),
+            (".fix_points(", "insert-points"),
         ];
         let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();
         for entry in std::fs::read_dir(rules).expect("a folder") {

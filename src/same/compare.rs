@@ -2,7 +2,7 @@
 //!
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
-use crate::cut::{cut, is_idle, repeats_place};
+use crate::cut::{cut, is_idle, may_be_cut, repeats_place};
 use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::happens::happens;
@@ -38,6 +38,8 @@ pub struct Claim {
     pub cuts: bool,
     /// Lines may be put together into fewer lines and arcs; what is not, must be the same within `mm` and `deg`.
     pub refit: Option<Refit>,
+    /// The judge may find that several lines are the pieces of one.
+    pub pieces: bool,
     /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, without any tolerance.
     pub exact: Option<Exact>,
 }
@@ -50,6 +52,12 @@ pub trait Judge {
     fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
         let _ = (before, after, found);
         Ok(())
+    }
+    /// A line of the program before, and one of the program after that may be a piece of it, with the same things in effect: whether it is the
+    /// last piece. `Ok(None)`: it is no piece, and both are compared as a pair.
+    fn piece(&mut self, before: &Step, after: &Step) -> Result<Option<bool>, Verdict> {
+        let _ = (before, after);
+        Ok(None)
     }
     /// A motion that the other program makes in pieces: the distance of the cut point from it, mm or deg.
     fn cut(&mut self, off: f64) {
@@ -174,6 +182,16 @@ fn pair(
                 };
                 judge.refitted(was, is, found)?;
                 return Ok(Paired::Both);
+            }
+            if claim.pieces
+                && was.motion.kind == MotionKind::Linear
+                && is.motion.kind == MotionKind::Linear
+                && may_be_cut(was)
+            {
+                held(was, is, claim)?;
+                if let Some(last) = judge.piece(was, is)? {
+                    return Ok(if last { Paired::Both } else { Paired::SecondInPart });
+                }
             }
             held(was, is, claim)?;
             if claim.cuts && !ends_together(was, is, claim) {

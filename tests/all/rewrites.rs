@@ -4,6 +4,7 @@ mod everywhere;
 mod feeds;
 mod fitting;
 mod mutants;
+mod points;
 mod random;
 mod smoothing;
 mod strategy_2;

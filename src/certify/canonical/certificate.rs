@@ -113,6 +113,12 @@ impl Encode for Claim {
                     .field(2, tolerance_deg)
                     .field(3, asked_mm_min);
             }),
+            Self::InsertedPoints {
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(10, |fields| {
+                fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
             Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,

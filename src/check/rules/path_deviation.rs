@@ -70,7 +70,10 @@ fn check(cut: &facts::StrayingCut<'_>, out: &mut Reporter<'_>) {
                 ))
                 .help("switch tool centre point control on, or insert points");
             values(draft);
-            draft.value("farthest_at_percent", deviation.at * 100.0).fix_turns(cut);
+            draft
+                .value("farthest_at_percent", deviation.at * 100.0)
+                .fix_turns(cut)
+                .fix_points(cut);
         });
     } else {
         out.unknown(cut, Merge::runs(BETWEEN, bound), |draft| {

@@ -123,10 +123,13 @@ impl Along {
         let length = chord.norm();
         // the nearest point to the centre; the distance seen from the centre is convex in the angle, the radius linear
         let (first, last) = (from.dot(&chord), to.dot(&chord));
-        if first < 0.0 && last > 0.0 {
-            let foot = from.cross(&to).norm() / length;
-            apart = apart.max(radius_here.max(radius_there) - foot);
-        }
+        let nearest = if first < 0.0 && last > 0.0 {
+            from.cross(&to).norm() / length
+        } else {
+            here.min(there)
+        };
+        // of a spiral both ends of its radius count: between them the difference may be larger than at the ends
+        apart = apart.max(radius_here.max(radius_there) - nearest);
         let mut high = heights[0].abs().max(heights[1].abs());
         let climb = (height(&point) - height(&self.at)).abs();
         if climb > 0.0 && length > 0.0 {

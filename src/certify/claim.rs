@@ -79,6 +79,20 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
+    /// All of [`Self::SameToolPath`], but between two cuts the tool may leave the part and come back to where it was in another posture or with other
+    /// turns (`insert-retract`): away along its axis, with rapids that keep it at least `clearance_mm` away from all declared obstacles, and back along its axis
+    /// at feed, or on a ramp above the cut before. The cut that follows ends where it did, changes no posture and turns no rotary axis
+    /// farther than before or by more than half a turn; nothing else is claimed of its path.
+    InsertedRetracts {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+        /// mm.
+        clearance_mm: f64,
+        /// Work offsets and tool lengths that are not declared are taken as zero; else what depends on one is unknown.
+        assumed_zeros: bool,
+    },
     /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
     /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
     /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
@@ -131,6 +145,7 @@ impl Claim {
             | Self::ClearRapids { .. }
             | Self::AdaptedFeed { .. }
             | Self::InsertedPoints { .. }
+            | Self::InsertedRetracts { .. }
             | Self::SameToolPath { .. }
             | Self::RefittedPath { .. }
             | Self::SamePath { .. } => 0.0,
@@ -168,6 +183,11 @@ impl Claim {
                 tolerance_mm,
                 tolerance_deg,
             }
+            | Self::InsertedRetracts {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
@@ -186,6 +206,7 @@ impl Claim {
             self,
             Self::AdaptedFeed { .. }
                 | Self::InsertedPoints { .. }
+                | Self::InsertedRetracts { .. }
                 | Self::SameToolPath { .. }
                 | Self::RefittedPath { .. }
                 | Self::ClearRapids { .. }

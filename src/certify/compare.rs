@@ -42,6 +42,8 @@ pub(crate) struct Pair<'a> {
     pub before: &'a Step,
     /// In the program after.
     pub after: &'a Step,
+    /// Nothing is claimed of the path between its ends: it begins in another posture.
+    pub ends_only: bool,
 }
 
 /// The position of the zero point of X Y Z, mm.
@@ -290,10 +292,11 @@ impl Pair<'_> {
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
             Claim::AdaptedFeed { .. }
             | Claim::InsertedPoints { .. }
+            | Claim::InsertedRetracts { .. }
             | Claim::SameToolPath { .. }
             | Claim::RefittedPath { .. }
             | Claim::ClearRapids { .. }
-            | Claim::SamePath { .. } => true,
+            | Claim::SamePath { .. } => !self.ends_only,
         };
         let (mm, degrees) = self.claim.tolerances();
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));

@@ -3,6 +3,7 @@ use crate::certificate::{MotionCounts, PostureCosts, RapidChanges, RotaryChange,
 use crate::chosen::Chosen;
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::rapids::{ChangedRun, same_rapid};
+use crate::retracts::{self, Excursion};
 use crate::{Claim, Outcome};
 use trunnion_dialect::RotaryFeed;
 use trunnion_geometry::deg;
@@ -28,6 +29,8 @@ pub(crate) struct Proof<'a> {
     begun: Option<crate::pieces::Begun>,
     /// Runs of rapids that differ.
     pub(crate) rapids: Option<RapidChanges>,
+    /// Where the tool is, where it may leave the part.
+    excursion: Excursion,
     /// What ended the proof, where that was a pair of motions.
     pub(crate) failed: Option<Outcome>,
 }
@@ -73,6 +76,32 @@ impl Judge for Proof<'_> {
         }
     }
 
+    fn retract(&mut self, before: &Step, after: &[Step]) -> Result<(), Verdict> {
+        let Excursion::InCut(last) = core::mem::replace(&mut self.excursion, Excursion::Back) else {
+            let why = Outcome::unknown("the tool leaves the part again before it cuts");
+            return Err(self.fail(why, before, &after[0]));
+        };
+        self.excursion = Excursion::Away(last);
+        let lines: Vec<u32> = after.iter().map(|step| self.line(step.motion.block)).collect();
+        let found = self.retracts().away(before, after, &lines);
+        let found = found.map_err(|outcome| self.fail(outcome, before, &after[0]))?;
+        self.rapids.get_or_insert_default().runs += 1;
+        for (measured, line) in found.iter().zip(lines) {
+            self.add_excursion(measured, line);
+        }
+        Ok(())
+    }
+
+    fn returns(&mut self, before: &Step, after: &Step) -> Result<bool, Verdict> {
+        let line = self.line(after.motion.block);
+        let excursion = core::mem::replace(&mut self.excursion, Excursion::InCut(None));
+        let found = self.retracts().back(before, after, line, excursion);
+        let (next, measured) = found.map_err(|outcome| self.fail(outcome, before, after))?;
+        self.excursion = next;
+        self.add_excursion(&measured, line);
+        Ok(matches!(self.excursion, Excursion::Back))
+    }
+
     fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
         self.add_refitted(before, after, found);
         Ok(())
@@ -109,6 +138,7 @@ impl<'a> Proof<'a> {
             chosen: matches!(claim, Claim::LeastPostures { .. }).then(|| Chosen::new(machine)),
             begun: None,
             rapids: None,
+            excursion: Excursion::InCut(None),
             failed: None,
         }
     }
@@ -201,6 +231,48 @@ impl<'a> Proof<'a> {
         Ok(())
     }
 
+    fn retracts(&self) -> retracts::Judge<'a> {
+        retracts::Judge {
+            machine: self.machine,
+            claim: self.claim,
+            motion: self.motions.total as usize,
+        }
+    }
+
+    /// A motion that only the program after has.
+    fn add_excursion(&mut self, measured: &retracts::Measured, line: u32) {
+        let at = Place {
+            motion: self.motions.total as usize,
+            line,
+        };
+        let total = self.rapids.get_or_insert_default();
+        total.motions_after += 1;
+        total.length_after_mm += measured.length_mm;
+        let least = measured.least_mm;
+        if least.is_finite() && total.least_distance_mm.is_none_or(|known| least < known) {
+            (total.least_distance_mm, total.line) = (Some(least), line);
+        }
+        if let Some((mm, degrees)) = measured.residual {
+            raise(&mut self.worst.forward_residual_mm, mm, at);
+            raise(&mut self.worst.forward_residual_deg, degrees, at);
+        }
+    }
+
+    /// The cut after an excursion begins in another posture. The cut is remembered: the tool may come back above it.
+    fn excursion_ends(&mut self, was: &Step, is: &Step, line: u32) -> Result<bool, Outcome> {
+        if !matches!(self.claim, Claim::InsertedRetracts { .. }) {
+            return Ok(false);
+        }
+        let last = core::mem::replace(&mut self.excursion, Excursion::InCut(Some(Box::new(is.clone()))));
+        if !matches!(last, Excursion::Back) {
+            return Ok(false);
+        }
+        if let (Some(old), Some(new)) = (&was.leg, &is.leg) {
+            self.retracts().cut_after(old, new, line)?;
+        }
+        Ok(true)
+    }
+
     fn line(&self, block: BlockId) -> u32 {
         self.lines
             .line_column(self.after.source(), self.after.block(block).range().start)
@@ -254,12 +326,14 @@ impl<'a> Proof<'a> {
             rotary.travel_before_deg += steps[0];
             rotary.travel_after_deg += steps[1];
         }
+        let ends_only = self.excursion_ends(was, is, at.line)?;
         let pair = Pair {
             machine: self.machine,
             claim: self.claim,
             at,
             before: was,
             after: is,
+            ends_only,
         };
         if let Claim::AdaptedFeed { asked_mm_min, .. } = self.claim {
             crate::feed::adapted((self.machine, self.rotary_feed), [old, new], *asked_mm_min)

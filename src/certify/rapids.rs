@@ -1,11 +1,12 @@
 //! A run of rapid motions that differs between two programs: same ends, no lower, and clear of all obstacles. Nothing is searched here: each motion
 //! of the program after is measured against each obstacle.
 use crate::certificate::RapidChanges;
+use crate::clear::{Clearance, is_declared};
 use crate::compare::{Place, above, at_block_of, forward_residual};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
 use trunnion_geometry::math::angle_between;
-use trunnion_machine::{Leg, Machine, Nearness, Stance, ToolBody, forward, nearness};
+use trunnion_machine::{Machine, Stance, forward};
 use trunnion_same::Step;
 
 /// Rotary joints that differ by no more stand still, rad.
@@ -62,7 +63,13 @@ impl ChangedRun<'_> {
                 ..self.first
             };
             residuals.extend(forward_residual(self.machine, at, leg)?);
-            let least = self.clear(step, leg, (clearance_mm, *line))?;
+            let clearance = Clearance {
+                machine: self.machine,
+                motion: self.first.motion,
+                line: *line,
+                keep: clearance_mm,
+            };
+            let least = clearance.clear(step, leg, |_| true)?;
             if least.is_finite() && total.least_distance_mm.is_none_or(|known| least < known) {
                 (total.least_distance_mm, total.line) = (Some(least), *line);
             }
@@ -93,7 +100,14 @@ impl ChangedRun<'_> {
                 stances.push(leg.start.as_ref().ok_or_else(lost)?);
             }
             stances.push(leg.end.as_ref().map_err(|_| lost())?);
-            self.is_declared(step)?;
+            let assumed = matches!(
+                self.claim,
+                Claim::ClearRapids {
+                    assumed_zeros: true,
+                    ..
+                }
+            );
+            is_declared(step, assumed).map_err(|why| self.unknown(&why))?;
         }
         let first = stances[0];
         let turns = |stance: &&Stance| {
@@ -107,28 +121,6 @@ impl ChangedRun<'_> {
             )));
         }
         Ok(stances)
-    }
-
-    /// Nothing that the position depends on is undeclared.
-    fn is_declared(&self, step: &Step) -> Result<(), Outcome> {
-        let undeclared = step.motion.undeclared;
-        let assumed = matches!(
-            self.claim,
-            Claim::ClearRapids {
-                assumed_zeros: true,
-                ..
-            }
-        );
-        if !assumed && undeclared.zero & 0b111 != 0 {
-            let offset = step.held.work_offset.as_deref().unwrap_or("the zero point");
-            return Err(self.unknown(&format!(
-                "{offset} is not declared, so it is unknown where the obstacles are: [work_offsets] in trunnion.toml"
-            )));
-        }
-        if !assumed && undeclared.length {
-            return Err(self.unknown("the length of the tool is not declared, so it is unknown how low its tip is"));
-        }
-        Ok(())
     }
 
     fn same_ends(&self, old: &[&Stance], new: &[&Stance]) -> Result<(), Outcome> {
@@ -174,30 +166,6 @@ impl ChangedRun<'_> {
             );
         }
         Ok(())
-    }
-
-    /// The smallest distance of the tool from the obstacles in one motion, where all are far enough.
-    fn clear(&self, step: &Step, leg: &Leg, (keep, line): (f64, u32)) -> Result<f64, Outcome> {
-        let here = |message: &str| Outcome::unknown(format!("line {line}: {message}"));
-        let body = step.held.tool.as_ref().and_then(ToolBody::of);
-        let body =
-            body.ok_or_else(|| here("the diameter of the tool is not declared: [[tool]] diameter in trunnion.toml"))?;
-        let mut least = f64::INFINITY;
-        for near in nearness(self.machine, leg, &body, keep) {
-            let name = &self.machine.obstacles[near.obstacle].name;
-            match near.nearness {
-                Nearness::Clear(mm) => least = least.min(mm),
-                Nearness::Unknown(why) => {
-                    return Err(here(&format!("whether the tool clears {name} is unknown: {why}")));
-                }
-                Nearness::Through => return self.refute(line, format!("the tool goes through {name}")),
-                Nearness::Near(mm) => {
-                    let by = mm.map_or("less than that".to_owned(), |mm| format!("{mm:.6} mm"));
-                    return self.refute(line, format!("the tool passes {name} at {by}; {keep} mm is claimed"));
-                }
-            }
-        }
-        Ok(least)
     }
 }
 

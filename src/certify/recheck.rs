@@ -232,8 +232,9 @@ fn asked(claim: &Claim) -> trunnion_same::Claim {
         plane_counts: true,
         no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
-        cuts: !claim.is_rewrite() && !matches!(claim, Claim::ClearRapids { .. }),
+        cuts: !claim.is_rewrite() && !matches!(claim, Claim::ClearRapids { .. } | Claim::InsertedRetracts { .. }),
         rapid_runs: matches!(claim, Claim::ClearRapids { .. }),
+        retracts: matches!(claim, Claim::InsertedRetracts { .. }),
         refit: refit(claim),
         exact: None,
     }
@@ -283,7 +284,7 @@ fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let further = match *claim {
         Claim::AdaptedFeed { asked_mm_min, .. } => asked_mm_min,
         Claim::RefittedPath { tolerance_mm, .. } => tolerance_mm,
-        Claim::ClearRapids { clearance_mm, .. } => clearance_mm,
+        Claim::ClearRapids { clearance_mm, .. } | Claim::InsertedRetracts { clearance_mm, .. } => clearance_mm,
         _ => 0.0,
     };
     let fine = [mm, degrees, claim.point_height_mm(), further]

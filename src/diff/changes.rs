@@ -115,6 +115,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         cuts: true,
         refit: None,
         rapid_runs: false,
+        retracts: false,
         exact: None,
     };
     let mut near = Near {

@@ -39,6 +39,7 @@ pub(crate) fn first_difference(
         cuts: false,
         refit: None,
         rapid_runs: false,
+        retracts: false,
         exact: Some(Exact {
             frees_block_numbers: renumbered,
             most_blocks,

@@ -7,9 +7,11 @@ use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::happens::happens;
 use crate::item::{Item, Sort, Step};
+use crate::judge::Judge;
 use crate::process::{motion_difference, shown, unlike};
 use crate::rapids;
-use crate::refit::{Following, Refit, Refitted, follow, may_begin};
+use crate::refit::{Following, Refit, follow, may_begin};
+use crate::retracts;
 use crate::since::sets_from_here;
 use crate::steps::Steps;
 use crate::twins::Twins;
@@ -43,38 +45,11 @@ pub struct Claim {
     pub refit: Option<Refit>,
     /// Of rapid motions one after the other only the start of the first and the end of the last are compared: [`Judge::rapids`] decides.
     pub rapid_runs: bool,
+    /// Rapid motions of the program after where the program before cuts: the judge may find that they take the tool away from the part, and
+    /// cuts after them that they bring it back.
+    pub retracts: bool,
     /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, without any tolerance.
     pub exact: Option<Exact>,
-}
-
-/// Decides whether two motions follow the same path.
-pub trait Judge {
-    /// A pair of motions; `Err` ends the comparison with that verdict.
-    fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict>;
-    /// A line of the program before, and one of the program after that may be a piece of it, with the same things in effect: whether it is the
-    /// last piece. `Ok(None)`: it is no piece, and both are compared as a pair.
-    fn piece(&mut self, before: &Step, after: &Step) -> Result<Option<bool>, Verdict> {
-        let _ = (before, after);
-        Ok(None)
-    }
-    /// A motion that takes the place of one or several lines, the last of which is `before`; called where [`Claim::refit`] allows that.
-    fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
-        let _ = (before, after, found);
-        Ok(())
-    }
-    /// Rapid motions one after the other, of both programs, with the same in effect.
-    fn rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Verdict> {
-        let block = |run: &[Step]| run.first().map(|step| step.motion.block);
-        Err(Verdict::Unknown(Difference {
-            before: block(before),
-            after: block(after),
-            what: "rapid motions are not judged as a run".to_owned(),
-        }))
-    }
-    /// A motion that the other program makes in pieces: the distance of the cut point from it, mm or deg.
-    fn cut(&mut self, off: f64) {
-        let _ = off;
-    }
 }
 
 /// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same even if values
@@ -124,6 +99,15 @@ fn walk(
             b = rest;
             let verdict = held(&old[0], &new[0], claim).and_then(|()| judge.rapids(&old, &new));
             twins.judge(&left, &right, verdict)?;
+            continue;
+        }
+        if claim.retracts
+            && let (Item::Motion(cut), Item::Motion(away)) = (&*was, &*is)
+            && cut.motion.kind == MotionKind::Linear
+            && rapids::begins(Some(is))
+        {
+            let away = away.as_ref().clone();
+            b = retracts::excursion(cut, away, after, claim, judge)?;
             continue;
         }
         let found = pair(was, is, claim, judge, &mut following);
@@ -291,7 +275,7 @@ fn same_line(was: &Step, is: &Step, claim: &Claim) -> bool {
 }
 
 /// What must be in effect in both programs, whatever the kinds of the two motions.
-fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
+pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
@@ -356,7 +340,7 @@ fn ends_together(was: &Step, is: &Step, claim: &Claim) -> bool {
 }
 
 /// One program does something where the other does something else, or has ended.
-fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
+pub(crate) fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     let name = |item: Option<&Item>| match item {
         None => "ends".to_owned(),
         Some(Item::Motion(step)) if step.is_part => format!("continues with {}", kind(&step.motion.kind)),

@@ -127,6 +127,18 @@ impl Encode for Claim {
             } => out.variant(10, |fields| {
                 fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
+            Self::InsertedRetracts {
+                tolerance_mm,
+                tolerance_deg,
+                clearance_mm,
+                assumed_zeros,
+            } => out.variant(11, |fields| {
+                fields
+                    .field(1, tolerance_mm)
+                    .field(2, tolerance_deg)
+                    .field(3, clearance_mm)
+                    .field(4, assumed_zeros);
+            }),
             Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,

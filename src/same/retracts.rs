@@ -1,0 +1,43 @@
+//! Motions that only the program after has: away from the part with rapids, and back with lines at feed, between two cuts.
+use crate::compare::{Claim, in_effect, next, only_one};
+use crate::item::{Item, Step};
+use crate::judge::Judge;
+use crate::rapids;
+use crate::steps::Steps;
+use crate::verdict::Verdict;
+use trunnion_interp::MotionKind;
+
+/// Most lines at feed that bring the tool back: down along its axis, and a ramp.
+const MOST_RETURNS: usize = 2;
+
+/// Takes the motions away from the part and back, the first of which is `away`; `cut` is the motion that comes next in the program before. The
+/// item after them.
+pub(crate) fn excursion(
+    cut: &Step,
+    away: Step,
+    after: &mut Steps<'_>,
+    claim: &Claim,
+    judge: &mut dyn Judge,
+) -> Result<Option<Item>, Verdict> {
+    let free = Claim {
+        frees_feed: true,
+        ..*claim
+    };
+    let (run, mut rest) = rapids::run(away, after, claim);
+    // all rapids of a run have the same in effect
+    in_effect(cut, &run[0], &free)?;
+    judge.retract(cut, &run)?;
+    for _ in 0..MOST_RETURNS {
+        let Some(Item::Motion(step)) = &rest else { break };
+        if step.motion.kind != MotionKind::Linear {
+            break;
+        }
+        in_effect(cut, step, claim)?;
+        let back = judge.returns(cut, step)?;
+        rest = next(after, claim);
+        if back {
+            return Ok(rest);
+        }
+    }
+    Err(only_one(Some(&Item::Motion(Box::new(cut.clone()))), rest.as_ref()))
+}

@@ -105,6 +105,7 @@ fn options(command: &Fix) -> Result<Options, Failure> {
             CostOf::Time => PostureCost::Time,
             CostOf::Deviation => PostureCost::Deviation,
         },
+        ..defaults
     };
     let good = |value: f64| value.is_finite() && value > 0.0;
     if !good(options.tolerance_mm) || !good(options.tolerance_deg) {

@@ -7,11 +7,11 @@ mod reposition;
 mod rewrites;
 mod shortest_path;
 mod slots;
-mod stations;
+mod smooth;
 mod style;
 mod survey;
 mod taut_string;
 mod unwrap;
 
-pub use propose::{Attempt, Options, Proposal, Rewrite, attempt};
+pub use propose::{Attempt, Options, ProgrammedPoint, Proposal, Rewrite, attempt};
 pub use rewrites::{rewrite, rewrites};

@@ -1,9 +1,10 @@
-//! A tool pose turned about the rotary axis nearest the workpiece and written back into its block, the ball's centre kept.
+//! A tool pose turned about the rotary axis nearest the workpiece, in either posture, and written back into its block, the ball's centre
+//! kept.
 use crate::slots::{Scheme, Slot, Slots, Styles, insert_word, slots};
 use crate::style::NumberStyle;
 use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Vec3, deg, rad};
-use trunnion_machine::{Machine, Stance, forward};
+use trunnion_machine::{Joints, Machine, POLE_TOLERANCE, Stance, forward};
 use trunnion_syntax::{Block, BlockId, Program, TextEdit};
 
 /// What is the same for all points of a window.
@@ -18,10 +19,10 @@ pub(crate) struct Writer<'a> {
     pub styles: Styles,
     /// mm per programmed length unit.
     pub unit_mm: f64,
-    /// Radius of the ball, mm.
+    /// Distance of the ball's centre from the programmed point along the tool axis, mm.
     pub ball_radius: f64,
-    /// Work offset of the rotary axis, deg.
-    pub rotary_zero: f64,
+    /// Work offsets of the rotary axes, deg.
+    pub rotary_zero: [f64; 2],
     /// The tool axis may turn by this much, deg.
     pub tolerance_deg: f64,
     /// The ball's centre may shift by this much, mm.
@@ -35,37 +36,49 @@ struct Number {
     value: f64,
 }
 
+/// Where the rotary joints are to be at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aim {
+    /// First rotary joint, rad.
+    pub q: f64,
+    /// The second one, rad, where the posture changes; `None`: as programmed.
+    pub second: Option<f64>,
+    /// On which side of the pole the second joint was before, where a tool vector at the pole is to carry an azimuth: 1 or -1.
+    pub side: f64,
+}
+
 /// An orientation as it will be written.
 struct Orientation {
     /// The tool axis of these numbers.
     axis: Vec3,
-    /// The rotary joint that gives it, rad.
+    /// The first rotary joint that gives it, rad.
     q: f64,
     /// Coordinate and number.
     numbers: Vec<(usize, Number)>,
 }
 
 impl Writer<'_> {
-    /// Programmed coordinates of a stance as the file counts them: X, Y, Z in file units, then the rotary word.
-    pub(crate) fn programmed(&self, stance: &Stance) -> [f64; 4] {
+    /// Programmed coordinates of a stance as the file counts them: X, Y, Z in file units, then the rotary words.
+    pub(crate) fn programmed(&self, stance: &Stance) -> [f64; 5] {
         let tip = stance.tip / self.unit_mm;
-        [
-            tip.x,
-            tip.y,
-            tip.z,
-            deg(stance.joints[self.machine.rotary[0]]) - self.rotary_zero,
-        ]
+        [tip.x, tip.y, tip.z, self.word(stance, 0), self.word(stance, 1)]
     }
 
-    /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
-    /// in effect before the block in the program after, and those after it on return. Gives the rotary joint that is
-    /// written, rad: `q` but for rounding.
+    /// The word of a rotary axis at a stance, deg.
+    fn word(&self, stance: &Stance, axis: usize) -> f64 {
+        let joint = self.machine.rotary.get(axis);
+        joint.map_or(0.0, |&joint| deg(stance.joints[joint]) - self.rotary_zero[axis])
+    }
+
+    /// Writes the pose of `stance`, turned as `aim` says, into its block. `current` holds the coordinates
+    /// in effect before the block in the program after, and those after it on return. Gives the first rotary joint that is
+    /// written, rad: that of `aim` but for rounding.
     pub(crate) fn turn(
         &self,
         block: BlockId,
         stance: &Stance,
-        q: f64,
-        current: &mut [f64; 4],
+        aim: Aim,
+        current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,
     ) -> Result<f64, String> {
         let view = self.program.block(block);
@@ -74,7 +87,7 @@ impl Writer<'_> {
             axis,
             q,
             numbers: orientation,
-        } = self.orientation(stance, q, &slots)?;
+        } = self.orientation(stance, aim, &slots)?;
         let tip = (stance.tip + (stance.axis - axis) * self.ball_radius) / self.unit_mm;
         let mut numbers: Vec<(usize, Number)> = Vec::new();
         for index in 0..3 {
@@ -95,14 +108,14 @@ impl Writer<'_> {
         &self,
         block: BlockId,
         stance: &Stance,
-        current: &mut [f64; 4],
+        current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let view = self.program.block(block);
         let slots = slots(self.program, &view, self.scheme)?;
         let programmed = self.programmed(stance);
         // an active vector stays active; a rotary word may have to be repeated
-        let words = if self.scheme.count() == 4 { 4 } else { 3 };
+        let words = if self.by_words() { 5 } else { 3 };
         let mut numbers = Vec::new();
         for (index, &value) in programmed.iter().enumerate().take(words) {
             match &slots[index] {
@@ -119,33 +132,25 @@ impl Writer<'_> {
         self.edit(&view, &slots, numbers, current, edits)
     }
 
-    /// The orientation nearest to the rotary joint `q` (rad) that can be written and is turned by no more than allowed.
-    fn orientation(&self, stance: &Stance, q: f64, slots: &Slots) -> Result<Orientation, String> {
+    /// Rotary words are written, not vectors.
+    fn by_words(&self) -> bool {
+        matches!(self.scheme, Scheme::Rotaries(_))
+    }
+
+    /// The orientation nearest to `aim` that can be written and is turned by no more than allowed.
+    fn orientation(&self, stance: &Stance, aim: Aim, slots: &Slots) -> Result<Orientation, String> {
+        if self.by_words() {
+            return self.rotary_words(stance, aim, slots);
+        }
         let joint = self.machine.rotary[0];
+        let near_pole = self.beside_pole(stance, aim.side);
         let at = |q: f64| {
-            let mut joints = stance.joints;
+            let mut joints = near_pole.unwrap_or(stance.joints);
             joints[joint] = q;
             forward(self.machine, &joints, stance.tool_length).axis
         };
+        let q = aim.q;
         let allowed = |axis: &Vec3| self.allowed_turn(stance, axis);
-        if let Scheme::Rotary(_) = self.scheme {
-            let wanted = deg(q) - self.rotary_zero;
-            let off = |number: &Number| (number.value - wanted).abs();
-            let best = self
-                .neighbours(3, wanted, slots[3].as_ref())?
-                .into_iter()
-                .min_by(|a, b| {
-                    let fits = |number: &Number| !allowed(&at(rad(number.value + self.rotary_zero)));
-                    fits(a).cmp(&fits(b)).then(off(a).total_cmp(&off(b)))
-                });
-            let number = best.ok_or("not a number")?;
-            let written = rad(number.value + self.rotary_zero);
-            return Ok(Orientation {
-                axis: at(written),
-                q: written,
-                numbers: vec![(3, number)],
-            });
-        }
         let [Some(i), Some(j), Some(k)] = [&slots[3], &slots[4], &slots[5]] else {
             return Err("the block has no tool vector to turn".into());
         };
@@ -174,6 +179,58 @@ impl Writer<'_> {
             q: q + self.azimuth_between(&at(q), &axis),
             numbers: (3..).zip(numbers.map(Number::clone)).collect(),
         })
+    }
+
+    /// The rotary words nearest to `aim`.
+    fn rotary_words(&self, stance: &Stance, aim: Aim, slots: &Slots) -> Result<Orientation, String> {
+        let [first, second] = [self.machine.rotary[0], self.machine.rotary[1]];
+        let mut joints = stance.joints;
+        let other = match (aim.second, &slots[4]) {
+            (Some(q), slot) => {
+                let number = self.number(4, deg(q) - self.rotary_zero[1], slot.as_ref().map(|slot| slot.text.as_str()))?;
+                joints[second] = rad(number.value + self.rotary_zero[1]);
+                number
+            }
+            (None, Some(slot)) => Number {
+                text: slot.text.clone(),
+                value: slot.value,
+            },
+            (None, None) => self.number(4, self.word(stance, 1), None)?,
+        };
+        let at = |number: &Number| {
+            let mut joints = joints;
+            joints[first] = rad(number.value + self.rotary_zero[0]);
+            forward(self.machine, &joints, stance.tool_length).axis
+        };
+        let wanted = deg(aim.q) - self.rotary_zero[0];
+        let rank = |number: &Number| (!self.allowed_turn(stance, &at(number)), (number.value - wanted).abs());
+        let best = self.neighbours(3, wanted, slots[3].as_ref())?.into_iter().min_by(|a, b| {
+            let (a, b) = (rank(a), rank(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        let number = best.ok_or("not a number")?;
+        Ok(Orientation {
+            axis: at(&number),
+            q: rad(number.value + self.rotary_zero[0]),
+            numbers: vec![(3, number), (4, other)],
+        })
+    }
+
+    /// Joints beside the pole for a tool vector on it, so that the vector says where the first rotary axis is: tilted by somewhat
+    /// less than half the tolerance, to the side `side` of the second rotary axis. `None` where the vector is not on the pole.
+    fn beside_pole(&self, stance: &Stance, side: f64) -> Option<Joints> {
+        if stance.pole_angle > POLE_TOLERANCE {
+            return None;
+        }
+        let second = *self.machine.rotary.get(1)?;
+        let tilt = 0.45 * rad(self.tolerance_deg);
+        let tilted = |by: f64| {
+            let mut joints = stance.joints;
+            joints[second] += side * by;
+            joints
+        };
+        let found = angle_between(&stance.axis, &forward(self.machine, &tilted(tilt), stance.tool_length).axis);
+        (found > 0.0).then(|| tilted(tilt * tilt / found))
     }
 
     /// By how much the rotary joint turns from one tool axis to a neighbouring one, rad.
@@ -246,7 +303,7 @@ impl Writer<'_> {
         block: &Block<'_>,
         slots: &Slots,
         numbers: Vec<(usize, Number)>,
-        current: &mut [f64; 4],
+        current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let mut found = Vec::new();
@@ -259,12 +316,12 @@ impl Writer<'_> {
                 }),
                 None => {
                     let rounding = self.styles[index].map_or(0.0, |style| style.rounding());
-                    if (number.value - current[index.min(3)]).abs() > 0.5 * rounding {
+                    if (number.value - current[index.min(4)]).abs() > 0.5 * rounding {
                         found.push(self.insertion(block, index, &number.text)?);
                     }
                 }
             }
-            if index < 3 || self.scheme.count() == 4 {
+            if index < 3 || self.by_words() {
                 current[index] = number.value;
             }
         }

@@ -51,9 +51,12 @@
 //! # Sources
 //! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.
 use super::Body;
-use crate::reposition::Writer;
+use crate::propose::ProgrammedPoint;
+use crate::reposition::{Aim, Writer};
 use crate::slots::{Scheme, Styles, styles};
-use crate::stations::{Station, chain, largest_step, stance, straighten, window};
+use crate::smooth::chain::{Station, chain, stance};
+use crate::smooth::ends::{lead_in, lead_out};
+use crate::smooth::plan::{Plan, plan};
 use crate::survey::{Point, Tip, survey};
 use crate::{Options, Proposal};
 use trunnion_certify::Claim;
@@ -70,20 +73,12 @@ pub(super) const REWRITE: Body = Body {
 /// What was done in one window.
 struct Smoothed {
     edits: Vec<TextEdit>,
-    ball_radius: f64,
-    /// Index of the window's last point.
-    last: usize,
-    /// Lines of the ends.
-    lines: (u32, u32),
-    /// Largest step of the rotary axis before and after, deg.
-    steps: (f64, f64),
-}
-
-/// Values computed for one window that the next one reuses.
-#[derive(Default)]
-struct Memory {
-    chain: Vec<Station>,
-    styles: Vec<(Scheme, Styles)>,
+    /// Indices of its first and last point.
+    points: (usize, usize),
+    /// Largest slope of the rotary axis before and after, rad per mm.
+    slopes: (f64, f64),
+    /// Changes of posture before and after.
+    crossings: (usize, usize),
 }
 
 /// What is the same for all windows.
@@ -93,6 +88,8 @@ struct Task<'a> {
     options: &'a Options,
     points: &'a [Point],
     lines: LineIndex,
+    /// How the program writes the numbers of each scheme.
+    styles: Vec<(Scheme, Styles)>,
 }
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
@@ -103,47 +100,48 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         return Ok(None);
     }
     let points = survey(program, settings, machine);
-    let task = Task {
+    let mut task = Task {
         program,
         machine,
         options,
         points: &points,
         lines: LineIndex::new(program.source()),
+        styles: Vec::new(),
     };
-    let flips: Vec<usize> = (0..points.len()).filter(|&index| task.flips(index)).collect();
-    if flips.is_empty() {
+    let steep: Vec<usize> = (0..points.len()).filter(|&index| task.steep(index)).collect();
+    if steep.is_empty() {
         return task.unknown_position().map_or(Ok(None), Err);
     }
-    let mut memory = Memory::default();
     let mut done: Option<usize> = None;
     let mut radius = None;
     let (mut windows, mut reasons) = (Vec::new(), Vec::new());
-    for flip in flips {
-        if done.is_some_and(|last| flip <= last) {
+    for index in steep {
+        if done.is_some_and(|last| index <= last) {
             continue;
         }
-        match task.smooth(flip, &mut memory) {
-            Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => {
-                done = Some(smoothed.last);
-                windows.push(smoothed);
-            }
-            Ok(_) => reasons.push(format!(
-                "line {}: a different ball radius, which needs a separate run",
-                task.line(flip)
-            )),
-            Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
+        if let Some(obstacle) = task.obstacle(index) {
+            reasons.push(format!("line {}: {obstacle}", task.line(index)));
+            continue;
         }
+        let Tip::Ball(ball) = points[index].tip else { continue };
+        let last = task.smooth_chain(index, ball, (&mut windows, &mut reasons), &mut radius);
+        done = Some(last);
     }
-    let Some(ball_radius_mm) = radius else {
+    let Some(ball_radius_mm) = radius.filter(|_| !windows.is_empty()) else {
         return Err(some_of(&reasons));
     };
-    let claim = Claim::SameBallCentre {
-        ball_radius_mm,
-        tolerance_mm: options.tolerance_mm,
-        tolerance_deg: options.tolerance_deg,
+    let claim = match options.point {
+        ProgrammedPoint::Tip => Claim::SameBallCentre {
+            ball_radius_mm,
+            tolerance_mm: options.tolerance_mm,
+            tolerance_deg: options.tolerance_deg,
+        },
+        ProgrammedPoint::Centre => Claim::SameProgrammedCentre {
+            tolerance_mm: options.tolerance_mm,
+            tolerance_deg: options.tolerance_deg,
+        },
     };
-    let letter = char::from(machine.axes[machine.rotary[0]].letter);
-    let mut summary = summary(&windows, letter);
+    let mut summary = task.summary(&windows);
     if !reasons.is_empty() {
         summary.push_str("; not changed: ");
         summary.push_str(&some_of(&reasons));
@@ -153,26 +151,6 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         claim,
         summary,
     }))
-}
-
-/// What was done, in one line.
-fn summary(windows: &[Smoothed], letter: char) -> String {
-    let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
-        (worst.0.max(w.steps.0), worst.1.max(w.steps.1))
-    });
-    let (first, last) = windows
-        .first()
-        .zip(windows.last())
-        .map_or((0, 0), |(a, b)| (a.lines.0, b.lines.1));
-    let count = if windows.len() > 1 {
-        format!(" in {} windows", windows.len())
-    } else {
-        String::new()
-    };
-    format!(
-        "lines {first} to {last}{count}: largest step of {letter} {:.3} -> {:.3} deg",
-        worst.0, worst.1
-    )
 }
 
 /// The first three reasons, and how many there are beyond.
@@ -188,20 +166,6 @@ fn some_of(reasons: &[String]) -> String {
         text.push_str(&(reasons.len() - 3).to_string());
     }
     text
-}
-
-/// Why a motion with a flip cannot be changed.
-fn obstacle(point: &Point) -> Option<String> {
-    if !point.tcp {
-        return Some("tool centre point control is off, so turning the table would move the tip".into());
-    }
-    if !point.linear {
-        return Some("the motion is an arc: the rewrite handles straight motions".into());
-    }
-    if !point.from_known {
-        return Some("the position before the motion is unknown".into());
-    }
-    tool_obstacle(point)
 }
 
 /// Why a tool or its coordinates cannot be turned.
@@ -222,17 +186,57 @@ fn in_words(letters: &str) -> String {
     letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
 }
 
+/// Changes of the sign of the second rotary joint about the pole.
+fn crossings(sides: impl Iterator<Item = f64>) -> usize {
+    let mut last = 0.0;
+    let signs = sides.filter(|side| *side != 0.0);
+    signs.fold(0, |count, side| {
+        let changes = last * side < 0.0;
+        last = side;
+        count + usize::from(changes)
+    })
+}
+
 impl Task<'_> {
-    /// The rule pole-flip fires here.
-    fn flips(&self, index: usize) -> bool {
+    /// The rule pole-flip fires here, or the rotary axis limits the feed near the pole.
+    fn steep(&self, index: usize) -> bool {
         let point = &self.points[index];
         let tolerances = &self.machine.tolerances;
-        point.feed && point.pole_angle_min < tolerances.pole_cone && point.rotary_change[0] > tolerances.pole_angle
+        if !point.feed || point.pole_angle_min >= tolerances.pole_cone {
+            return false;
+        }
+        let fastest = self.machine.axes[self.machine.rotary[0]].max_speed;
+        let slows = || {
+            let limits = |(fastest, seconds)| point.rotary_change[0] > fastest * seconds;
+            point.tcp && fastest.zip(point.seconds()).is_some_and(limits)
+        };
+        point.rotary_change[0] > tolerances.pole_angle || slows()
     }
 
     fn line(&self, index: usize) -> u32 {
         let start = self.program.block(self.points[index].block).range().start;
         self.lines.line_column(self.program.source(), start).0
+    }
+
+    /// Why a steep motion cannot be changed.
+    fn obstacle(&self, index: usize) -> Option<String> {
+        let point = &self.points[index];
+        if !point.tcp {
+            return Some("tool centre point control is off, so turning the table would move the tip".into());
+        }
+        if !point.linear {
+            return Some("the motion is an arc: the rewrite handles straight motions".into());
+        }
+        if !point.from_known {
+            return Some("the position before the motion is unknown".into());
+        }
+        if point.many_turns() {
+            return Some("the motion turns the table by more than a whole turn, which is left as it is".into());
+        }
+        if point.swap {
+            return Some("the motion changes the posture far from the pole (branch-swap), which turns the tool axis between its ends".into());
+        }
+        tool_obstacle(point)
     }
 
     /// The first feed motion whose pose is unknown: a flip there would not be seen.
@@ -268,117 +272,185 @@ impl Task<'_> {
         ))
     }
 
-    /// Smooths the window around one flip.
-    fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, String> {
-        let point = &self.points[flip];
-        if let Some(obstacle) = obstacle(point) {
-            return Err(obstacle);
-        }
-        let Tip::Ball(ball_radius) = point.tip else {
-            return Err("the tool is not a ball".into());
-        };
-        let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
-            && memory.chain.last().is_some_and(|station| flip <= station.last);
-        if !covers {
-            memory.chain = chain(self.machine, self.points, flip);
-        }
-        let stations = &memory.chain;
-        let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
-            return Err("there is no point between the two fixed ends".into());
-        };
-        let stations = &stations[left..=right];
-        let writer = self.writer(point, ball_radius, &mut memory.styles);
+    /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
+    fn smooth_chain(
+        &mut self,
+        index: usize,
+        ball: f64,
+        (windows, reasons): (&mut Vec<Smoothed>, &mut Vec<String>),
+        radius: &mut Option<f64>,
+    ) -> usize {
         // slightly less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
-        let q = straighten(self.machine, stations, room)
-            .ok_or_else(|| "the rotary axis is already outside its limits".to_string())?;
-        let before = largest_step(stations.iter().map(|station| station.q));
-        let after = largest_step(q.iter().copied());
-        if after > 0.99 * before {
-            return Err(format!(
-                "within {} deg the largest step can only be reduced from {:.3} deg to {:.3} deg (--tolerance-deg)",
+        let stations = chain(self.machine, self.points, index, room);
+        let last = stations.last().map_or(index, |station| station.last);
+        let at = |index: usize| format!("line {}", self.line(index));
+        if *radius.get_or_insert(ball) != ball {
+            reasons.push(format!("{}: a different ball radius, which needs a separate run", at(index)));
+            return last;
+        }
+        if stations.len() < 3 {
+            reasons.push(format!("{}: there is no point between the two fixed ends", at(index)));
+            return last;
+        }
+        let asks = |station: &Station| self.steep(station.first);
+        let Some(plan) = plan(self.machine, self.points, stations, &asks) else {
+            reasons.push(format!("{}: the rotary axis is already outside its limits", at(index)));
+            return last;
+        };
+        for &(station, was, is) in &plan.useless {
+            reasons.push(format!(
+                "{}: within {} deg the slope of the table can only be reduced from {:.3} to {:.3} deg/mm (--tolerance-deg)",
+                at(plan.stations[station].first),
                 self.options.tolerance_deg,
-                deg(before),
-                deg(after)
+                deg(was),
+                deg(is)
             ));
         }
-        let (edits, written) = self.write(&writer, stations, &q)?;
-        let last = stations[stations.len() - 1].first;
-        let steps = (deg(before), deg(largest_step(written.iter().copied())));
-        let lines = (self.line(stations[0].last), self.line(last));
-        Ok(Smoothed {
-            edits,
-            ball_radius,
-            last,
-            lines,
-            steps,
-        })
+        let (scheme, styles) = self.scheme(index);
+        let writer = self.writer(index, ball, (scheme, styles));
+        for &(first, end) in &plan.stretches {
+            match self.write(&writer, &plan, (first, end)) {
+                Ok(window) => windows.push(window),
+                Err(reason) => reasons.push(format!("{}: {reason}", self.place(&plan, (first, end)))),
+            }
+        }
+        last
     }
 
-    fn writer(&self, point: &Point, ball_radius: f64, known: &mut Vec<(Scheme, Styles)>) -> Writer<'_> {
+    fn place(&self, plan: &Plan, (first, end): (usize, usize)) -> String {
+        let (first, end) = (self.line(plan.stations[first].last), self.line(plan.stations[end].first));
+        format!("lines {first} to {end}")
+    }
+
+    /// Which words the chain around a motion is written in, and how.
+    fn scheme(&mut self, index: usize) -> (Scheme, Styles) {
+        let point = &self.points[index];
         let scheme = if point.vector {
             Scheme::of_vector(self.program, &self.program.block(point.block))
         } else {
-            Scheme::Rotary(self.machine.axes[self.machine.rotary[0]].letter)
+            let letter = |at: usize| self.machine.axes[self.machine.rotary[at]].letter;
+            Scheme::Rotaries([letter(0), letter(1)])
         };
-        let styles = if let Some(&(_, styles)) = known.iter().find(|(of, _)| *of == scheme) {
-            styles
-        } else {
-            let found = styles(self.program, scheme);
-            known.push((scheme, found));
-            found
-        };
+        if let Some(&known) = self.styles.iter().find(|(of, _)| *of == scheme) {
+            return known;
+        }
+        let found = (scheme, styles(self.program, scheme));
+        self.styles.push(found);
+        found
+    }
+
+    fn writer(&self, index: usize, ball: f64, (scheme, styles): (Scheme, Styles)) -> Writer<'_> {
+        let point = &self.points[index];
         Writer {
             program: self.program,
             machine: self.machine,
             scheme,
             styles,
             unit_mm: point.unit_mm,
-            ball_radius,
+            ball_radius: if self.options.point == ProgrammedPoint::Centre { 0.0 } else { ball },
             rotary_zero: point.rotary_zero,
             tolerance_deg: self.options.tolerance_deg,
             tolerance_mm: self.options.tolerance_mm,
         }
     }
 
-    /// Edits for all points between the ends, and for what the last one takes over from them; and the rotary joint as written, rad,
-    /// each station.
-    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<(Vec<TextEdit>, Vec<f64>), String> {
+    /// Edits for all points of a stretch that change, and for what the motion after them takes over.
+    fn write(&self, writer: &Writer<'_>, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, String> {
         let unknown = || "a position inside the window is unknown".to_string();
-        let last = stations.len() - 1;
-        let start = stance(&self.points[stations[0].last]).ok_or_else(unknown)?;
-        let mut current = writer.programmed(start);
+        let stations = &plan.stations;
+        let changes = |at: usize| plan.postures[at] != 0 || (plan.q[at] - stations[at].q[0]).abs() > 1e-9;
+        // an end of the chain may change too; then all motions that share its position do
+        let begin = if changes(first) { lead_in(self.points, stations[first].first) } else { stations[first].last + 1 };
+        let stop = if changes(end) { lead_out(self.points, stations[end].last) } else { stations[end].first };
+        let start = begin.checked_sub(1).and_then(|at| stance(&self.points[at]));
+        let mut current = start.map_or([f64::NAN; 5], |start| writer.programmed(start));
         let mut edits = Vec::new();
-        let mut written = vec![stations[0].q];
-        for (station, &q) in stations.iter().zip(q).take(last).skip(1) {
-            for (index, point) in self
-                .points
-                .iter()
-                .enumerate()
-                .take(station.last + 1)
-                .skip(station.first)
-            {
-                if let Some(obstacle) = tool_obstacle(point) {
-                    return Err(obstacle);
-                }
-                if point.rotary_zero != writer.rotary_zero {
-                    return Err("the work offset of the rotary axis changes inside the window".into());
-                }
-                let q = writer.turn(
-                    point.block,
-                    stance(point).ok_or_else(unknown)?,
-                    q,
-                    &mut current,
-                    &mut edits,
-                )?;
-                if index == station.first {
-                    written.push(q);
-                }
+        let mut written: Vec<f64> = stations[first..=end].iter().map(|station| station.q[0]).collect();
+        let mut at = first;
+        for index in begin..stop {
+            while at < end && stations[at].last < index {
+                at += 1;
             }
+            let (point, station) = (&self.points[index], &stations[at]);
+            if let Some(obstacle) = tool_obstacle(point) {
+                return Err(obstacle);
+            }
+            if point.rotary_zero != writer.rotary_zero {
+                return Err("the work offset of a rotary axis changes inside the window".into());
+            }
+            let other = station.in_posture(plan.postures[at]).ok_or_else(unknown)?;
+            let side = at.checked_sub(1).map_or(1.0, |before| if stations[before].q[1] < stations[at].q[1] { -1.0 } else { 1.0 });
+            let aim = Aim {
+                q: plan.q[at],
+                second: (plan.postures[at] != 0).then_some(other[1]),
+                side,
+            };
+            let q = writer.turn(point.block, stance(point).ok_or_else(unknown)?, aim, &mut current, &mut edits)?;
+            written[at - first] = q;
         }
-        written.push(stations[last].q);
-        let end = &self.points[stations[last].first];
-        writer.restore(end.block, stance(end).ok_or_else(unknown)?, &mut current, &mut edits)?;
-        Ok((edits, written))
+        if let Some(next) = self.points.get(stop) {
+            writer.restore(next.block, stance(next).ok_or_else(unknown)?, &mut current, &mut edits)?;
+        }
+        let slope = |q: &dyn Fn(usize) -> f64| {
+            let steps = (first..end).map(|at| ((q(at + 1) - q(at)) / (stations[at + 1].s - stations[at].s)).abs());
+            steps.fold(0.0, f64::max)
+        };
+        let slopes = (slope(&|at| stations[at].q[0]), slope(&|at| written[at - first]));
+        if slopes.1 > slopes.0 {
+            return Err(format!(
+                "with the number of digits in this program the slope of the table would grow from {:.3} to {:.3} deg/mm",
+                deg(slopes.0),
+                deg(slopes.1)
+            ));
+        }
+        let sides = |posture: &dyn Fn(usize) -> usize| {
+            let pole = self.pole_second(stations);
+            let values = stations[first..=end].iter().enumerate();
+            let sides: Vec<f64> = values
+                .map(|(offset, station)| {
+                    let q = station.in_posture(posture(first + offset)).unwrap_or(station.q);
+                    if station.free { 0.0 } else { q[1] - pole }
+                })
+                .collect();
+            crossings(sides.into_iter())
+        };
+        Ok(Smoothed {
+            edits,
+            points: (stations[first].last, stations[end].first),
+            slopes,
+            crossings: (sides(&|_| 0), sides(&|at| plan.postures[at])),
+        })
+    }
+
+    /// The second rotary joint at the pole that is nearest to a chain, rad: halfway between the two postures of its first station that has both.
+    fn pole_second(&self, stations: &[Station]) -> f64 {
+        let both = stations.iter().filter(|station| !station.free).find_map(|station| Some((station.q[1], station.other?[1])));
+        both.map_or(0.0, |(a, b)| 0.5 * (a + b))
+    }
+
+    /// What was done, in one line.
+    fn summary(&self, windows: &[Smoothed]) -> String {
+        let letter = char::from(self.machine.axes[self.machine.rotary[0]].letter);
+        let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| (worst.0.max(w.slopes.0), worst.1.max(w.slopes.1)));
+        let lines = |at: usize, last: bool| windows.get(at).map_or(0, |w| self.line(if last { w.points.1 } else { w.points.0 }));
+        let count = if windows.len() > 1 {
+            format!(" in {} windows", windows.len())
+        } else {
+            String::new()
+        };
+        let crossings = windows.iter().fold((0, 0), |sum, w| (sum.0 + w.crossings.0, sum.1 + w.crossings.1));
+        let postures = if crossings.0 == crossings.1 {
+            String::new()
+        } else {
+            format!("; {} -> {} changes of posture", crossings.0, crossings.1)
+        };
+        format!(
+            "lines {} to {}{count}: largest slope of {letter} {:.3} -> {:.3} deg/mm{postures}",
+            lines(0, false),
+            lines(windows.len().saturating_sub(1), true),
+            deg(worst.0),
+            deg(worst.1)
+        )
     }
 }

@@ -217,7 +217,9 @@ impl Certificate {
             Claim::SamePoses { .. } => "same poses at all block ends",
             Claim::LeastPostures { .. } => "same poses at all block ends, by the cheapest postures",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
-            Claim::SameProgrammedCentre { .. } => "same programmed point, declared to be the ball's centre, at all block ends",
+            Claim::SameProgrammedCentre { .. } => {
+                "same programmed point, declared to be the ball's centre, at all block ends"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",
         };

@@ -187,7 +187,11 @@ impl Writer<'_> {
         let mut joints = stance.joints;
         let other = match (aim.second, &slots[4]) {
             (Some(q), slot) => {
-                let number = self.number(4, deg(q) - self.rotary_zero[1], slot.as_ref().map(|slot| slot.text.as_str()))?;
+                let number = self.number(
+                    4,
+                    deg(q) - self.rotary_zero[1],
+                    slot.as_ref().map(|slot| slot.text.as_str()),
+                )?;
                 joints[second] = rad(number.value + self.rotary_zero[1]);
                 number
             }
@@ -204,10 +208,13 @@ impl Writer<'_> {
         };
         let wanted = deg(aim.q) - self.rotary_zero[0];
         let rank = |number: &Number| (!self.allowed_turn(stance, &at(number)), (number.value - wanted).abs());
-        let best = self.neighbours(3, wanted, slots[3].as_ref())?.into_iter().min_by(|a, b| {
-            let (a, b) = (rank(a), rank(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        });
+        let best = self
+            .neighbours(3, wanted, slots[3].as_ref())?
+            .into_iter()
+            .min_by(|a, b| {
+                let (a, b) = (rank(a), rank(b));
+                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+            });
         let number = best.ok_or("not a number")?;
         Ok(Orientation {
             axis: at(&number),
@@ -229,7 +236,10 @@ impl Writer<'_> {
             joints[second] += side * by;
             joints
         };
-        let found = angle_between(&stance.axis, &forward(self.machine, &tilted(tilt), stance.tool_length).axis);
+        let found = angle_between(
+            &stance.axis,
+            &forward(self.machine, &tilted(tilt), stance.tool_length).axis,
+        );
         (found > 0.0).then(|| tilted(tilt * tilt / found))
     }
 

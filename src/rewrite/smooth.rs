@@ -1,7 +1,7 @@
 //! What `smooth-pole` is made of: chains of stations, the choice of posture and turns, the path through the tube.
 pub(crate) mod chain;
-mod even;
 pub(crate) mod ends;
+mod even;
 mod firm;
 pub(crate) mod plan;
 mod reach;

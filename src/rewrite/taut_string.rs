@@ -17,14 +17,26 @@ pub(crate) fn taut_string(s: &[f64], lower: &[f64], upper: &[f64]) -> Vec<f64> {
     if count == 0 {
         return Vec::new();
     }
-    let apex = Knot { at: 0, s: s[0], height: lower[0] };
+    let apex = Knot {
+        at: 0,
+        s: s[0],
+        height: lower[0],
+    };
     bends.push(apex);
     let (mut above, mut below) = (VecDeque::from([apex]), VecDeque::from([apex]));
     for at in 1..count {
         for (walls, side) in [(upper, 1.0), (lower, -1.0)] {
             if walls[at].is_finite() {
-                let (near, far) = if side > 0.0 { (&mut above, &mut below) } else { (&mut below, &mut above) };
-                let knot = Knot { at, s: s[at], height: walls[at] };
+                let (near, far) = if side > 0.0 {
+                    (&mut above, &mut below)
+                } else {
+                    (&mut below, &mut above)
+                };
+                let knot = Knot {
+                    at,
+                    s: s[at],
+                    height: walls[at],
+                };
                 lean(knot, side, near, far, &mut bends);
             }
         }
@@ -49,7 +61,9 @@ fn slope(from: &Knot, to: &Knot) -> f64 {
 
 /// Adds a wall to the chain of its side. `side`: 1 for the upper walls, -1 for the lower ones.
 fn lean(knot: Knot, side: f64, near: &mut VecDeque<Knot>, far: &mut VecDeque<Knot>, bends: &mut Vec<Knot>) {
-    while near.len() > 1 && side * slope(&near[near.len() - 2], &knot) <= side * slope(&near[near.len() - 2], &near[near.len() - 1]) {
+    while near.len() > 1
+        && side * slope(&near[near.len() - 2], &knot) <= side * slope(&near[near.len() - 2], &near[near.len() - 1])
+    {
         near.pop_back();
     }
     if near.len() == 1 {
@@ -70,7 +84,11 @@ fn between(s: &[f64], bends: &[Knot]) -> Vec<f64> {
         let (from, to) = (&pair[0], &pair[1]);
         for &station in &s[from.at..to.at] {
             let share = (station - from.s) / (to.s - from.s);
-            string.push(if station <= from.s { from.height } else { from.height + (to.height - from.height) * share });
+            string.push(if station <= from.s {
+                from.height
+            } else {
+                from.height + (to.height - from.height) * share
+            });
         }
     }
     let last = bends.last().map_or(0.0, |bend| bend.height);

@@ -286,7 +286,10 @@ impl Task<'_> {
         let last = stations.last().map_or(index, |station| station.last);
         let at = |index: usize| format!("line {}", self.line(index));
         if *radius.get_or_insert(ball) != ball {
-            reasons.push(format!("{}: a different ball radius, which needs a separate run", at(index)));
+            reasons.push(format!(
+                "{}: a different ball radius, which needs a separate run",
+                at(index)
+            ));
             return last;
         }
         if stations.len() < 3 {
@@ -319,7 +322,10 @@ impl Task<'_> {
     }
 
     fn place(&self, plan: &Plan, (first, end): (usize, usize)) -> String {
-        let (first, end) = (self.line(plan.stations[first].last), self.line(plan.stations[end].first));
+        let (first, end) = (
+            self.line(plan.stations[first].last),
+            self.line(plan.stations[end].first),
+        );
         format!("lines {first} to {end}")
     }
 
@@ -348,7 +354,11 @@ impl Task<'_> {
             scheme,
             styles,
             unit_mm: point.unit_mm,
-            ball_radius: if self.options.point == ProgrammedPoint::Centre { 0.0 } else { ball },
+            ball_radius: if self.options.point == ProgrammedPoint::Centre {
+                0.0
+            } else {
+                ball
+            },
             rotary_zero: point.rotary_zero,
             tolerance_deg: self.options.tolerance_deg,
             tolerance_mm: self.options.tolerance_mm,
@@ -361,8 +371,16 @@ impl Task<'_> {
         let stations = &plan.stations;
         let changes = |at: usize| plan.postures[at] != 0 || (plan.q[at] - stations[at].q[0]).abs() > 1e-9;
         // an end of the chain may change too; then all motions that share its position do
-        let begin = if changes(first) { lead_in(self.points, stations[first].first) } else { stations[first].last + 1 };
-        let stop = if changes(end) { lead_out(self.points, stations[end].last) } else { stations[end].first };
+        let begin = if changes(first) {
+            lead_in(self.points, stations[first].first)
+        } else {
+            stations[first].last + 1
+        };
+        let stop = if changes(end) {
+            lead_out(self.points, stations[end].last)
+        } else {
+            stations[end].first
+        };
         let start = begin.checked_sub(1).and_then(|at| stance(&self.points[at]));
         let mut current = start.map_or([f64::NAN; 5], |start| writer.programmed(start));
         let mut edits = Vec::new();
@@ -380,13 +398,25 @@ impl Task<'_> {
                 return Err("the work offset of a rotary axis changes inside the window".into());
             }
             let other = station.in_posture(plan.postures[at]).ok_or_else(unknown)?;
-            let side = at.checked_sub(1).map_or(1.0, |before| if stations[before].q[1] < stations[at].q[1] { -1.0 } else { 1.0 });
+            let side = at.checked_sub(1).map_or(1.0, |before| {
+                if stations[before].q[1] < stations[at].q[1] {
+                    -1.0
+                } else {
+                    1.0
+                }
+            });
             let aim = Aim {
                 q: plan.q[at],
                 second: (plan.postures[at] != 0).then_some(other[1]),
                 side,
             };
-            let q = writer.turn(point.block, stance(point).ok_or_else(unknown)?, aim, &mut current, &mut edits)?;
+            let q = writer.turn(
+                point.block,
+                stance(point).ok_or_else(unknown)?,
+                aim,
+                &mut current,
+                &mut edits,
+            )?;
             written[at - first] = q;
         }
         if let Some(next) = self.points.get(stop) {
@@ -425,21 +455,32 @@ impl Task<'_> {
 
     /// The second rotary joint at the pole that is nearest to a chain, rad: halfway between the two postures of its first station that has both.
     fn pole_second(&self, stations: &[Station]) -> f64 {
-        let both = stations.iter().filter(|station| !station.free).find_map(|station| Some((station.q[1], station.other?[1])));
+        let both = stations
+            .iter()
+            .filter(|station| !station.free)
+            .find_map(|station| Some((station.q[1], station.other?[1])));
         both.map_or(0.0, |(a, b)| 0.5 * (a + b))
     }
 
     /// What was done, in one line.
     fn summary(&self, windows: &[Smoothed]) -> String {
         let letter = char::from(self.machine.axes[self.machine.rotary[0]].letter);
-        let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| (worst.0.max(w.slopes.0), worst.1.max(w.slopes.1)));
-        let lines = |at: usize, last: bool| windows.get(at).map_or(0, |w| self.line(if last { w.points.1 } else { w.points.0 }));
+        let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
+            (worst.0.max(w.slopes.0), worst.1.max(w.slopes.1))
+        });
+        let lines = |at: usize, last: bool| {
+            windows
+                .get(at)
+                .map_or(0, |w| self.line(if last { w.points.1 } else { w.points.0 }))
+        };
         let count = if windows.len() > 1 {
             format!(" in {} windows", windows.len())
         } else {
             String::new()
         };
-        let crossings = windows.iter().fold((0, 0), |sum, w| (sum.0 + w.crossings.0, sum.1 + w.crossings.1));
+        let crossings = windows
+            .iter()
+            .fold((0, 0), |sum, w| (sum.0 + w.crossings.0, sum.1 + w.crossings.1));
         let postures = if crossings.0 == crossings.1 {
             String::new()
         } else {

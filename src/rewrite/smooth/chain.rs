@@ -54,6 +54,17 @@ pub(crate) fn travel(machine: &Machine, axis: usize) -> (f64, f64) {
     }
 }
 
+/// The slope at which the motion between two stations turns the first rotary axis by half a turn: a rotary word that is farther off may
+/// be taken the other way round. Endless where the program itself turns farther.
+pub(crate) fn half_turn(from: &Station, to: &Station) -> f64 {
+    let half = PI * (1.0 - 1e-4);
+    if (to.q[0] - from.q[0]).abs() > half {
+        f64::INFINITY
+    } else {
+        half / (to.s - from.s)
+    }
+}
+
 /// The unbroken chain of straight feed motions around the motion `index`, as stations: a motion that does not turn the tool joins
 /// its ends in one station. `room`: how far a tool axis may turn, rad.
 pub(crate) fn chain(machine: &Machine, points: &[Point], index: usize, room: f64) -> Vec<Station> {

@@ -25,7 +25,10 @@ pub(crate) fn lead_in(points: &[Point], mut first: usize) -> usize {
 /// The motions that keep the position of the rotary axes at the end of a chain: one past the last of them.
 pub(crate) fn lead_out(points: &[Point], last: usize) -> usize {
     let rest = points[last + 1..].iter();
-    last + 1 + rest.take_while(|point| point.rotary_change == [0.0; 2] && point.end.is_ok()).count()
+    last + 1
+        + rest
+            .take_while(|point| point.rotary_change == [0.0; 2] && point.end.is_ok())
+            .count()
 }
 
 fn reached_by_rapid(points: &[Point], first: usize) -> bool {
@@ -46,5 +49,10 @@ fn left_by_rapid(points: &[Point], last: usize) -> bool {
 
 /// The motion can be written for another posture by its rotary words alone.
 fn follows_words(point: &Point) -> bool {
-    point.tcp && !point.vector && !point.incremental && (point.rapid || point.linear) && point.end.is_ok() && !point.machine_coordinates
+    point.tcp
+        && !point.vector
+        && !point.incremental
+        && (point.rapid || point.linear)
+        && point.end.is_ok()
+        && !point.machine_coordinates
 }

@@ -160,16 +160,28 @@ impl<'a> Problem<'a> {
     fn solve(&self) -> Option<Vec<f64>> {
         let count = self.bounds.len();
         // two more unknowns without meaning, so that every row has three
-        let mut x: Vec<f64> = self.start[1..=self.unknowns].iter().map(|height| height / self.height).collect();
+        let mut x: Vec<f64> = self.start[1..=self.unknowns]
+            .iter()
+            .map(|height| height / self.height)
+            .collect();
         x.extend([0.0; 2]);
         let mut slack: Vec<f64> = self.bounds.iter().map(|row| (-row.value(&x)).max(1e-2)).collect();
         let mut price = vec![1e-2; count];
-        let (mut system, mut step, mut d_slack, mut d_price) =
-            (Pentadiagonal::new(x.len()), vec![0.0; x.len()], vec![0.0; count], vec![0.0; count]);
+        let (mut system, mut step, mut d_slack, mut d_price) = (
+            Pentadiagonal::new(x.len()),
+            vec![0.0; x.len()],
+            vec![0.0; count],
+            vec![0.0; count],
+        );
         let mut rest = vec![0.0; count];
         for _ in 0..ROUNDS {
             let gap = slack.iter().zip(&price).map(|(s, z)| s * z).sum::<f64>() / count.max(1) as f64;
-            let off = self.bounds.iter().zip(&slack).map(|(row, s)| (row.value(&x) + s).abs()).fold(0.0, f64::max);
+            let off = self
+                .bounds
+                .iter()
+                .zip(&slack)
+                .map(|(row, s)| (row.value(&x) + s).abs())
+                .fold(0.0, f64::max);
             if gap < EXACT * EXACT * 1e2 && off < EXACT {
                 return Some(self.heights(&x));
             }
@@ -184,16 +196,29 @@ impl<'a> Problem<'a> {
             for (rest, (s, z)) in rest.iter_mut().zip(slack.iter().zip(&price)) {
                 *rest = s * z;
             }
-            self.direction(&x, (&slack, &price, &rest), &system, (&mut step, &mut d_slack, &mut d_price));
+            self.direction(
+                &x,
+                (&slack, &price, &rest),
+                &system,
+                (&mut step, &mut d_slack, &mut d_price),
+            );
             let ahead = longest(&slack, &d_slack).min(longest(&price, &d_price));
             let then = slack.iter().zip(&d_slack).zip(price.iter().zip(&d_price));
-            let then = then.map(|((s, ds), (z, dz))| (s + ahead * ds) * (z + ahead * dz)).sum::<f64>() / count.max(1) as f64;
+            let then = then
+                .map(|((s, ds), (z, dz))| (s + ahead * ds) * (z + ahead * dz))
+                .sum::<f64>()
+                / count.max(1) as f64;
             let centre = gap * (then / gap).powi(3);
             // corrector: back towards the middle, and with the curvature that the predictor saw
             for (at, rest) in rest.iter_mut().enumerate() {
                 *rest += d_slack[at] * d_price[at] - centre;
             }
-            self.direction(&x, (&slack, &price, &rest), &system, (&mut step, &mut d_slack, &mut d_price));
+            self.direction(
+                &x,
+                (&slack, &price, &rest),
+                &system,
+                (&mut step, &mut d_slack, &mut d_price),
+            );
             let (by, price_by) = (0.995 * longest(&slack, &d_slack), 0.995 * longest(&price, &d_price));
             let by = by.min(price_by);
             advance(&mut x, &step, by);
@@ -207,7 +232,10 @@ impl<'a> Problem<'a> {
     fn heights(&self, x: &[f64]) -> Vec<f64> {
         let last = self.start.len() - 1;
         let inner = (1..last).map(|at| (x[at - 1] * self.height).clamp(self.stretch.lower[at], self.stretch.upper[at]));
-        core::iter::once(self.start[0]).chain(inner).chain([self.start[last]]).collect()
+        core::iter::once(self.start[0])
+            .chain(inner)
+            .chain([self.start[last]])
+            .collect()
     }
 
     /// H + G' (Z / S) G.
@@ -271,7 +299,9 @@ struct Pentadiagonal {
 
 impl Pentadiagonal {
     fn new(count: usize) -> Self {
-        Self { rows: vec![[0.0; 3]; count] }
+        Self {
+            rows: vec![[0.0; 3]; count],
+        }
     }
 
     /// Zero, with a trace of the unit matrix for the unknowns without meaning.

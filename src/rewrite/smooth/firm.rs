@@ -22,7 +22,9 @@ struct Candidate {
 /// Postures and turns of all stations; `None` where the path over the firm stations cannot be completed.
 pub(super) fn cheapest(stations: &[Station], travel: Range, free_ends: [bool; 2]) -> Option<Vec<Choice>> {
     let last = stations.len() - 1;
-    let firm: Vec<usize> = (0..=last).filter(|&at| at == 0 || at == last || stations[at].firm()).collect();
+    let firm: Vec<usize> = (0..=last)
+        .filter(|&at| at == 0 || at == last || stations[at].firm())
+        .collect();
     let mut layers: Vec<Vec<Candidate>> = Vec::with_capacity(firm.len());
     for (layer, &at) in firm.iter().enumerate() {
         let fixed = at == 0 && !free_ends[0] || at == last && !free_ends[1];
@@ -49,13 +51,15 @@ pub(super) fn cheapest(stations: &[Station], travel: Range, free_ends: [bool; 2]
         at = layer[at].from;
     }
     chosen.reverse();
-    complete(stations, &firm, &chosen)
+    complete(stations, travel, &firm, &chosen)
 }
 
 fn candidates(station: &Station, travel: Range, fixed: bool) -> Vec<Candidate> {
     let mut found = Vec::new();
     for posture in 0..2 {
-        let Some([q, _]) = station.in_posture(posture) else { continue };
+        let Some([q, _]) = station.in_posture(posture) else {
+            continue;
+        };
         let nearest = ((station.q[0] - q) / TAU).round();
         let mut turn = nearest - TURNS;
         while turn <= nearest + TURNS {
@@ -78,7 +82,10 @@ fn candidates(station: &Station, travel: Range, fixed: bool) -> Vec<Candidate> {
 fn reach(gap: &[Station], before: &[Candidate], candidate: &mut Candidate) {
     let (first, last) = (&gap[0], &gap[gap.len() - 1]);
     let changes = gap[1..gap.len() - 1].iter().any(|station| station.free);
-    let room = [first, last].iter().map(|station| if station.pinned { 0.0 } else { station.room }).sum::<f64>();
+    let room = [first, last]
+        .iter()
+        .map(|station| if station.pinned { 0.0 } else { station.room })
+        .sum::<f64>();
     let length = last.s - first.s;
     let own = candidate.cost;
     candidate.cost = f64::INFINITY;
@@ -97,7 +104,7 @@ fn reach(gap: &[Station], before: &[Candidate], candidate: &mut Candidate) {
 
 /// The choices of all stations from those of the firm ones: a posture changes at the station nearest to the pole, and a wide tube takes
 /// the turn that is nearest to the line between the firm stations around it.
-fn complete(stations: &[Station], firm: &[usize], chosen: &[Choice]) -> Option<Vec<Choice>> {
+fn complete(stations: &[Station], travel: Range, firm: &[usize], chosen: &[Choice]) -> Option<Vec<Choice>> {
     let mut choices = Vec::with_capacity(stations.len());
     for (pair, ends) in firm.windows(2).zip(chosen.windows(2)) {
         let (first, last) = (pair[0], pair[1]);
@@ -110,10 +117,12 @@ fn complete(stations: &[Station], firm: &[usize], chosen: &[Choice]) -> Option<V
             let share = (station.s - stations[first].s) / (stations[last].s - stations[first].s);
             let line = ends[0].centre + (ends[1].centre - ends[0].centre) * share;
             let [q, _] = station.in_posture(posture)?;
-            choices.push(Choice {
-                posture,
-                centre: q + TAU * ((line - q) / TAU).round(),
-            });
+            let room = if station.pinned { 0.0 } else { station.room };
+            let turn = ((line - q) / TAU).round();
+            let turns = [turn, turn - 1.0, turn + 1.0].map(|turn| q + TAU * turn);
+            let inside = |centre: &f64| centre + room >= travel.0 && centre - room <= travel.1;
+            let centre = turns.into_iter().find(inside)?;
+            choices.push(Choice { posture, centre });
         }
     }
     choices.push(*chosen.last()?);

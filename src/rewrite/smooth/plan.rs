@@ -1,5 +1,5 @@
 //! Where the first rotary axis is at each station of a chain after smoothing, and in which posture.
-use super::chain::{Station, pin_far, travel};
+use super::chain::{Station, half_turn, pin_far, travel};
 use super::ends::free_ends;
 use super::even::{Stretch, even_out};
 use super::firm;
@@ -33,7 +33,12 @@ pub(crate) struct Plan {
 }
 
 /// Smooths a chain. `steep`: whether the motion to a station asks for it.
-pub(crate) fn plan(machine: &Machine, points: &[Point], mut stations: Vec<Station>, steep: &dyn Fn(&Station) -> bool) -> Option<Plan> {
+pub(crate) fn plan(
+    machine: &Machine,
+    points: &[Point],
+    mut stations: Vec<Station>,
+    steep: &dyn Fn(&Station) -> bool,
+) -> Option<Plan> {
     if stations.len() < 3 {
         return None;
     }
@@ -64,7 +69,11 @@ pub(crate) fn plan(machine: &Machine, points: &[Point], mut stations: Vec<Statio
 }
 
 fn reach(stations: &[Station], travel: Range, free_ends: [bool; 2]) -> Reach<'_> {
-    Reach { stations, travel, free_ends }
+    Reach {
+        stations,
+        travel,
+        free_ends,
+    }
 }
 
 /// Postures and turns of a way that is as little steep as possible, and how steep it is; not above `highest`.
@@ -75,8 +84,18 @@ fn exact(reach: &Reach<'_>, highest: f64) -> Option<(Vec<Choice>, f64)> {
 
 /// Postures and turns gap by gap; as programmed where nothing can be gained by others.
 fn choose(stations: &[Station], travel: Range, free_ends: [bool; 2]) -> Vec<Choice> {
-    let calm = stations.windows(2).all(|pair| (pair[1].q[0] - pair[0].q[0]).abs() <= PI);
-    let as_written = || stations.iter().map(|station| Choice { posture: 0, centre: station.q[0] }).collect();
+    let calm = stations
+        .windows(2)
+        .all(|pair| (pair[1].q[0] - pair[0].q[0]).abs() <= PI);
+    let as_written = || {
+        stations
+            .iter()
+            .map(|station| Choice {
+                posture: 0,
+                centre: station.q[0],
+            })
+            .collect()
+    };
     if calm && !stations.iter().any(|station| station.free) {
         return as_written();
     }
@@ -86,7 +105,10 @@ fn choose(stations: &[Station], travel: Range, free_ends: [bool; 2]) -> Vec<Choi
 /// The travel of the first rotary axis, of an endless one a turn more than is used; `None` where the program leaves it.
 fn looked_at(stations: &[Station], (low, high): Range) -> Option<Range> {
     let values = || stations.iter().map(|station| station.q[0]);
-    let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    let (least, most) = (
+        values().fold(f64::INFINITY, f64::min),
+        values().fold(f64::NEG_INFINITY, f64::max),
+    );
     let inside = least >= low && most <= high;
     inside.then_some((low.max(least - TAU), high.min(most + TAU)))
 }
@@ -100,7 +122,9 @@ fn tubes(stations: &[Station], choices: &[Choice], travel: Range) -> (Vec<f64>, 
     let room = |station: &Station| if station.pinned { 0.0 } else { station.room };
     let walls = |side: f64| {
         let pairs = stations.iter().zip(choices);
-        pairs.map(|(station, choice)| (choice.centre + side * room(station)).clamp(travel.0, travel.1)).collect()
+        pairs
+            .map(|(station, choice)| (choice.centre + side * room(station)).clamp(travel.0, travel.1))
+            .collect()
     };
     (walls(-1.0), walls(1.0))
 }
@@ -108,7 +132,9 @@ fn tubes(stations: &[Station], choices: &[Choice], travel: Range) -> (Vec<f64>, 
 /// Size of the slope of each step.
 fn slopes(stations: &[Station], q: &[f64]) -> Vec<f64> {
     let steps = q.windows(2).zip(stations.windows(2));
-    steps.map(|(q, at)| ((q[1] - q[0]) / (at[1].s - at[0].s)).abs()).collect()
+    steps
+        .map(|(q, at)| ((q[1] - q[0]) / (at[1].s - at[0].s)).abs())
+        .collect()
 }
 
 fn steepest(stations: &[Station], q: &[f64]) -> f64 {
@@ -138,7 +164,7 @@ fn finish(
         stations,
     };
     let taut = slopes(&plan.stations, &plan.q);
-    let limits = allowed(&taut);
+    let limits = allowed(&plan.stations, &taut, &before);
     let mut first = 0;
     while first < last {
         let mut end = first + 1;
@@ -200,11 +226,17 @@ fn travelled(q: &[f64]) -> f64 {
     q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
 }
 
-/// How steep each step may be: a little steeper than the steepest step of the taut string around it.
-fn allowed(taut: &[f64]) -> Vec<f64> {
-    let around = |at: usize| {
-        let (first, end) = (at.saturating_sub(AROUND), (at + AROUND + 1).min(taut.len()));
-        taut[first..end].iter().copied().fold(0.0, f64::max)
+/// How steep each step may be: a little steeper than the steepest step of the taut string around it, but not than those of the program
+/// around it, and by no more than half a turn where the program turns no farther.
+fn allowed(stations: &[Station], taut: &[f64], before: &[f64]) -> Vec<f64> {
+    let around = |slopes: &[f64], at: usize| {
+        let (first, end) = (at.saturating_sub(AROUND), (at + AROUND + 1).min(slopes.len()));
+        slopes[first..end].iter().copied().fold(0.0, f64::max)
     };
-    (0..taut.len()).map(|at| SLACK * around(at) + 1e-9).collect()
+    let limit = |at: usize| {
+        let least = around(taut, at);
+        let local = (SLACK * least).min(0.995 * around(before, at)).max(least) + 1e-9;
+        local.min(half_turn(&stations[at], &stations[at + 1]))
+    };
+    (0..taut.len()).map(limit).collect()
 }

@@ -1,6 +1,6 @@
 //! The least steep way through the tubes of all postures and turns, exactly: where the first rotary axis can be at each station under a
 //! limit of its slope, and the postures and turns that get there.
-use super::chain::Station;
+use super::chain::{Station, half_turn};
 use core::f64::consts::TAU;
 
 /// Rounding in comparisons of angles, rad.
@@ -35,7 +35,9 @@ impl Reach<'_> {
     /// The tubes of a station in a posture that meet a range, rad, as far as they are inside the travel, with the turns of each.
     fn tubes(&self, index: usize, posture: usize, range: Range, mut each: impl FnMut(f64, Range)) {
         let station = &self.stations[index];
-        let Some([centre, _]) = station.in_posture(posture) else { return };
+        let Some([centre, _]) = station.in_posture(posture) else {
+            return;
+        };
         let (low, high) = (range.0.max(self.travel.0), range.1.min(self.travel.1));
         let room = if station.pinned { 0.0 } else { station.room };
         let last = self.stations.len() - 1;
@@ -64,6 +66,12 @@ impl Reach<'_> {
         }
     }
 
+    /// How far the joint may turn from a station to the next, rad.
+    fn farthest(&self, from: usize, limit: f64) -> f64 {
+        let (from, to) = (&self.stations[from], &self.stations[from + 1]);
+        limit.min(half_turn(from, to)) * (to.s - from.s)
+    }
+
     /// Where the joint can be at the first station.
     fn begin(&self) -> Sets {
         let mut sets = Sets::default();
@@ -75,7 +83,7 @@ impl Reach<'_> {
 
     /// Where it can be at the next station, no steeper than `limit` (rad per length).
     fn step(&self, index: usize, before: &Sets, limit: f64) -> Sets {
-        let reach = limit * (self.stations[index].s - self.stations[index - 1].s);
+        let reach = self.farthest(index - 1, limit);
         let changes = self.stations[index].free || self.stations[index - 1].free;
         let mut sets = Sets::default();
         for posture in 0..2 {
@@ -83,7 +91,9 @@ impl Reach<'_> {
             for from in 0..2 {
                 if from == posture || changes {
                     for range in &before[from] {
-                        self.tubes(index, posture, (range.0 - reach, range.1 + reach), |_, inside| found.push(inside));
+                        self.tubes(index, posture, (range.0 - reach, range.1 + reach), |_, inside| {
+                            found.push(inside)
+                        });
                     }
                 }
             }
@@ -118,9 +128,14 @@ impl Reach<'_> {
         let (mut target, mut posture): (Vec<Range>, Option<usize>) = (vec![(f64::NEG_INFINITY, f64::INFINITY)], None);
         for index in (0..all.len()).rev() {
             let station = &self.stations[index];
-            let changes = posture.is_none() || station.free || self.stations.get(index + 1).is_some_and(|next| next.free);
+            let changes =
+                posture.is_none() || station.free || self.stations.get(index + 1).is_some_and(|next| next.free);
             let open = |at: usize| changes || posture == Some(at);
-            let reach = self.stations.get(index + 1).map_or(0.0, |next| limit * (next.s - station.s));
+            let reach = if index + 1 < all.len() {
+                self.farthest(index, limit)
+            } else {
+                0.0
+            };
             // (off the programmed posture, off the programmed turns), what is chosen
             let mut best: Option<((bool, f64), Choice, Range)> = None;
             for at in [posture.unwrap_or(0), 1 - posture.unwrap_or(0)] {
@@ -158,7 +173,11 @@ impl Reach<'_> {
         let (mut low, mut high) = (0.0, highest);
         while high - low > 1e-6 * high + 1e-12 {
             let middle = 0.5 * (low + high);
-            if self.allows(middle) { high = middle } else { low = middle }
+            if self.allows(middle) {
+                high = middle
+            } else {
+                low = middle
+            }
         }
         high
     }

@@ -43,7 +43,15 @@ struct Spot {
 /// The least slope over all sequences of postures and turns, rad per mm.
 fn optimum(spots: &[Spot], travel: (f64, f64), freedom: bool) -> f64 {
     /// Tries all choices from a spot on. `taken`: tubes so far, as (s, low, high).
-    fn search(at: usize, spots: &[Spot], (travel, freedom): ((f64, f64), bool), state: (usize, bool, f64), taken: &mut Vec<(f64, f64, f64)>, worst: f64, best: &mut f64) {
+    fn search(
+        at: usize,
+        spots: &[Spot],
+        (travel, freedom): ((f64, f64), bool),
+        state: (usize, bool, f64),
+        taken: &mut Vec<(f64, f64, f64)>,
+        worst: f64,
+        best: &mut f64,
+    ) {
         if worst >= *best {
             return;
         }
@@ -53,12 +61,22 @@ fn optimum(spots: &[Spot], travel: (f64, f64), freedom: bool) -> f64 {
         };
         let (posture, changes, near) = state;
         let Some(half) = spot.half else {
-            return search(at + 1, spots, (travel, freedom), (posture, freedom, near), taken, worst, best);
+            return search(
+                at + 1,
+                spots,
+                (travel, freedom),
+                (posture, freedom, near),
+                taken,
+                worst,
+                best,
+            );
         };
         let end = at == 0 || at == spots.len() - 1;
         for to in 0..2 {
             let open = to == posture || changes || at == 0;
-            let Some(q) = spot.q[to].filter(|_| open && (freedom || to == 0)) else { continue };
+            let Some(q) = spot.q[to].filter(|_| open && (freedom || to == 0)) else {
+                continue;
+            };
             let middle = ((near - q) / TAU).round();
             for turn in -2..=2 {
                 let centre = q + TAU * (middle + f64::from(turn));
@@ -69,17 +87,34 @@ fn optimum(spots: &[Spot], travel: (f64, f64), freedom: bool) -> f64 {
                 if tube.0 > tube.1 + 1e-12 {
                     continue;
                 }
-                let slope = |known: &(f64, f64, f64)| (tube.0 - known.2).max(known.1 - tube.1).max(0.0) / (spot.s - known.0);
+                let slope =
+                    |known: &(f64, f64, f64)| (tube.0 - known.2).max(known.1 - tube.1).max(0.0) / (spot.s - known.0);
                 let steepest = taken.iter().map(slope).fold(worst, f64::max);
                 taken.push((spot.s, tube.0, tube.1));
-                search(at + 1, spots, (travel, freedom), (to, false, centre), taken, steepest, best);
+                search(
+                    at + 1,
+                    spots,
+                    (travel, freedom),
+                    (to, false, centre),
+                    taken,
+                    steepest,
+                    best,
+                );
                 taken.pop();
             }
         }
     }
     let mut best = f64::INFINITY;
     let near = spots[0].q[0].unwrap_or(0.0);
-    search(0, spots, (travel, freedom), (0, true, near), &mut Vec::new(), 0.0, &mut best);
+    search(
+        0,
+        spots,
+        (travel, freedom),
+        (0, true, near),
+        &mut Vec::new(),
+        0.0,
+        &mut best,
+    );
     best
 }
 
@@ -93,13 +128,14 @@ enum Said {
 
 /// A program through tool axes near the pole: start and end far from it.
 fn program(random: &mut Random, machine: &Machine, dialect: &str, said: Said) -> String {
-    let [first, second] = *machine.rotary.as_slice() else { panic!("two rotary axes") };
+    let [first, second] = *machine.rotary.as_slice() else {
+        panic!("two rotary axes")
+    };
     let letters = [first, second].map(|joint| char::from(machine.axes[joint].letter));
     let mut text = match dialect {
         "sinumerik-840d" => String::from("T1 M6\nD1\nS8000 M3\nTRAORI\n"),
         "fanuc-30i" => String::from("O1\nT1 M6\nS8000 M3\nG43.4 H1\n"),
         "haas-ngc" => String::from("O1\nT1 M6\nS8000 M3\nG234 H1\n"),
-        "linuxcnc" => String::from("T1 M6\nS8000 M3\nM428\n"),
         _ => String::from("PARTNO TEST\nMULTAX/ON\nSPINDL/8000,CLW\nFEDRAT/2000,MMPM\n"),
     };
     let count = 4 + (random.unit() * 4.0) as usize;
@@ -107,10 +143,24 @@ fn program(random: &mut Random, machine: &Machine, dialect: &str, said: Said) ->
     let (mut x, mut q) = (0.0, None::<[f64; 2]>);
     for row in 0..=count {
         // along a line that passes the pole at some distance, with noise
-        let along = if row == 0 { -3.0 } else if row == count { 3.0 } else { random.between(-1.8, 1.8) };
-        let across = if row == 0 || row == count { 0.2 } else { offset + random.between(-0.5, 0.5) };
+        let along = if row == 0 {
+            -3.0
+        } else if row == count {
+            3.0
+        } else {
+            random.between(-1.8, 1.8)
+        };
+        let across = if row == 0 || row == count {
+            0.2
+        } else {
+            offset + random.between(-0.5, 0.5)
+        };
         let near = random.unit() < 0.15 && row > 0 && row < count;
-        let (along, across) = if near { (0.02 * along, 0.02 * across) } else { (along, across) };
+        let (along, across) = if near {
+            (0.02 * along, 0.02 * across)
+        } else {
+            (along, across)
+        };
         let (s, c) = sin_cos(course);
         let (i, j) = (rad(along * c - across * s), rad(along * s + across * c));
         let u = Vec3::new(i, j, (1.0 - i * i - j * j).sqrt());
@@ -118,24 +168,44 @@ fn program(random: &mut Random, machine: &Machine, dialect: &str, said: Said) ->
         let (y, z) = (random.between(-0.1, 0.1), 50.0 + random.between(-0.05, 0.05));
         if said == Said::Goto {
             let rapid = if row == 0 { "RAPID\n" } else { "" };
-            let _ = writeln!(text, "{rapid}GOTO/{x:.6},{y:.6},{z:.6},{:.7},{:.7},{:.7}", u.x, u.y, u.z);
+            let _ = writeln!(
+                text,
+                "{rapid}GOTO/{x:.6},{y:.6},{z:.6},{:.7},{:.7},{:.7}",
+                u.x, u.y, u.z
+            );
             continue;
         }
         let g = if row == 0 { "G0" } else { "G1" };
         let feed = if row == 1 { " F2000." } else { "" };
         if said == Said::Vectors {
-            let _ = writeln!(text, "{g} X{x:.6} Y{y:.6} Z{z:.6} A3={:.7} B3={:.7} C3={:.7}{feed}", u.x, u.y, u.z);
+            let _ = writeln!(
+                text,
+                "{g} X{x:.6} Y{y:.6} Z{z:.6} A3={:.7} B3={:.7} C3={:.7}{feed}",
+                u.x, u.y, u.z
+            );
             continue;
         }
-        let Orientations::Postures(postures) = orientations(machine, &u) else { panic!("reachable") };
+        let Orientations::Postures(postures) = orientations(machine, &u) else {
+            panic!("reachable")
+        };
         // a post without look-ahead: the first posture inside the travel, the nearest turn
         let inside = |limits: Limits, q: f64| matches!(limits, Limits::Unbounded) || windings_of(limits, q);
-        let one = postures.iter().find(|one| inside(machine.axes[second].limits, one.q[1])).expect("a posture");
+        let one = postures
+            .iter()
+            .find(|one| inside(machine.axes[second].limits, one.q[1]))
+            .expect("a posture");
         let near = q.map_or(0.0, |q: [f64; 2]| q[0]);
         let a = windings(machine, first, one.q[0], near)[0];
         let b = windings(machine, second, one.q[1], 0.0)[0];
         q = Some([a, b]);
-        let _ = writeln!(text, "{g} X{x:.6} Y{y:.6} Z{z:.6} {}{:.4} {}{:.4}{feed}", letters[1], deg(b), letters[0], deg(a));
+        let _ = writeln!(
+            text,
+            "{g} X{x:.6} Y{y:.6} Z{z:.6} {}{:.4} {}{:.4}{feed}",
+            letters[1],
+            deg(b),
+            letters[0],
+            deg(a)
+        );
     }
     text.push_str(if said == Said::Goto { "FINI\n" } else { "M30\n" });
     text
@@ -148,7 +218,12 @@ fn windings_of(limits: Limits, q: f64) -> bool {
 
 fn ball() -> Setup {
     Setup {
-        tools: vec![Tool { number: 0, shape: Some(ToolShape::Ball), diameter_mm: Some(2.0 * RADIUS), length_mm: Some(100.0) }],
+        tools: vec![Tool {
+            number: 0,
+            shape: Some(ToolShape::Ball),
+            diameter_mm: Some(2.0 * RADIUS),
+            length_mm: Some(100.0),
+        }],
         ..Setup::default()
     }
 }
@@ -188,7 +263,11 @@ fn spots(machine: &Machine, points: &[Point], room: f64) -> Vec<Spot> {
         } else {
             Some(2.0 * asin(sin(0.5 * room) / sin(theta)))
         };
-        all.push(Spot { s, q: [Some(q(machine, point)), other], half });
+        all.push(Spot {
+            s,
+            q: [Some(q(machine, point)), other],
+            half,
+        });
     }
     all
 }
@@ -207,21 +286,36 @@ fn no_choice_of_postures_turns_and_azimuths_is_less_steep() {
         ("ferrari-bc", "fanuc-30i", Said::Words),
         ("fork-head-ca", "haas-ngc", Said::Words),
         ("nutating-head-b45", "sinumerik-840d", Said::Words),
-        ("linuxcnc-xyzbc-trt", "linuxcnc", Said::Words),
+        ("head-table-bc", "haas-ngc", Said::Words),
         ("mikron-ucp710", "apt", Said::Goto),
         ("nutating-table-b45", "fanuc-30i", Said::Words),
         ("fork-head-ca", "sinumerik-840d", Said::Vectors),
     ];
-    let (mut better, mut worst_ratio) = ([0; 8], 0.0f64);
+    let mut better = [0; 8];
     for case in 0..200 {
         let (name, dialect, said) = kinds[case % kinds.len()];
         let machine = trunnion_machine::builtin(name).expect("built in");
-        let settings = Settings::new(trunnion_dialect::builtin(dialect).expect("built in"), Some(machine), ball());
+        let settings = Settings::new(
+            trunnion_dialect::builtin(dialect).expect("built in"),
+            Some(machine),
+            ball(),
+        );
         let text = program(&mut random, machine, dialect, said);
         let tolerance = [0.05, 0.1, 0.2, 0.4][case / kinds.len() % 4];
-        let options = Options { tolerance_deg: tolerance, ..Options::default() };
+        let options = Options {
+            tolerance_deg: tolerance,
+            ..Options::default()
+        };
         let before = parse(text.clone().into_bytes(), settings.dialect.lex);
         let points = survey(&before, &settings, machine);
+        assert!(
+            points.iter().any(|point| point.linear) && cuts(&points).iter().all(|point| point.end.is_ok()),
+            "{name} {dialect}: {:?}\n{text}",
+            points
+                .iter()
+                .map(|p| (p.rapid, p.linear, p.tcp, p.end.as_ref().err().cloned()))
+                .collect::<Vec<_>>()
+        );
         let points = cuts(&points);
         let chain = spots(machine, points, rad(tolerance));
         let travel = match machine.axes[machine.rotary[0]].limits {
@@ -240,13 +334,19 @@ fn no_choice_of_postures_turns_and_azimuths_is_less_steep() {
                 let is = steepest(machine, changed, &chain);
                 // the last digits of the words
                 let rounding = rad(2e-4) / chain.windows(2).map(|s| s[1].s - s[0].s).fold(f64::INFINITY, f64::min);
-                let context = format!("case {case} {name} {dialect} at {tolerance}: {:.4} -> {:.4}, least {:.4} deg/mm\n{text}\n{shown}", deg(was), deg(is), deg(least));
-                let ratio = (is - rounding) / least.max(1e-9);
-                if is > 1.05 * least + rounding {
-                    println!("RATIO {ratio:.4} {}", context.lines().next().unwrap());
-                    if std::env::var("SHOW").is_ok() { println!("{context}"); }
-                }
-                worst_ratio = worst_ratio.max(if is > 1.05 * least + rounding { ratio } else { 0.0 });
+                let context = format!(
+                    "case {case} {name} {dialect} at {tolerance}: {:.4} -> {:.4}, least {:.4} deg/mm\n{text}\n{shown}",
+                    deg(was),
+                    deg(is),
+                    deg(least)
+                );
+                // a step of more than half a turn is not taken, whatever its slope
+                let half = chain
+                    .windows(2)
+                    .map(|s| PI / (s[1].s - s[0].s))
+                    .fold(f64::INFINITY, f64::min);
+                assert!(is <= 1.05 * least + rounding || least >= 0.95 * half, "{context}");
+                assert!(is <= was + rounding, "{context}");
                 for (a, b) in points.iter().zip(changed) {
                     let (a, b) = (a.end.as_ref().expect("known"), b.end.as_ref().expect("known"));
                     let shift = ((a.tip + a.axis * RADIUS) - (b.tip + b.axis * RADIUS)).norm();
@@ -259,11 +359,22 @@ fn no_choice_of_postures_turns_and_azimuths_is_less_steep() {
                     }
                 }
             }
-            Attempt::NothingToDo => println!("NOTHING case {case} {name} was {:.3} least {:.3}", deg(was), deg(least)),
-            Attempt::Refused(reason) => println!("REFUSED case {case} {name} {dialect} {tolerance} was {:.3} least {:.3}: {reason}", deg(was), deg(least)),
+            // nothing is steep, or next to nothing can be gained
+            Attempt::NothingToDo => {}
+            Attempt::Refused(reason) => {
+                println!(
+                    "REFUSED {case} {name} {dialect} {tolerance} was {:.3} least {:.3}: {reason}",
+                    deg(was),
+                    deg(least)
+                );
+                assert!(
+                    was <= 1.05 * least,
+                    "case {case} {name} {dialect} {tolerance}: {reason}\n{:.3} {:.3}\n{text}",
+                    deg(was),
+                    deg(least)
+                );
+            }
         }
     }
-    println!("{better:?} worst {worst_ratio}");
-    assert!(better.iter().all(|&count| count > 5), "{better:?}");
-    assert!(worst_ratio == 0.0);
+    assert!(better.iter().all(|&count| count > 15), "{better:?}");
 }

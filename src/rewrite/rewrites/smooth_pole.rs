@@ -6,10 +6,21 @@
 //! straight, as far as the tolerance allows.
 //!
 //! # How
-//! In each run of straight feed motions around a `pole-flip`, the second rotary axis keeps its values. The first one follows the
-//! taut string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least total travel and the least peak speed at
-//! once. The ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by
-//! `r (u - u')`, so that the centre of the ball, and with it the contact with the surface, stays where it was.
+//! The unit is a chain: straight feed motions under tool centre point control, one after the other. In a chain with a steep motion (one that
+//! `pole-flip` reports, or in which the first rotary axis limits the feed near the pole) the first rotary axis may be anywhere in the
+//! tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)` around its value. What counts is the slope: degrees per millimetre of path, or
+//! per time under G93, because the slope limits the feed.
+//!
+//! 1. Postures and turns. Where the tool axis is within half the tolerance of the pole, its azimuth is free, and the posture may change.
+//!    Turns are free everywhere, and both are free at an end of the chain that a rapid leads to or away from. The choice is a shortest path
+//!    over the chain. An exact search checks that it is within 1 % of the least possible slope, and replaces it where it is not.
+//! 2. The taut string through the tubes: the least travel and the least slope at once.
+//! 3. At most 1.045 times as steep as the string around it, the axis takes the course with the least sum of squares of the changes of slope.
+//!
+//! Points far from the pole keep their tool axis (beyond twice the pole cone, where the tube is narrower than a degree), unless that
+//! would make the chain steeper. The tip moves by `r (u - u')`, so that the centre of the ball, and with it the contact with the surface,
+//! stays where it was. With `--point centre` X Y Z are the centre of the ball, and stay. A tool vector on the pole has no azimuth; it is
+//! turned by less than half the tolerance to carry one.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -37,8 +48,8 @@
 //!
 //! # Claim
 //! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No feed, no spindle word and no other byte changes. The certificate states a measured value and a proven bound
-//! of how far apart the paths are between block ends.
+//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes. The
+//! certificate states a measured value and a proven bound of how far apart the paths are between block ends.
 //!
 //! # Traps
 //! - Only a ball keeps its contact when the tool axis turns. The shape of the tool must be declared; a flat or bull-nosed tool
@@ -47,6 +58,10 @@
 //! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works on the words
 //!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
+//! - The tolerance counts from the program as it is: each further run may turn the tool axis by as much again.
+//! - A low slope over a long block can be a large step. The largest step may grow while the slope falls.
+//! - Arcs, motions of more than a whole turn and changes of posture far from the pole are left alone. Where tool vectors are
+//!   programmed, the control chooses the posture.
 //!
 //! # Sources
 //! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.

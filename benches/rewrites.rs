@@ -12,7 +12,7 @@ use trunnion::dialect::builtin;
 use trunnion::geometry::math::{atan2, hypot};
 use trunnion::interp::{Fault, ModalState, Motion, Setup, Sink, Tool, ToolShape, run};
 use trunnion::machine::{self, Follower, Machine};
-use trunnion::rewrite::{Attempt, Options, attempt, rewrite};
+use trunnion::rewrite::{Options, attempt, rewrite};
 use trunnion::syntax::{Program, parse};
 
 #[path = "support/cpu.rs"]
@@ -33,7 +33,10 @@ fn main() {
         ..Setup::default()
     };
     let settings = Settings::new(dialect, Some(machine), setup);
-    println!("{:14} {:>8} {:>8} {:>12} {:>10} {:>9}  outcome", "rewrite", "points", "flips", "points/s", "us/point", "x plain");
+    println!(
+        "{:14} {:>8} {:>8} {:>12} {:>10} {:>9}  outcome",
+        "rewrite", "points", "flips", "points/s", "us/point", "x plain"
+    );
     for (points, line) in [(20_000, 200), (80_000, 200), (200_000, 200), (80_000, 50)] {
         let text = zigzag(points, line).into_bytes();
         let plain = cpu::best(RUNS, || follow(&parse(text.clone(), dialect.lex), &settings, machine));
@@ -43,10 +46,10 @@ fn main() {
             let one = rewrite(name).expect("a rewrite of that name");
             let mut outcome = String::new();
             let seconds = cpu::best(RUNS, || {
-                outcome = match attempt(one, &program, &settings, &Options::default()) {
-                    Attempt::Certified { summary, .. } => summary,
-                    Attempt::NothingToDo => "nothing to do".into(),
-                    Attempt::Refused(reason) => reason,
+                outcome = match attempt(one, &program, &settings, &Options::default()).outcome() {
+                    Ok(Some(proved)) => proved.summary,
+                    Ok(None) => "nothing to do".into(),
+                    Err(reason) => reason,
                 };
             });
             print_row(name, (points, points / line), seconds, plain, &outcome);
@@ -75,7 +78,12 @@ impl Sink for Follow<'_> {
 }
 
 fn follow(program: &Program, settings: &Settings<'_>, machine: &Machine) {
-    run(program, settings.dialect, &settings.setup, &mut Follow(Follower::new(machine)));
+    run(
+        program,
+        settings.dialect,
+        &settings.setup,
+        &mut Follow(Follower::new(machine)),
+    );
 }
 
 /// The program's text: lines of `line` points.
@@ -87,13 +95,20 @@ fn zigzag(points: usize, line: usize) -> String {
         let share = place as f64 / (line - 1) as f64 * 2.0 - 1.0;
         let along = if row % 2 == 0 { share } else { -share };
         // normals of a dome, with a ripple; 5.7 deg at the ends of the lines, 0.3 to 1.2 deg at the nearest
-        let (i, j) = (0.1 * along, 0.005 + 0.015 * (row as f64 * 0.37).sin().abs() + 0.0004 * (at as f64 * 1.7).sin());
+        let (i, j) = (
+            0.1 * along,
+            0.005 + 0.015 * (row as f64 * 0.37).sin().abs() + 0.0004 * (at as f64 * 1.7).sin(),
+        );
         let tilt = hypot(i, j).atan2((1.0 - i * i - j * j).sqrt()).to_degrees();
         let azimuth = atan2(i, -j).to_degrees();
         let turned = azimuth + 360.0 * ((last - azimuth) / 360.0).round();
         last = turned;
         let (x, y) = (20.0 * along, row as f64 * 0.01);
-        let _ = writeln!(out, "X{x:.4} Y{y:.4} Z{:.4} A{tilt:.4} C{turned:.4}", 50.0 - 0.05 * along * along);
+        let _ = writeln!(
+            out,
+            "X{x:.4} Y{y:.4} Z{:.4} A{tilt:.4} C{turned:.4}",
+            50.0 - 0.05 * along * along
+        );
     }
     out.push_str("TRAFOOF\nM30\n");
     out

@@ -9,7 +9,8 @@ use tower_lsp::lsp_types::{
     CodeAction, CodeActionDisabled, CodeActionKind, CodeActionOrCommand, CodeActionParams, Diagnostic, NumberOrString,
     TextEdit, WorkspaceEdit,
 };
-use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite};
+use trunnion_rewrite::{Options, Proved, Rewrite, State, attempt, attempt_at, rewrite};
+use trunnion_syntax::BlockId;
 
 /// The quick fixes for the findings that touch the asked range.
 #[expect(clippy::unnecessary_wraps, reason = "the shape of the protocol's answer")]
@@ -43,7 +44,7 @@ pub(crate) fn code_actions(
     let actions = names
         .into_iter()
         .filter_map(rewrite)
-        .filter_map(|r| action(analysed, r, encoding));
+        .flat_map(|r| actions(analysed, r, (start, end), encoding));
     Some(likely.chain(actions).map(CodeActionOrCommand::CodeAction).collect())
 }
 
@@ -69,44 +70,63 @@ fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Enc
     })
 }
 
-fn action(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Option<CodeAction> {
-    let judged = analysed.outcome.as_ref().ok()?;
+/// The rewrite for the whole program, and for the places that touch the asked range alone where it changes others too; or why it is refused.
+fn actions(analysed: &Analysed, rewrite: &Rewrite, asked: (u32, u32), encoding: Encoding) -> Vec<CodeAction> {
+    let Ok(judged) = &analysed.outcome else {
+        return Vec::new();
+    };
+    let program = &judged.program;
+    let settings = judged.resolved.settings();
+    let options = Options::of(&judged.resolved.fix);
+    let whole = attempt(rewrite, program, &settings, &options);
     let base = CodeAction {
         title: rewrite.name.into(),
         kind: Some(CodeActionKind::QUICKFIX),
         diagnostics: Some(cured(analysed, rewrite, encoding)),
         ..CodeAction::default()
     };
-    match attempt(
-        rewrite,
-        &judged.program,
-        &judged.resolved.settings(),
-        &Options::default(),
-    ) {
-        Attempt::NothingToDo => None,
-        Attempt::Refused(reason) => Some(CodeAction {
+    let offer = |proved: &Proved, title: String| {
+        let edits = proved.edits.iter().map(|edit| {
+            TextEdit::new(
+                range(&analysed.text, &analysed.starts, edit.range, encoding),
+                edit.new_text.clone(),
+            )
+        });
+        CodeAction {
+            title,
+            edit: Some(WorkspaceEdit::new(HashMap::from([(
+                analysed.uri.clone(),
+                edits.collect(),
+            )]))),
+            is_preferred: Some(true),
+            ..base.clone()
+        }
+    };
+    let Some(proved) = &whole.proved else {
+        let refused = whole.reasons().map(|reason| CodeAction {
             title: format!("{}: not offered: {reason}", rewrite.name),
             disabled: Some(CodeActionDisabled { reason }),
-            ..base
-        }),
-        Attempt::Certified { edits, summary, .. } => {
-            let edits = edits
-                .iter()
-                .map(|edit| {
-                    TextEdit::new(
-                        range(&analysed.text, &analysed.starts, edit.range, encoding),
-                        edit.new_text.clone(),
-                    )
-                })
-                .collect();
-            Some(CodeAction {
-                title: format!("{}: {summary} (proved)", rewrite.name),
-                edit: Some(WorkspaceEdit::new(HashMap::from([(analysed.uri.clone(), edits)]))),
-                is_preferred: Some(true),
-                ..base
-            })
+            ..base.clone()
+        });
+        return refused.into_iter().collect();
+    };
+    let touches = |first: BlockId, last: BlockId| {
+        program.block(first).range().start <= asked.1 && asked.0 <= program.block(last).range().end
+    };
+    let changed = || whole.places.iter().filter(|place| place.state == State::Proved);
+    let mut list = Vec::new();
+    if changed().any(|place| touches(place.first, place.last))
+        && !changed().all(|place| touches(place.first, place.last))
+    {
+        let here = attempt_at(rewrite, program, &settings, &options, |place| {
+            touches(place.first, place.last)
+        });
+        if let Some(here) = &here.proved {
+            list.push(offer(here, format!("{}: here only (proved)", rewrite.name)));
         }
     }
+    list.push(offer(proved, format!("{}: {} (proved)", rewrite.name, proved.summary)));
+    list
 }
 
 /// The findings of the document that the rewrite fixes.

@@ -4,6 +4,7 @@
 //! It knows neither rules nor rewrites nor any search: what it trusts is floors 0 to 3 and itself.
 mod canonical;
 mod certificate;
+mod chain;
 mod chosen;
 mod claim;
 mod compare;
@@ -24,6 +25,7 @@ pub use certificate::{
     Certificate, MotionChange, MotionCounts, NamedDigest, PostureCosts, RotaryChange, SCHEMA, TextChange, TextDigest,
     Worst, WorstChanges,
 };
+pub use chain::{CHAIN_SCHEMA, Chain, ChainStep};
 pub use claim::Claim;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
 pub use verdict::{Gap, Outcome, Witness};

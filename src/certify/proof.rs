@@ -102,7 +102,7 @@ impl<'a> Proof<'a> {
                 message: format!("{place}{}", found.what),
             })
         } else {
-            Outcome::unknown(format!("{place}{}", found.what))
+            Outcome::unknown_at(line, format!("{place}{}", found.what))
         }
     }
 

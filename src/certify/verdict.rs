@@ -24,6 +24,8 @@ impl fmt::Display for Witness {
 /// Why nothing could be decided.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
+    /// Line in the program after (from 1), where there is one.
+    pub line: Option<u32>,
     /// The reason, and what would settle it.
     pub message: String,
 }
@@ -67,6 +69,15 @@ impl Outcome {
     /// Undecided.
     pub(crate) fn unknown(message: impl Into<String>) -> Self {
         Self::Unknown(Gap {
+            line: None,
+            message: message.into(),
+        })
+    }
+
+    /// Undecided because of one line of the program after.
+    pub(crate) fn unknown_at(line: Option<u32>, message: impl Into<String>) -> Self {
+        Self::Unknown(Gap {
+            line,
             message: message.into(),
         })
     }

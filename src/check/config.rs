@@ -1,12 +1,14 @@
 //! Settings of a check: `trunnion.toml` and what the command line adds. No file is opened here.
 mod control;
 mod file;
+mod fix;
 mod format;
 #[cfg(test)]
 mod message_tests;
 mod tool;
 mod variables;
 
+pub use fix::{FixCost, FixSettings};
 pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
 
@@ -50,6 +52,8 @@ pub struct Config {
     pub assume: Assume,
     /// `[format]`.
     pub format: FormatSettings,
+    /// `[fix]`.
+    pub fix: FixSettings,
     /// Axis letters in `[work_offsets]` with their bytes in the file.
     pub offset_axes: Vec<(u8, core::ops::Range<usize>)>,
 }

@@ -172,6 +172,15 @@ impl<'p> Draft<'p> {
         self
     }
 
+    /// The rewrite that chooses other postures and turns, where they are programmed and the machine has them.
+    pub(crate) fn fix_posture(&mut self, view: &LegView<'_>) -> &mut Self {
+        let vector = matches!(view.motion().orientation, trunnion_interp::Orientation::Vector(..));
+        if view.machine.rotary.len() == 2 && !vector && view.motion().is_feed() && view.forced_swap().is_none() {
+            self.fix("switch-angles");
+        }
+        self
+    }
+
     /// Another place of interest.
     pub(crate) fn related(&mut self, range: TextRange, message: impl Into<String>) -> &mut Self {
         self.diagnostic.related.push((range, message.into()));

@@ -221,18 +221,24 @@ pub(crate) struct Canon {
 pub(crate) struct Fix {
     /// The program.
     pub(crate) file: PathBuf,
-    /// Use only these rewrites. Default: all that fix a reported finding.
+    /// Use only these rewrites (`all`: every one). Default: all that fix a reported finding.
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub(crate) rewrite: Vec<String>,
+    /// Change only what touches these lines of the program. A rewrite of the whole program is applied whole or not at all.
+    #[arg(long, value_name = "FIRST[-LAST]", value_parser = super::fix::lines)]
+    pub(crate) lines: Option<(u32, u32)>,
     /// How far the tip (for ball tools: the centre of the ball) may move, in mm.
     #[arg(long, value_name = "MM")]
     pub(crate) tolerance_mm: Option<f64>,
     /// How far the tool axis may turn, in degrees.
     #[arg(long, value_name = "DEG")]
     pub(crate) tolerance_deg: Option<f64>,
-    /// switch-angles: what the postures of the whole program are chosen by.
-    #[arg(long, value_enum, default_value = "travel")]
-    pub(crate) cost: super::fix::CostOf,
+    /// switch-angles: what the postures of the whole program are chosen by. Default: `cost` of [fix] in trunnion.toml, else travel.
+    #[arg(long, value_enum)]
+    pub(crate) cost: Option<super::fix::CostOf>,
+    /// On standard output: a unified diff, or what became of every place and what is gained (JSON).
+    #[arg(long, value_enum, default_value = "text", conflicts_with = "diff")]
+    pub(crate) format: ListFormat,
     /// Print a unified diff (the default).
     #[arg(long)]
     pub(crate) diff: bool,
@@ -245,7 +251,7 @@ pub(crate) struct Fix {
     /// Write the result to this file.
     #[arg(short, long, value_name = "FILE", conflicts_with = "write")]
     pub(crate) output: Option<PathBuf>,
-    /// Write the certificates (JSON) to this file.
+    /// Write the certificate (JSON) to this file; several rewrites make a chain of certificates.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) certificate: Option<PathBuf>,
 }

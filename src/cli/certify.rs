@@ -7,7 +7,9 @@ use super::{
     load,
 };
 use crate::cli::out::Out;
-use trunnion_certify::{Certificate, Claim, Outcome, certify_with_libraries, recheck};
+use std::fmt::Write;
+use trunnion_certify::{Certificate, Chain, Claim, Outcome, certify_with_libraries};
+use trunnion_machine::Machine;
 use trunnion_same::{Difference, Verdict};
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
@@ -22,10 +24,18 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     };
     let before = loaded.program.source();
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
+    let mut steps = Vec::new();
     let outcome = if let Some(file) = &command.certificate {
         let text = trunnion_files::read_text(file)?;
-        let certificate = Certificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
-        recheck(&certificate, before, &after, dialect, machine, setup)
+        let chain = Chain::from_json(&text).map_err(|e| Failure::file(file, e))?;
+        let outcome = checked_again(&chain, [before, &after], &loaded, machine);
+        outcome.map_or_else(
+            |outcome| outcome,
+            |(earlier, last)| {
+                steps = earlier;
+                Outcome::Proved(Box::new(last))
+            },
+        )
     } else {
         let (tolerance_mm, tolerance_deg) = (command.tolerance_mm, command.tolerance_deg);
         let claim = match command.claim {
@@ -51,7 +61,6 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             .map_or(&setup.library, |second| &second.resolved.setup.library);
         certify_with_libraries([before, &after], [dialect, other], machine, (setup, library), &claim)
     };
-    let mut out = Out::standard();
     let shared = |verdict: fn(Difference) -> Verdict, what: &str| {
         let second = second.as_ref().filter(|_| command.certificate.is_none())?;
         let tolerances = (command.tolerance_mm, command.tolerance_deg);
@@ -64,9 +73,24 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     };
     let programs: Vec<&load::Loaded> = std::iter::once(&loaded).chain(second.as_ref()).collect();
     let assuming = load::assuming(&programs);
-    let done = match outcome {
+    let done = say(command, &steps, outcome, shared);
+    if let Some(line) = assuming {
+        Out::standard().text(&format!("{line}\n"));
+    }
+    Ok(done)
+}
+
+/// Prints the verdict. `shared`: how far two programs agree that are not proved the same, where that is asked.
+fn say(
+    command: &Certify,
+    steps: &[Certificate],
+    outcome: Outcome,
+    shared: impl Fn(fn(Difference) -> Verdict, &str) -> Option<String>,
+) -> Done {
+    let mut out = Out::standard();
+    match outcome {
         Outcome::Proved(certificate) => {
-            out.text(&format!("PROVED {}\n", certificate.summary()));
+            out.text(&format!("PROVED {}\n", in_all(steps, &certificate)));
             Done::Clean
         }
         Outcome::Refuted(witness) => {
@@ -88,9 +112,50 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             }
             Done::Found
         }
-    };
-    if let Some(line) = assuming {
-        out.text(&format!("{line}\n"));
     }
-    Ok(done)
+}
+
+/// What is proved, for people: by one certificate, or by several steps.
+fn in_all(earlier: &[Certificate], last: &Certificate) -> String {
+    if earlier.is_empty() {
+        return last.summary();
+    }
+    let mut text = format!("in {} steps", earlier.len() + 1);
+    for (index, step) in earlier.iter().chain([last]).enumerate() {
+        let _ = write!(text, "\nstep {}: {}", index + 1, step.summary());
+    }
+    text
+}
+
+/// Checks a chain again: the certificates of its steps, the last one apart. `Err`: what the step gave that fails.
+fn checked_again(
+    chain: &Chain,
+    [before, after]: [&[u8]; 2],
+    loaded: &load::Loaded,
+    machine: &Machine,
+) -> Result<(Vec<Certificate>, Certificate), Outcome> {
+    let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
+    let fresh = chain.recheck(before, after, dialect, machine, setup);
+    match fresh {
+        Ok((earlier, last)) => Ok((earlier, last)),
+        Err((_, outcome)) if chain.steps.len() == 1 => Err(outcome),
+        Err((step, outcome)) => Err(in_step(step, outcome)),
+    }
+}
+
+/// What one step of a chain gave.
+fn in_step(step: usize, outcome: Outcome) -> Outcome {
+    match outcome {
+        Outcome::Refuted(mut witness) => {
+            // lines of a text between two steps are no lines of the changed program
+            let place = witness.line.take().map(|line| format!(" (line {line} after it)"));
+            witness.message = format!("step {step}{}: {}", place.unwrap_or_default(), witness.message);
+            Outcome::Refuted(witness)
+        }
+        Outcome::Unknown(mut gap) => {
+            gap.message = format!("step {step}: {}", gap.message);
+            Outcome::Unknown(gap)
+        }
+        proved @ Outcome::Proved(_) => proved,
+    }
 }

@@ -1,16 +1,20 @@
 //! `fix`: proposes rewrites, has them proved, applies them.
+mod report;
+
 use super::{
     Done,
-    args::{Fix, Global},
+    args::{Fix, Global, ListFormat},
     failure::{Failure, remark, shown},
     load::{self, Loaded},
 };
 use crate::cli::out::Out;
+use report::{Outcome, Step};
 use similar::TextDiff;
 use std::{io::IsTerminal, path::PathBuf};
-use trunnion_certify::Certificate;
 use trunnion_certify::postures::PostureCost;
-use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite, rewrites};
+use trunnion_certify::{Chain, ChainStep};
+use trunnion_rewrite::{Attempt, Options, Place, Rewrite, attempt_at, gains, rewrite, rewrites};
+use trunnion_syntax::{LineIndex, parse};
 
 /// What `switch-angles` chooses postures by.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -23,14 +27,19 @@ pub(crate) enum CostOf {
     Deviation,
 }
 
-/// The result of all rewrites together.
-struct Outcome {
-    after: Vec<u8>,
-    applied: Vec<(&'static str, Certificate)>,
-    refused: bool,
+/// Reads `12` or `12-40`.
+pub(crate) fn lines(text: &str) -> Result<(u32, u32), String> {
+    let number = |text: &str| text.trim().parse::<u32>().ok().filter(|&line| line > 0);
+    let range = match text.split_once('-') {
+        Some((first, last)) => number(first).zip(number(last)),
+        None => number(text).map(|line| (line, line)),
+    };
+    range
+        .filter(|(first, last)| first <= last)
+        .ok_or_else(|| "write a line, or the first and the last with `-` between them: 12 or 12-40".to_owned())
 }
 
-/// Runs `fix`. A refused rewrite makes the exit status 1.
+/// Runs `fix`. A rewrite that changes nothing because it is refused makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.file)?;
     loaded.machine_or_fail("fix")?;
@@ -39,7 +48,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
             "--write needs a file, because standard input cannot be replaced; use -o FILE",
         ));
     }
-    let options = options(command)?;
+    let options = options(command, &loaded)?;
     let mut outputs = loaded.outputs();
     let output = command
         .output
@@ -68,17 +77,15 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         );
     }
     let before = loaded.program.source().to_vec();
-    let (name, seen) = (loaded.name.clone(), loaded.seen.clone());
-    let outcome = apply_all(global, loaded, &chosen, &options);
-    if command.certificate.is_some() && outcome.applied.len() > 1 {
-        let names: Vec<_> = outcome.applied.iter().map(|(name, _)| *name).collect();
-        return Err(Failure::new(format!(
-            "a certificate covers one rewrite, but {} would be applied; run fix once for each with --rewrite NAME",
-            names.join(", ")
-        )));
-    }
-    if command.diff || !(command.write || command.output.is_some()) {
-        print_diff(&name, &before, &outcome.after)?;
+    let outcome = apply_all(global, command, &loaded, &chosen, &options);
+    match command.format {
+        ListFormat::Json => report::print_json(&loaded, &outcome)?,
+        ListFormat::Text => {
+            report::print_gains(global.quiet, &loaded, &outcome);
+            if command.diff || !(command.write || command.output.is_some()) {
+                print_diff(&loaded.name, &before, &outcome.after)?;
+            }
+        }
     }
     // the program first: a certificate next to an old program names the digest that does not fit
     if let Some(target) = &output {
@@ -87,25 +94,42 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         if let Some(backup) = &backup {
             backup.write(&before, None)?;
         }
-        load::replace(&command.file, seen.as_ref(), &before, &outcome.after)?;
+        load::replace(&command.file, loaded.seen.as_ref(), &before, &outcome.after)?;
     }
-    if let (Some(target), Some((_, proved))) = (&certificate, outcome.applied.first()) {
-        target.write(proved.to_json().as_bytes(), None)?;
+    if let (Some(target), Some(json)) = (&certificate, certificates(&outcome)) {
+        target.write(json.as_bytes(), None)?;
     }
-    Ok(if outcome.refused { Done::Found } else { Done::Clean })
+    Ok(if outcome.refused() { Done::Found } else { Done::Clean })
 }
 
-fn options(command: &Fix) -> Result<Options, Failure> {
-    let defaults = Options::default();
+/// The certificate, or the chain of several, as JSON. `None`: nothing is changed.
+fn certificates(outcome: &Outcome) -> Option<String> {
+    let proved = || {
+        outcome
+            .steps
+            .iter()
+            .filter_map(|step| Some((step.rewrite, step.attempt.proved.as_ref()?)))
+    };
+    let (_, first) = proved().next()?;
+    if proved().count() == 1 {
+        return Some(first.certificate.to_json());
+    }
+    let steps = proved().map(|(rewrite, proved)| ChainStep::new(rewrite, &proved.edits, (*proved.certificate).clone()));
+    Some(Chain::new(steps.collect()).to_json())
+}
+
+fn options(command: &Fix, loaded: &Loaded) -> Result<Options, Failure> {
+    let settings = Options::of(&loaded.resolved.fix);
+    let cost = command.cost.map(|cost| match cost {
+        CostOf::Travel => PostureCost::Travel,
+        CostOf::Time => PostureCost::Time,
+        CostOf::Deviation => PostureCost::Deviation,
+    });
     let options = Options {
-        tolerance_mm: command.tolerance_mm.unwrap_or(defaults.tolerance_mm),
-        tolerance_deg: command.tolerance_deg.unwrap_or(defaults.tolerance_deg),
-        cost: match command.cost {
-            CostOf::Travel => PostureCost::Travel,
-            CostOf::Time => PostureCost::Time,
-            CostOf::Deviation => PostureCost::Deviation,
-        },
-        ..defaults
+        tolerance_mm: command.tolerance_mm.unwrap_or(settings.tolerance_mm),
+        tolerance_deg: command.tolerance_deg.unwrap_or(settings.tolerance_deg),
+        cost: cost.unwrap_or(settings.cost),
+        ..settings
     };
     let good = |value: f64| value.is_finite() && value > 0.0;
     if !good(options.tolerance_mm) || !good(options.tolerance_deg) {
@@ -120,8 +144,11 @@ fn options(command: &Fix) -> Result<Options, Failure> {
 fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failure> {
     if command.rewrite.is_empty() {
         let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());
-        let reported = |r: &Rewrite| report.findings().any(|d| r.cures.contains(&d.rule));
+        let reported = |r: &Rewrite| report.findings().any(|d| r.may_fix(d));
         return Ok(rewrites().iter().copied().filter(|r| reported(r)).collect());
+    }
+    if command.rewrite.iter().any(|name| name == "all") {
+        return Ok(rewrites().to_vec());
     }
     let find = |name: &String| {
         rewrite(name).ok_or_else(|| {
@@ -133,41 +160,65 @@ fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failu
     command.rewrite.iter().map(find).collect()
 }
 
-fn apply_all(global: &Global, mut loaded: Loaded, chosen: &[&'static Rewrite], options: &Options) -> Outcome {
+/// Applies one rewrite after the other, each to what the ones before it leave.
+fn apply_all(
+    global: &Global,
+    command: &Fix,
+    loaded: &Loaded,
+    chosen: &[&'static Rewrite],
+    options: &Options,
+) -> Outcome {
+    let settings = loaded.resolved.settings();
     let mut outcome = Outcome {
         after: loaded.program.source().to_vec(),
-        applied: Vec::new(),
-        refused: false,
+        steps: Vec::new(),
     };
+    let mut program = loaded.program.clone();
     for rewrite in chosen {
-        match attempt(rewrite, &loaded.program, &loaded.resolved.settings(), options) {
-            Attempt::NothingToDo => {
-                remark(
-                    global.quiet,
-                    &format!("{}: {}: nothing to do", loaded.name, rewrite.name),
-                );
+        let index = LineIndex::new(program.source());
+        let line = |at: u32| index.line_column(program.source(), at).0;
+        let touches = |place: &Place| {
+            let ends = (
+                program.block(place.first).range().start,
+                program.block(place.last).range().start,
+            );
+            command
+                .lines
+                .is_none_or(|(first, last)| line(ends.0) <= last && first <= line(ends.1))
+        };
+        let attempt = attempt_at(rewrite, &program, &settings, options, touches);
+        say(global.quiet, &loaded.name, rewrite.name, &attempt);
+        let mut gained = Vec::new();
+        if let (Some(proved), Some(machine)) = (&attempt.proved, settings.machine) {
+            let after = parse(proved.after.clone(), loaded.resolved.dialect.lex);
+            if command.format == ListFormat::Json {
+                let ends: Vec<_> = attempt.places.iter().map(|place| (place.first, place.last)).collect();
+                gained = gains([&program, &after], &proved.edits, &settings, machine, &ends).1;
             }
-            Attempt::Refused(reason) => {
-                outcome.refused = true;
-                remark(false, &format!("{}: {}: refused: {reason}", loaded.name, rewrite.name));
-            }
-            Attempt::Certified {
-                after,
-                certificate,
-                summary,
-                ..
-            } => {
-                remark(
-                    global.quiet,
-                    &format!("{}: {}: proved: {summary}", loaded.name, rewrite.name),
-                );
-                outcome.applied.push((rewrite.name, *certificate));
-                loaded.program = trunnion_syntax::parse(after.clone(), loaded.resolved.dialect.lex);
-                outcome.after = after;
-            }
+            outcome.after.clone_from(&proved.after);
+            program = after;
         }
+        outcome.steps.push(Step {
+            rewrite: rewrite.name,
+            attempt,
+            gains: gained,
+        });
     }
     outcome
+}
+
+/// What became of a rewrite, for people.
+fn say(quiet: bool, name: &str, rewrite: &str, attempt: &Attempt) {
+    let reasons = attempt.reasons();
+    match (&attempt.proved, reasons) {
+        (Some(proved), None) => remark(quiet, &format!("{name}: {rewrite}: proved: {}", proved.summary)),
+        (Some(proved), Some(reasons)) => remark(
+            quiet,
+            &format!("{name}: {rewrite}: proved: {}; not changed: {reasons}", proved.summary),
+        ),
+        (None, Some(reasons)) => remark(false, &format!("{name}: {rewrite}: refused: {reasons}")),
+        (None, None) => remark(quiet, &format!("{name}: {rewrite}: nothing to do")),
+    }
 }
 
 pub(super) fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), Failure> {

@@ -1,6 +1,9 @@
 //! Floor 7: proposes. A rewrite reads an analysed program and proposes edits with a claim; `certify` decides.
 //!
 //! It does no I/O and never vouches for itself.
+mod attempt;
+mod edited;
+mod gains;
 mod posed_words;
 mod propose;
 mod reposition;
@@ -13,5 +16,7 @@ mod survey;
 mod taut_string;
 mod unwrap;
 
-pub use propose::{Attempt, Options, ProgrammedPoint, Proposal, Rewrite, attempt};
+pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
+pub use gains::{Gain, Gains, gains};
+pub use propose::{Change, Options, Place, ProgrammedPoint, Proposal, Proposed, Refusal, Rewrite};
 pub use rewrites::{rewrite, rewrites};

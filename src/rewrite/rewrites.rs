@@ -3,7 +3,7 @@ mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
 
-use crate::{Options, Proposal, Rewrite};
+use crate::{Options, Proposed, Rewrite};
 use trunnion_check::{Settings, header};
 use trunnion_syntax::Program;
 
@@ -13,7 +13,7 @@ pub(crate) struct Body {
     /// Rules whose findings it may fix.
     pub(crate) cures: &'static [&'static str],
     /// Proposes; see [`Rewrite::propose`].
-    pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Result<Option<Proposal>, String>,
+    pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Proposed,
 }
 
 /// The rewrites of the files named: name from the file's name, documentation from the file's header. The `mod` lines stay
@@ -45,4 +45,43 @@ pub fn rewrites() -> &'static [&'static Rewrite] {
 /// A rewrite by name.
 pub fn rewrite(name: &str) -> Option<&'static Rewrite> {
     rewrites().iter().copied().find(|rewrite| rewrite.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    /// What a rule offers and what a rewrite fixes are one list: every call of `fix_...` in a rule stands in the rewrite's `cures`.
+    #[test]
+    fn rules_and_rewrites_agree_on_what_is_fixed() {
+        let rules = concat!(env!("CARGO_MANIFEST_DIR"), "/../check/rules");
+        let calls = [
+            (".fix_pole(", "smooth-pole"),
+            (".fix_turns(", "unwind-rotary"),
+            (".fix_posture(", "switch-angles"),
+        ];
+        let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();
+        for entry in std::fs::read_dir(rules).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let name = path.file_stem().expect("a name").to_string_lossy().replace('_', "-");
+            let text = std::fs::read_to_string(&path).expect("text");
+            for (call, rewrite) in calls {
+                if text.contains(call) {
+                    offered.insert((name.clone(), rewrite));
+                }
+            }
+        }
+        assert!(offered.len() > 10, "{offered:?}");
+        for (rule, name) in &offered {
+            let rewrite = super::rewrite(name).expect("a rewrite");
+            assert!(rewrite.cures.contains(&rule.as_str()), "{rule} offers {name}");
+        }
+        for rewrite in super::rewrites().iter().filter(|rewrite| !rewrite.cures.is_empty()) {
+            assert!(
+                offered.iter().any(|(_, name)| *name == rewrite.name),
+                "no rule offers {}",
+                rewrite.name
+            );
+        }
+    }
 }

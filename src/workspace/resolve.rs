@@ -2,7 +2,7 @@
 use crate::{FoundMachine, LoadError, Subprograms, find_machine, machine::machine_of_comment};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use trunnion_check::config::{FormatSettings, parse_tool_flag};
+use trunnion_check::config::{FixSettings, FormatSettings, parse_tool_flag};
 use trunnion_check::{Assume, Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Detected, Dialect, Foreign, Modeline, Surroundings};
 use trunnion_interp::{ControlData, Library, Setup};
@@ -58,6 +58,8 @@ pub struct Resolved {
     pub assume: Assume,
     /// How the program is laid out.
     pub format: FormatSettings,
+    /// What rewrites may do.
+    pub fix: FixSettings,
 }
 
 impl Resolved {
@@ -153,6 +155,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         port_to,
         assume,
         format: config.format,
+        fix: config.fix,
     })
 }
 

@@ -40,6 +40,8 @@ struct File {
     #[serde(default)]
     format: super::FormatSettings,
     #[serde(default)]
+    fix: super::fix::FileFix,
+    #[serde(default)]
     work_offsets: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<f64>>>,
 }
 
@@ -99,6 +101,7 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     }
     config.subprogram_path = folders(file.subprogram_path)?;
     config.machine_path = folders(file.machine_path)?;
+    config.fix = file.fix.settings()?;
     config.setup.control = file.control.data()?;
     config.setup.variables = super::variables::variables(&file.variables)?;
     if let Some(blocks) = &file.limits.blocks {

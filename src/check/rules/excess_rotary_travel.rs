@@ -78,7 +78,8 @@ fn check(cut: &facts::WindingCut<'_>, out: &mut Reporter<'_>) {
             .value("tool_axis_change_deg", deg(cut.tilted))
             .value("limit_deg", ratio * deg(cut.tilted).max(LEAST_DEG))
             .fix_pole(cut)
-            .fix_turns(cut);
+            .fix_turns(cut)
+            .fix_posture(cut);
     });
 }
 

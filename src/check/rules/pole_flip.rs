@@ -69,7 +69,8 @@ fn check(cut: &facts::NearPole<'_>, out: &mut Reporter<'_>) {
         } else {
             draft
                 .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
-                .fix_pole(cut);
+                .fix_pole(cut)
+                .fix_posture(cut);
         }
         // the number is printed: not the coarse bound that settles whether an axis is overrun
         if let Some(limit) = feed_limit_tight(cut.machine, cut.leg).or_else(|| cut.feed_limit())

@@ -73,21 +73,38 @@ use crate::smooth::chain::{Station, chain, stance};
 use crate::smooth::ends::{lead_in, lead_out};
 use crate::smooth::plan::{Plan, plan};
 use crate::survey::{Point, Tip, survey};
-use crate::{Options, Proposal};
+use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::{deg, rad};
 use trunnion_machine::{Machine, NoStance};
-use trunnion_syntax::{LineIndex, Program, TextEdit};
+use trunnion_syntax::{BlockId, LineIndex, Program, TextEdit};
 
 pub(super) const REWRITE: Body = Body {
-    cures: &["pole-flip", "axis-overspeed", "feed-drop"],
+    cures: &[
+        "axis-overspeed",
+        "excess-rotary-travel",
+        "fast-pole",
+        "feed-drop",
+        "pole-flip",
+    ],
     propose,
 };
+
+/// What was found so far.
+#[derive(Default)]
+struct Found {
+    places: Vec<Place>,
+    windows: Vec<Smoothed>,
+    /// Radius of the ball, mm.
+    radius: Option<f64>,
+}
 
 /// What was done in one window.
 struct Smoothed {
     edits: Vec<TextEdit>,
+    /// Indices of the first and the last motion that change.
+    changed: (usize, usize),
     /// Indices of its first and last point.
     points: (usize, usize),
     /// Largest slope of the rotary axis before and after, rad per mm.
@@ -107,7 +124,7 @@ struct Task<'a> {
     styles: Vec<(Scheme, Styles)>,
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and poles depend on the machine (--machine)".into());
     };
@@ -125,25 +142,29 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     };
     let steep: Vec<usize> = (0..points.len()).filter(|&index| task.steep(index)).collect();
     if steep.is_empty() {
-        return task.unknown_position().map_or(Ok(None), Err);
+        return task.unknown_position().map_or(Ok(None), |reason| Err(reason.into()));
     }
     let mut done: Option<usize> = None;
-    let mut radius = None;
-    let (mut windows, mut reasons) = (Vec::new(), Vec::new());
+    let mut found = Found::default();
     for index in steep {
         if done.is_some_and(|last| index <= last) {
             continue;
         }
-        if let Some(obstacle) = task.obstacle(index) {
-            reasons.push(format!("line {}: {obstacle}", task.line(index)));
-            continue;
+        match (task.obstacle(index), points[index].tip) {
+            (None, Tip::Ball(ball)) => done = Some(task.smooth_chain(index, ball, &mut found)),
+            (obstacle, _) => {
+                let why = obstacle.unwrap_or_else(|| refused("the tool is not a ball"));
+                found.places.push(task.place((index, index), why));
+            }
         }
-        let Tip::Ball(ball) = points[index].tip else { continue };
-        let last = task.smooth_chain(index, ball, (&mut windows, &mut reasons), &mut radius);
-        done = Some(last);
     }
+    let Found {
+        places,
+        windows,
+        radius,
+    } = found;
     let Some(ball_radius_mm) = radius.filter(|_| !windows.is_empty()) else {
-        return Err(some_of(&reasons));
+        return Err(Refusal::Places(places));
     };
     let claim = match options.point {
         ProgrammedPoint::Tip => Claim::SameBallCentre {
@@ -156,49 +177,25 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
             tolerance_deg: options.tolerance_deg,
         },
     };
-    let mut summary = task.summary(&windows);
-    if !reasons.is_empty() {
-        summary.push_str("; not changed: ");
-        summary.push_str(&some_of(&reasons));
-    }
-    Ok(Some(Proposal {
-        edits: windows.into_iter().flat_map(|window| window.edits).collect(),
-        claim,
-        summary,
-    }))
+    let summary = task.summary(&windows);
+    Ok(Some(Proposal { places, claim, summary }))
 }
 
-/// The first three reasons, and how many there are beyond.
-fn some_of(reasons: &[String]) -> String {
-    let mut text = reasons
-        .iter()
-        .take(3)
-        .map(String::as_str)
-        .collect::<Vec<_>>()
-        .join("; ");
-    if reasons.len() > 3 {
-        text.push_str("; and more like these: ");
-        text.push_str(&(reasons.len() - 3).to_string());
-    }
-    text
+fn refused(why: impl Into<String>) -> Change {
+    Change::Refused(why.into())
 }
 
 /// Why a tool or its coordinates cannot be turned.
-fn tool_obstacle(point: &Point) -> Option<String> {
+fn tool_obstacle(point: &Point) -> Option<Change> {
     match point.tip {
-        Tip::Undeclared => Some(
+        Tip::Undeclared => Some(Change::Possible(
             "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
                 .into(),
-        ),
-        Tip::Other => Some("the tool is not a ball: its contact with the surface would move".into()),
-        Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
+        )),
+        Tip::Other => Some(Change::Refused("the tool is not a ball: its contact with the surface would move".into())),
+        Tip::Ball(_) if point.incremental => Some(Change::Refused("coordinates are incremental (G91)".into())),
         Tip::Ball(_) => None,
     }
-}
-
-/// Axis letters with commas between them.
-fn in_words(letters: &str) -> String {
-    letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
 }
 
 /// Changes of the sign of the second rotary joint about the pole.
@@ -233,25 +230,33 @@ impl Task<'_> {
         self.lines.line_column(self.program.source(), start).0
     }
 
+    /// Motions as a place.
+    fn place(&self, (first, last): (usize, usize), change: Change) -> Place {
+        let block = |index: usize| -> BlockId { self.points[index].block };
+        Place {
+            first: block(first),
+            last: block(last),
+            change,
+        }
+    }
+
     /// Why a steep motion cannot be changed.
-    fn obstacle(&self, index: usize) -> Option<String> {
+    fn obstacle(&self, index: usize) -> Option<Change> {
         let point = &self.points[index];
-        if !point.tcp {
-            return Some("tool centre point control is off, so turning the table would move the tip".into());
-        }
-        if !point.linear {
-            return Some("the motion is an arc: the rewrite handles straight motions".into());
-        }
-        if !point.from_known {
-            return Some("the position before the motion is unknown".into());
-        }
-        if point.many_turns() {
-            return Some("the motion turns the table by more than a whole turn, which is left as it is".into());
-        }
-        if point.swap {
-            return Some("the motion changes the posture far from the pole (branch-swap), which turns the tool axis between its ends".into());
-        }
-        tool_obstacle(point)
+        let why = if !point.tcp {
+            "tool centre point control is off, so turning the table would move the tip"
+        } else if !point.linear {
+            "the motion is an arc: the rewrite handles straight motions"
+        } else if !point.from_known {
+            "the position before the motion is unknown"
+        } else if point.many_turns() {
+            "the motion turns the table by more than a whole turn, which is left as it is"
+        } else if point.swap {
+            "the motion swaps the posture far from the pole (branch-swap), which turns the tool axis between its ends"
+        } else {
+            return tool_obstacle(point);
+        };
+        Some(refused(why))
     }
 
     /// The first feed motion whose pose is unknown: a flip there would not be seen.
@@ -271,7 +276,10 @@ impl Task<'_> {
         };
         let index = self.points.iter().position(unknown)?;
         let why = match &self.points[index].end {
-            Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
+            Err(NoStance::PositionUnknown(letters)) => format!(
+                "the position of {} is unknown",
+                letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
+            ),
             Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
             Err(NoStance::HeldElsewhere { axis, .. }) => {
                 format!(
@@ -288,60 +296,60 @@ impl Task<'_> {
     }
 
     /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
-    fn smooth_chain(
-        &mut self,
-        index: usize,
-        ball: f64,
-        (windows, reasons): (&mut Vec<Smoothed>, &mut Vec<String>),
-        radius: &mut Option<f64>,
-    ) -> usize {
+    fn smooth_chain(&mut self, index: usize, ball: f64, found: &mut Found) -> usize {
         // slightly less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let stations = chain(self.machine, self.points, index, room);
         let last = stations.last().map_or(index, |station| station.last);
-        let at = |index: usize| format!("line {}", self.line(index));
-        if *radius.get_or_insert(ball) != ball {
-            reasons.push(format!(
-                "{}: a different ball radius, which needs a separate run",
-                at(index)
-            ));
+        let only = |task: &Self, change| vec![task.place((index, last), change)];
+        if *found.radius.get_or_insert(ball) != ball {
+            let why = "a different ball radius, which needs a separate run";
+            found.places.extend(only(self, refused(why)));
             return last;
         }
         if stations.len() < 3 {
-            reasons.push(format!("{}: there is no point between the two fixed ends", at(index)));
+            found
+                .places
+                .extend(only(self, refused("there is no point between the two fixed ends")));
             return last;
         }
         let asks = |station: &Station| self.steep(station.first);
         let Some(plan) = plan(self.machine, self.points, stations, &asks) else {
-            reasons.push(format!("{}: the rotary axis is already outside its limits", at(index)));
+            found
+                .places
+                .extend(only(self, refused("the rotary axis is already outside its limits")));
             return last;
         };
+        let mut places = Vec::new();
         for &(station, was, is) in &plan.useless {
-            reasons.push(format!(
-                "{}: within {} deg the slope of the table can only be reduced from {:.3} to {:.3} deg/mm (--tolerance-deg)",
-                at(plan.stations[station].first),
+            let at = plan.stations[station].first;
+            let why = Change::Possible(format!(
+                "within {} deg the slope of the table can only be reduced from {:.3} to {:.3} deg/mm (--tolerance-deg)",
                 self.options.tolerance_deg,
                 deg(was),
                 deg(is)
             ));
+            places.push(self.place((at, at), why));
         }
         let (scheme, styles) = self.scheme(index);
         let writer = self.writer(index, ball, (scheme, styles));
+        let mut windows = Vec::new();
         for &(first, end) in &plan.stretches {
             match self.write(&writer, &plan, (first, end)) {
-                Ok(window) => windows.push(window),
-                Err(reason) => reasons.push(format!("{}: {reason}", self.place(&plan, (first, end)))),
+                Ok(window) => {
+                    places.push(self.place(window.changed, Change::Edits(window.edits.clone())));
+                    windows.push(window);
+                }
+                Err(change) => {
+                    let lines = (plan.stations[first].last + 1, plan.stations[end].first);
+                    places.push(self.place(lines, change));
+                }
             }
         }
+        places.sort_by_key(|place| place.first);
+        found.places.extend(places);
+        found.windows.extend(windows);
         last
-    }
-
-    fn place(&self, plan: &Plan, (first, end): (usize, usize)) -> String {
-        let (first, end) = (
-            self.line(plan.stations[first].last),
-            self.line(plan.stations[end].first),
-        );
-        format!("lines {first} to {end}")
     }
 
     /// Which words the chain around a motion is written in, and how.
@@ -381,8 +389,8 @@ impl Task<'_> {
     }
 
     /// Edits for all points of a stretch that change, and for what the motion after them takes over.
-    fn write(&self, writer: &Writer<'_>, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, String> {
-        let unknown = || "a position inside the window is unknown".to_string();
+    fn write(&self, writer: &Writer<'_>, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, Change> {
+        let unknown = || refused("a position inside the window is unknown");
         let stations = &plan.stations;
         let changes = |at: usize| plan.postures[at] != 0 || (plan.q[at] - stations[at].q[0]).abs() > 1e-9;
         // an end of the chain may change too; then all motions that share its position do
@@ -410,7 +418,7 @@ impl Task<'_> {
                 return Err(obstacle);
             }
             if point.rotary_zero != writer.rotary_zero {
-                return Err("the work offset of a rotary axis changes inside the window".into());
+                return Err(refused("the work offset of a rotary axis changes inside the window"));
             }
             let other = station.in_posture(plan.postures[at]).ok_or_else(unknown)?;
             let side = at.checked_sub(1).map_or(1.0, |before| {
@@ -425,17 +433,17 @@ impl Task<'_> {
                 second: (plan.postures[at] != 0).then_some(other[1]),
                 side,
             };
-            let q = writer.turn(
-                point.block,
-                stance(point).ok_or_else(unknown)?,
-                aim,
-                &mut current,
-                &mut edits,
-            )?;
+            let stance = stance(point).ok_or_else(unknown)?;
+            let q = writer
+                .turn(point.block, stance, aim, &mut current, &mut edits)
+                .map_err(refused)?;
             written[at - first] = q;
         }
         if let Some(next) = self.points.get(stop) {
-            writer.restore(next.block, stance(next).ok_or_else(unknown)?, &mut current, &mut edits)?;
+            let stance = stance(next).ok_or_else(unknown)?;
+            writer
+                .restore(next.block, stance, &mut current, &mut edits)
+                .map_err(refused)?;
         }
         let slope = |q: &dyn Fn(usize) -> f64| {
             let steps = (first..end).map(|at| ((q(at + 1) - q(at)) / (stations[at + 1].s - stations[at].s)).abs());
@@ -443,11 +451,11 @@ impl Task<'_> {
         };
         let slopes = (slope(&|at| stations[at].q[0]), slope(&|at| written[at - first]));
         if slopes.1 > slopes.0 {
-            return Err(format!(
+            return Err(refused(format!(
                 "with the number of digits in this program the slope of the table would grow from {:.3} to {:.3} deg/mm",
                 deg(slopes.0),
                 deg(slopes.1)
-            ));
+            )));
         }
         let sides = |posture: &dyn Fn(usize) -> usize| {
             let pole = self.pole_second(stations);
@@ -462,6 +470,7 @@ impl Task<'_> {
         };
         Ok(Smoothed {
             edits,
+            changed: (begin, stop.min(self.points.len() - 1)),
             points: (stations[first].last, stations[end].first),
             slopes,
             crossings: (sides(&|_| 0), sides(&|at| plan.postures[at])),

@@ -52,7 +52,7 @@
 use super::Body;
 use crate::posed_words::{Move, PosedWords};
 use crate::shortest_path::{Cheapest, cheapest};
-use crate::{Options, Proposal};
+use crate::{Options, Place, Proposal, Proposed, Refusal};
 use core::fmt::Write;
 use trunnion_certify::Claim;
 use trunnion_certify::postures::{Graph, PostureCost, Station, Stations, changes_of_posture};
@@ -127,7 +127,7 @@ impl Sink for Collector<'_> {
     fn fault(&mut self, _: Fault) {}
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and postures depend on the machine (--machine)".into());
     };
@@ -135,9 +135,9 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         return Ok(None);
     }
     if let Some(letter) = options.cost.lacks(machine) {
-        return Err(format!(
+        return Err(Refusal::missing(format!(
             "the machine file does not declare the highest speed of {letter}, and --cost time depends on it"
-        ));
+        )));
     }
     let mut collector = Collector {
         machine,
@@ -165,7 +165,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         return Err(format!(
             "line {}: tool vectors are programmed, so the control chooses postures and turns",
             line(motion)
-        ));
+        )
+        .into());
     }
     if stations.len() < 2 {
         return Ok(None);
@@ -193,7 +194,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     };
     let summary = summary(machine, &graph, &found, options);
     Ok(Some(Proposal {
-        edits,
+        // one place: the cheapest sequence is one of the whole program
+        places: vec![Place::around(program, edits)],
         claim: Claim::LeastPostures {
             tolerance_mm: options.tolerance_mm,
             tolerance_deg: options.tolerance_deg,

@@ -40,7 +40,7 @@ use super::Body;
 use crate::style::add_whole;
 use crate::survey::{ProgrammedMotion, programmed};
 use crate::unwrap::{long_way_steps, unwrap};
-use crate::{Options, Proposal};
+use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::deg;
@@ -48,11 +48,17 @@ use trunnion_machine::{Limits, Machine};
 use trunnion_syntax::{Address, BlockId, LineIndex, Program, TextEdit, Value, Word};
 
 pub(super) const REWRITE: Body = Body {
-    cures: &["axis-overspeed", "feed-drop", "path-deviation"],
+    cures: &[
+        "angle-wrap",
+        "axis-overspeed",
+        "excess-rotary-travel",
+        "feed-drop",
+        "path-deviation",
+    ],
     propose,
 };
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and the limits of rotary axes depend on the machine (--machine)".into());
     };
@@ -72,7 +78,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         return if reasons.is_empty() {
             Ok(None)
         } else {
-            Err(reasons.join("; "))
+            Err(reasons.join("; ").into())
         };
     }
     edits.sort_by_key(|edit| edit.range.start);
@@ -82,7 +88,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         tolerance_deg: options.tolerance_deg,
     };
     Ok(Some(Proposal {
-        edits,
+        // one place: the turns of a motion carry over to all that follow
+        places: vec![Place::around(program, edits)],
         claim,
         summary: summaries.join("; "),
     }))

@@ -2,7 +2,7 @@
 //! every sequence of postures and turns is tried, and the least slope through given tubes is the largest gap between two of them over
 //! the length between them (the dual of the linear programme).
 use crate::survey::{Point, survey};
-use crate::{Attempt, Options, attempt, rewrite};
+use crate::{Options, attempt, rewrite};
 use core::f64::consts::{PI, TAU};
 use core::fmt::Write;
 use trunnion_check::Settings;
@@ -324,8 +324,9 @@ fn no_choice_of_postures_turns_and_azimuths_is_less_steep() {
         };
         let was = steepest(machine, points, &chain);
         let least = optimum(&chain, travel, said == Said::Words);
-        match attempt(rewrite("smooth-pole").expect("it exists"), &before, &settings, &options) {
-            Attempt::Certified { after, .. } => {
+        match attempt(rewrite("smooth-pole").expect("it exists"), &before, &settings, &options).outcome() {
+            Ok(Some(proved)) => {
+                let after = proved.after;
                 better[case % kinds.len()] += 1;
                 let shown = String::from_utf8_lossy(&after).into_owned();
                 let after = parse(after, settings.dialect.lex);
@@ -360,8 +361,8 @@ fn no_choice_of_postures_turns_and_azimuths_is_less_steep() {
                 }
             }
             // nothing is steep, or next to nothing can be gained
-            Attempt::NothingToDo => {}
-            Attempt::Refused(reason) => {
+            Ok(None) => {}
+            Err(reason) => {
                 println!(
                     "REFUSED {case} {name} {dialect} {tolerance} was {:.3} least {:.3}: {reason}",
                     deg(was),

@@ -109,3 +109,121 @@ fn fix_without_a_tool_is_refused_with_the_reason() {
     let output = trunnion(&[&base[..], &["--tool", "ball:10", "--tolerance-deg", "0.08"]].concat());
     assert_eq!(status(&output), 0, "{}", text(&output.stderr));
 }
+
+/// What became of every place, and what is gained: contract section 8.6.
+#[test]
+fn fix_reports_every_place_and_what_is_gained() {
+    let folder = TempDir::new().expect("works");
+    // the same chain twice: with the ball of tool 1, and with a tool that nothing declares
+    let body = FLIP
+        .trim_end()
+        .trim_end_matches("M30")
+        .trim_end()
+        .trim_end_matches("M5");
+    let chain: Vec<&str> = FLIP.lines().skip(5).take(5).collect();
+    let again = chain.join("\n").replace(" F2000", "");
+    let twice = format!("{body}M5\nG49\nG0 X0 Y0 Z200\nT2 M6\nS12000 M3\nG43.4 H1\n{again}\nM5\nM30\n");
+    let file = write(&folder, "twice.nc", &twice);
+    let base = [
+        "fix",
+        str(&file),
+        "--rewrite",
+        "smooth-pole",
+        "--tolerance-deg",
+        "0.08",
+        "--machine",
+        "mikron-ucp710",
+        "--dialect",
+        "fanuc-30i",
+        "--format",
+        "json",
+    ];
+    let output = trunnion(&base);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let document = json(&output);
+    assert_eq!(document["schema"], "trunnion-fix/1");
+    let places = document["places"].as_array().expect("a list");
+    let states: Vec<_> = places.iter().map(|p| p["state"].as_str().expect("a state")).collect();
+    assert_eq!(states[0], "applied", "{document:#}");
+    assert!(states[1..].contains(&"possible"), "{document:#}");
+    let missing = places.iter().find(|p| p["state"] == "possible").expect("one");
+    assert!(
+        missing["reason"].as_str().expect("a reason").contains("tool shape"),
+        "{missing}"
+    );
+    assert!(missing["gains"].is_null());
+    // the published rows: 51.8 deg become 1.146 deg, and the table limits the feed no longer
+    let of = |gains: &serde_json::Value, name: &str| {
+        ["before", "after"].map(|side| gains[name][side].as_f64().unwrap_or(f64::NAN))
+    };
+    let step = of(&places[0]["gains"], "largest_step_deg");
+    assert!((step[0] - 55.681).abs() < 1e-3 && step[1] < 3.0, "{step:?}");
+    let feed = of(&places[0]["gains"], "feed_limit_mm_min");
+    assert!(
+        (feed[0] - 33.137).abs() < 1e-3 && (feed[1] - 1571.0).abs() < 0.5,
+        "{feed:?}"
+    );
+    assert_eq!(of(&places[0]["gains"], "blocks"), [4.0, 4.0]);
+    let travel = of(&document["gains"], "rotary_travel_deg");
+    assert!(travel[1] < travel[0], "{travel:?}");
+    // only these lines: nothing of the first chain is touched
+    let output = trunnion(&[&base[..], &["--lines", "18-30"]].concat());
+    let document = json(&output);
+    assert_eq!(document["changed"], false, "{document:#}");
+    let lines = |p: &serde_json::Value| p["line"].as_u64().expect("a line");
+    assert!(
+        document["places"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .all(|p| lines(p) >= 18)
+    );
+    assert_eq!(status(&trunnion(&[&base[..], &["--lines", "30-18"]].concat())), 2);
+}
+
+/// Several rewrites make a chain of certificates; a chain for another program is refused.
+#[test]
+fn several_rewrites_make_a_chain_that_is_checked_again() {
+    let folder = TempDir::new().expect("works");
+    let file = write(&folder, "flip.nc", &FLIP.replace("A-1.676 C-0.905", "A-1.676 C359.095"));
+    let machine = ["--machine", "mikron-ucp710", "--dialect", "fanuc-30i"];
+    let (fixed, proof) = (folder.path().join("fixed.nc"), folder.path().join("proof.json"));
+    let fix = [
+        "fix",
+        str(&file),
+        "--rewrite",
+        "unwind-rotary,smooth-pole",
+        "--tolerance-deg",
+        "0.08",
+    ];
+    let more = ["-o", str(&fixed), "--certificate", str(&proof)];
+    let output = trunnion(&[&fix[..], &more, &machine].concat());
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains("rotary travel"),
+        "{}",
+        text(&output.stderr)
+    );
+    let certify = ["certify", str(&file), str(&fixed), "--certificate", str(&proof)];
+    let output = trunnion(&[&certify[..], &machine].concat());
+    let printed = text(&output.stdout);
+    assert_eq!(status(&output), 0, "{printed}");
+    assert!(printed.starts_with("PROVED in 2 steps\nstep 1: "), "{printed}");
+    let chain = fs::read_to_string(&proof).expect("works");
+    let first_edit = chain.find("\"text\": \"").expect("an edit") + "\"text\": \"".len();
+    let mut other = chain.clone();
+    other.replace_range(first_edit..=first_edit, "9");
+    fs::write(&proof, other).expect("works");
+    let output = trunnion(&[&certify[..], &machine].concat());
+    assert_eq!(status(&output), 1);
+    assert!(text(&output.stdout).starts_with("REFUTED"), "{}", text(&output.stdout));
+    fs::write(&proof, chain).expect("works");
+    fs::write(&fixed, fs::read_to_string(&fixed).expect("works") + "\n").expect("works");
+    let output = trunnion(&[&certify[..], &machine].concat());
+    assert_eq!(status(&output), 1);
+    assert!(
+        text(&output.stdout).contains("do not lead to the changed program"),
+        "{}",
+        text(&output.stdout)
+    );
+}

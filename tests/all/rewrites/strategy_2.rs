@@ -84,20 +84,18 @@ pub(crate) fn smooth(text: &str, settings: &Settings<'_>, tolerance_deg: f64) ->
 
 /// The text after and the certificate of a rewrite that must succeed.
 pub(crate) fn certified(attempt: Attempt) -> (String, Certificate) {
-    match attempt {
-        Attempt::Certified { after, certificate, .. } => {
-            (String::from_utf8(after).expect("text stays UTF-8"), *certificate)
-        }
+    match attempt.outcome() {
+        Ok(Some(proved)) => (
+            String::from_utf8(proved.after).expect("text stays UTF-8"),
+            *proved.certificate,
+        ),
         other => panic!("not certified: {other:?}"),
     }
 }
 
 /// The reason of a rewrite that must be refused.
 pub(crate) fn refused(attempt: Attempt) -> String {
-    match attempt {
-        Attempt::Refused(reason) => reason,
-        other => panic!("not refused: {other:?}"),
-    }
+    attempt.outcome().expect_err("refused")
 }
 
 /// Numbers of the words X Y Z A C of each row.

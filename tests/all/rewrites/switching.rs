@@ -8,7 +8,7 @@ use trunnion::check::{Assume, Settings};
 use trunnion::geometry::rad;
 use trunnion::interp::Setup;
 use trunnion::machine::{self, Limits, Machine};
-use trunnion::rewrite::{Attempt, Options};
+use trunnion::rewrite::{Attempt, Options, Proved};
 
 fn switch(text: &str, settings: &Settings<'_>, cost: PostureCost) -> Attempt {
     run(
@@ -50,12 +50,12 @@ fn the_published_postures_are_found_again() {
         assert_eq!(after, sinumerik(ROWS), "{}", cost.name());
         let costs = certificate.postures.expect("a proof about postures");
         assert_eq!((costs.stations, costs.switches_before, costs.switches_after), (5, 0, 1));
-        assert!(matches!(switch(&after, &on(&machine), cost), Attempt::NothingToDo));
+        assert!(matches!(switch(&after, &on(&machine), cost).outcome(), Ok(None)));
     }
     // with tool centre point control the tip never deviates, so there is nothing to gain
     assert!(matches!(
-        switch(&sinumerik(ROWS), &on(&machine), PostureCost::Deviation),
-        Attempt::NothingToDo
+        switch(&sinumerik(ROWS), &on(&machine), PostureCost::Deviation).outcome(),
+        Ok(None)
     ));
 }
 
@@ -277,18 +277,18 @@ fn no_sequence_of_postures_is_cheaper() {
             .windows(2)
             .map(|pair| ((pair[1].0 - pair[0].0).powi(2) + (pair[1].1 - pair[0].1).powi(2)).sqrt())
             .sum();
-        match switch(&text, &on(&machine), PostureCost::Travel) {
-            Attempt::NothingToDo => {
+        match switch(&text, &on(&machine), PostureCost::Travel).outcome() {
+            Ok(None) => {
                 kept += 1;
                 assert!((as_written - least).abs() < 1e-6, "{text}\n{as_written} {least}");
             }
-            Attempt::Certified { certificate, .. } => {
+            Ok(Some(Proved { certificate, .. })) => {
                 better += 1;
                 let costs = certificate.postures.expect("a proof about postures");
                 assert!((costs.before - as_written).abs() < 1e-6, "{text}");
                 assert!((costs.after - least).abs() < 1e-6, "{text}\n{} {least}", costs.after);
             }
-            Attempt::Refused(reason) => panic!("{reason}\n{text}"),
+            Err(reason) => panic!("{reason}\n{text}"),
         }
     }
     assert!(better > 50 && kept > 5, "{better} {kept}");

@@ -7,6 +7,9 @@ use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_machine::{Joints, Machine, POLE_TOLERANCE, Stance, forward};
 use trunnion_syntax::{Block, BlockId, Program, TextEdit};
 
+/// So many tilts are tried for a tool vector that lies on the pole and is to carry an azimuth.
+const TILTS: u32 = 64;
+
 /// What is the same for all points of a window.
 pub(crate) struct Writer<'a> {
     /// The program.
@@ -142,15 +145,37 @@ impl Writer<'_> {
         if self.by_words() {
             return self.rotary_words(stance, aim, slots);
         }
-        let joint = self.machine.rotary[0];
-        let near_pole = self.beside_pole(stance, aim.side);
+        if stance.pole_angle > POLE_TOLERANCE {
+            return self.vector(stance, &stance.joints, aim.q, slots);
+        }
+        // any small tilt carries the azimuth: the first one whose rounded components do, or else the best
+        let mut best: Option<Orientation> = None;
+        for part in 1..=TILTS {
+            let tilt = 0.45 * rad(self.tolerance_deg) * f64::from(part) / f64::from(TILTS);
+            let Some(joints) = self.beside_pole(stance, aim.side, tilt) else {
+                continue;
+            };
+            let Ok(found) = self.vector(stance, &joints, aim.q, slots) else {
+                continue;
+            };
+            let off = |one: &Orientation| (one.q - aim.q).abs();
+            if best.as_ref().is_none_or(|best| off(&found) < off(best)) {
+                best = Some(found);
+            }
+            if best.as_ref().is_some_and(|best| off(best) < rad(0.005)) {
+                break;
+            }
+        }
+        best.ok_or_else(|| "a tool vector on the pole has too few digits to carry an azimuth".into())
+    }
+
+    /// The tool vector nearest to the one of `joints` with the first rotary joint at `q`, rad.
+    fn vector(&self, stance: &Stance, joints: &Joints, q: f64, slots: &Slots) -> Result<Orientation, String> {
         let at = |q: f64| {
-            let mut joints = near_pole.unwrap_or(stance.joints);
-            joints[joint] = q;
+            let mut joints = *joints;
+            joints[self.machine.rotary[0]] = q;
             forward(self.machine, &joints, stance.tool_length).axis
         };
-        let q = aim.q;
-        let allowed = |axis: &Vec3| self.allowed_turn(stance, axis);
         let [Some(i), Some(j), Some(k)] = [&slots[3], &slots[4], &slots[5]] else {
             return Err("the block has no tool vector to turn".into());
         };
@@ -160,20 +185,21 @@ impl Writer<'_> {
             [(3, i), (4, j), (5, k)].map(|(index, slot)| self.neighbours(index, wanted[index - 3], Some(slot)));
         let [i, j, k] = choices;
         let (i, j, k) = (i?, j?, k?);
+        let e = self.machine.axes[self.machine.rotary[0]].direction;
         let mut best: Option<(bool, f64, [&Number; 3], Vec3)> = None;
         for combination in 0..8usize {
             let numbers = [&i[combination & 1], &j[combination >> 1 & 1], &k[combination >> 2]];
             let vector = Vec3::from(numbers.map(|number| number.value));
             let norm = vector.norm();
-            if norm <= 0.0 {
+            if norm <= 0.0 || (vector / norm).cross(&e).norm() <= POLE_TOLERANCE {
                 continue;
             }
-            let (out, off) = (!allowed(&(vector / norm)), (vector - wanted).norm());
+            let (out, off) = (!self.allowed_turn(stance, &(vector / norm)), (vector - wanted).norm());
             if best.as_ref().is_none_or(|best| (out, off) < (best.0, best.1)) {
                 best = Some((out, off, numbers, vector / norm));
             }
         }
-        let (_, _, numbers, axis) = best.ok_or("the tool vector would round to zero")?;
+        let (_, _, numbers, axis) = best.ok_or("the tool vector would round to the pole or to zero")?;
         Ok(Orientation {
             axis,
             q: q + self.azimuth_between(&at(q), &axis),
@@ -223,14 +249,10 @@ impl Writer<'_> {
         })
     }
 
-    /// Joints beside the pole for a tool vector on it, so that the vector says where the first rotary axis is: tilted by somewhat
-    /// less than half the tolerance, to the side `side` of the second rotary axis. `None` where the vector is not on the pole.
-    fn beside_pole(&self, stance: &Stance, side: f64) -> Option<Joints> {
-        if stance.pole_angle > POLE_TOLERANCE {
-            return None;
-        }
+    /// Joints beside the pole for a tool vector on it, so that the vector says where the first rotary axis is: tilted by `tilt`, rad, to
+    /// the side `side` of the second rotary axis.
+    fn beside_pole(&self, stance: &Stance, side: f64, tilt: f64) -> Option<Joints> {
         let second = *self.machine.rotary.get(1)?;
-        let tilt = 0.45 * rad(self.tolerance_deg);
         let tilted = |by: f64| {
             let mut joints = stance.joints;
             joints[second] += side * by;

@@ -58,6 +58,7 @@
 //! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works on the words
 //!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
+//! - Where the digits of the program are too few, up to 0.001 mm, 0.0001 in and 0.001 deg are written.
 //! - The tolerance counts from the program as it is: each further run may turn the tool axis by as much again.
 //! - A low slope over a long block can be a large step. The largest step may grow while the slope falls.
 //! - Arcs, motions of more than a whole turn and changes of posture far from the pole are left alone. Where tool vectors are
@@ -179,6 +180,21 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     };
     let summary = task.summary(&windows);
     Ok(Some(Proposal { places, claim, summary }))
+}
+
+/// Numbers with at least the digits that every control has: 0.001 mm or 0.0001 in, and 0.001 deg. Tool vectors as they are.
+fn finer(styles: Styles, scheme: Scheme, unit_mm: f64) -> Styles {
+    let mut styles = styles;
+    let lengths = if unit_mm > 1.0 { 4 } else { 3 };
+    for (index, style) in styles.iter_mut().enumerate() {
+        let least = match (index, scheme) {
+            (0..=2, _) => lengths,
+            (_, Scheme::Rotaries(_)) => 3,
+            _ => 0,
+        };
+        *style = style.map(|style| style.with_decimals(least));
+    }
+    styles
 }
 
 fn refused(why: impl Into<String>) -> Change {
@@ -332,10 +348,19 @@ impl Task<'_> {
             places.push(self.place((at, at), why));
         }
         let (scheme, styles) = self.scheme(index);
-        let writer = self.writer(index, ball, (scheme, styles));
+        let writers = [styles, finer(styles, scheme, self.points[index].unit_mm)]
+            .map(|styles| self.writer(index, ball, (scheme, styles)));
         let mut windows = Vec::new();
         for &(first, end) in &plan.stretches {
-            match self.write(&writer, &plan, (first, end)) {
+            let planned = Self::steepest(&plan, (first, end), |at| plan.q[at]);
+            let mut written = self.write(&writers[0], &plan, (first, end));
+            let coarse = written
+                .as_ref()
+                .map_or(true, |window| window.slopes.1 > 1.005 * planned);
+            if coarse && writers[0].styles != writers[1].styles {
+                written = self.write(&writers[1], &plan, (first, end)).or(written);
+            }
+            match written {
                 Ok(window) => {
                     places.push(self.place(window.changed, Change::Edits(window.edits.clone())));
                     windows.push(window);
@@ -445,11 +470,10 @@ impl Task<'_> {
                 .restore(next.block, stance, &mut current, &mut edits)
                 .map_err(refused)?;
         }
-        let slope = |q: &dyn Fn(usize) -> f64| {
-            let steps = (first..end).map(|at| ((q(at + 1) - q(at)) / (stations[at + 1].s - stations[at].s)).abs());
-            steps.fold(0.0, f64::max)
-        };
-        let slopes = (slope(&|at| stations[at].q[0]), slope(&|at| written[at - first]));
+        let slopes = (
+            Self::steepest(plan, (first, end), |at| stations[at].q[0]),
+            Self::steepest(plan, (first, end), |at| written[at - first]),
+        );
         if slopes.1 > slopes.0 {
             return Err(refused(format!(
                 "with the number of digits in this program the slope of the table would grow from {:.3} to {:.3} deg/mm",
@@ -475,6 +499,13 @@ impl Task<'_> {
             slopes,
             crossings: (sides(&|_| 0), sides(&|at| plan.postures[at])),
         })
+    }
+
+    /// Largest slope of the first rotary joint in a stretch, rad per mm.
+    fn steepest(plan: &Plan, (first, end): (usize, usize), q: impl Fn(usize) -> f64) -> f64 {
+        let length = |at: usize| plan.stations[at + 1].s - plan.stations[at].s;
+        let slopes = (first..end).map(|at| ((q(at + 1) - q(at)) / length(at)).abs());
+        slopes.fold(0.0, f64::max)
     }
 
     /// The second rotary joint at the pole that is nearest to a chain, rad: halfway between the two postures of its first station that has both.

@@ -182,7 +182,7 @@ impl<'a> Problem<'a> {
                 .zip(&slack)
                 .map(|(row, s)| (row.value(&x) + s).abs())
                 .fold(0.0, f64::max);
-            if gap < EXACT * EXACT * 1e2 && off < EXACT {
+            if gap < EXACT * 0.1 && off < EXACT {
                 return Some(self.heights(&x));
             }
             if !gap.is_finite() {

@@ -15,7 +15,7 @@
 //!    Turns are free everywhere, and both are free at an end of the chain that a rapid leads to or away from. The choice is a shortest path
 //!    over the chain. An exact search checks that it is within 1 % of the least possible slope, and replaces it where it is not.
 //! 2. The taut string through the tubes: the least travel and the least slope at once.
-//! 3. At most 1.045 times as steep as the string around it, the axis takes the course with the least sum of squares of the changes of slope.
+//! 3. At most 1.003 times as steep as the string around it, the axis takes the course with the least sum of squares of the changes of slope.
 //!
 //! Points far from the pole keep their tool axis (beyond twice the pole cone, where the tube is narrower than a degree), unless that
 //! would make the chain steeper. The tip moves by `r (u - u')`, so that the centre of the ball, and with it the contact with the surface,

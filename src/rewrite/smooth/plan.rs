@@ -9,8 +9,8 @@ use crate::taut_string::taut_string;
 use core::f64::consts::{PI, TAU};
 use trunnion_machine::Machine;
 
-/// How much steeper than the least slope a step may be for the sake of smoothness. The contract says 1.05: the rest is for rounding.
-const SLACK: f64 = 1.045;
+/// How much steeper than the least slope a step may be for the sake of smoothness. More would make the changes of slope smaller, and cost feed.
+const SLACK: f64 = 1.003;
 
 /// Within this factor of the least slope the cheapest choice of postures is good enough.
 const NEAR: f64 = 1.01;

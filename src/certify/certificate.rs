@@ -263,6 +263,9 @@ impl Certificate {
             Claim::InsertedPoints { .. } => {
                 "the same, with points put in that keep the tip near the programmed segments"
             }
+            Claim::SameProgrammedCentre { .. } => {
+                "same programmed point, declared to be the ball's centre, at all block ends"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::RefittedPath { .. } => "a refitted path",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",

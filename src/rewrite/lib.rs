@@ -19,7 +19,7 @@ mod reposition;
 mod rewrites;
 mod shortest_path;
 mod slots;
-mod stations;
+mod smooth;
 mod style;
 mod survey;
 mod taut_string;
@@ -27,5 +27,5 @@ mod unwrap;
 
 pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};
-pub use propose::{Change, Options, Place, Proposal, Proposed, Refusal, Rewrite};
+pub use propose::{Change, Options, Place, ProgrammedPoint, Proposal, Proposed, Refusal, Rewrite};
 pub use rewrites::{rewrite, rewrites};

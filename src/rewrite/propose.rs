@@ -23,6 +23,18 @@ pub struct Options {
     pub source: RefitSource,
     /// How far a point may be from a straight line to be left out, mm (`drop-redundant`); none: only those exactly on it.
     pub straight_mm: Option<f64>,
+    /// Which point of a ball X Y Z are (`smooth-pole`).
+    pub point: ProgrammedPoint,
+}
+
+/// Which point of a ball X Y Z of a program are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ProgrammedPoint {
+    /// Its tip.
+    #[default]
+    Tip,
+    /// Its centre: the tool length is measured to there.
+    Centre,
 }
 
 impl Default for Options {
@@ -35,6 +47,7 @@ impl Default for Options {
             feed_mm_min: 0.0,
             source: RefitSource::default(),
             straight_mm: None,
+            point: ProgrammedPoint::default(),
         }
     }
 }

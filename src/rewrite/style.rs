@@ -67,6 +67,18 @@ impl NumberStyle {
         [(value / step).floor(), (value / step).ceil()].map(|count| self.write(count * step, plus))
     }
 
+    /// The same with at least so many digits after the point, as many as a value needs.
+    pub(crate) fn with_decimals(self, least: usize) -> Self {
+        if self.decimals >= least {
+            return self;
+        }
+        Self {
+            decimals: least,
+            trims: true,
+            ..self
+        }
+    }
+
     /// Half of the last digit: by this much rounding may change a number.
     pub(crate) fn rounding(&self) -> f64 {
         0.5 / 10f64.powi(i32::try_from(self.decimals).unwrap_or(i32::MAX))

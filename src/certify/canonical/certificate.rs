@@ -127,6 +127,12 @@ impl Encode for Claim {
             } => out.variant(10, |fields| {
                 fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
+            Self::SameProgrammedCentre {
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(9, |fields| {
+                fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
             Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,

@@ -6,10 +6,21 @@
 //! straight, as far as the tolerance allows.
 //!
 //! # How
-//! In each run of straight feed motions around a `pole-flip`, the second rotary axis keeps its values. The first one follows the
-//! taut string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least total travel and the least peak speed at
-//! once. The ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by
-//! `r (u - u')`, so that the centre of the ball, and with it the contact with the surface, stays where it was.
+//! The unit is a chain: straight feed motions under tool centre point control, one after the other. In a chain with a steep motion (one that
+//! `pole-flip` reports, or in which the first rotary axis limits the feed near the pole) the first rotary axis may be anywhere in the
+//! tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)` around its value. What counts is the slope: degrees per millimetre of path, or
+//! per time under G93, because the slope limits the feed.
+//!
+//! 1. Postures and turns. Where the tool axis is within half the tolerance of the pole, its azimuth is free, and the posture may change.
+//!    Turns are free everywhere, and both are free at an end of the chain that a rapid leads to or away from. The choice is a shortest path
+//!    over the chain. An exact search checks that it is within 1 % of the least possible slope, and replaces it where it is not.
+//! 2. The taut string through the tubes: the least travel and the least slope at once.
+//! 3. At most 1.003 times as steep as the string around it, the axis takes the course with the least sum of squares of the changes of slope.
+//!
+//! Points far from the pole keep their tool axis (beyond twice the pole cone, where the tube is narrower than a degree), unless that
+//! would make the chain steeper. The tip moves by `r (u - u')`, so that the centre of the ball, and with it the contact with the surface,
+//! stays where it was. With `--point centre` X Y Z are the centre of the ball, and stay. A tool vector on the pole has no azimuth; it is
+//! turned by less than half the tolerance to carry one.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -37,8 +48,8 @@
 //!
 //! # Claim
 //! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No feed, no spindle word and no other byte changes. The certificate states a measured value and a proven bound
-//! of how far apart the paths are between block ends.
+//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes. The
+//! certificate states a measured value and a proven bound of how far apart the paths are between block ends.
 //!
 //! # Traps
 //! - Only a ball keeps its contact when the tool axis turns. The shape of the tool must be declared; a flat or bull-nosed tool
@@ -47,20 +58,28 @@
 //! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works on the words
 //!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
+//! - Where the digits of the program are too few, up to 0.001 mm, 0.0001 in and 0.001 deg are written.
+//! - The tolerance counts from the program as it is: each further run may turn the tool axis by as much again.
+//! - A low slope over a long block can be a large step. The largest step may grow while the slope falls.
+//! - Arcs, motions of more than a whole turn and changes of posture far from the pole are left alone. Where tool vectors are
+//!   programmed, the control chooses the posture.
 //!
 //! # Sources
 //! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.
 use super::Body;
-use crate::reposition::Writer;
+use crate::propose::ProgrammedPoint;
+use crate::reposition::{Aim, Writer};
 use crate::slots::{Scheme, Styles, styles};
-use crate::stations::{Station, chain, largest_step, stance, straighten, window};
+use crate::smooth::chain::{Station, chain, stance};
+use crate::smooth::ends::{lead_in, lead_out};
+use crate::smooth::plan::{Plan, plan};
 use crate::survey::{Point, Tip, survey};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::{deg, rad};
 use trunnion_machine::{Machine, NoStance};
-use trunnion_syntax::{LineIndex, Program, TextEdit};
+use trunnion_syntax::{BlockId, LineIndex, Program, TextEdit};
 
 pub(super) const REWRITE: Body = Body {
     cures: &[
@@ -73,31 +92,37 @@ pub(super) const REWRITE: Body = Body {
     propose,
 };
 
+/// What was found so far.
+#[derive(Default)]
+struct Found {
+    places: Vec<Place>,
+    windows: Vec<Smoothed>,
+    /// Radius of the ball, mm.
+    radius: Option<f64>,
+}
+
 /// What was done in one window.
 struct Smoothed {
     edits: Vec<TextEdit>,
-    ball_radius: f64,
-    /// Indices of the window's first and last point, and the lines of its ends.
-    first: usize,
-    last: usize,
-    lines: (u32, u32),
-    /// Largest step of the rotary axis before and after, deg.
-    steps: (f64, f64),
+    /// Indices of the first and the last motion that change.
+    changed: (usize, usize),
+    /// Indices of its first and last point.
+    points: (usize, usize),
+    /// Largest slope of the rotary axis before and after, rad per mm.
+    slopes: (f64, f64),
+    /// Changes of posture before and after.
+    crossings: (usize, usize),
 }
 
-/// Values computed for one window that the next one reuses.
-#[derive(Default)]
-struct Memory {
-    chain: Vec<Station>,
-    styles: Vec<(Scheme, Styles)>,
-}
-
+/// What is the same for all windows.
 struct Task<'a> {
     program: &'a Program,
     machine: &'a Machine,
     options: &'a Options,
     points: &'a [Point],
     lines: LineIndex,
+    /// How the program writes the numbers of each scheme.
+    styles: Vec<(Scheme, Styles)>,
 }
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
@@ -108,98 +133,72 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         return Ok(None);
     }
     let points = survey(program, settings, machine);
-    let task = Task {
+    let mut task = Task {
         program,
         machine,
         options,
         points: &points,
         lines: LineIndex::new(program.source()),
+        styles: Vec::new(),
     };
-    let flips: Vec<usize> = (0..points.len()).filter(|&index| task.flips(index)).collect();
-    if flips.is_empty() {
+    let steep: Vec<usize> = (0..points.len()).filter(|&index| task.steep(index)).collect();
+    if steep.is_empty() {
         return task.unknown_position().map_or(Ok(None), |reason| Err(reason.into()));
     }
-    let mut memory = Memory::default();
     let mut done: Option<usize> = None;
-    let mut radius = None;
-    let mut windows = Vec::new();
-    let mut places = Vec::new();
-    for flip in flips {
-        if done.is_some_and(|last| flip <= last) {
+    let mut found = Found::default();
+    for index in steep {
+        if done.is_some_and(|last| index <= last) {
             continue;
         }
-        let smoothed = match task.smooth(flip, &mut memory) {
-            Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => smoothed,
-            Ok(_) => {
-                let why = "a different ball radius, which needs a separate run";
-                places.push(task.place(flip, Change::Refused(why.to_owned())));
-                continue;
+        match (task.obstacle(index), points[index].tip) {
+            (None, Tip::Ball(ball)) => done = Some(task.smooth_chain(index, ball, &mut found)),
+            (obstacle, _) => {
+                let why = obstacle.unwrap_or_else(|| refused("the tool is not a ball"));
+                found.places.push(task.place((index, index), why));
             }
-            Err(change) => {
-                places.push(task.place(flip, change));
-                continue;
-            }
-        };
-        done = Some(smoothed.last);
-        places.push(Place {
-            first: points[smoothed.first].block,
-            last: points[smoothed.last].block,
-            change: Change::Edits(smoothed.edits.clone()),
-        });
-        windows.push(smoothed);
+        }
     }
-    let Some(ball_radius_mm) = radius else {
+    let Found {
+        places,
+        windows,
+        radius,
+    } = found;
+    let Some(ball_radius_mm) = radius.filter(|_| !windows.is_empty()) else {
         return Err(Refusal::Places(places));
     };
-    let claim = Claim::SameBallCentre {
-        ball_radius_mm,
-        tolerance_mm: options.tolerance_mm,
-        tolerance_deg: options.tolerance_deg,
+    let claim = match options.point {
+        ProgrammedPoint::Tip => Claim::SameBallCentre {
+            ball_radius_mm,
+            tolerance_mm: options.tolerance_mm,
+            tolerance_deg: options.tolerance_deg,
+        },
+        ProgrammedPoint::Centre => Claim::SameProgrammedCentre {
+            tolerance_mm: options.tolerance_mm,
+            tolerance_deg: options.tolerance_deg,
+        },
     };
-    let letter = char::from(machine.axes[machine.rotary[0]].letter);
-    Ok(Some(Proposal {
-        places,
-        claim,
-        summary: summary(&windows, letter),
-    }))
+    let summary = task.summary(&windows);
+    Ok(Some(Proposal { places, claim, summary }))
 }
 
-/// What was done, in one line.
-fn summary(windows: &[Smoothed], letter: char) -> String {
-    let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
-        (worst.0.max(w.steps.0), worst.1.max(w.steps.1))
-    });
-    let (first, last) = windows
-        .first()
-        .zip(windows.last())
-        .map_or((0, 0), |(a, b)| (a.lines.0, b.lines.1));
-    let count = if windows.len() > 1 {
-        format!(" in {} windows", windows.len())
-    } else {
-        String::new()
-    };
-    format!(
-        "lines {first} to {last}{count}: largest step of {letter} {:.3} -> {:.3} deg",
-        worst.0, worst.1
-    )
+/// Numbers with at least the digits that every control has: 0.001 mm or 0.0001 in, and 0.001 deg. Tool vectors as they are.
+fn finer(styles: Styles, scheme: Scheme, unit_mm: f64) -> Styles {
+    let mut styles = styles;
+    let lengths = if unit_mm > 1.0 { 4 } else { 3 };
+    for (index, style) in styles.iter_mut().enumerate() {
+        let least = match (index, scheme) {
+            (0..=2, _) => lengths,
+            (_, Scheme::Rotaries(_)) => 3,
+            _ => 0,
+        };
+        *style = style.map(|style| style.with_decimals(least));
+    }
+    styles
 }
 
-/// Why a motion with a flip cannot be changed.
-fn obstacle(point: &Point) -> Option<Change> {
-    if !point.tcp {
-        return Some(Change::Refused(
-            "tool centre point control is off, so turning the table would move the tip".into(),
-        ));
-    }
-    if !point.linear {
-        return Some(Change::Refused(
-            "the motion is an arc: the rewrite handles straight motions".into(),
-        ));
-    }
-    if !point.from_known {
-        return Some(Change::Refused("the position before the motion is unknown".into()));
-    }
-    tool_obstacle(point)
+fn refused(why: impl Into<String>) -> Change {
+    Change::Refused(why.into())
 }
 
 /// Why a tool or its coordinates cannot be turned.
@@ -215,31 +214,65 @@ fn tool_obstacle(point: &Point) -> Option<Change> {
     }
 }
 
-fn refused(why: impl Into<String>) -> Change {
-    Change::Refused(why.into())
+/// Changes of the sign of the second rotary joint about the pole.
+fn crossings(sides: impl Iterator<Item = f64>) -> usize {
+    let mut last = 0.0;
+    let signs = sides.filter(|side| *side != 0.0);
+    signs.fold(0, |count, side| {
+        let changes = last * side < 0.0;
+        last = side;
+        count + usize::from(changes)
+    })
 }
 
 impl Task<'_> {
-    /// One motion as a place.
-    fn place(&self, index: usize, change: Change) -> Place {
-        let block = self.points[index].block;
-        Place {
-            first: block,
-            last: block,
-            change,
-        }
-    }
-
-    /// The rule pole-flip fires here.
-    fn flips(&self, index: usize) -> bool {
+    /// The rule pole-flip fires here, or the rotary axis limits the feed near the pole.
+    fn steep(&self, index: usize) -> bool {
         let point = &self.points[index];
         let tolerances = &self.machine.tolerances;
-        point.feed && point.pole_angle_min < tolerances.pole_cone && point.rotary_change[0] > tolerances.pole_angle
+        if !point.feed || point.pole_angle_min >= tolerances.pole_cone {
+            return false;
+        }
+        let fastest = self.machine.axes[self.machine.rotary[0]].max_speed;
+        let slows = || {
+            let limits = |(fastest, seconds)| point.rotary_change[0] > fastest * seconds;
+            point.tcp && fastest.zip(point.seconds()).is_some_and(limits)
+        };
+        point.rotary_change[0] > tolerances.pole_angle || slows()
     }
 
     fn line(&self, index: usize) -> u32 {
         let start = self.program.block(self.points[index].block).range().start;
         self.lines.line_column(self.program.source(), start).0
+    }
+
+    /// Motions as a place.
+    fn place(&self, (first, last): (usize, usize), change: Change) -> Place {
+        let block = |index: usize| -> BlockId { self.points[index].block };
+        Place {
+            first: block(first),
+            last: block(last),
+            change,
+        }
+    }
+
+    /// Why a steep motion cannot be changed.
+    fn obstacle(&self, index: usize) -> Option<Change> {
+        let point = &self.points[index];
+        let why = if !point.tcp {
+            "tool centre point control is off, so turning the table would move the tip"
+        } else if !point.linear {
+            "the motion is an arc: the rewrite handles straight motions"
+        } else if !point.from_known {
+            "the position before the motion is unknown"
+        } else if point.many_turns() {
+            "the motion turns the table by more than a whole turn, which is left as it is"
+        } else if point.swap {
+            "the motion swaps the posture far from the pole (branch-swap), which turns the tool axis between its ends"
+        } else {
+            return tool_obstacle(point);
+        };
+        Some(refused(why))
     }
 
     /// The first feed motion whose pose is unknown: a flip there would not be seen.
@@ -278,123 +311,242 @@ impl Task<'_> {
         ))
     }
 
-    /// Smooths the window around one flip.
-    fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, Change> {
-        let point = &self.points[flip];
-        if let Some(obstacle) = obstacle(point) {
-            return Err(obstacle);
-        }
-        let Tip::Ball(ball_radius) = point.tip else {
-            return Err(refused("the tool is not a ball"));
-        };
-        let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
-            && memory.chain.last().is_some_and(|station| flip <= station.last);
-        if !covers {
-            memory.chain = chain(self.machine, self.points, flip);
-        }
-        let stations = &memory.chain;
-        let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
-            return Err(refused("there is no point between the two fixed ends"));
-        };
-        let stations = &stations[left..=right];
-        let writer = self.writer(point, ball_radius, &mut memory.styles);
+    /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
+    fn smooth_chain(&mut self, index: usize, ball: f64, found: &mut Found) -> usize {
         // slightly less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
-        let q = straighten(self.machine, stations, room)
-            .ok_or_else(|| refused("the rotary axis is already outside its limits"))?;
-        let before = largest_step(stations.iter().map(|station| station.q));
-        let after = largest_step(q.iter().copied());
-        if after > 0.99 * before {
-            return Err(Change::Possible(format!(
-                "within {} deg the largest step can only be reduced from {:.3} deg to {:.3} deg (--tolerance-deg)",
-                self.options.tolerance_deg,
-                deg(before),
-                deg(after)
-            )));
+        let stations = chain(self.machine, self.points, index, room);
+        let last = stations.last().map_or(index, |station| station.last);
+        let only = |task: &Self, change| vec![task.place((index, last), change)];
+        if *found.radius.get_or_insert(ball) != ball {
+            let why = "a different ball radius, which needs a separate run";
+            found.places.extend(only(self, refused(why)));
+            return last;
         }
-        let (edits, written) = self.write(&writer, stations, &q)?;
-        let last = stations[stations.len() - 1].first;
-        let steps = (deg(before), deg(largest_step(written.iter().copied())));
-        let lines = (self.line(stations[0].last), self.line(last));
-        Ok(Smoothed {
-            edits,
-            ball_radius,
-            first: stations[0].last + 1,
-            last,
-            lines,
-            steps,
-        })
+        if stations.len() < 3 {
+            found
+                .places
+                .extend(only(self, refused("there is no point between the two fixed ends")));
+            return last;
+        }
+        let asks = |station: &Station| self.steep(station.first);
+        let Some(plan) = plan(self.machine, self.points, stations, &asks) else {
+            found
+                .places
+                .extend(only(self, refused("the rotary axis is already outside its limits")));
+            return last;
+        };
+        let mut places = Vec::new();
+        for &(station, was, is) in &plan.useless {
+            let at = plan.stations[station].first;
+            let why = Change::Possible(format!(
+                "within {} deg the slope of the table can only be reduced from {:.3} to {:.3} deg/mm (--tolerance-deg)",
+                self.options.tolerance_deg,
+                deg(was),
+                deg(is)
+            ));
+            places.push(self.place((at, at), why));
+        }
+        let (scheme, styles) = self.scheme(index);
+        let writers = [styles, finer(styles, scheme, self.points[index].unit_mm)]
+            .map(|styles| self.writer(index, ball, (scheme, styles)));
+        let mut windows = Vec::new();
+        for &(first, end) in &plan.stretches {
+            let planned = Self::steepest(&plan, (first, end), |at| plan.q[at]);
+            let mut written = self.write(&writers[0], &plan, (first, end));
+            let coarse = written
+                .as_ref()
+                .map_or(true, |window| window.slopes.1 > 1.005 * planned);
+            if coarse && writers[0].styles != writers[1].styles {
+                written = self.write(&writers[1], &plan, (first, end)).or(written);
+            }
+            match written {
+                Ok(window) => {
+                    places.push(self.place(window.changed, Change::Edits(window.edits.clone())));
+                    windows.push(window);
+                }
+                Err(change) => {
+                    let lines = (plan.stations[first].last + 1, plan.stations[end].first);
+                    places.push(self.place(lines, change));
+                }
+            }
+        }
+        places.sort_by_key(|place| place.first);
+        found.places.extend(places);
+        found.windows.extend(windows);
+        last
     }
 
-    fn writer(&self, point: &Point, ball_radius: f64, known: &mut Vec<(Scheme, Styles)>) -> Writer<'_> {
+    /// Which words the chain around a motion is written in, and how.
+    fn scheme(&mut self, index: usize) -> (Scheme, Styles) {
+        let point = &self.points[index];
         let scheme = if point.vector {
             Scheme::of_vector(self.program, &self.program.block(point.block))
         } else {
-            Scheme::Rotary(self.machine.axes[self.machine.rotary[0]].letter)
+            let letter = |at: usize| self.machine.axes[self.machine.rotary[at]].letter;
+            Scheme::Rotaries([letter(0), letter(1)])
         };
-        let styles = if let Some(&(_, styles)) = known.iter().find(|(of, _)| *of == scheme) {
-            styles
-        } else {
-            let found = styles(self.program, scheme);
-            known.push((scheme, found));
-            found
-        };
+        if let Some(&known) = self.styles.iter().find(|(of, _)| *of == scheme) {
+            return known;
+        }
+        let found = (scheme, styles(self.program, scheme));
+        self.styles.push(found);
+        found
+    }
+
+    fn writer(&self, index: usize, ball: f64, (scheme, styles): (Scheme, Styles)) -> Writer<'_> {
+        let point = &self.points[index];
         Writer {
             program: self.program,
             machine: self.machine,
             scheme,
             styles,
             unit_mm: point.unit_mm,
-            ball_radius,
+            ball_radius: if self.options.point == ProgrammedPoint::Centre {
+                0.0
+            } else {
+                ball
+            },
             rotary_zero: point.rotary_zero,
             tolerance_deg: self.options.tolerance_deg,
             tolerance_mm: self.options.tolerance_mm,
         }
     }
 
-    /// Edits for all points between the ends, and for what the last one takes over from them; and the rotary joint as written, rad,
-    /// each station.
-    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<(Vec<TextEdit>, Vec<f64>), Change> {
+    /// Edits for all points of a stretch that change, and for what the motion after them takes over.
+    fn write(&self, writer: &Writer<'_>, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, Change> {
         let unknown = || refused("a position inside the window is unknown");
-        let last = stations.len() - 1;
-        let start = stance(&self.points[stations[0].last]).ok_or_else(unknown)?;
-        let mut current = writer.programmed(start);
+        let stations = &plan.stations;
+        let changes = |at: usize| plan.postures[at] != 0 || (plan.q[at] - stations[at].q[0]).abs() > 1e-9;
+        // an end of the chain may change too; then all motions that share its position do
+        let begin = if changes(first) {
+            lead_in(self.points, stations[first].first)
+        } else {
+            stations[first].last + 1
+        };
+        let stop = if changes(end) {
+            lead_out(self.points, stations[end].last)
+        } else {
+            stations[end].first
+        };
+        let start = begin.checked_sub(1).and_then(|at| stance(&self.points[at]));
+        let mut current = start.map_or([f64::NAN; 5], |start| writer.programmed(start));
         let mut edits = Vec::new();
-        let mut written = vec![stations[0].q];
-        for (station, &q) in stations.iter().zip(q).take(last).skip(1) {
-            for (index, point) in self
-                .points
-                .iter()
-                .enumerate()
-                .take(station.last + 1)
-                .skip(station.first)
-            {
-                if let Some(obstacle) = tool_obstacle(point) {
-                    return Err(obstacle);
-                }
-                if point.rotary_zero != writer.rotary_zero {
-                    return Err(refused("the work offset of the rotary axis changes inside the window"));
-                }
-                let q = writer
-                    .turn(
-                        point.block,
-                        stance(point).ok_or_else(unknown)?,
-                        q,
-                        &mut current,
-                        &mut edits,
-                    )
-                    .map_err(refused)?;
-                if index == station.first {
-                    written.push(q);
-                }
+        let mut written: Vec<f64> = stations[first..=end].iter().map(|station| station.q[0]).collect();
+        let mut at = first;
+        for index in begin..stop {
+            while at < end && stations[at].last < index {
+                at += 1;
             }
+            let (point, station) = (&self.points[index], &stations[at]);
+            if let Some(obstacle) = tool_obstacle(point) {
+                return Err(obstacle);
+            }
+            if point.rotary_zero != writer.rotary_zero {
+                return Err(refused("the work offset of a rotary axis changes inside the window"));
+            }
+            let other = station.in_posture(plan.postures[at]).ok_or_else(unknown)?;
+            let side = at.checked_sub(1).map_or(1.0, |before| {
+                if stations[before].q[1] < stations[at].q[1] {
+                    -1.0
+                } else {
+                    1.0
+                }
+            });
+            let aim = Aim {
+                q: plan.q[at],
+                second: (plan.postures[at] != 0).then_some(other[1]),
+                side,
+            };
+            let stance = stance(point).ok_or_else(unknown)?;
+            let q = writer
+                .turn(point.block, stance, aim, &mut current, &mut edits)
+                .map_err(refused)?;
+            written[at - first] = q;
         }
-        written.push(stations[last].q);
-        let end = &self.points[stations[last].first];
-        let stance = stance(end).ok_or_else(unknown)?;
-        writer
-            .restore(end.block, stance, &mut current, &mut edits)
-            .map_err(refused)?;
-        Ok((edits, written))
+        if let Some(next) = self.points.get(stop) {
+            let stance = stance(next).ok_or_else(unknown)?;
+            writer
+                .restore(next.block, stance, &mut current, &mut edits)
+                .map_err(refused)?;
+        }
+        let slopes = (
+            Self::steepest(plan, (first, end), |at| stations[at].q[0]),
+            Self::steepest(plan, (first, end), |at| written[at - first]),
+        );
+        if slopes.1 > slopes.0 {
+            return Err(refused(format!(
+                "with the number of digits in this program the slope of the table would grow from {:.3} to {:.3} deg/mm",
+                deg(slopes.0),
+                deg(slopes.1)
+            )));
+        }
+        let sides = |posture: &dyn Fn(usize) -> usize| {
+            let pole = self.pole_second(stations);
+            let values = stations[first..=end].iter().enumerate();
+            let sides: Vec<f64> = values
+                .map(|(offset, station)| {
+                    let q = station.in_posture(posture(first + offset)).unwrap_or(station.q);
+                    if station.free { 0.0 } else { q[1] - pole }
+                })
+                .collect();
+            crossings(sides.into_iter())
+        };
+        Ok(Smoothed {
+            edits,
+            changed: (begin, stop.min(self.points.len() - 1)),
+            points: (stations[first].last, stations[end].first),
+            slopes,
+            crossings: (sides(&|_| 0), sides(&|at| plan.postures[at])),
+        })
+    }
+
+    /// Largest slope of the first rotary joint in a stretch, rad per mm.
+    fn steepest(plan: &Plan, (first, end): (usize, usize), q: impl Fn(usize) -> f64) -> f64 {
+        let length = |at: usize| plan.stations[at + 1].s - plan.stations[at].s;
+        let slopes = (first..end).map(|at| ((q(at + 1) - q(at)) / length(at)).abs());
+        slopes.fold(0.0, f64::max)
+    }
+
+    /// The second rotary joint at the pole that is nearest to a chain, rad: halfway between the two postures of its first station that has both.
+    fn pole_second(&self, stations: &[Station]) -> f64 {
+        let both = stations
+            .iter()
+            .filter(|station| !station.free)
+            .find_map(|station| Some((station.q[1], station.other?[1])));
+        both.map_or(0.0, |(a, b)| 0.5 * (a + b))
+    }
+
+    /// What was done, in one line.
+    fn summary(&self, windows: &[Smoothed]) -> String {
+        let letter = char::from(self.machine.axes[self.machine.rotary[0]].letter);
+        let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
+            (worst.0.max(w.slopes.0), worst.1.max(w.slopes.1))
+        });
+        let lines = |at: usize, last: bool| {
+            windows
+                .get(at)
+                .map_or(0, |w| self.line(if last { w.points.1 } else { w.points.0 }))
+        };
+        let count = if windows.len() > 1 {
+            format!(" in {} windows", windows.len())
+        } else {
+            String::new()
+        };
+        let crossings = windows
+            .iter()
+            .fold((0, 0), |sum, w| (sum.0 + w.crossings.0, sum.1 + w.crossings.1));
+        let postures = if crossings.0 == crossings.1 {
+            String::new()
+        } else {
+            format!("; {} -> {} changes of posture", crossings.0, crossings.1)
+        };
+        format!(
+            "lines {} to {}{count}: largest slope of {letter} {:.3} -> {:.3} deg/mm{postures}",
+            lines(0, false),
+            lines(windows.len().saturating_sub(1), true),
+            deg(worst.0),
+            deg(worst.1)
+        )
     }
 }

@@ -1,0 +1,10 @@
+//! What `smooth-pole` is made of: chains of stations, the choice of posture and turns, the path through the tube.
+pub(crate) mod chain;
+pub(crate) mod ends;
+mod even;
+mod firm;
+pub(crate) mod plan;
+mod reach;
+
+#[cfg(test)]
+mod tests;

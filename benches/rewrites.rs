@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::hint::black_box;
 use trunnion::check::Settings;
 use trunnion::dialect::builtin;
-use trunnion::geometry::math::{atan2, hypot};
+use trunnion::geometry::math::{atan2, hypot, sin};
 use trunnion::interp::{Fault, ModalState, Motion, Setup, Sink, Tool, ToolShape, run};
 use trunnion::machine::{self, Follower, Machine};
 use trunnion::rewrite::{Options, attempt, rewrite};
@@ -29,6 +29,7 @@ fn main() {
             shape: Some(ToolShape::Ball),
             diameter_mm: Some(10.0),
             length_mm: Some(100.0),
+            holder_mm: None,
         }],
         ..Setup::default()
     };
@@ -97,9 +98,9 @@ fn zigzag(points: usize, line: usize) -> String {
         // normals of a dome, with a ripple; 5.7 deg at the ends of the lines, 0.3 to 1.2 deg at the nearest
         let (i, j) = (
             0.1 * along,
-            0.005 + 0.015 * (row as f64 * 0.37).sin().abs() + 0.0004 * (at as f64 * 1.7).sin(),
+            0.005 + 0.015 * sin(row as f64 * 0.37).abs() + 0.0004 * sin(at as f64 * 1.7),
         );
-        let tilt = hypot(i, j).atan2((1.0 - i * i - j * j).sqrt()).to_degrees();
+        let tilt = atan2(hypot(i, j), (1.0 - i * i - j * j).sqrt()).to_degrees();
         let azimuth = atan2(i, -j).to_degrees();
         let turned = azimuth + 360.0 * ((last - azimuth) / 360.0).round();
         last = turned;

@@ -1,7 +1,8 @@
 //! Feeds that differ: no higher than asked, lower only where an axis needs it, and no axis too fast.
 use crate::Outcome;
+use trunnion_dialect::RotaryFeed;
 use trunnion_interp::Feed;
-use trunnion_machine::{Leg, Machine, feed_limit_tight, shortest_time};
+use trunnion_machine::{Leg, Machine, feed_is_ambiguous, feed_limit_tight, shortest_time};
 
 /// Why a feed is not proved.
 pub(crate) enum Wrong {
@@ -25,9 +26,18 @@ impl Wrong {
 const SAME: f64 = 1e-9;
 
 /// Compares the feeds of two legs of the same path. `asked_mm_min`: see [`crate::Claim::AdaptedFeed`].
-pub(crate) fn adapted(machine: &Machine, [was, is]: [&Leg; 2], asked_mm_min: f64) -> Result<(), Wrong> {
+pub(crate) fn adapted(
+    (machine, rotary_feed): (&Machine, RotaryFeed),
+    [was, is]: [&Leg; 2],
+    asked_mm_min: f64,
+) -> Result<(), Wrong> {
     if was.motion.feed == is.motion.feed {
         return Ok(());
+    }
+    if [was, is].iter().any(|leg| feed_is_ambiguous(machine, rotary_feed, leg)) {
+        return Err(Wrong::Unknown(
+            "what F means while rotary axes move is a parameter of the control, so the feed must stay: the machine file says it by [control] feed = \"xyz\" or \"combined\"",
+        ));
     }
     match (was.motion.feed, is.motion.feed) {
         (Feed::PerMinute(old), Feed::PerMinute(new)) => {

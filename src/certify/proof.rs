@@ -4,6 +4,7 @@ use crate::chosen::Chosen;
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::rapids::{ChangedRun, same_rapid};
 use crate::{Claim, Outcome};
+use trunnion_dialect::RotaryFeed;
 use trunnion_geometry::deg;
 use trunnion_machine::{Leg, Machine};
 use trunnion_same::{Difference, Judge, Refitted, Step, Verdict};
@@ -12,6 +13,8 @@ use trunnion_syntax::{BlockId, LineIndex, Program};
 /// What is found while both programs run.
 pub(crate) struct Proof<'a> {
     machine: &'a Machine,
+    /// What decides what F means where rotary axes move, in the dialect of the program after.
+    rotary_feed: RotaryFeed,
     claim: &'a Claim,
     after: &'a Program,
     lines: LineIndex,
@@ -85,7 +88,7 @@ impl Judge for Proof<'_> {
 }
 
 impl<'a> Proof<'a> {
-    pub(crate) fn new(machine: &'a Machine, claim: &'a Claim, after: &'a Program) -> Self {
+    pub(crate) fn new((machine, rotary_feed): (&'a Machine, RotaryFeed), claim: &'a Claim, after: &'a Program) -> Self {
         let axis = |&joint: &usize| RotaryChange {
             axis: char::from(machine.axes[joint].letter).to_string(),
             step_before_deg: 0.0,
@@ -95,6 +98,7 @@ impl<'a> Proof<'a> {
         };
         Self {
             machine,
+            rotary_feed,
             claim,
             after,
             lines: LineIndex::new(after.source()),
@@ -258,7 +262,8 @@ impl<'a> Proof<'a> {
             after: is,
         };
         if let Claim::AdaptedFeed { asked_mm_min, .. } = self.claim {
-            crate::feed::adapted(self.machine, [old, new], *asked_mm_min).map_err(|gap| gap.at(at.motion, at.line))?;
+            crate::feed::adapted((self.machine, self.rotary_feed), [old, new], *asked_mm_min)
+                .map_err(|gap| gap.at(at.motion, at.line))?;
         }
         match pair.compare()? {
             Compared::Same => {}

@@ -160,7 +160,7 @@ fn prove(
             "the texts differ in more than numbers of coordinate words",
         ));
     }
-    let mut proof = Proof::new(machine, claim, new);
+    let mut proof = Proof::new((machine, other.advice.rotary_feed), claim, new);
     let (recorded, recorded_after, libraries) = record_both(setup, after_library);
     let input = |program, dialect, setup| Input {
         program,

@@ -195,7 +195,7 @@ fn fixes_are_offered_where_they_may_help() {
             .find(|d| d.rule == "axis-overspeed")
             .map(|d| d.fixes.clone())
     };
-    assert_eq!(fixes("X1 C90"), Some(vec![]));
-    assert_eq!(fixes("X1 C350"), Some(vec!["unwind-rotary"]));
-    assert_eq!(fixes("X1 C90 A-1"), Some(vec!["smooth-pole"]));
+    assert_eq!(fixes("X1 C90"), Some(vec!["adapt-feed"]));
+    assert_eq!(fixes("X1 C350"), Some(vec!["unwind-rotary", "adapt-feed"]));
+    assert_eq!(fixes("X1 C90 A-1"), Some(vec!["smooth-pole", "adapt-feed"]));
 }

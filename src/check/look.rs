@@ -1,7 +1,6 @@
 //! A first look at a leg: what is cheap to see, and rules out most facts of most legs.
 use crate::facts::{ClampedTurn, first_pass};
 use crate::trail::Trail;
-use crate::view::turns;
 use trunnion_interp::Feed;
 use trunnion_machine::{Allowances, Leg, Machine, QuickBounds, RotaryRadii, quick_bounds};
 
@@ -69,7 +68,7 @@ impl<'m> Looker<'m> {
             posture_before,
             chord,
             cut,
-            turning_cut: cut && turns(leg),
+            turning_cut: cut && trunnion_machine::turns(leg),
             bounds,
             seconds,
         }

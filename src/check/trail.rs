@@ -1,5 +1,4 @@
 //! What a rule can know about the legs before: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
-use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{asin, rotate};
@@ -124,7 +123,7 @@ impl Trail {
     fn feed(&mut self, leg: &Leg, chord: f64, ratio: f64) {
         let turned = leg.rotary_change[0] + leg.rotary_change[1];
         // without TCP a table that turns about the tool feeds the part under it
-        if turned == 0.0 || chord < 1e-9 && !leads_tip(&leg.motion) {
+        if turned == 0.0 || chord < 1e-9 && !trunnion_machine::leads_tip(&leg.motion) {
             return self.window.push(0.0, 0.0, ratio);
         }
         self.window.push(turned, chord, ratio);

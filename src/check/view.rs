@@ -4,9 +4,9 @@ use crate::datum::OffsetName;
 use crate::trail::Trail;
 use core::cell::OnceCell;
 use core::f64::consts::TAU;
-use trunnion_dialect::{Dialect, RotaryFeed};
+use trunnion_dialect::Dialect;
 use trunnion_geometry::{deg, math};
-use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, Orientation, Swivel, Tool};
+use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, Tool};
 use trunnion_machine::{
     AxisKind, Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations,
     tip_deviation, windings,
@@ -116,19 +116,6 @@ impl MotionView<'_> {
     }
 }
 
-/// Whether X Y Z are the position of the tip in the workpiece frame: tool centre point control, or vectors.
-#[inline]
-pub(crate) fn leads_tip(motion: &Motion) -> bool {
-    let led = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || motion.tilt.normal.is_some();
-    led && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays)
-}
-
-/// Whether a rotary joint turns, by more than rounding.
-#[inline]
-pub(crate) fn turns(leg: &Leg) -> bool {
-    leg.rotary_change.iter().any(|change| *change > NO_TURN)
-}
-
 impl<'a> LegView<'a> {
     /// A view of `leg`.
     pub(crate) fn new(
@@ -191,7 +178,7 @@ impl<'a> LegView<'a> {
 
     /// Whether X Y Z are the position of the tip in the workpiece frame: tool centre point control, or vectors.
     pub(crate) fn leads_tip(&self) -> bool {
-        leads_tip(self.motion())
+        trunnion_machine::leads_tip(self.motion())
     }
 
     /// Whether F is meant in degrees: no X Y Z path, without tool centre point control (RS274/NGC on feed rate).
@@ -203,40 +190,18 @@ impl<'a> LegView<'a> {
     /// X Y Z, or of the root of mm2 + deg2; the dialect or the machine file may say which. Tool centre point control means the tip,
     /// inverse time a duration. On a Haas also where only they turn, see [`Self::turns_by_diameter`].
     pub(crate) fn feed_is_ambiguous(&self) -> bool {
-        let motion = self.motion();
-        let tip = self.leads_tip() && !motion.machine_coordinates;
-        if tip || !self.rotary_turns() {
-            return false;
-        }
-        if self.leg.length <= 0.0 {
-            return self.turns_by_diameter();
-        }
-        let control = &self.machine.control;
-        let says_which = match self.dialect.advice.rotary_feed {
-            RotaryFeed::Language => true,
-            RotaryFeed::Family => matches!(control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
-            RotaryFeed::Parameter | RotaryFeed::Diameters => false,
-        };
-        self.feed_is_along_path() && !says_which && control.feed.is_none()
+        trunnion_machine::feed_is_ambiguous(self.machine, self.dialect.advice.rotary_feed, self.leg)
     }
 
     /// Whether only rotary axes turn on a Haas, where F is the speed along circles whose diameters are its settings 34 and 79, so that they
     /// may turn faster than by F in degrees. Source: Haas mill operator's manual, G93, where these settings are not needed.
     pub(crate) fn turns_by_diameter(&self) -> bool {
-        let only_turns = self.feed_in_degrees() && self.motion().is_feed() && self.rotary_turns();
-        let by_diameter =
-            self.dialect.advice.rotary_feed == RotaryFeed::Diameters && self.machine.control.feed.is_none();
-        by_diameter && only_turns && self.feed_is_along_path()
-    }
-
-    /// Whether F is a speed along a path: neither a duration nor unknown.
-    fn feed_is_along_path(&self) -> bool {
-        matches!(self.motion().feed, Feed::PerMinute(_) | Feed::PerRevolution(_))
+        trunnion_machine::turns_by_diameter(self.machine, self.dialect.advice.rotary_feed, self.leg)
     }
 
     /// Whether a rotary joint turns, by more than rounding.
     pub(crate) fn rotary_turns(&self) -> bool {
-        turns(self.leg)
+        trunnion_machine::turns(self.leg)
     }
 
     /// `mm/min` or `deg/min`.

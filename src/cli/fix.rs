@@ -148,9 +148,8 @@ fn options(command: &Fix, loaded: &Loaded) -> Result<Options, Failure> {
         tolerance_mm: command.tolerance_mm.unwrap_or(settings.tolerance_mm),
         tolerance_deg: command.tolerance_deg.unwrap_or(settings.tolerance_deg),
         cost: cost.unwrap_or(settings.cost),
-        path_mm: command.tolerance_mm.or(settings.path_mm),
+        given_mm: command.tolerance_mm.or(settings.given_mm),
         feed_mm_min: command.feed.unwrap_or(settings.feed_mm_min),
-        straight_mm: command.tolerance_mm.or(settings.straight_mm),
         source: command.source.map_or(settings.source, |source| match source {
             SourceOf::Points => RefitSource::Points,
             SourceOf::Chords => RefitSource::Chords,

@@ -123,10 +123,13 @@ impl Along {
         let length = chord.norm();
         // the nearest point to the centre; the distance seen from the centre is convex in the angle, the radius linear
         let (first, last) = (from.dot(&chord), to.dot(&chord));
-        if first < 0.0 && last > 0.0 {
-            let foot = from.cross(&to).norm() / length;
-            apart = apart.max(radius_here.max(radius_there) - foot);
-        }
+        let nearest = if first < 0.0 && last > 0.0 {
+            from.cross(&to).norm() / length
+        } else {
+            here.min(there)
+        };
+        // of a spiral both ends of its radius count: between them the difference may be larger than at the ends
+        apart = apart.max(radius_here.max(radius_there) - nearest);
         let mut high = heights[0].abs().max(heights[1].abs());
         let climb = (height(&point) - height(&self.at)).abs();
         if climb > 0.0 && length > 0.0 {
@@ -167,7 +170,7 @@ fn hypotenuse(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::arc::Turning;
-    use crate::math::sin_cos;
+    use crate::math::{cos, sin_cos};
 
     const NORMAL: Vec3 = Vec3::new(0.0, 0.0, 1.0);
 
@@ -201,7 +204,7 @@ mod tests {
         let along = follow(Course::Arc(quarter(20.0, 0.0)), &points);
         assert!(along.is_through());
         assert!(along.points_apart() < 1e-12, "{along:?}");
-        let sag = 20.0 * (1.0 - sin_cos(5f64.to_radians()).1);
+        let sag = 20.0 * (1.0 - cos(5f64.to_radians()));
         assert!((along.apart() - sag).abs() < 1e-12, "{} {sag}", along.apart());
     }
 

@@ -39,6 +39,7 @@ pub use obstacle::{
 };
 pub use path::block_path::{BlockPath, Moment};
 pub use path::deviation::{Deviation, joint_line_deviation, tip_deviation};
+pub use path::feed_meaning::{feed_is_ambiguous, leads_tip, turns, turns_by_diameter};
 pub use path::limits::{Excess, LIMIT_SLACK, limit_excess};
 pub use path::orientation::{OrientationDeviation, orientation_deviation};
 pub use path::quick_bounds::{Allowances, QuickBounds, quick_bounds};

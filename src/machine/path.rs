@@ -3,6 +3,7 @@ pub(crate) mod block_path;
 pub(crate) mod curvature;
 pub(crate) mod curve_distance;
 pub(crate) mod deviation;
+pub(crate) mod feed_meaning;
 pub(crate) mod joint_path;
 pub(crate) mod length;
 pub(crate) mod limits;

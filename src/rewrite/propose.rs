@@ -2,7 +2,7 @@
 use trunnion_certify::Claim;
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
-use trunnion_check::config::{FixCost, FixSettings};
+use trunnion_check::config::{FixCost, FixPoint, FixSettings};
 use trunnion_check::{Diagnostic, Settings};
 use trunnion_syntax::{BlockId, Program, TextEdit};
 
@@ -15,14 +15,13 @@ pub struct Options {
     pub tolerance_deg: f64,
     /// What a sequence of postures is chosen by (`switch-angles`).
     pub cost: PostureCost,
-    /// How far the tip may be off a programmed segment, mm (`insert-points`). `None`: the machine's tolerance of the tip.
-    pub path_mm: Option<f64>,
+    /// The tolerance that the user gave, mm, for rewrites with a default of their own: `insert-points` (the machine's tolerance of the tip) and
+    /// `drop-redundant` (only points exactly on the line).
+    pub given_mm: Option<f64>,
     /// Cuts that are slower than this are made as fast as the axes allow, up to this, mm/min (`adapt-feed`). 0: none is made faster.
     pub feed_mm_min: f64,
     /// What a refitted path must be near (`fit-arcs`).
     pub source: RefitSource,
-    /// How far a point may be from a straight line to be left out, mm (`drop-redundant`); none: only those exactly on it.
-    pub straight_mm: Option<f64>,
     /// Which point of a ball X Y Z are (`smooth-pole`).
     pub point: ProgrammedPoint,
 }
@@ -43,10 +42,9 @@ impl Default for Options {
             tolerance_mm: 0.001,
             tolerance_deg: 0.1,
             cost: PostureCost::default(),
-            path_mm: None,
+            given_mm: None,
             feed_mm_min: 0.0,
             source: RefitSource::default(),
-            straight_mm: None,
             point: ProgrammedPoint::default(),
         }
     }
@@ -64,7 +62,11 @@ impl Options {
                 FixCost::Time => PostureCost::Time,
                 FixCost::Deviation => PostureCost::Deviation,
             }),
-            path_mm: settings.tolerance_mm,
+            given_mm: settings.tolerance_mm,
+            point: settings.point.map_or(defaults.point, |point| match point {
+                FixPoint::Tip => ProgrammedPoint::Tip,
+                FixPoint::Centre => ProgrammedPoint::Centre,
+            }),
             ..defaults
         }
     }

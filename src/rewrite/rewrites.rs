@@ -78,6 +78,7 @@ mod tests {
             (".fix_posture(", "switch-angles"),
             (".fix_feed(", "adapt-feed"),
             (".fix_points(", "insert-points"),
+            (".fix_rapid(", "reroute-rapid"),
         ];
         let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();
         for entry in std::fs::read_dir(rules).expect("a folder") {

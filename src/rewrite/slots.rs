@@ -203,3 +203,18 @@ fn blank_before(program: &Program, start: u32) -> &'static str {
         _ => "",
     }
 }
+
+/// Numbers with at least the digits that every control has: 0.001 mm or 0.0001 in, and 0.001 deg. Tool vectors as they are.
+pub(crate) fn finer(styles: Styles, scheme: Scheme, unit_mm: f64) -> Styles {
+    let mut styles = styles;
+    let lengths = if unit_mm > 1.0 { 4 } else { 3 };
+    for (index, style) in styles.iter_mut().enumerate() {
+        let least = match (index, scheme) {
+            (0..=2, _) => lengths,
+            (_, Scheme::Rotaries(_)) => 3,
+            _ => 0,
+        };
+        *style = style.map(|style| style.with_decimals(least));
+    }
+    styles
+}

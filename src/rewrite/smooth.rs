@@ -3,8 +3,10 @@ pub(crate) mod chain;
 pub(crate) mod ends;
 mod even;
 mod firm;
+pub(crate) mod obstacles;
 pub(crate) mod plan;
 mod reach;
+pub(crate) mod window;
 
 #[cfg(test)]
 mod tests;

@@ -8,10 +8,8 @@ use crate::process::{Held, Process};
 use crate::since::Since;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use trunnion_interp::{
-    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Reach, Sink,
-    Value,
-};
+use trunnion_interp::{Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion};
+use trunnion_interp::{Placed, ProgramRun as _, Reach, Sink, Value};
 use trunnion_machine::{Follower, Leg};
 use trunnion_syntax::BlockId;
 
@@ -38,8 +36,7 @@ pub(crate) struct Run<'a> {
     pub(crate) process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
-    /// This many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
-    /// effect at each.
+    /// So many motions of one block (a pecking cycle with a tiny Q), and things between them, are kept, with all in effect.
     most_in_block: usize,
     /// A block does more than is kept: the run ends with it.
     given_up: bool,
@@ -394,9 +391,9 @@ impl Iterator for Steps<'_> {
             self.advance();
         }
         let item = self.ready.pop_front()?;
-        if let Some(counted) = &mut self.counted {
-            counted.take(&item, &self.input);
-        }
+        self.counted
+            .iter_mut()
+            .for_each(|counted| counted.take(&item, &self.input));
         Some(item)
     }
 }

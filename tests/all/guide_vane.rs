@@ -177,7 +177,7 @@ fn the_flips_carry_their_numbers() {
         assert!((value(flips[0], "rotary_change_deg") - 47.773).abs() < 1e-6);
         assert!((value(flips[1], "rotary_change_deg") - 55.681).abs() < 1e-6);
         assert_eq!(&text[flips[0].range.as_usize()], "C52.595");
-        assert_eq!(flips[0].fixes, ["smooth-pole"]);
+        assert_eq!(flips[0].fixes, ["smooth-pole", "switch-angles", "adapt-feed"]);
     }
 }
 

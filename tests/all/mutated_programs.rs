@@ -21,7 +21,7 @@ fn mutations() -> usize {
 
 /// The samples, and programs of real controls beside the repository where they are.
 #[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
-fn programs() -> Vec<(PathBuf, Vec<u8>)> {
+pub(crate) fn programs() -> Vec<(PathBuf, Vec<u8>)> {
     let mut programs = samples();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
     if folder.is_dir() {

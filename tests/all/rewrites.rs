@@ -7,6 +7,7 @@ mod mutants;
 mod points;
 mod random;
 mod routing;
+mod slopes;
 mod smoothing;
 mod strategy_2;
 mod switching;

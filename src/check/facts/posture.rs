@@ -1,7 +1,7 @@
 //! Which posture the machine takes.
 use super::{Cut, over_view};
 use crate::look::Look;
-use crate::view::{LegView, leads_tip};
+use crate::view::LegView;
 use core::f64::consts::TAU;
 use trunnion_machine::{Limits, Machine, Open, Orientations, Stance, orientations, windings};
 
@@ -55,7 +55,7 @@ over_view!(PostureSwap, OpenPosture, OneSidedCut);
 impl<'v> OneSidedCut<'v> {
     #[inline]
     pub(crate) fn may(look: &Look<'_>) -> bool {
-        look.turning_cut && leads_tip(&look.leg.motion)
+        look.turning_cut && trunnion_machine::leads_tip(&look.leg.motion)
     }
     pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
         let (cut, machine) = (Cut::turning(view)?, view.machine);

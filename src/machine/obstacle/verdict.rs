@@ -91,11 +91,9 @@ impl One<'_> {
                 sweep.nearness(obstacle, self.keep)
             });
         }
-        let same_frame: Vec<&Obstacle> = self.machine.obstacles.iter().collect();
         let [from, to] = poses.map(|pose| pose.tip);
-        let others: Vec<&Obstacle> = same_frame
-            .iter()
-            .copied()
+        let obstacles = self.machine.obstacles.iter();
+        let others: Vec<&Obstacle> = obstacles
             .filter(|other| other.frame(self.machine) == Some(self.frame))
             .collect();
         let own = others

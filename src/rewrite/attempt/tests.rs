@@ -101,7 +101,7 @@ fn a_place_that_cannot_be_proved_is_left_out() {
         .collect();
     assert_eq!(states, [true, true, true, false, true], "{attempt:?}");
     assert!(
-        attempt.reasons().expect("a reason").starts_with("line 5: refuted"),
+        attempt.reasons().expect("a reason").starts_with("refuted: line 5: "),
         "{attempt:?}"
     );
     let after = attempt.proved.expect("proved").after;

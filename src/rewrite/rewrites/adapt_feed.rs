@@ -40,6 +40,8 @@
 //!   exists. `fix` applies this rewrite last.
 //! - Only highest speeds of axes are looked at, not accelerations.
 //! - `--feed` makes plunges faster too: name the lines with `--lines`.
+//! - Where a parameter of the control decides what F means (Fanuc and Haas without tool centre point control while rotary axes move), the feed
+//!   stays until `[control] feed` of the machine file says it.
 //! - Feeds per revolution, feeds of motions of rotary axes alone, and F words with expressions are left as they are.
 //!
 //! # Sources
@@ -48,9 +50,10 @@ use super::Body;
 use crate::style::NumberStyle;
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
-use trunnion_check::Settings;
+use trunnion_check::{Assume, Settings};
+use trunnion_dialect::RotaryFeed;
 use trunnion_interp::{Fault, Feed, ModalState, Motion, Sink, run};
-use trunnion_machine::{Follower, Machine, feed_limit_tight, shortest_time};
+use trunnion_machine::{Follower, Machine, feed_is_ambiguous, feed_limit_tight, leads_tip, shortest_time, turns};
 use trunnion_syntax::{Address, BlockId, Program, TextEdit, TextRange, Value};
 
 pub(super) const REWRITE: Body = Body {
@@ -73,11 +76,22 @@ struct Cut {
     limit: Option<f64>,
     /// The F that is asked for, in the same unit.
     asked: f64,
+    /// What the limit depends on and nobody declares.
+    missing: Option<&'static str>,
 }
+
+/// The meaning of F.
+const MEANING: &str = "what F means while rotary axes move is a parameter of the control: declare [control] feed = \"xyz\" or \"combined\" in the machine file";
+
+/// Zero points and tool lengths.
+const ZEROS: &str = "how fast the linear axes run while rotary axes turn depends on work offset and tool length, which are not declared: declare them in \
+                     trunnion.toml or take them as zero with --assume work-offset,tool-length";
 
 struct Collector<'m> {
     machine: &'m Machine,
     follower: Follower<'m>,
+    rotary_feed: RotaryFeed,
+    assume: Assume,
     asked_mm_min: f64,
     cuts: Vec<Cut>,
 }
@@ -85,6 +99,12 @@ struct Collector<'m> {
 impl Sink for Collector<'_> {
     fn motion(&mut self, motion: &Motion, _: &ModalState) {
         let leg = self.follower.follow(motion);
+        let left = self.assume.leaves(motion.undeclared);
+        let missing = if feed_is_ambiguous(self.machine, self.rotary_feed, &leg) {
+            Some(MEANING)
+        } else {
+            ((left.zero & 0b111 != 0 || left.length) && leads_tip(motion) && turns(&leg)).then_some(ZEROS)
+        };
         let cut = match motion.feed {
             _ if !motion.is_feed() => return,
             Feed::PerMinute(feed) => Cut {
@@ -93,6 +113,7 @@ impl Sink for Collector<'_> {
                 feed,
                 limit: feed_limit_tight(self.machine, &leg).map(|limit| limit.feed_mm_min),
                 asked: self.asked_mm_min,
+                missing,
             },
             Feed::InverseTime(feed) => Cut {
                 block: motion.block,
@@ -104,6 +125,7 @@ impl Sink for Collector<'_> {
                 } else {
                     0.0
                 },
+                missing,
             },
             Feed::PerRevolution(_) | Feed::Unknown | Feed::Rapid => return,
         };
@@ -112,6 +134,7 @@ impl Sink for Collector<'_> {
             Some(last) => {
                 last.limit = last.limit.zip(cut.limit).map(|(a, b)| a.min(b));
                 last.asked = last.asked.min(cut.asked);
+                last.missing = last.missing.or(cut.missing);
                 if last.inverse != cut.inverse || last.feed != cut.feed {
                     last.limit = None;
                 }
@@ -129,6 +152,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     let mut collector = Collector {
         machine,
         follower: Follower::new(machine),
+        rotary_feed: settings.dialect.advice.rotary_feed,
+        assume: settings.assume,
         asked_mm_min: options.feed_mm_min,
         cuts: Vec::new(),
     };
@@ -233,6 +258,7 @@ impl<'a> Writer<'a> {
         let target = cut.target();
         let wanted = match (before, target) {
             (_, None) => Ok(before),
+            (_, Some(_)) if cut.missing.is_some() => Err(cut.missing.map_or_else(String::new, str::to_owned)),
             (None, Some(_)) => Err("the feed in effect is not a plain number in the text".to_owned()),
             (Some(before), Some(target)) => self.written(cut, before, target).map(Some),
         };
@@ -241,7 +267,11 @@ impl<'a> Writer<'a> {
             self.places.push(Place {
                 first: cut.block,
                 last: cut.block,
-                change: Change::Refused(why),
+                change: if cut.missing.is_some() {
+                    Change::Possible(why)
+                } else {
+                    Change::Refused(why)
+                },
             });
             before
         });

@@ -66,7 +66,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         let points = chain.points();
         let largest = points.iter().map(Vec3::amax).fold(1.0, f64::max);
         let limits = Limits {
-            tolerance_mm: options.straight_mm.unwrap_or(EXACT * largest),
+            tolerance_mm: options.given_mm.unwrap_or(EXACT * largest),
             source: RefitSource::Chords,
             planes: &[],
             styles: None,
@@ -91,7 +91,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     Ok(Some(Proposal {
         places,
         claim: Claim::RefittedPath {
-            tolerance_mm: options.straight_mm.unwrap_or(0.0).max(1e-6),
+            tolerance_mm: options.given_mm.unwrap_or(0.0).max(1e-6),
             source: RefitSource::Chords,
         },
         summary: format!("{was} lines become {is}, {bytes} bytes less"),

@@ -109,7 +109,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     if machine.rotary.is_empty() || machine.rotary.len() > 2 {
         return Ok(None);
     }
-    let tolerance_mm = options.path_mm.unwrap_or(machine.tolerances.tip_mm);
+    let tolerance_mm = options.given_mm.unwrap_or(machine.tolerances.tip_mm);
     let letters = [0, 1].map(|index| machine.rotary.get(index).map(|&joint| machine.axes[joint].letter));
     let axis = |letter: Option<u8>| Some(usize::from(trunnion_interp::AxisLetter::new(letter?)?.0));
     let mut collector = Collector {

@@ -44,10 +44,7 @@ use trunnion_check::Settings;
 use trunnion_layout::{Numbers, Renumbered};
 use trunnion_syntax::{LineIndex, Program, TextEdit, parse};
 
-pub(super) const REWRITE: Body = Body {
-    cures: &["block-number-order"],
-    propose,
-};
+pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
 /// First number and step: room for blocks that are added by hand.
 const NUMBERS: Numbers = Numbers { start: 10, step: 10 };

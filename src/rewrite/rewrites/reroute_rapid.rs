@@ -13,6 +13,7 @@
 //! Points are written in the digits of the program, rounded away from the obstacles.
 //!
 //! # Example
+//! Beside the machine a wall is declared: `[[obstacle]] name = "wall"`, `box = [[40, -100, -20], [60, 100, 35]]`.
 //! ```gcode before iso-6983 mill-3axis+wall
 //! (trunnion: tool 1 flat diameter 8)
 //! T1 M6

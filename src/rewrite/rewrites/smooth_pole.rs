@@ -68,18 +68,19 @@
 //! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.
 use super::Body;
 use crate::propose::ProgrammedPoint;
-use crate::reposition::{Aim, Writer};
-use crate::slots::{Scheme, Styles, styles};
-use crate::smooth::chain::{Station, chain, stance};
-use crate::smooth::ends::{lead_in, lead_out};
-use crate::smooth::plan::{Plan, plan};
+use crate::reposition::Writer;
+use crate::slots::{Scheme, Styles, finer, styles};
+use crate::smooth::chain::{Station, chain};
+use crate::smooth::obstacles::{obstacle, refused, unknown_position};
+use crate::smooth::plan::plan;
+use crate::smooth::window::{Smoothed, steepest, write};
 use crate::survey::{Point, Tip, survey};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::{deg, rad};
-use trunnion_machine::{Machine, NoStance};
-use trunnion_syntax::{BlockId, LineIndex, Program, TextEdit};
+use trunnion_machine::Machine;
+use trunnion_syntax::{BlockId, LineIndex, Program};
 
 pub(super) const REWRITE: Body = Body {
     cures: &[
@@ -99,19 +100,6 @@ struct Found {
     windows: Vec<Smoothed>,
     /// Radius of the ball, mm.
     radius: Option<f64>,
-}
-
-/// What was done in one window.
-struct Smoothed {
-    edits: Vec<TextEdit>,
-    /// Indices of the first and the last motion that change.
-    changed: (usize, usize),
-    /// Indices of its first and last point.
-    points: (usize, usize),
-    /// Largest slope of the rotary axis before and after, rad per mm.
-    slopes: (f64, f64),
-    /// Changes of posture before and after.
-    crossings: (usize, usize),
 }
 
 /// What is the same for all windows.
@@ -143,7 +131,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     };
     let steep: Vec<usize> = (0..points.len()).filter(|&index| task.steep(index)).collect();
     if steep.is_empty() {
-        return task.unknown_position().map_or(Ok(None), |reason| Err(reason.into()));
+        return unknown_position(&points, |at| task.line(at)).map_or(Ok(None), |reason| Err(reason.into()));
     }
     let mut done: Option<usize> = None;
     let mut found = Found::default();
@@ -151,7 +139,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         if done.is_some_and(|last| index <= last) {
             continue;
         }
-        match (task.obstacle(index), points[index].tip) {
+        match (obstacle(&points[index]), points[index].tip) {
             (None, Tip::Ball(ball)) => done = Some(task.smooth_chain(index, ball, &mut found)),
             (obstacle, _) => {
                 let why = obstacle.unwrap_or_else(|| refused("the tool is not a ball"));
@@ -180,49 +168,6 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     };
     let summary = task.summary(&windows);
     Ok(Some(Proposal { places, claim, summary }))
-}
-
-/// Numbers with at least the digits that every control has: 0.001 mm or 0.0001 in, and 0.001 deg. Tool vectors as they are.
-fn finer(styles: Styles, scheme: Scheme, unit_mm: f64) -> Styles {
-    let mut styles = styles;
-    let lengths = if unit_mm > 1.0 { 4 } else { 3 };
-    for (index, style) in styles.iter_mut().enumerate() {
-        let least = match (index, scheme) {
-            (0..=2, _) => lengths,
-            (_, Scheme::Rotaries(_)) => 3,
-            _ => 0,
-        };
-        *style = style.map(|style| style.with_decimals(least));
-    }
-    styles
-}
-
-fn refused(why: impl Into<String>) -> Change {
-    Change::Refused(why.into())
-}
-
-/// Why a tool or its coordinates cannot be turned.
-fn tool_obstacle(point: &Point) -> Option<Change> {
-    match point.tip {
-        Tip::Undeclared => Some(Change::Possible(
-            "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
-                .into(),
-        )),
-        Tip::Other => Some(Change::Refused("the tool is not a ball: its contact with the surface would move".into())),
-        Tip::Ball(_) if point.incremental => Some(Change::Refused("coordinates are incremental (G91)".into())),
-        Tip::Ball(_) => None,
-    }
-}
-
-/// Changes of the sign of the second rotary joint about the pole.
-fn crossings(sides: impl Iterator<Item = f64>) -> usize {
-    let mut last = 0.0;
-    let signs = sides.filter(|side| *side != 0.0);
-    signs.fold(0, |count, side| {
-        let changes = last * side < 0.0;
-        last = side;
-        count + usize::from(changes)
-    })
 }
 
 impl Task<'_> {
@@ -254,61 +199,6 @@ impl Task<'_> {
             last: block(last),
             change,
         }
-    }
-
-    /// Why a steep motion cannot be changed.
-    fn obstacle(&self, index: usize) -> Option<Change> {
-        let point = &self.points[index];
-        let why = if !point.tcp {
-            "tool centre point control is off, so turning the table would move the tip"
-        } else if !point.linear {
-            "the motion is an arc: the rewrite handles straight motions"
-        } else if !point.from_known {
-            "the position before the motion is unknown"
-        } else if point.many_turns() {
-            "the motion turns the table by more than a whole turn, which is left as it is"
-        } else if point.swap {
-            "the motion swaps the posture far from the pole (branch-swap), which turns the tool axis between its ends"
-        } else {
-            return tool_obstacle(point);
-        };
-        Some(refused(why))
-    }
-
-    /// The first feed motion whose pose is unknown: a flip there would not be seen.
-    fn unknown_position(&self) -> Option<String> {
-        let unknown = |point: &Point| {
-            let unknown = |why: &NoStance| {
-                matches!(
-                    why,
-                    NoStance::PositionUnknown(_)
-                        | NoStance::NotModelled
-                        | NoStance::RotaryOffset(_)
-                        | NoStance::HeldElsewhere { .. }
-                        | NoStance::PlaneMisaligned(_)
-                )
-            };
-            point.feed && point.end.as_ref().is_err_and(unknown)
-        };
-        let index = self.points.iter().position(unknown)?;
-        let why = match &self.points[index].end {
-            Err(NoStance::PositionUnknown(letters)) => format!(
-                "the position of {} is unknown",
-                letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
-            ),
-            Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
-            Err(NoStance::HeldElsewhere { axis, .. }) => {
-                format!(
-                    "the machine file holds axis {} at a different position",
-                    char::from(*axis)
-                )
-            }
-            _ => "the motion is not modelled".into(),
-        };
-        Some(format!(
-            "line {}: {why}, so it is unknown whether the table flips at the pole",
-            self.line(index)
-        ))
     }
 
     /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
@@ -352,13 +242,13 @@ impl Task<'_> {
             .map(|styles| self.writer(index, ball, (scheme, styles)));
         let mut windows = Vec::new();
         for &(first, end) in &plan.stretches {
-            let planned = Self::steepest(&plan, (first, end), |at| plan.q[at]);
-            let mut written = self.write(&writers[0], &plan, (first, end));
+            let planned = steepest(&plan, (first, end), |at| plan.q[at]);
+            let mut written = write(self.points, &writers[0], &plan, (first, end));
             let coarse = written
                 .as_ref()
                 .map_or(true, |window| window.slopes.1 > 1.005 * planned);
             if coarse && writers[0].styles != writers[1].styles {
-                written = self.write(&writers[1], &plan, (first, end)).or(written);
+                written = write(self.points, &writers[1], &plan, (first, end)).or(written);
             }
             match written {
                 Ok(window) => {
@@ -411,110 +301,6 @@ impl Task<'_> {
             tolerance_deg: self.options.tolerance_deg,
             tolerance_mm: self.options.tolerance_mm,
         }
-    }
-
-    /// Edits for all points of a stretch that change, and for what the motion after them takes over.
-    fn write(&self, writer: &Writer<'_>, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, Change> {
-        let unknown = || refused("a position inside the window is unknown");
-        let stations = &plan.stations;
-        let changes = |at: usize| plan.postures[at] != 0 || (plan.q[at] - stations[at].q[0]).abs() > 1e-9;
-        // an end of the chain may change too; then all motions that share its position do
-        let begin = if changes(first) {
-            lead_in(self.points, stations[first].first)
-        } else {
-            stations[first].last + 1
-        };
-        let stop = if changes(end) {
-            lead_out(self.points, stations[end].last)
-        } else {
-            stations[end].first
-        };
-        let start = begin.checked_sub(1).and_then(|at| stance(&self.points[at]));
-        let mut current = start.map_or([f64::NAN; 5], |start| writer.programmed(start));
-        let mut edits = Vec::new();
-        let mut written: Vec<f64> = stations[first..=end].iter().map(|station| station.q[0]).collect();
-        let mut at = first;
-        for index in begin..stop {
-            while at < end && stations[at].last < index {
-                at += 1;
-            }
-            let (point, station) = (&self.points[index], &stations[at]);
-            if let Some(obstacle) = tool_obstacle(point) {
-                return Err(obstacle);
-            }
-            if point.rotary_zero != writer.rotary_zero {
-                return Err(refused("the work offset of a rotary axis changes inside the window"));
-            }
-            let other = station.in_posture(plan.postures[at]).ok_or_else(unknown)?;
-            let side = at.checked_sub(1).map_or(1.0, |before| {
-                if stations[before].q[1] < stations[at].q[1] {
-                    -1.0
-                } else {
-                    1.0
-                }
-            });
-            let aim = Aim {
-                q: plan.q[at],
-                second: (plan.postures[at] != 0).then_some(other[1]),
-                side,
-            };
-            let stance = stance(point).ok_or_else(unknown)?;
-            let q = writer
-                .turn(point.block, stance, aim, &mut current, &mut edits)
-                .map_err(refused)?;
-            written[at - first] = q;
-        }
-        if let Some(next) = self.points.get(stop) {
-            let stance = stance(next).ok_or_else(unknown)?;
-            writer
-                .restore(next.block, stance, &mut current, &mut edits)
-                .map_err(refused)?;
-        }
-        let slopes = (
-            Self::steepest(plan, (first, end), |at| stations[at].q[0]),
-            Self::steepest(plan, (first, end), |at| written[at - first]),
-        );
-        if slopes.1 > slopes.0 {
-            return Err(refused(format!(
-                "with the number of digits in this program the slope of the table would grow from {:.3} to {:.3} deg/mm",
-                deg(slopes.0),
-                deg(slopes.1)
-            )));
-        }
-        let sides = |posture: &dyn Fn(usize) -> usize| {
-            let pole = self.pole_second(stations);
-            let values = stations[first..=end].iter().enumerate();
-            let sides: Vec<f64> = values
-                .map(|(offset, station)| {
-                    let q = station.in_posture(posture(first + offset)).unwrap_or(station.q);
-                    if station.free { 0.0 } else { q[1] - pole }
-                })
-                .collect();
-            crossings(sides.into_iter())
-        };
-        Ok(Smoothed {
-            edits,
-            changed: (begin, stop.min(self.points.len() - 1)),
-            points: (stations[first].last, stations[end].first),
-            slopes,
-            crossings: (sides(&|_| 0), sides(&|at| plan.postures[at])),
-        })
-    }
-
-    /// Largest slope of the first rotary joint in a stretch, rad per mm.
-    fn steepest(plan: &Plan, (first, end): (usize, usize), q: impl Fn(usize) -> f64) -> f64 {
-        let length = |at: usize| plan.stations[at + 1].s - plan.stations[at].s;
-        let slopes = (first..end).map(|at| ((q(at + 1) - q(at)) / length(at)).abs());
-        slopes.fold(0.0, f64::max)
-    }
-
-    /// The second rotary joint at the pole that is nearest to a chain, rad: halfway between the two postures of its first station that has both.
-    fn pole_second(&self, stations: &[Station]) -> f64 {
-        let both = stations
-            .iter()
-            .filter(|station| !station.free)
-            .find_map(|station| Some((station.q[1], station.other?[1])));
-        both.map_or(0.0, |(a, b)| 0.5 * (a + b))
     }
 
     /// What was done, in one line.

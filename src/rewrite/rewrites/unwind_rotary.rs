@@ -51,6 +51,7 @@ pub(super) const REWRITE: Body = Body {
     cures: &[
         "angle-wrap",
         "axis-overspeed",
+        "excess-linear-travel",
         "excess-rotary-travel",
         "feed-drop",
         "path-deviation",

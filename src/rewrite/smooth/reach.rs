@@ -86,18 +86,18 @@ impl Reach<'_> {
         let reach = self.farthest(index - 1, limit);
         let changes = self.stations[index].free || self.stations[index - 1].free;
         let mut sets = Sets::default();
-        for posture in 0..2 {
+        for (posture, set) in sets.iter_mut().enumerate() {
             let mut found = Vec::new();
-            for from in 0..2 {
+            for (from, ranges) in before.iter().enumerate() {
                 if from == posture || changes {
-                    for range in &before[from] {
+                    for range in ranges {
                         self.tubes(index, posture, (range.0 - reach, range.1 + reach), |_, inside| {
-                            found.push(inside)
+                            found.push(inside);
                         });
                     }
                 }
             }
-            sets[posture] = united(found);
+            *set = united(found);
         }
         sets
     }
@@ -174,9 +174,9 @@ impl Reach<'_> {
         while high - low > 1e-6 * high + 1e-12 {
             let middle = 0.5 * (low + high);
             if self.allows(middle) {
-                high = middle
+                high = middle;
             } else {
-                low = middle
+                low = middle;
             }
         }
         high

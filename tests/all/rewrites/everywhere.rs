@@ -1,12 +1,12 @@
-//! Every rewrite on the programs that people wrote, in ../shared/data: proved, or refused with a reason; what is proved is proved again, is
+//! Every rewrite on the samples and on the programs that people wrote, in ../shared/data: proved, or refused with a reason; what is proved is proved again, is
 //! never worse, and a second attempt changes nothing. A sample runs in CI; `TRUNNION_REWRITES=full` takes every program.
 #![expect(
     clippy::print_stdout,
     reason = "a skipped test says so, and the long form prints what it counted"
 )]
+use crate::mutated_programs::programs;
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use trunnion::certify::{Outcome, recheck};
 use trunnion::check::config::parse_tool_flag;
 use trunnion::check::{Assume, Settings, Severity, Verdict, check};
@@ -16,27 +16,8 @@ use trunnion::machine;
 use trunnion::rewrite::{Options, attempt, rewrites};
 use trunnion::syntax::parse;
 
-/// Larger files take long, and hold the same kinds of blocks.
-const LARGEST: u64 = 150_000;
-
 /// One program of so many is taken in CI.
 const SAMPLE: usize = 3;
-
-fn files(folder: &Path, out: &mut Vec<PathBuf>) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
-        .expect("a folder")
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
-    entries.sort();
-    for path in entries {
-        if path.is_dir() {
-            files(&path, out);
-        } else if fs::metadata(&path).is_ok_and(|data| data.len() <= LARGEST) {
-            out.push(path);
-        }
-    }
-}
 
 fn rank(verdict: Verdict) -> u8 {
     match verdict {
@@ -90,21 +71,13 @@ fn judged(name: &str, text: &[u8], settings: &Settings<'_>, path: &Path) -> &'st
 
 #[test]
 fn every_rewrite_is_proved_or_refused_on_real_programs() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    if !folder.is_dir() {
-        println!("skipped: {} is not there", folder.display());
-        return;
-    }
     let full = std::env::var("TRUNNION_REWRITES").is_ok_and(|form| form == "full");
-    let mut paths = Vec::new();
-    files(&folder, &mut paths);
     let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    for (index, path) in paths.iter().enumerate() {
+    for (index, (path, text)) in programs().iter().enumerate() {
         if !full && index % SAMPLE != 0 {
             continue;
         }
-        let text = fs::read(path).expect("readable");
-        let found = detect(path.file_name().and_then(|name| name.to_str()), &text, None);
+        let found = detect(path.file_name().and_then(|name| name.to_str()), text, None);
         if found.foreign.is_some() {
             continue;
         }
@@ -121,7 +94,7 @@ fn every_rewrite_is_proved_or_refused_on_real_programs() {
             let mut settings = Settings::new(found.dialect, machine::builtin(name), setup);
             settings.assume = Assume::ALL;
             for rewrite in rewrites() {
-                let became = judged(rewrite.name, &text, &settings, path);
+                let became = judged(rewrite.name, text, &settings, path);
                 *counts.entry((rewrite.name, became)).or_default() += 1;
             }
         }

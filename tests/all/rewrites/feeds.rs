@@ -1,16 +1,26 @@
 //! `adapt-feed`: what the axes allow, computed here from their speeds alone; and what its claim must refuse.
-use super::strategy_2::{certified, refused, run, settings};
+use super::strategy_2::{certified, refused, run, settings, sinumerik};
+use std::sync::LazyLock;
 use trunnion::certify::{Claim, Outcome, certify, recheck};
-use trunnion::check::Settings;
+use trunnion::check::{Assume, Settings};
 use trunnion::interp::Setup;
-use trunnion::machine;
+use trunnion::machine::{self, FeedMeaning, Machine};
 use trunnion::rewrite::{Attempt, Options};
 
-/// A program on mill-4axis-a: X Y Z and a table that turns about X.
+/// mill-4axis-a (X Y Z and a table that turns about X), whose F is that of X Y Z.
+fn mill() -> &'static Machine {
+    static MILL: LazyLock<Machine> = LazyLock::new(|| {
+        let mut machine = machine::builtin("mill-4axis-a").expect("built in").clone();
+        machine.control.feed = Some(FeedMeaning::Xyz);
+        machine
+    });
+    &MILL
+}
+
 fn on_mill(dialect: &str) -> Settings<'static> {
     let mut settings = settings(dialect, Setup::default());
-    settings.machine = machine::builtin("mill-4axis-a");
-    settings.assume = trunnion::check::Assume::ALL;
+    settings.machine = Some(mill());
+    settings.assume = Assume::ALL;
     settings
 }
 
@@ -152,4 +162,50 @@ fn other_feeds_than_claimed_are_refuted() {
         &settings.setup,
     );
     assert!(matches!(again, Outcome::Proved(_)));
+}
+
+/// A Fanuc whose parameter decides whether F is the speed of X Y Z alone: no feed is proved there, and none is written.
+#[test]
+fn a_feed_whose_meaning_is_a_parameter_stays() {
+    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X100 F2000\nX101 A90\nX200\nM30\n";
+    let mut settings = on_mill("fanuc-30i");
+    settings.machine = machine::builtin("mill-4axis-a");
+    let reason = refused(adapt(text, &settings, 0.0));
+    assert!(reason.contains("[control] feed"), "{reason}");
+    let after = text.replace("A90", "A90 F40").replace("X200", "X200 F2000");
+    let claim = Claim::AdaptedFeed {
+        tolerance_mm: 1e-6,
+        tolerance_deg: 1e-6,
+        asked_mm_min: 0.0,
+    };
+    let judge = |settings: &Settings<'_>| {
+        let machine = settings.machine.expect("a machine");
+        certify(
+            text.as_bytes(),
+            after.as_bytes(),
+            settings.dialect,
+            machine,
+            &settings.setup,
+            &claim,
+        )
+    };
+    assert!(
+        matches!(judge(&settings), Outcome::Unknown(_)),
+        "{:?}",
+        judge(&settings)
+    );
+    settings.machine = Some(mill());
+    assert!(matches!(judge(&settings), Outcome::Proved(_)), "{:?}", judge(&settings));
+}
+
+/// Under tool centre point control the linear axes follow the turning table, as far out as the work offset says.
+#[test]
+fn a_feed_that_rests_on_an_undeclared_offset_stays() {
+    let rows = "N1 G1 X0 Y0 Z50 A10 C0 F2000\nN2 X0.1 A10 C40\n";
+    let mut settings = settings("sinumerik-840d", Setup::default());
+    settings.assume = Assume::default();
+    let reason = refused(adapt(&sinumerik(rows), &settings, 0.0));
+    assert!(reason.contains("--assume work-offset"), "{reason}");
+    settings.assume = Assume::ALL;
+    certified(adapt(&sinumerik(rows), &settings, 0.0));
 }

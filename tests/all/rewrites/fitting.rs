@@ -260,7 +260,7 @@ fn redundant_points_words_and_blocks() {
     let again = run("drop-redundant", &after, &settings, &exact);
     assert!(again.proved.is_none(), "it changes again:\n{after}");
     let loose = Options {
-        straight_mm: Some(0.01),
+        given_mm: Some(0.01),
         ..exact
     };
     let (after, _) = certified(run("drop-redundant", &text, &settings, &loose));

@@ -18,7 +18,7 @@ fn on(name: &str) -> Settings<'static> {
 
 fn insert(text: &str, settings: &Settings<'_>, path_mm: f64) -> Attempt {
     let options = Options {
-        path_mm: Some(path_mm),
+        given_mm: Some(path_mm),
         ..Options::default()
     };
     run("insert-points", text, settings, &options)

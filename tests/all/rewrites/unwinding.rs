@@ -1,7 +1,10 @@
 //! Rotary axes unwound, and the example in each rewrite's header.
 
 use super::strategy_2::{certified, refused, run, settings, sinumerik};
+use trunnion::check::Assume;
+use trunnion::geometry::plane::{Point, Polygon};
 use trunnion::interp::Setup;
+use trunnion::machine::{Footprint, Machine, Obstacle};
 use trunnion::rewrite::{Attempt, Options, rewrites};
 
 fn near(value: f64, wanted: f64, within: f64) -> bool {
@@ -57,7 +60,12 @@ fn every_rewrites_example_holds() {
         };
         let known = |word: &&str| trunnion::dialect::BUILTIN_NAMES.contains(word);
         let dialect = info.split_whitespace().find(known).expect("a dialect");
-        let settings = settings(dialect, Setup::default());
+        let mut settings = settings(dialect, Setup::default());
+        settings.assume = Assume::ALL;
+        let walled = walled_mill();
+        if info.ends_with(" mill-3axis+wall") {
+            settings.machine = Some(&walled);
+        }
         let options = Options::default();
         assert_eq!(
             &certified(run(rewrite.name, before, &settings, &options)).0,
@@ -73,6 +81,20 @@ fn every_rewrites_example_holds() {
             );
         }
     }
+}
+
+/// The mill of the example of reroute-rapid, with its wall.
+fn walled_mill() -> Machine {
+    let mut machine = trunnion::machine::builtin("mill-3axis").expect("built in").clone();
+    let corners = [[40.0, -100.0], [60.0, -100.0], [60.0, 100.0], [40.0, 100.0]].map(Point::from);
+    machine.obstacles.0.push(Obstacle {
+        name: "wall".to_owned(),
+        axis: None,
+        footprint: Footprint::Polygon(Polygon::new(&corners).expect("a polygon")),
+        bottom: -20.0,
+        top: 35.0,
+    });
+    machine
 }
 
 /// Fences of a header: info string and text.

@@ -218,7 +218,7 @@ proptest! {
                 let point: Vec3 = pose.tip + pose.axis * (length * f64::from(height) / 40.0);
                 let flat = obstacle.footprint.distance(&point.xy());
                 let beyond = (obstacle.bottom - point.z).max(point.z - obstacle.top).max(0.0);
-                nearest = nearest.min(flat.hypot(beyond));
+                nearest = nearest.min(trunnion_geometry::math::hypot(flat, beyond));
             }
         }
         match found {

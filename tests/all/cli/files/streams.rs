@@ -169,7 +169,7 @@ fn no_command_shows_a_control_character() {
     let folder = programs();
     for command in COMMANDS {
         // what they write is a program's own text, or data: JSON, and the canonical calls as the control prints them
-        let is_data = ["convert", "fmt --stdout", "fmt --diff", "canon", "json", "lsp"]
+        let is_data = ["convert", "fix", "fmt --stdout", "fmt --diff", "canon", "json", "lsp"]
             .iter()
             .any(|data| command.contains(data));
         let output = Command::new(env!("CARGO_BIN_EXE_trunnion"))

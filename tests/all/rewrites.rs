@@ -12,3 +12,4 @@ mod smoothing;
 mod strategy_2;
 mod switching;
 mod unwinding;
+mod waypoints;

@@ -70,7 +70,7 @@ use super::Body;
 use crate::propose::ProgrammedPoint;
 use crate::reposition::Writer;
 use crate::slots::{Scheme, Styles, finer, styles};
-use crate::smooth::chain::{Station, chain};
+use crate::smooth::chain::{Station, chain, half_width};
 use crate::smooth::obstacles::{obstacle, refused, unknown_position};
 use crate::smooth::plan::plan;
 use crate::smooth::window::{Smoothed, steepest, write};
@@ -92,6 +92,9 @@ pub(super) const REWRITE: Body = Body {
     ],
     propose,
 };
+
+/// Beyond the pole cone, a motion is looked at where the tube is so wide to either side, deg: there the tolerance matters.
+const WIDE_TUBE_DEG: f64 = 5.0;
 
 /// What was found so far.
 #[derive(Default)]
@@ -171,11 +174,17 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
 }
 
 impl Task<'_> {
-    /// The rule pole-flip fires here, or the rotary axis limits the feed near the pole.
+    /// How far a tool axis may turn, rad: slightly less than allowed, so that the last bit of a double decides nothing.
+    fn room(&self) -> f64 {
+        rad(self.options.tolerance_deg) * (1.0 - 1e-8)
+    }
+
+    /// The first rotary axis turns as far as the rule pole-flip reports, or limits the feed, near the pole or where the tube is wide.
     fn steep(&self, index: usize) -> bool {
         let point = &self.points[index];
         let tolerances = &self.machine.tolerances;
-        if !point.feed || point.pole_angle_min >= tolerances.pole_cone {
+        let wide = || half_width(self.room(), point.pole_angle_min) >= rad(WIDE_TUBE_DEG);
+        if !point.feed || point.pole_angle_min >= tolerances.pole_cone && !wide() {
             return false;
         }
         let fastest = self.machine.axes[self.machine.rotary[0]].max_speed;
@@ -203,9 +212,7 @@ impl Task<'_> {
 
     /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
     fn smooth_chain(&mut self, index: usize, ball: f64, found: &mut Found) -> usize {
-        // slightly less than allowed, so that the last bit of a double decides nothing
-        let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
-        let stations = chain(self.machine, self.points, index, room);
+        let stations = chain(self.machine, self.points, index, self.room());
         let last = stations.last().map_or(index, |station| station.last);
         let only = |task: &Self, change| vec![task.place((index, last), change)];
         if *found.radius.get_or_insert(ball) != ball {

@@ -156,7 +156,7 @@ pub(crate) fn pin_far(machine: &Machine, stations: &mut [Station]) {
 
 /// By how much the azimuth of a tool axis at the angle `pole_angle` from the pole may change so that the axis turns by at most `room`,
 /// rad: 2 asin(sin(room/2) / sin theta), without limit where that has no solution (docs/kinematics.md#smoothing-at-the-pole).
-fn half_width(room: f64, pole_angle: f64) -> f64 {
+pub(crate) fn half_width(room: f64, pole_angle: f64) -> f64 {
     if room <= 0.0 {
         return 0.0;
     }

@@ -25,7 +25,9 @@ proptest! {
                 let (before, after) = (words(&rows), words(&String::from_utf8(after).expect("UTF-8")));
                 prop_assert!(certificate.worst.axis_change_deg.value <= tolerance);
                 let travel = |rows: &[[f64; 5]]| rows.windows(2).map(|w| (w[1][4] - w[0][4]).abs()).sum::<f64>();
-                prop_assert!(travel(&after) <= travel(&before) + 0.01);
+                // another posture or turn is chosen where it is less steep, and may travel farther
+                let chosen = before.iter().zip(&after).any(|(was, is)| was[3] != is[3] || (was[4] - is[4]).abs() > 180.0);
+                prop_assert!(chosen || travel(&after) <= travel(&before) + 0.01);
                 // the slope is what it makes small: over a long block a larger step may be less steep
                 let length = |row: usize| (0..3).map(|axis| (before[row + 1][axis] - before[row][axis]).powi(2)).sum::<f64>().sqrt();
                 let slope = |rows: &[[f64; 5]]| rows.windows(2).enumerate().map(|(row, w)| (w[1][4] - w[0][4]).abs() / length(row)).fold(0.0, f64::max);

@@ -3,6 +3,7 @@ pub(crate) mod chain;
 pub(crate) mod ends;
 mod even;
 mod firm;
+pub(crate) mod mark;
 pub(crate) mod obstacles;
 pub(crate) mod plan;
 mod reach;

@@ -39,7 +39,7 @@
 //! T1 M6
 //! TRAORI
 //! G0 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 S8000 M3
-//! N2920 G1 X-28.38059 Y-1.84015 Z59.90263 A1.047 C2.212 F2000
+//! N2920 G1 X-28.38059 Y-1.84015 Z59.90263 A1.047 C2.212 F2000 ; trunnion: turned 0.1
 //! N2930 G1 X-28.38161 Y-1.53288 Z59.93222 A0.081 C1.066
 //! N2940 G1 X-28.38489 Y-1.28033 Z59.95290 C0.107
 //! N2950 G1 X-28.39015 Y-1.01049 Z59.97066 C-0.905
@@ -48,7 +48,8 @@
 //!
 //! # Claim
 //! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes. The
+//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes, but for the comment
+//! `trunnion: turned`. The
 //! certificate states a measured value and a proven bound of how far apart the paths are between block ends.
 //!
 //! # Traps
@@ -59,7 +60,8 @@
 //!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
 //! - Where the digits of the program are too few, up to 0.001 mm, 0.0001 in and 0.001 deg are written.
-//! - The tolerance counts from the program as it is: each further run may turn the tool axis by as much again.
+//! - The tolerance counts from the program as it was before the first run: the comment `trunnion: turned 0.08` at each place records it,
+//!   and a further run subtracts it. Without the comment, each run may turn the tool axis by as much again.
 //! - A low slope over a long block can be a large step. The largest step may grow while the slope falls.
 //! - Arcs, motions of more than a whole turn and changes of posture far from the pole are left alone. Where tool vectors are
 //!   programmed, the control chooses the posture.
@@ -71,6 +73,7 @@ use crate::propose::ProgrammedPoint;
 use crate::reposition::Writer;
 use crate::slots::{Scheme, Styles, finer, styles};
 use crate::smooth::chain::{Station, chain, half_width};
+use crate::smooth::mark::{Marks, mark};
 use crate::smooth::obstacles::{obstacle, refused, unknown_position};
 use crate::smooth::plan::plan;
 use crate::smooth::window::{Smoothed, steepest, write};
@@ -112,6 +115,8 @@ struct Task<'a> {
     options: &'a Options,
     points: &'a [Point],
     lines: LineIndex,
+    /// What is recorded about earlier runs.
+    marks: Marks,
     /// How the program writes the numbers of each scheme.
     styles: Vec<(Scheme, Styles)>,
 }
@@ -130,6 +135,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         options,
         points: &points,
         lines: LineIndex::new(program.source()),
+        marks: Marks::of(program),
         styles: Vec::new(),
     };
     let steep: Vec<usize> = (0..points.len()).filter(|&index| task.steep(index)).collect();
@@ -173,17 +179,17 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     Ok(Some(Proposal { places, claim, summary }))
 }
 
-impl Task<'_> {
-    /// How far a tool axis may turn, rad: slightly less than allowed, so that the last bit of a double decides nothing.
-    fn room(&self) -> f64 {
-        rad(self.options.tolerance_deg) * (1.0 - 1e-8)
-    }
+/// How far a tool axis may turn, rad, from the tolerance in degrees: slightly less, so that the last bit of a double decides nothing.
+fn room(tolerance_deg: f64) -> f64 {
+    rad(tolerance_deg) * (1.0 - 1e-8)
+}
 
+impl Task<'_> {
     /// The first rotary axis turns as far as the rule pole-flip reports, or limits the feed, near the pole or where the tube is wide.
     fn steep(&self, index: usize) -> bool {
         let point = &self.points[index];
         let tolerances = &self.machine.tolerances;
-        let wide = || half_width(self.room(), point.pole_angle_min) >= rad(WIDE_TUBE_DEG);
+        let wide = || half_width(room(self.options.tolerance_deg), point.pole_angle_min) >= rad(WIDE_TUBE_DEG);
         if !point.feed || point.pole_angle_min >= tolerances.pole_cone && !wide() {
             return false;
         }
@@ -212,9 +218,25 @@ impl Task<'_> {
 
     /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
     fn smooth_chain(&mut self, index: usize, ball: f64, found: &mut Found) -> usize {
-        let stations = chain(self.machine, self.points, index, self.room());
+        let mut allowed = self.options.tolerance_deg;
+        let mut stations = chain(self.machine, self.points, index, room(self.options.tolerance_deg));
         let last = stations.last().map_or(index, |station| station.last);
         let only = |task: &Self, change| vec![task.place((index, last), change)];
+        let begin = stations.first().map_or(index, |station| station.first);
+        let blocks = [begin, last].map(|at| self.points[at].block);
+        if let Some((byte, turned)) = self.marks.within(self.program, blocks[0], blocks[1]) {
+            allowed -= turned;
+            if allowed <= 1e-6 {
+                let (line, _) = self.lines.line_column(self.program.source(), byte);
+                let why = format!(
+                    "line {line} says that the tool axes were already turned by up to {turned} deg, and no more than {} deg is allowed (--tolerance-deg)",
+                    self.options.tolerance_deg
+                );
+                found.places.extend(only(self, Change::Possible(why)));
+                return last;
+            }
+            stations = chain(self.machine, self.points, index, room(allowed));
+        }
         if *found.radius.get_or_insert(ball) != ball {
             let why = "a different ball radius, which needs a separate run";
             found.places.extend(only(self, refused(why)));
@@ -246,7 +268,7 @@ impl Task<'_> {
         }
         let (scheme, styles) = self.scheme(index);
         let writers = [styles, finer(styles, scheme, self.points[index].unit_mm)]
-            .map(|styles| self.writer(index, ball, (scheme, styles)));
+            .map(|styles| self.writer(index, (ball, allowed), (scheme, styles)));
         let mut windows = Vec::new();
         for &(first, end) in &plan.stretches {
             let planned = steepest(&plan, (first, end), |at| plan.q[at]);
@@ -257,6 +279,21 @@ impl Task<'_> {
             if coarse && writers[0].styles != writers[1].styles {
                 written = write(self.points, &writers[1], &plan, (first, end)).or(written);
             }
+            let inner = &self.points[plan.stations[first].last + 1..=plan.stations[end].first];
+            let marked = mark(
+                self.program,
+                inner.iter().map(|point| point.block),
+                self.options.tolerance_deg,
+            );
+            let written = written.and_then(|mut window| match marked {
+                Some(edit) => {
+                    window.edits.push(edit);
+                    Ok(window)
+                }
+                None => Err(refused(
+                    "no block has room for the comment that records how far its tool axes are turned",
+                )),
+            });
             match written {
                 Ok(window) => {
                     places.push(self.place(window.changed, Change::Edits(window.edits.clone())));
@@ -291,7 +328,12 @@ impl Task<'_> {
         found
     }
 
-    fn writer(&self, index: usize, ball: f64, (scheme, styles): (Scheme, Styles)) -> Writer<'_> {
+    fn writer(
+        &self,
+        index: usize,
+        (ball, tolerance_deg): (f64, f64),
+        (scheme, styles): (Scheme, Styles),
+    ) -> Writer<'_> {
         let point = &self.points[index];
         Writer {
             program: self.program,
@@ -305,7 +347,7 @@ impl Task<'_> {
                 ball
             },
             rotary_zero: point.rotary_zero,
-            tolerance_deg: self.options.tolerance_deg,
+            tolerance_deg,
             tolerance_mm: self.options.tolerance_mm,
         }
     }

@@ -39,11 +39,14 @@ fn main() {
         "rewrite", "points", "flips", "points/s", "us/point", "x plain"
     );
     for (points, line) in [(20_000, 200), (80_000, 200), (200_000, 200), (80_000, 50)] {
-        let text = zigzag(points, line).into_bytes();
+        let text = zigzag(points, line, false).into_bytes();
         let plain = cpu::best(RUNS, || follow(&parse(text.clone(), dialect.lex), &settings, machine));
         print_row("plain pass", (points, points / line), plain, plain, "");
-        for name in ["smooth-pole", "switch-angles"] {
-            let program = parse(text.clone(), dialect.lex);
+        for (name, text) in [
+            ("smooth-pole", text),
+            ("switch-angles", zigzag(points, line, true).into_bytes()),
+        ] {
+            let program = parse(text, dialect.lex);
             let one = rewrite(name).expect("a rewrite of that name");
             let mut outcome = String::new();
             let seconds = cpu::best(RUNS, || {
@@ -87,8 +90,8 @@ fn follow(program: &Program, settings: &Settings<'_>, machine: &Machine) {
     );
 }
 
-/// The program's text: lines of `line` points.
-fn zigzag(points: usize, line: usize) -> String {
+/// The program's text: lines of `line` points. `turned`: each line begins with a rapid, and every other one has C a whole turn on.
+fn zigzag(points: usize, line: usize, turned: bool) -> String {
     let mut out = String::from("T1 M6\nD1\nTRAORI\nS8000 M3\nG0 X-20 Y-1 Z60 A6 C0\nG1 Z50 F2000\n");
     let mut last = 0.0f64;
     for at in 0..points {
@@ -102,12 +105,17 @@ fn zigzag(points: usize, line: usize) -> String {
         );
         let tilt = atan2(hypot(i, j), (1.0 - i * i - j * j).sqrt()).to_degrees();
         let azimuth = atan2(i, -j).to_degrees();
-        let turned = azimuth + 360.0 * ((last - azimuth) / 360.0).round();
-        last = turned;
+        last = azimuth + 360.0 * ((last - azimuth) / 360.0).round();
+        let c = last + if turned && row % 2 == 1 { 360.0 } else { 0.0 };
+        let code = match place {
+            0 if turned => "G0 ",
+            1 if turned => "G1 ",
+            _ => "",
+        };
         let (x, y) = (20.0 * along, row as f64 * 0.01);
         let _ = writeln!(
             out,
-            "X{x:.4} Y{y:.4} Z{:.4} A{tilt:.4} C{turned:.4}",
+            "{code}X{x:.4} Y{y:.4} Z{:.4} A{tilt:.4} C{c:.4}",
             50.0 - 0.05 * along * along
         );
     }

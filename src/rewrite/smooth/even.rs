@@ -71,13 +71,14 @@ struct Row {
 
 impl Row {
     fn value(&self, x: &[f64]) -> f64 {
-        let terms = self.by.iter().zip(&x[self.at..]);
-        self.plus + terms.map(|(by, x)| by * x).sum::<f64>()
+        self.plus + self.linear(x)
     }
 
     /// The same without the constant.
     fn linear(&self, x: &[f64]) -> f64 {
-        self.value(x) - self.plus
+        let [a, b, c] = self.by;
+        let x = &x[self.at..self.at + 3];
+        a * x[0] + b * x[1] + c * x[2]
     }
 }
 
@@ -174,15 +175,14 @@ impl<'a> Problem<'a> {
             vec![0.0; count],
         );
         let mut rest = vec![0.0; count];
+        // by how much each bound and its slack do not fit together
+        let mut off = vec![0.0; count];
         for _ in 0..ROUNDS {
             let gap = slack.iter().zip(&price).map(|(s, z)| s * z).sum::<f64>() / count.max(1) as f64;
-            let off = self
-                .bounds
-                .iter()
-                .zip(&slack)
-                .map(|(row, s)| (row.value(&x) + s).abs())
-                .fold(0.0, f64::max);
-            if gap < EXACT * 0.1 && off < EXACT {
+            for (off, (row, s)) in off.iter_mut().zip(self.bounds.iter().zip(&slack)) {
+                *off = row.value(&x) + s;
+            }
+            if gap < EXACT * 0.1 && off.iter().all(|off| off.abs() < EXACT) {
                 return Some(self.heights(&x));
             }
             if !gap.is_finite() {
@@ -198,7 +198,7 @@ impl<'a> Problem<'a> {
             }
             self.direction(
                 &x,
-                (&slack, &price, &rest),
+                (&slack, &price, &rest, &off),
                 &system,
                 (&mut step, &mut d_slack, &mut d_price),
             );
@@ -215,7 +215,7 @@ impl<'a> Problem<'a> {
             }
             self.direction(
                 &x,
-                (&slack, &price, &rest),
+                (&slack, &price, &rest, &off),
                 &system,
                 (&mut step, &mut d_slack, &mut d_price),
             );
@@ -253,28 +253,29 @@ impl<'a> Problem<'a> {
     fn direction(
         &self,
         x: &[f64],
-        (slack, price, rest): (&[f64], &[f64], &[f64]),
+        (slack, price, rest, off): (&[f64], &[f64], &[f64], &[f64]),
         system: &Pentadiagonal,
         (step, d_slack, d_price): (&mut Vec<f64>, &mut [f64], &mut [f64]),
     ) {
         step.fill(0.0);
         let mut subtract = |row: &Row, by: f64| {
-            for (offset, coefficient) in row.by.iter().enumerate() {
-                step[row.at + offset] -= coefficient * by;
+            let step = &mut step[row.at..row.at + 3];
+            for (step, coefficient) in step.iter_mut().zip(row.by) {
+                *step -= coefficient * by;
             }
         };
         for row in &self.bends {
             subtract(row, row.value(x));
         }
-        for (at, row) in self.bounds.iter().enumerate() {
-            let off = row.value(x) + slack[at];
-            subtract(row, price[at] + (price[at] * off - rest[at]) / slack[at]);
+        let known = slack.iter().zip(price).zip(rest.iter().zip(off));
+        for (row, ((slack, price), (rest, off))) in self.bounds.iter().zip(known.clone()) {
+            subtract(row, price + (price * off - rest) / slack);
         }
         system.solve(step);
-        for (at, row) in self.bounds.iter().enumerate() {
-            let off = row.value(x) + slack[at];
-            d_slack[at] = -off - row.linear(step);
-            d_price[at] = (-rest[at] - price[at] * d_slack[at]) / slack[at];
+        let found = d_slack.iter_mut().zip(d_price.iter_mut());
+        for ((row, ((slack, price), (rest, off))), (d_slack, d_price)) in self.bounds.iter().zip(known).zip(found) {
+            *d_slack = -off - row.linear(step);
+            *d_price = (-rest - price * *d_slack) / slack;
         }
     }
 }

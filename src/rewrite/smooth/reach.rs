@@ -168,10 +168,10 @@ impl Reach<'_> {
         Some(choices)
     }
 
-    /// The least slope (rad per length, within a millionth), not above `highest`.
+    /// The least slope (rad per length, within a ten-thousandth), not above `highest`.
     pub(super) fn least(&self, highest: f64) -> f64 {
         let (mut low, mut high) = (0.0, highest);
-        while high - low > 1e-6 * high + 1e-12 {
+        while high - low > 1e-4 * high + 1e-12 {
             let middle = 0.5 * (low + high);
             if self.allows(middle) {
                 high = middle;

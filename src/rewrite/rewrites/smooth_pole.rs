@@ -75,7 +75,7 @@ use crate::slots::{Scheme, Styles, finer, styles};
 use crate::smooth::chain::{Station, chain, half_width};
 use crate::smooth::mark::{Marks, mark};
 use crate::smooth::obstacles::{obstacle, refused, unknown_position};
-use crate::smooth::plan::plan;
+use crate::smooth::plan::{Plan, plan};
 use crate::smooth::window::{Smoothed, steepest, write};
 use crate::survey::{Point, Tip, survey};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
@@ -218,23 +218,18 @@ impl Task<'_> {
 
     /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
     fn smooth_chain(&mut self, index: usize, ball: f64, found: &mut Found) -> usize {
-        let mut allowed = self.options.tolerance_deg;
         let mut stations = chain(self.machine, self.points, index, room(self.options.tolerance_deg));
         let last = stations.last().map_or(index, |station| station.last);
         let only = |task: &Self, change| vec![task.place((index, last), change)];
         let begin = stations.first().map_or(index, |station| station.first);
-        let blocks = [begin, last].map(|at| self.points[at].block);
-        if let Some((byte, turned)) = self.marks.within(self.program, blocks[0], blocks[1]) {
-            allowed -= turned;
-            if allowed <= 1e-6 {
-                let (line, _) = self.lines.line_column(self.program.source(), byte);
-                let why = format!(
-                    "line {line} says that the tool axes were already turned by up to {turned} deg, and no more than {} deg is allowed (--tolerance-deg)",
-                    self.options.tolerance_deg
-                );
-                found.places.extend(only(self, Change::Possible(why)));
+        let allowed = match self.allowed(begin, last) {
+            Ok(allowed) => allowed,
+            Err(change) => {
+                found.places.extend(only(self, change));
                 return last;
             }
+        };
+        if allowed < self.options.tolerance_deg {
             stations = chain(self.machine, self.points, index, room(allowed));
         }
         if *found.radius.get_or_insert(ball) != ball {
@@ -279,22 +274,7 @@ impl Task<'_> {
             if coarse && writers[0].styles != writers[1].styles {
                 written = write(self.points, &writers[1], &plan, (first, end)).or(written);
             }
-            let inner = &self.points[plan.stations[first].last + 1..=plan.stations[end].first];
-            let marked = mark(
-                self.program,
-                inner.iter().map(|point| point.block),
-                self.options.tolerance_deg,
-            );
-            let written = written.and_then(|mut window| match marked {
-                Some(edit) => {
-                    window.edits.push(edit);
-                    Ok(window)
-                }
-                None => Err(refused(
-                    "no block has room for the comment that records how far its tool axes are turned",
-                )),
-            });
-            match written {
+            match written.and_then(|window| self.recorded(window, &plan, (first, end))) {
                 Ok(window) => {
                     places.push(self.place(window.changed, Change::Edits(window.edits.clone())));
                     windows.push(window);
@@ -309,6 +289,34 @@ impl Task<'_> {
         found.places.extend(places);
         found.windows.extend(windows);
         last
+    }
+
+    /// How far the tool axes of a chain may still turn, deg: what earlier runs recorded is subtracted.
+    fn allowed(&self, first: usize, last: usize) -> Result<f64, Change> {
+        let tolerance = self.options.tolerance_deg;
+        let blocks = [first, last].map(|at| self.points[at].block);
+        let Some((byte, turned)) = self.marks.within(self.program, blocks[0], blocks[1]) else {
+            return Ok(tolerance);
+        };
+        if tolerance - turned > 1e-6 {
+            return Ok(tolerance - turned);
+        }
+        let (line, _) = self.lines.line_column(self.program.source(), byte);
+        Err(Change::Possible(format!(
+            "line {line} says that the tool axes were already turned by up to {turned} deg, and no more than {tolerance} deg is allowed (--tolerance-deg)"
+        )))
+    }
+
+    /// The window with the comment that records how far its tool axes are turned.
+    fn recorded(&self, mut window: Smoothed, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, Change> {
+        let inner = &self.points[plan.stations[first].last + 1..=plan.stations[end].first];
+        let blocks = inner.iter().map(|point| point.block);
+        let Some(edit) = mark(self.program, blocks, self.options.tolerance_deg) else {
+            let why = "no block has room for the comment that records how far its tool axes are turned";
+            return Err(refused(why));
+        };
+        window.edits.push(edit);
+        Ok(window)
     }
 
     /// Which words the chain around a motion is written in, and how.

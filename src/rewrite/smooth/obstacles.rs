@@ -15,7 +15,7 @@ pub(crate) fn tool_obstacle(point: &Point) -> Option<Change> {
             "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
                 .into(),
         )),
-        Tip::Other => Some(Change::Refused("the tool is not a ball: its contact with the surface would move".into())),
+        Tip::Other => Some(Change::Refused("the tool is not a ball: its contact with the surface would move, and the surface normal is not known".into())),
         Tip::Ball(_) if point.incremental => Some(Change::Refused("coordinates are incremental (G91)".into())),
         Tip::Ball(_) => None,
     }

@@ -62,7 +62,9 @@ pub(crate) struct Chains {
 struct Seen {
     block: BlockId,
     ends: Result<(Vec3, Vec3), &'static str>,
+    /// A line with words of axes.
     linear: bool,
+    /// It needs no motion code: a dwell, or a block of codes alone (`G1 F500`).
     waits: bool,
     plane: Plane,
     unit_mm: f64,
@@ -80,8 +82,9 @@ impl Sink for Collector {
         self.all.push(Seen {
             block: motion.block,
             ends: ends(motion, state),
-            linear: motion.kind == MotionKind::Linear,
-            waits: matches!(motion.kind, MotionKind::Dwell(_)),
+            linear: motion.kind == MotionKind::Linear && motion.says_way != 0,
+            waits: matches!(motion.kind, MotionKind::Dwell(_))
+                || motion.kind == MotionKind::Linear && motion.says_way == 0 && motion.start == motion.end,
             plane: state.coordinates.plane(),
             unit_mm: state.coordinates.unit_mm(),
             goes_on: self.last.is_some_and(|last| goes_on(&last, motion)),
@@ -237,8 +240,9 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         {
             stops = on;
         }
-        if motions == 0 {
-            if text != Text::Blank {
+        if seen[at..at + motions].iter().all(|seen| seen.waits) {
+            at += motions;
+            if motions > 0 || text != Text::Blank {
                 close(&mut open, next);
             }
             continue;

@@ -2,11 +2,13 @@
 //!
 //! It does no I/O and never vouches for itself.
 mod attempt;
+mod beside;
 mod chain_words;
 mod circle;
 mod edited;
 mod fewest;
 mod gains;
+mod lanes;
 mod line_points;
 mod pieces;
 mod polyline;

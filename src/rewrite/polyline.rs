@@ -62,14 +62,24 @@ pub(crate) struct Chains {
 struct Seen {
     block: BlockId,
     ends: Result<(Vec3, Vec3), &'static str>,
-    /// A line with words of axes.
     linear: bool,
-    /// It needs no motion code: a dwell, or a block of codes alone (`G1 F500`).
     waits: bool,
     plane: Plane,
     unit_mm: f64,
     /// All that is in effect is as at the motion before.
     goes_on: bool,
+}
+
+impl Seen {
+    /// A block of codes without coordinates (`G1 F500`): it needs no motion code, and begins no chain.
+    fn is_code_alone(&self, program: &Program) -> bool {
+        self.linear
+            && self.ends.is_ok_and(|(start, end)| start == end)
+            && program
+                .block(self.block)
+                .words()
+                .all(|word| matches!(word.address, Address::Letter(b'N' | b'G' | b'F' | b'S' | b'M' | b'T')))
+    }
 }
 
 struct Collector {
@@ -82,9 +92,8 @@ impl Sink for Collector {
         self.all.push(Seen {
             block: motion.block,
             ends: ends(motion, state),
-            linear: motion.kind == MotionKind::Linear && motion.says_way != 0,
-            waits: matches!(motion.kind, MotionKind::Dwell(_))
-                || motion.kind == MotionKind::Linear && motion.says_way == 0 && motion.start == motion.end,
+            linear: motion.kind == MotionKind::Linear,
+            waits: matches!(motion.kind, MotionKind::Dwell(_)),
             plane: state.coordinates.plane(),
             unit_mm: state.coordinates.unit_mm(),
             goes_on: self.last.is_some_and(|last| goes_on(&last, motion)),
@@ -219,6 +228,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         chains: Vec::new(),
         reasons: Vec::new(),
     };
+    let waits = |seen: &Seen| seen.waits || seen.is_code_alone(program);
     let mut open: Option<Chain> = None;
     let mut stops = false;
     let mut at = 0;
@@ -233,14 +243,14 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         while seen.get(at + motions).is_some_and(|seen| seen.block == block.id()) {
             motions += 1;
         }
-        let next = seen[at + motions..].iter().find(|seen| !seen.waits);
+        let next = seen[at + motions..].iter().find(|seen| !waits(seen));
         let text = text_of(&block);
         if text == Text::Other
             && let Some(on) = exact_stop(&block)
         {
             stops = on;
         }
-        if seen[at..at + motions].iter().all(|seen| seen.waits) {
+        if seen[at..at + motions].iter().all(waits) {
             at += motions;
             if motions > 0 || text != Text::Blank {
                 close(&mut open, next);
@@ -260,7 +270,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             Ok(_) => None,
         };
         if let Some(why) = why {
-            close(&mut open, seen[at - motions..].iter().find(|seen| !seen.waits));
+            close(&mut open, seen[at - motions..].iter().find(|seen| !waits(seen)));
             if one.linear && !why.is_empty() {
                 match found.reasons.iter_mut().find(|(known, _)| *known == why) {
                     Some((_, count)) => *count += 1,

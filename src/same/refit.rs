@@ -145,9 +145,9 @@ pub(crate) fn follow(
         return Ok(Followed::Through(refitted(&now.along, now.motions)));
     }
     // the new motion may end beside this point: it does so at the nearest one, unless it ends exactly at a later one
-    let ended = now.along.ended();
     let from_end = now.along.from_end();
-    let nearer = now.best.as_ref().is_none_or(|best| from_end < best.off);
+    let nearer = from_end <= refit.mm && now.best.as_ref().is_none_or(|best| from_end < best.off);
+    let ended = if nearer { now.along.ended() } else { now.along };
     if nearer && counts(&ended) <= refit.mm {
         now.best = Some(Box::new(Joint {
             was: was.clone(),

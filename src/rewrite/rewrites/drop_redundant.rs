@@ -70,6 +70,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             source: RefitSource::Chords,
             planes: &[],
             styles: None,
+            ends: None,
             unit_mm: chain.unit_mm,
             dialect: settings.dialect,
         };

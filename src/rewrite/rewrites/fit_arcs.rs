@@ -56,7 +56,7 @@ use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
-use trunnion_syntax::{Address, Format, Program, Value};
+use trunnion_syntax::{Address, Format, Program, TextRange, Value};
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
@@ -65,7 +65,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         return Err("APT: arcs are not written there".into());
     }
     let found = chains(program, settings, 2);
-    let (hand, styles) = (Hand::of(program), centre_styles(program));
+    let (hand, (ends, styles)) = (Hand::of(program), styles(program));
     let (mut places, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
     // chains that follow each other directly are one place: the first may end with an arc, and then the next begins with G1
     for group in found
@@ -80,6 +80,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
                 source: options.source,
                 planes: &planes,
                 styles: Some(styles),
+                ends: Some(ends),
                 unit_mm: chain.unit_mm,
                 dialect: settings.dialect,
             };
@@ -127,29 +128,30 @@ fn planes(settings: &Settings<'_>, chain: &Chain) -> Vec<Plane> {
     planes
 }
 
-/// How I, J and K are written: like those that are there, else like X, Y and Z together.
-fn centre_styles(program: &Program) -> [NumberStyle; 3] {
-    let texts = |letters: &'static [u8]| {
-        let words = program.blocks().flat_map(|block| block.words().collect::<Vec<_>>());
-        let own = words.filter(move |word| {
-            matches!(word.address, Address::Letter(letter) if letters.contains(&letter))
-                && matches!(word.value, Value::Number(_))
-        });
-        own.map(|word| program.text(word.value_range).into_owned())
-            .collect::<Vec<_>>()
-    };
-    let learn = |texts: &[String]| NumberStyle::learn(texts.iter().map(String::as_str));
-    let all = learn(&texts(b"XYZ")).unwrap_or(NumberStyle {
+/// How X, Y and Z are written, all together, and I, J and K: like those that are there, else like the others.
+fn styles(program: &Program) -> (NumberStyle, [NumberStyle; 3]) {
+    let (mut coordinates, mut centres) = (Vec::new(), Vec::new());
+    for block in program.blocks() {
+        for word in block.words().filter(|word| matches!(word.value, Value::Number(_))) {
+            match word.address {
+                Address::Letter(b'X'..=b'Z') => coordinates.push(word.value_range),
+                Address::Letter(b'I'..=b'K') => centres.push(word.value_range),
+                _ => {}
+            }
+        }
+    }
+    let learn = |ranges: &[TextRange]| NumberStyle::learn(ranges.iter().map(|range| program.text(*range)));
+    let all = learn(&coordinates).unwrap_or(NumberStyle {
         decimals: 3,
         trims: false,
         whole_point: true,
         leading_zero: true,
     });
     // fewer digits than those of the coordinates would only make worse arcs
-    let style = learn(&texts(b"IJK"))
+    let centres = learn(&centres)
         .filter(|style| style.decimals >= all.decimals)
         .unwrap_or(all);
-    [style; 3]
+    (all, [centres; 3])
 }
 
 /// Why other lines were not looked at.

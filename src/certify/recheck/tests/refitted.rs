@@ -207,7 +207,10 @@ fn new_motions_may_meet_beside_the_old_points() {
         assert!(found.contains(why), "{text}: {found}");
     }
     // a line that begins beside the old one and ends with it is not the same line
-    let aside = arc("", "G3 X0. Y20.02 R20.", "G1 X-5.\n");
+    let (before, aside) = (
+        chords("", "G1 X-5. Y20.\n"),
+        arc("", "G3 X0. Y20.02 R20.", "G1 X-5. Y20.\n"),
+    );
     let certificate = proved(prove(&before, &aside, 0.11));
     assert!(certificate.motions.changed == 2);
     assert!(refused(prove(&before, &aside.replace("20.02", "20.2"), 0.11)).contains("from the new path"));

@@ -24,9 +24,9 @@ pub(crate) fn fewest_beside(
         let mut next: Vec<Gate> = Vec::new();
         let mut farthest = vec![0; lanes];
         for &start in &layer {
-            for lane in 0..lanes {
+            for (lane, farthest) in farthest.iter_mut().enumerate() {
                 let end = if lane == 0 { last } else { last - 1 };
-                let reached = farthest[lane].max(start.0);
+                let reached = (*farthest).max(start.0);
                 let mut near = reached;
                 // no arc has one line only
                 let mut step = if reached < end && fits(start, (reached + 1, lane)) {
@@ -48,7 +48,7 @@ pub(crate) fn fewest_beside(
                 if near == reached {
                     continue;
                 }
-                farthest[lane] = near;
+                *farthest = near;
                 for index in (reached + 1..=near).rev().take(KEPT) {
                     let gate = (index, lane);
                     if from[slot(gate)] == NONE && (index == near || fits(start, gate)) {

@@ -119,6 +119,11 @@ pub(crate) fn circle_between(ends: [&Flat; 2], points: &[Flat], tolerance: f64, 
         let (h2, e2) = (base.half * base.half, tolerance * tolerance);
         let c = a * a + b * b - h2 - e2;
         let lead = b * b - e2;
+        // inside between two roots, so between two values that are
+        let inside = |t: f64| (lead * t - b * c) * t + 0.25 * c * c - e2 * h2 <= 0.0;
+        if lead > 0.0 && inside(range.low) && inside(range.high) {
+            return true;
+        }
         let root = c * c + 4.0 * h2 * lead;
         if lead.abs() <= 1e-300 || root < 0.0 {
             return true;
@@ -172,6 +177,13 @@ fn chord_serves(base: &Base, pair: &[Flat], tolerance: f64, range: &mut Range) -
         return true;
     }
     let (x, y) = (x / length, y / length);
+    // R - (x t + w) <= e, so h^2 + t^2 <= (x t + w + e)^2; it holds between two values of t for which it does
+    let e = y * a - x * b + tolerance;
+    let h2 = base.half * base.half;
+    let holds = |t: f64| x * t + e >= 0.0 && (y * y * t - 2.0 * x * e) * t + h2 - e * e <= 0.0;
+    if holds(range.low) && holds(range.high) {
+        return true;
+    }
     // the foot of (0, t) on the line is inside it where its share is between 0 and the length
     let share = |t: f64| y * (t - b) - x * a;
     let (mut first, mut last) = (range.low, range.high);
@@ -185,9 +197,6 @@ fn chord_serves(base: &Base, pair: &[Flat], tolerance: f64, range: &mut Range) -
     if first > last {
         return true;
     }
-    // R - (x t + w) <= e, so h^2 + t^2 <= (x t + w + e)^2
-    let e = y * a - x * b + tolerance;
-    let h2 = base.half * base.half;
     let lead = y * y;
     let (low, high) = if lead > 1e-12 {
         let root = e * e - lead * h2;

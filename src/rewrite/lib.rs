@@ -5,6 +5,7 @@ mod attempt;
 mod beside;
 mod chain_words;
 mod circle;
+mod divide;
 mod edited;
 mod fewest;
 mod gains;
@@ -26,6 +27,7 @@ mod style;
 mod survey;
 mod taut_string;
 mod unwrap;
+mod whole_circle;
 
 pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};

@@ -93,69 +93,8 @@ pub(crate) struct Points<'a> {
     pub(crate) flat: Vec<Vec<Flat>>,
 }
 
-/// Rounds of [`divide`] before a chain is left as it is.
-const MOST_ROUNDS: usize = 40;
-
-/// Divides the chain through `points` into the fewest pieces. Doing the same to the result changes nothing: lines that were put together, and
-/// would be put together with their neighbours again because the points inside are gone, stay apart.
-pub(crate) fn divide(points: &[Vec3], limits: &Limits<'_>) -> Pieces {
-    let chain = Points::new(points, limits);
-    let mut refused = BTreeSet::new();
-    let mut unrounded = None;
-    for _ in 0..MOST_ROUNDS {
-        let pieces = chain.fewest(&mut refused, &mut unrounded);
-        let unstable = again(points, limits, &pieces);
-        if unstable.is_empty() {
-            if let Some((fewer, unrounded)) = chain.fewer(pieces.len() - 1)
-                && again(points, limits, &fewer).is_empty()
-            {
-                return Pieces {
-                    pieces: fewer,
-                    unrounded,
-                };
-            }
-            let unrounded = unrounded.unwrap_or(pieces.len());
-            return Pieces { pieces, unrounded };
-        }
-        refused.extend(unstable);
-    }
-    let pieces: Vec<Piece> = (1..points.len())
-        .map(|to| Piece {
-            from: to - 1,
-            to,
-            arc: None,
-            beside: None,
-        })
-        .collect();
-    let unrounded = pieces.len();
-    Pieces { pieces, unrounded }
-}
-
-/// The lines that were put together beside others with which they would be put together again.
-fn again(points: &[Vec3], limits: &Limits<'_>, pieces: &[Piece]) -> Vec<(usize, usize)> {
-    let mut found = Vec::new();
-    for lines in pieces.chunk_by(|a, b| a.arc.is_none() && b.arc.is_none()) {
-        let joined = || {
-            lines
-                .iter()
-                .filter(|piece| piece.arc.is_none() && piece.to > piece.from + 1)
-        };
-        if lines.len() < 2 || joined().next().is_none() {
-            continue;
-        }
-        let joints: Vec<Vec3> = core::iter::once(points[lines[0].from])
-            .chain(lines.iter().map(|piece| points[piece.to]))
-            .collect();
-        let next = Points::new(&joints, limits).fewest(&mut BTreeSet::new(), &mut None);
-        if next.len() < lines.len() {
-            found.extend(joined().map(|piece| (piece.from, piece.to)));
-        }
-    }
-    found
-}
-
 impl<'a> Points<'a> {
-    fn new(all: &'a [Vec3], limits: &'a Limits<'a>) -> Self {
+    pub(crate) fn new(all: &'a [Vec3], limits: &'a Limits<'a>) -> Self {
         let level_until = [0, 1, 2].map(|axis| {
             let mut until: Vec<usize> = (0..all.len()).collect();
             for index in (0..all.len() - 1).rev() {
@@ -190,7 +129,7 @@ impl<'a> Points<'a> {
     }
 
     /// The fewest pieces that can be written, without those that are refused.
-    fn fewest(&self, refused: &mut BTreeSet<(usize, usize)>, unrounded: &mut Option<usize>) -> Vec<Piece> {
+    pub(crate) fn fewest(&self, refused: &mut BTreeSet<(usize, usize)>, unrounded: &mut Option<usize>) -> Vec<Piece> {
         loop {
             let joints = fewest(self.all.len() - 1, &mut |from, to| {
                 to == from + 1

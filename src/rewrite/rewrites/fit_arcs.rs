@@ -8,7 +8,8 @@
 //! A chain of lines with one feed and nothing between them is divided into the fewest arcs and lines: the shortest path over its points.
 //! A part may become an arc if a circle through its two ends comes near all its points (`--source points`), and also near the lines
 //! between them (`--source chords`, the default). All centres that serve are found, and then one whose numbers, rounded to the digits of the
-//! program, still serve. A part that cannot be written so is divided again.
+//! program, still serve. A part that cannot be written so is divided again. Where that saves blocks, arcs meet beside the points of the program,
+//! within the tolerance. Lines that come back to where they began become one whole circle.
 //!
 //! # Example
 //! ```gcode before fanuc-30i mill-3axis
@@ -39,7 +40,7 @@
 //!
 //! # Traps
 //! - A control slows down in arcs where it does not on lines; the programmed feed stays as it is.
-//! - Arcs are at most 350 degrees and 10 m in radius, and never have equal ends; a whole circle becomes two.
+//! - Arcs are at most 350 degrees and 10 m in radius, or whole circles.
 //! - A block with a comment begins a new piece, so comments stay. Words other than a number, G1, X, Y, Z and F end a chain.
 //! - On a Sinumerik arcs are only written in the active plane, because another plane turns the tool's length.
 //! - Left alone, with the reason: G41 and G42, G91, G93, exact stop, tool centre point control, moving rotary axes, frames, G90.1.
@@ -49,7 +50,8 @@
 //! Vickers and Bradley, curved surface machining through circular arc interpolation (1992), for arcs through points; docs/kinematics.md#arcs-through-points.
 use super::Body;
 use crate::chain_words::{Hand, write};
-use crate::pieces::{Limits, divide};
+use crate::divide::divide;
+use crate::pieces::Limits;
 use crate::polyline::{Chain, Reasons, chains};
 use crate::style::NumberStyle;
 use crate::{Options, Place, Proposal, Proposed};

@@ -6,8 +6,8 @@
 /// A point and its lane.
 pub(crate) type Gate = (usize, usize);
 
-/// So many of the farthest points in each lane begin the next layer.
-const KEPT: usize = 2;
+/// So many of the farthest points in each lane begin the next layer: more save nothing on curves.
+const KEPT: usize = 1;
 
 /// The gates of a division of `0..=last` into at most `most` pieces, both ends included, both in lane 0; `None` where none was found.
 pub(crate) fn fewest_beside(

@@ -142,3 +142,59 @@ impl Points<'_> {
         Some(Beside { at, is_point, words })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::divide::divide;
+    use crate::pieces::Limits;
+    use crate::style::NumberStyle;
+    use trunnion_certify::RefitSource;
+    use trunnion_dialect::Plane;
+    use trunnion_geometry::Vec3;
+    use trunnion_geometry::math::sin_cos;
+
+    /// Ellipses in 200 lines.
+    #[test]
+    fn arcs_that_meet_beside_points_are_fewer() {
+        let ellipse = |long: i32, short: i32| -> Vec<Vec3> {
+            let at = |index: i32| {
+                let (sin, cos) = sin_cos(core::f64::consts::PI * f64::from(index) / 100.0);
+                let round = |value: f64| (value * 1e4).round() / 1e4;
+                Vec3::new(round(f64::from(long) * cos), round(f64::from(short) * sin), 0.0)
+            };
+            (0..=200).map(at).collect()
+        };
+        let style = NumberStyle {
+            decimals: 4,
+            trims: false,
+            whole_point: true,
+            leading_zero: true,
+        };
+        let count = |points: &[Vec3], tolerance_mm: f64, ends: Option<NumberStyle>| {
+            let limits = Limits {
+                tolerance_mm,
+                source: RefitSource::Chords,
+                planes: &[Plane::Xy],
+                styles: Some([style; 3]),
+                ends,
+                unit_mm: 1.0,
+                dialect: trunnion_dialect::builtin("fanuc-30i").expect("built in"),
+            };
+            divide(points, &limits).pieces.len()
+        };
+        let mut saved = 0;
+        for (long, short) in (5..24)
+            .step_by(3)
+            .flat_map(|long| (2..12).step_by(3).map(move |short| (long, short)))
+        {
+            let points = ellipse(long, short);
+            for tolerance_mm in [0.05, 0.02, 0.01, 0.005] {
+                let at_points = count(&points, tolerance_mm, None);
+                let beside = count(&points, tolerance_mm, Some(style));
+                assert!(beside <= at_points, "{long} {short} {tolerance_mm}");
+                saved += at_points - beside;
+            }
+        }
+        assert!(saved > 15, "{saved} saved");
+    }
+}

@@ -181,6 +181,66 @@ fn each_dialect_and_plane() {
     assert!(after.contains("g03x0.000y20.000i-20.000j0.000"), "{after}");
 }
 
+/// A whole circle between lines to it and from it, in the words of each control; ends that are equal in text.
+#[test]
+fn a_whole_circle_is_one_arc() {
+    let chords = options(0.01, RefitSource::Chords);
+    for dialect in ["fanuc-30i", "haas-ngc", "sinumerik-840d", "linuxcnc"] {
+        let end = if dialect == "linuxcnc" { "M2\n" } else { "M30\n" };
+        for (sign, code) in [(1, "G3"), (-1, "G2")] {
+            let text = format!(
+                "{HEAD}X10.000 Y0.000\nX20.000 Y0.000\n{}X10.000 Y1.000\nG0 Z5.\n{end}",
+                circle(20.0, sign * 360, 3, |x, y| format!("X{x:.3} Y{y:.3}")
+                    .replace("-0.000", "0.000"))
+            );
+            let after = fitted(dialect, &text, &chords);
+            assert!(
+                after.contains(&format!(
+                    "X20.000 Y0.000\n{code} X20.000 Y0.000 I-20.000 J0.000\nG1 X10.000 Y1.000\n"
+                )),
+                "{dialect}:\n{after}"
+            );
+        }
+    }
+    // the same numbers are no circle where the points are a polygon
+    let hexagon = format!(
+        "{HEAD}{}M30\n",
+        circle(20.0, 360, 60, |x, y| format!("X{x:.3} Y{y:.3}"))
+    );
+    assert!(
+        run("fit-arcs", &hexagon, &settings("fanuc-30i"), &chords)
+            .proved
+            .is_none()
+    );
+}
+
+/// Ellipses in 200 lines: some arcs meet beside the points, and all are proved.
+#[test]
+fn arcs_may_meet_beside_the_points() {
+    let mut beside = 0;
+    for (long, short) in [(8.0, 2.0), (17.0, 8.0), (20.0, 2.0)] {
+        let words: Vec<String> = (0..=200)
+            .map(|index| {
+                let (sin, cos) = sin_cos(core::f64::consts::PI * f64::from(index) / 100.0);
+                format!("X{:.4} Y{:.4}", long * cos, short * sin)
+            })
+            .collect();
+        let text = format!(
+            "{}{}\nM30\n",
+            HEAD.replace("X20. Y0.", &words[0]),
+            words[1..].join("\n")
+        );
+        for tolerance_mm in [0.05, 0.02, 0.01, 0.005] {
+            let after = fitted("fanuc-30i", &text, &options(tolerance_mm, RefitSource::Chords));
+            let arcs = after.lines().filter(|line| line.contains(" I"));
+            beside += arcs
+                .filter(|line| !words.iter().any(|word| line.contains(word.as_str())))
+                .count();
+        }
+    }
+    assert!(beside > 3, "{beside} arcs end beside points");
+}
+
 /// What it does not do is said with the reason.
 #[test]
 fn what_is_left_alone_is_named() {

@@ -1,7 +1,8 @@
 //! A chain divided: whole circles, and the fewest lines and arcs between them.
-use crate::pieces::{Limits, Piece, Pieces, Points};
+use crate::pieces::{Limits, Piece, Pieces, Points, axes};
 use crate::whole_circle::whole_circles;
 use std::collections::BTreeSet;
+use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
 
 /// Rounds before a chain is left as it is.
@@ -46,15 +47,11 @@ fn open(points: &[Vec3], limits: &Limits<'_>) -> Pieces {
         let pieces = chain.fewest(&mut refused, &mut unrounded);
         let unstable = again(points, limits, &pieces);
         if unstable.is_empty() {
-            if let Some((fewer, unrounded)) = chain.fewer(pieces.len() - 1)
-                && again(points, limits, &fewer).is_empty()
-            {
-                return Pieces {
-                    pieces: fewer,
-                    unrounded,
-                };
-            }
             let unrounded = unrounded.unwrap_or(pieces.len());
+            let fewer = beside(&chain, &pieces, unrounded);
+            if fewer.pieces.len() < pieces.len() && again(points, limits, &fewer.pieces).is_empty() {
+                return fewer;
+            }
             return Pieces { pieces, unrounded };
         }
         refused.extend(unstable);
@@ -69,6 +66,34 @@ fn open(points: &[Vec3], limits: &Limits<'_>) -> Pieces {
         .collect();
     let unrounded = pieces.len();
     Pieces { pieces, unrounded }
+}
+
+/// The pieces with fewer in their place wherever several in one plane may meet beside the points.
+fn beside(chain: &Points<'_>, pieces: &[Piece], unrounded: usize) -> Pieces {
+    let mut all = Pieces {
+        pieces: Vec::with_capacity(pieces.len()),
+        unrounded,
+    };
+    let level = |piece: &Piece| {
+        let until = |plane: &Plane| chain.level_until[axes(*plane)[2]][piece.from] >= piece.to;
+        chain.limits.planes.iter().position(until)
+    };
+    for run in pieces.chunk_by(|a, b| level(a).is_some() && level(a) == level(b)) {
+        let (from, to) = (run[0].from, run[run.len() - 1].to);
+        let points = &chain.all[from..=to];
+        match Points::new(points, chain.limits).fewer(run.len() - 1) {
+            Some((fewer, before)) => {
+                all.unrounded = all.unrounded + before - run.len().min(all.unrounded + before);
+                all.pieces.extend(fewer.into_iter().map(|piece| Piece {
+                    from: piece.from + from,
+                    to: piece.to + from,
+                    ..piece
+                }));
+            }
+            None => all.pieces.extend_from_slice(run),
+        }
+    }
+    all
 }
 
 /// The lines that were put together beside others with which they would be put together again.

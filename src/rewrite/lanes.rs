@@ -44,7 +44,10 @@ impl Points<'_> {
     /// A division into at most `most` pieces whose arcs may meet beside the points, and how many there were before rounding.
     pub(crate) fn fewer(&self, most: usize) -> Option<(Vec<Piece>, usize)> {
         let last = self.all.len() - 1;
-        let lanes = self.lanes().filter(|_| most > 1)?;
+        if most < 2 {
+            return None;
+        }
+        let lanes = self.lanes()?;
         let mut refused: BTreeSet<(Gate, Gate)> = BTreeSet::new();
         let mut unrounded = None;
         for _ in 0..MOST_TRIES {

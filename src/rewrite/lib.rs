@@ -2,11 +2,14 @@
 //!
 //! It does no I/O and never vouches for itself.
 mod attempt;
+mod beside;
 mod chain_words;
 mod circle;
+mod divide;
 mod edited;
 mod fewest;
 mod gains;
+mod lanes;
 mod line_points;
 mod pieces;
 mod polyline;
@@ -24,6 +27,7 @@ mod style;
 mod survey;
 mod taut_string;
 mod unwrap;
+mod whole_circle;
 
 pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};

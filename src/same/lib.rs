@@ -19,6 +19,7 @@ mod notes;
 mod process;
 mod rapids;
 mod refit;
+mod sentences;
 mod since;
 mod steps;
 mod twins;

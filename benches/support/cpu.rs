@@ -41,6 +41,7 @@ pub(crate) fn passed<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
 
 /// Processor seconds of `rs274 -g` on a file, the least of some runs, each under a limit of 120 s; `None` where it is not installed or
 /// refuses the program.
+#[allow(dead_code, reason = "some benchmarks ask for it")]
 pub(crate) fn rs274(path: &Path, runs: usize) -> Option<f64> {
     let home = std::env::temp_dir().join(format!("trunnion-rs274-{}", std::process::id()));
     fs::create_dir_all(&home).ok()?;
@@ -68,6 +69,7 @@ pub(crate) fn rs274(path: &Path, runs: usize) -> Option<f64> {
 }
 
 /// `1m4.21s` in seconds.
+#[allow(dead_code, reason = "some benchmarks ask for it")]
 fn clock(text: &str) -> Option<f64> {
     let (minutes, seconds) = text.strip_suffix('s')?.split_once('m')?;
     Some(60.0 * minutes.parse::<f64>().ok()? + seconds.parse::<f64>().ok()?)

@@ -266,6 +266,9 @@ impl Certificate {
             Claim::InsertedRetracts { .. } => {
                 "the same, but the tool leaves the part and comes back in another posture, clear of the obstacles"
             }
+            Claim::SameProgrammedCentre { .. } => {
+                "same programmed point, declared to be the ball's centre, at all block ends"
+            }
             Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
             Claim::RefittedPath { .. } => "a refitted path",
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",

@@ -20,10 +20,20 @@ pub enum Claim {
     },
     /// At every block end the tool axis turns about the part by at most `tolerance_deg`, and the point `ball_radius_mm` above the tip
     /// along the tool axis (the ball's centre) stays where it was within `tolerance_mm` (`smooth-pole`). Every motion that
-    /// differs is made with a ball of that radius. The certificate says how far the paths lie apart between block ends.
+    /// differs is made with a ball of that radius. No cut swaps the posture (a rotary excess above `swap_excess`) where it did not before.
+    /// The certificate says how far the paths lie apart between block ends.
     SameBallCentre {
         /// mm.
         ball_radius_mm: f64,
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+    },
+    /// As [`Self::SameBallCentre`] for a program whose X Y Z are the centre of the ball, which its user declares: at every block end the tool
+    /// axis turns about the part by at most `tolerance_deg`, and the programmed point stays where it was within `tolerance_mm`
+    /// (`smooth-pole` with `--point centre`). Every motion that differs is made with a declared ball.
+    SameProgrammedCentre {
         /// mm.
         tolerance_mm: f64,
         /// deg.
@@ -148,6 +158,7 @@ impl Claim {
             | Self::InsertedRetracts { .. }
             | Self::SameToolPath { .. }
             | Self::RefittedPath { .. }
+            | Self::SameProgrammedCentre { .. }
             | Self::SamePath { .. } => 0.0,
         }
     }
@@ -163,6 +174,10 @@ impl Claim {
                 tolerance_mm,
                 tolerance_deg,
                 ..
+            }
+            | Self::SameProgrammedCentre {
+                tolerance_mm,
+                tolerance_deg,
             }
             | Self::LeastPostures {
                 tolerance_mm,

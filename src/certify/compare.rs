@@ -179,28 +179,40 @@ impl Pair<'_> {
         old.start == new.start && old.known_joints == new.known_joints && old.motion == motion
     }
 
-    /// A ball of the claimed radius must be declared where the motion differs.
+    /// A ball, of the claimed radius where one is claimed, must be declared where the motion differs.
     fn same_ball(&self) -> Result<(), Outcome> {
-        let Claim::SameBallCentre {
-            ball_radius_mm: radius, ..
-        } = self.claim
-        else {
-            return Ok(());
+        let claimed = match self.claim {
+            Claim::SameBallCentre { ball_radius_mm, .. } => Some(*ball_radius_mm),
+            Claim::SameProgrammedCentre { .. } => None,
+            _ => return Ok(()),
         };
         for step in [self.before, self.after] {
-            match step.held.ball_radius {
-                Some(declared) if declared == *radius => {}
-                Some(declared) => {
+            match (step.held.ball_radius, claimed) {
+                (Some(declared), Some(radius)) if declared != radius => {
                     return self.refute(format!(
                         "the declared ball has a radius of {declared} mm, the claim says {radius} mm"
                     ));
                 }
-                None => {
+                (Some(_), _) => {}
+                (None, _) => {
                     return Err(
                         self.unknown("no ball is declared for this motion: (trunnion: tool 1 ball diameter ...)")
                     );
                 }
             }
+        }
+        self.no_new_swap()
+    }
+
+    /// No cut swaps the posture where it did not before.
+    fn no_new_swap(&self) -> Result<(), Outcome> {
+        let (old, new) = (self.before_leg()?, self.after_leg()?);
+        let swaps = |leg: &Leg| leg.rotary_excess > self.machine.tolerances.swap_excess;
+        if new.motion.is_feed() && swaps(new) && !swaps(old) {
+            return self.refute(format!(
+                "the cut swaps the posture with {:.3} deg of rotary travel more than needed, and did not before",
+                deg(new.rotary_excess)
+            ));
         }
         Ok(())
     }
@@ -288,7 +300,7 @@ impl Pair<'_> {
     /// Compares what is between the ends with the claim.
     fn judge_path(&self, way: &Apart, start: Option<Both<'_>>, end: Both<'_>) -> Result<(), Outcome> {
         let claimed = match self.claim {
-            Claim::SameBallCentre { .. } | Claim::LeastPostures { .. } => false,
+            Claim::SameBallCentre { .. } | Claim::SameProgrammedCentre { .. } | Claim::LeastPostures { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
             Claim::AdaptedFeed { .. }
             | Claim::InsertedPoints { .. }

@@ -6,7 +6,7 @@ use crate::curve::{great_circle, joint_bend};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{angle_between, asin};
 use trunnion_interp::MotionKind;
-use trunnion_machine::{AxisKind, Joints, Leg, MAX_AXES, Machine, Stance, forward};
+use trunnion_machine::{AxisKind, Joints, Leg, MAX_AXES, Machine, Pose, Stance, forward};
 
 /// Most moments at which two paths are compared.
 const MOST_SAMPLES: u32 = 512;
@@ -30,6 +30,9 @@ pub(crate) struct Path<'m> {
     joints: [Joints; 2],
     /// Tool axes at both ends.
     axes: [Vec3; 2],
+    /// Tips at both ends without the work offset, mm: it cancels in every difference of two paths, but must be left out here as it is in the
+    /// paths of joints.
+    tips: [Vec3; 2],
     /// mm.
     tool_length: f64,
     /// Distance of the followed point from the tip along the tool axis, mm.
@@ -57,6 +60,7 @@ impl<'m> Path<'m> {
             interpolation,
             joints: [start.joints, end.joints],
             axes: [start.axis, end.axis],
+            tips: [start, end].map(|stance| forward(machine, &stance.joints, end.tool_length).tip),
             tool_length: end.tool_length,
             height,
         })
@@ -64,20 +68,25 @@ impl<'m> Path<'m> {
 
     /// Point (mm) and tool axis at the share `t` of the motion, workpiece frame.
     fn at(&self, t: f64) -> (Vec3, Vec3) {
+        let axis = match self.interpolation {
+            Interpolation::Joints => {
+                let pose = self.pose(t);
+                return (pose.tip + pose.axis * self.height, pose.axis);
+            }
+            Interpolation::TipStraight => self.pose(t).axis,
+            Interpolation::GreatCircle => great_circle(&self.axes[0], &self.axes[1], t),
+        };
+        let [from, to] = self.tips;
+        (from + (to - from) * t + axis * self.height, axis)
+    }
+
+    /// The pose at the share `t` of the way that the joints take.
+    fn pose(&self, t: f64) -> Pose {
         let mut joints: Joints = [0.0; MAX_AXES];
         for (joint, (from, to)) in joints.iter_mut().zip(self.joints[0].iter().zip(&self.joints[1])) {
             *joint = from + (to - from) * t;
         }
-        let pose = forward(self.machine, &joints, self.tool_length);
-        let axis = match self.interpolation {
-            Interpolation::Joints => return (pose.tip + pose.axis * self.height, pose.axis),
-            Interpolation::TipStraight => pose.axis,
-            Interpolation::GreatCircle => great_circle(&self.axes[0], &self.axes[1], t),
-        };
-        // the work offset cancels in every difference of two paths, but must be there beside joint paths
-        let from = forward(self.machine, &self.joints[0], self.tool_length).tip;
-        let to = forward(self.machine, &self.joints[1], self.tool_length).tip;
-        (from + (to - from) * t + axis * self.height, axis)
+        forward(self.machine, &joints, self.tool_length)
     }
 
     /// Bounds on the second derivatives of point (mm) and tool axis.

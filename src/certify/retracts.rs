@@ -47,6 +47,13 @@ pub(crate) struct Measured {
 impl Judge<'_> {
     /// The rapids that lead away from the part: the first along the tool axis, the others clear of all obstacles. `lines`: of each one.
     pub(crate) fn away(&self, cut: &Step, run: &[Step], lines: &[u32]) -> Result<Vec<Measured>, Outcome> {
+        if cut.held.tool.as_ref().is_none_or(|tool| tool.shape.is_none()) {
+            // a tool that is wider than its shank would cut on its way out
+            return Err(unknown(
+                lines[0],
+                "the shape of the tool is not declared: [[tool]] shape in trunnion.toml",
+            ));
+        }
         let mut found = Vec::new();
         for (index, (step, &line)) in run.iter().zip(lines).enumerate() {
             let (leg, start, end) = self.stances(step, line)?;
@@ -61,13 +68,11 @@ impl Judge<'_> {
             }
             found.push(self.measured(leg, (start, end), (least_mm, line))?);
         }
-        if run.len() < 2 {
-            return Err(unknown(lines[0], "the rapid motions only leave the part"));
-        }
         Ok(found)
     }
 
-    /// A line at feed on the way back; `cut`: the motion that comes next in the program before. With what comes after it.
+    /// A line at feed in the air, where rotary axes turn, or back to the part; `cut`: the motion that comes next in the program before. With
+    /// where the tool is then.
     pub(crate) fn back(
         &self,
         cut: &Step,
@@ -80,7 +85,12 @@ impl Judge<'_> {
         let pose = self.start_of(cut, line)?;
         let (mm, degrees) = self.claim.tolerances();
         let arrived = end.tip_distance_to(pose) <= mm && deg(angle_between(&end.axis, &pose.axis)) <= degrees;
+        let turns = leg.rotary_change.iter().any(|&change| above(change, STANDS));
         let next = match excursion {
+            Excursion::Away(last) if turns => {
+                let least = self.clearance(line).clear(step, leg, |_| true)?;
+                return Ok((Excursion::Away(last), self.measured(leg, (start, end), (least, line))?));
+            }
             Excursion::Away(last) => {
                 self.stands(leg, line)?;
                 self.along(leg, (start, end), -1.0, line)?;
@@ -111,7 +121,10 @@ impl Judge<'_> {
         let turns = before.rotary_change.iter().zip(&after.rotary_change);
         for (was, is) in turns {
             if above(*is, was + STANDS) || above(*is, core::f64::consts::PI + STANDS) {
-                return self.refute(line, "the cut after the retraction turns a rotary axis farther than before, or by more than half a turn");
+                return self.refute(
+                    line,
+                    "the cut after the retraction turns a rotary axis farther than before, or by more than half a turn",
+                );
             }
         }
         Ok(())
@@ -182,15 +195,17 @@ impl Judge<'_> {
         if !matches!(leg.motion.kind, MotionKind::Rapid | MotionKind::Linear) {
             return Err(unknown(line, "the motion is no straight line"));
         }
-        let independent =
-            leg.motion.kind == MotionKind::Rapid && self.machine.control.rapid != RapidPath::Synchronous;
+        let independent = leg.motion.kind == MotionKind::Rapid && self.machine.control.rapid != RapidPath::Synchronous;
         let parts = if independent {
             self.parts(start, end)
         } else {
             vec![end.tip - start.tip]
         };
         let along = |part: &Vec3| sign * part.dot(&start.axis);
-        let off: f64 = parts.iter().map(|part| (part - start.axis * (sign * along(part))).norm()).sum();
+        let off: f64 = parts
+            .iter()
+            .map(|part| (part - start.axis * (sign * along(part))).norm())
+            .sum();
         let against: f64 = parts.iter().map(|part| (-along(part)).max(0.0)).sum();
         let mm = self.claim.tolerances().0;
         if above(off, mm) || above(against, mm) {
@@ -239,7 +254,9 @@ impl Judge<'_> {
         if above(turned, degrees) {
             return Err(unknown(
                 line,
-                &format!("on the ramp the tool axis is up to {turned:.6} deg away from the cut before; {degrees} deg is allowed"),
+                &format!(
+                    "on the ramp the tool axis is up to {turned:.6} deg away from the cut before; {degrees} deg is allowed"
+                ),
             ));
         }
         // the lift shrinks evenly from `lift` to nothing, while the tool axis turns by no more than the rotary axes do
@@ -256,7 +273,12 @@ impl Judge<'_> {
         Ok(())
     }
 
-    fn measured(&self, leg: &Leg, (start, end): (&Stance, &Stance), (least_mm, line): (f64, u32)) -> Result<Measured, Outcome> {
+    fn measured(
+        &self,
+        leg: &Leg,
+        (start, end): (&Stance, &Stance),
+        (least_mm, line): (f64, u32),
+    ) -> Result<Measured, Outcome> {
         let at = Place {
             motion: self.motion,
             line,

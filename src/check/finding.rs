@@ -203,6 +203,15 @@ impl<'p> Draft<'p> {
         self
     }
 
+    /// The rewrite that turns the machine over away from the part.
+    pub(crate) fn fix_retract(&mut self, view: &LegView<'_>) -> &mut Self {
+        let vector = matches!(view.motion().orientation, trunnion_interp::Orientation::Vector(..));
+        if view.machine.rotary.len() == 2 && !vector && view.motion().kind == trunnion_interp::MotionKind::Linear {
+            self.fix("insert-retract");
+        }
+        self
+    }
+
     /// Another place of interest.
     pub(crate) fn related(&mut self, range: TextRange, message: impl Into<String>) -> &mut Self {
         self.diagnostic.related.push((range, message.into()));

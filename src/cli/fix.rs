@@ -14,8 +14,17 @@ use std::{io::IsTerminal, path::PathBuf};
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_certify::{Chain, ChainStep};
-use trunnion_rewrite::{Attempt, Options, Place, Rewrite, attempt_at, gains, rewrite, rewrites};
+use trunnion_rewrite::{Attempt, Options, Place, ProgrammedPoint, Rewrite, attempt_at, gains, rewrite, rewrites};
 use trunnion_syntax::{LineIndex, parse};
+
+/// Which point of a ball X Y Z are.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum PointOf {
+    /// Its tip.
+    Tip,
+    /// Its centre.
+    Centre,
+}
 
 /// What `switch-angles` chooses postures by.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -144,6 +153,10 @@ fn options(command: &Fix, loaded: &Loaded) -> Result<Options, Failure> {
         source: command.source.map_or(settings.source, |source| match source {
             SourceOf::Points => RefitSource::Points,
             SourceOf::Chords => RefitSource::Chords,
+        }),
+        point: command.point.map_or(settings.point, |point| match point {
+            PointOf::Tip => ProgrammedPoint::Tip,
+            PointOf::Centre => ProgrammedPoint::Centre,
         }),
     };
     let good = |value: f64| value.is_finite() && value > 0.0;

@@ -106,11 +106,7 @@ impl Along {
             self.points = self.points.max(off);
             // one moves straight, the other on an arc that leaves its chord by no more than r a^2 / 8 (and a spiral's share)
             let before = (self.at - arc.point_at(was_reached / whole)).norm();
-            let turned = self.reached - was_reached;
-            let most = arc.radius_start.max(arc.radius_end);
-            let slope = (arc.radius_end - arc.radius_start).abs() / whole;
-            let bend = turned * turned * (most + 2.0 * slope) / 8.0;
-            self.chords = self.chords.max(off.max(before) + bend);
+            self.chords = self.chords.max(off.max(before) + bend(arc, self.reached - was_reached));
             return;
         }
         let (here, there) = (from.norm(), to.norm());
@@ -143,6 +139,37 @@ impl Along {
         self.chords = self.chords.max(hypotenuse(apart, high));
     }
 
+    /// The same once the rest of the course was walked while the chain stands where it is: then [`Self::is_through`].
+    #[must_use]
+    pub fn ended(mut self) -> Self {
+        let (end, whole, bend) = match &self.course {
+            Course::Line { start, end } => (*end, (end - start).norm(), 0.0),
+            Course::Arc(arc) => {
+                let (whole, rest) = (arc.sweep.abs(), arc.sweep.abs() - self.reached);
+                (arc.end, whole, bend(arc, rest))
+            }
+        };
+        let before = match &self.course {
+            Course::Line { start, end } if whole > 0.0 => self.at - (start + (end - start) * (self.reached / whole)),
+            Course::Line { end, .. } => self.at - end,
+            Course::Arc(arc) => self.at - arc.point_at(self.reached / whole),
+        };
+        let off = (self.at - end).norm();
+        self.points = self.points.max(off);
+        // the distance from a point is largest at an end of a line, and an arc leaves its chord by its bend
+        self.chords = self.chords.max(off.max(before.norm()) + bend);
+        self.reached = whole;
+        self
+    }
+
+    /// Where the chain is, and where the course ends: so far apart, mm.
+    pub fn from_end(&self) -> f64 {
+        match &self.course {
+            Course::Line { end, .. } => (self.at - end).norm(),
+            Course::Arc(arc) => (self.at - arc.end).norm(),
+        }
+    }
+
     /// Whether the course was walked to its end.
     pub fn is_through(&self) -> bool {
         match &self.course {
@@ -160,6 +187,13 @@ impl Along {
     pub fn apart(&self) -> f64 {
         self.chords
     }
+}
+
+/// An arc leaves the chord of an angle, rad, by no more than r a^2 / 8 (and a spiral's share), mm.
+fn bend(arc: &Arc, angle: f64) -> f64 {
+    let most = arc.radius_start.max(arc.radius_end);
+    let slope = (arc.radius_end - arc.radius_start).abs() / arc.sweep.abs();
+    angle * angle * (most + 2.0 * slope) / 8.0
 }
 
 fn hypotenuse(a: f64, b: f64) -> f64 {
@@ -226,6 +260,34 @@ mod tests {
         let along = follow(line, &back);
         assert!((along.apart() - 2.0).abs() < 1e-12 && along.is_through());
         assert!(!follow(line, &back[..3]).is_through());
+    }
+
+    /// The chain stands before, beside or beyond the end of the course.
+    #[test]
+    fn the_rest_is_walked_where_the_chain_stands() {
+        let arc = quarter(20.0, 0.0);
+        let at = |degrees: f64, radius: f64| {
+            let (sin, cos) = sin_cos(degrees.to_radians());
+            Vec3::new(radius * cos, radius * sin, 0.0)
+        };
+        for (degrees, radius) in [(89.0, 20.0), (90.0, 20.03), (89.9, 19.98), (90.2, 20.01)] {
+            let mut points: Vec<Vec3> = (0..44).map(|step| at(f64::from(step) * 2.0, 20.0)).collect();
+            points.push(at(degrees, radius));
+            let along = follow(Course::Arc(arc), &points);
+            let ended = along.ended();
+            assert!(
+                ended.is_through() && (ended.from_end() - (at(90.0, 20.0) - at(degrees, radius)).norm()).abs() < 1e-12
+            );
+            assert!(ended.apart() >= along.from_end() && ended.points_apart() >= along.from_end());
+            assert!(ended.apart() <= along.apart().max(along.from_end()) + 20.0 * 0.02f64.powi(2));
+        }
+        let line = Course::Line {
+            start: Vec3::zeros(),
+            end: Vec3::new(10.0, 0.0, 0.0),
+        };
+        let along = follow(line, &[Vec3::zeros(), Vec3::new(9.0, 0.1, 0.0)]);
+        assert!(!along.is_through() && along.apart() < 0.101);
+        assert!(along.ended().is_through() && (along.ended().apart() - 1.01f64.sqrt()).abs() < 1e-12);
     }
 
     /// The bound is never below what samples show, and not far above it.

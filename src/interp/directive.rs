@@ -30,6 +30,8 @@ pub enum Directive {
         /// The name.
         value: String,
     },
+    /// `turned DEG`: a rewrite has turned the tool axes of this chain of motions by up to so much, deg.
+    Turned(f64),
     /// Begins with `trunnion:` but cannot be read; the text says what is wrong.
     Broken(String),
 }
@@ -64,6 +66,14 @@ pub fn directives(program: &Program) -> Vec<(TextRange, Directive)> {
     found
 }
 
+/// What the text of a comment says about turned tool axes, deg.
+pub fn turned_deg(comment: &str) -> Option<f64> {
+    match parse(after_mark(comment)?) {
+        Directive::Turned(deg) => Some(deg),
+        _ => None,
+    }
+}
+
 /// Bytes of blank before the text.
 fn leading(text: &str) -> usize {
     text.len() - text.trim_start().len()
@@ -81,9 +91,10 @@ fn parse(text: &str) -> Directive {
     let parsed = match key.as_str() {
         "tool" => all_consuming(tool).parse(text).map(|(_, tool)| tool),
         "allow" => all_consuming(allow).parse(text).map(|(_, allow)| allow),
+        "turned" => all_consuming(turned).parse(text).map(|(_, turned)| turned),
         "dialect" | "machine" => all_consuming(mode).parse(text).map(|(_, mode)| mode),
         _ => {
-            let known = "tool, allow, dialect and machine";
+            let known = "tool, allow, turned, dialect and machine";
             return Directive::Broken(format!("`{key}` is not a directive; the directives are {known}"));
         }
     };
@@ -91,6 +102,7 @@ fn parse(text: &str) -> Directive {
         let form = match key.as_str() {
             "tool" => "tool NUMBER ball|flat|bull diameter MM [radius MM] [length MM]",
             "allow" => "allow RULE because REASON",
+            "turned" => "turned DEGREES",
             _ => "dialect NAME, or machine NAME",
         };
         Directive::Broken(format!("cannot read `{text}`; write: {form}"))
@@ -111,6 +123,12 @@ fn mode(text: &str) -> IResult<&str, Directive> {
         },
     )
     .parse(text)
+}
+
+fn turned(text: &str) -> IResult<&str, Directive> {
+    let angle = preceded((tag_no_case("turned"), multispace1), terminated(double, multispace0));
+    let sensible = |deg: f64| (deg > 0.0 && deg.is_finite()).then_some(Directive::Turned(deg));
+    map_opt(angle, sensible).parse(text)
 }
 
 fn allow(text: &str) -> IResult<&str, Directive> {

@@ -1,5 +1,5 @@
 //! Edits that write lines and arcs in the place of a chain of lines: the first block of each piece is changed, the others are deleted.
-use crate::pieces::{Piece, WrittenArc};
+use crate::pieces::{Beside, Piece, WrittenArc};
 use crate::polyline::Chain;
 use trunnion_dialect::Plane;
 use trunnion_geometry::arc::Turning;
@@ -95,6 +95,7 @@ pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece
     let mut turns = false;
     for (chain, pieces) in chains {
         let mut plane = chain.plane;
+        let mut before: Option<&Beside> = None;
         for (index, piece) in pieces.iter().enumerate() {
             let blocks: Vec<BlockId> = chain.lines[piece.from..piece.to]
                 .iter()
@@ -124,8 +125,11 @@ pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece
                     turns = false;
                 }
             }
-            let still = chain.still(piece.from, piece.to);
-            write_block(program, hand, &blocks, (&codes, centre, still), &mut edits);
+            let at = |index: usize, beside: Option<&Beside>| beside.map_or(chain.point(index), |beside| beside.at);
+            let ends = (at(piece.from, before), at(piece.to, piece.beside.as_ref()));
+            let still = [0, 1, 2].map(|axis| ends.0[axis] == ends.1[axis]);
+            before = piece.beside.as_ref();
+            write_block(program, hand, &blocks, (&codes, centre, still), before, &mut edits);
         }
         if let (Some(last), true) = (chain.lines.last(), plane != chain.plane) {
             let line = format!("{}{}", hand.code(plane_code(chain.plane), false), hand.newline);
@@ -133,7 +137,7 @@ pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece
         }
     }
     if let (Some(block), true) = (chains.last().and_then(|(chain, _)| chain.next_line), turns) {
-        write_block(program, hand, &[block], (&[1], &[], [false; 3]), &mut edits);
+        write_block(program, hand, &[block], (&[1], &[], [false; 3]), None, &mut edits);
     }
     edits.0.sort_by_key(|edit| (edit.range.start, edit.range.end));
     edits.0
@@ -155,7 +159,7 @@ pub(crate) fn lean(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Piec
             continue;
         }
         let mut own = Edits::default();
-        write_block(program, hand, &blocks, (&[], &[], still), &mut own);
+        write_block(program, hand, &blocks, (&[], &[], still), None, &mut own);
         let repeats = |word: &&Word| match word.address {
             Address::Letter(letter @ b'X'..=b'Z') => still[usize::from(letter - b'X')],
             // at the first line of a chain they may say something new
@@ -204,12 +208,13 @@ fn start_of_next(program: &Program, block: BlockId) -> u32 {
 }
 
 /// Writes one motion in the place of those of `blocks`: with these G codes, the coordinates at which the last one ends but for those that stay, and a
-/// centre.
+/// centre; with the words of an end beside that of the last block.
 fn write_block(
     program: &Program,
     hand: &Hand,
     blocks: &[BlockId],
     (codes, centre, still): (&[u8], &[(usize, String)], [bool; 3]),
+    beside: Option<&Beside>,
     edits: &mut Edits,
 ) {
     let Some((&first, rest)) = blocks.split_first() else {
@@ -239,6 +244,12 @@ fn write_block(
             }
         }
     }
+    // `X=10` of a Sinumerik: so are the others
+    let equals = if program.bytes(leading.range).contains(&b'=') {
+        "="
+    } else {
+        ""
+    };
     // the last number of each axis
     let mut last: [Option<Word>; 3] = [None; 3];
     for word in rest.iter().flat_map(|block| program.block(*block).words()) {
@@ -247,10 +258,19 @@ fn write_block(
         }
     }
     for (axis, word) in last.iter().enumerate() {
-        let Some(word) = word else { continue };
         let letter = b'X' + axis as u8;
-        match coordinates.iter().find(|own| own.address == Address::Letter(letter)) {
-            Some(own) => edits.replace(program, own.value_range, &program.text(word.value_range)),
+        let own = coordinates.iter().find(|own| own.address == Address::Letter(letter));
+        let aside = beside.and_then(|beside| {
+            let (_, text) = beside.words.iter().find(|(other, _)| *other == axis)?;
+            (!beside.is_point || word.is_none() && own.is_none()).then_some(text)
+        });
+        let number = match (aside, word) {
+            (Some(text), _) => text.clone(),
+            (None, Some(word)) => program.text(word.value_range).into_owned(),
+            (None, None) => continue,
+        };
+        match own {
+            Some(own) => edits.replace(program, own.value_range, &number),
             // where it does not change, no word says so
             None if still[axis] => {}
             None => {
@@ -258,7 +278,11 @@ fn write_block(
                     .iter()
                     .rev()
                     .find(|own| matches!(own.address, Address::Letter(other) if other < letter));
-                let text = program.text(word.range);
+                let text = match word {
+                    Some(word) if aside.is_none() => program.text(word.range).into_owned(),
+                    _ if lower => format!("{}{equals}{number}", char::from(letter.to_ascii_lowercase())),
+                    _ => format!("{}{equals}{number}", char::from(letter)),
+                };
                 match before {
                     Some(own) => edits.insert(own.range.end, &format!("{blank}{text}")),
                     None => edits.insert(leading.range.start, &format!("{text}{blank}")),
@@ -267,12 +291,6 @@ fn write_block(
         }
     }
     if let Some(end) = coordinates.last().map(|word| word.range.end) {
-        // `X=10` of a Sinumerik: so are the others
-        let equals = if program.bytes(leading.range).contains(&b'=') {
-            "="
-        } else {
-            ""
-        };
         for (axis, number) in centre {
             let letter = char::from(b"IJK"[*axis]);
             let letter = if lower { letter.to_ascii_lowercase() } else { letter };

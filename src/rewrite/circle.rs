@@ -64,8 +64,7 @@ struct Base {
 }
 
 impl Base {
-    fn new(points: &[Flat]) -> Option<Self> {
-        let (first, last) = (points.first()?, points.last()?);
+    fn new([first, last]: [&Flat; 2], points: &[Flat]) -> Option<Self> {
         let (x, y) = (last[0] - first[0], last[1] - first[1]);
         let length = (x * x + y * y).sqrt();
         if length <= 1e-9 {
@@ -101,8 +100,15 @@ impl Base {
 /// The circles that pass both ends and come near all points within `tolerance`, in order; with `chords` also near the lines between them.
 /// Of `points` (at least 3) the first and the last are the ends.
 pub(crate) fn circle(points: &[Flat], tolerance: f64, chords: bool) -> Option<Circle> {
-    let base = Base::new(points)?;
-    let inner = &points[1..points.len() - 1];
+    let (first, last) = (points.first()?, points.last()?);
+    circle_between([first, last], points, tolerance, chords)
+}
+
+/// The same where the circles pass two ends that are beside the first and the last point.
+pub(crate) fn circle_between(ends: [&Flat; 2], points: &[Flat], tolerance: f64, chords: bool) -> Option<Circle> {
+    let base = Base::new(ends, points)?;
+    // a point that is an end itself allows every circle
+    let inner = points;
     let mut range = Range {
         low: -MOST_RADIUS,
         high: MOST_RADIUS,
@@ -113,6 +119,11 @@ pub(crate) fn circle(points: &[Flat], tolerance: f64, chords: bool) -> Option<Ci
         let (h2, e2) = (base.half * base.half, tolerance * tolerance);
         let c = a * a + b * b - h2 - e2;
         let lead = b * b - e2;
+        // inside between two roots, so between two values that are
+        let inside = |t: f64| (lead * t - b * c) * t + 0.25 * c * c - e2 * h2 <= 0.0;
+        if lead > 0.0 && inside(range.low) && inside(range.high) {
+            return true;
+        }
         let root = c * c + 4.0 * h2 * lead;
         if lead.abs() <= 1e-300 || root < 0.0 {
             return true;
@@ -145,7 +156,7 @@ pub(crate) fn circle(points: &[Flat], tolerance: f64, chords: bool) -> Option<Ci
         centres: [middle, between(range.low, middle), between(middle, range.high)].map(|t| base.centre(t)),
         counter_clockwise: base.side > 0.0,
     };
-    in_order(&base, points, middle).then_some(circle)
+    in_order(&base, ends, points, middle).then_some(circle)
 }
 
 /// A value between two, even in 1/t where both are on one side: there the arc's bend is.
@@ -166,6 +177,13 @@ fn chord_serves(base: &Base, pair: &[Flat], tolerance: f64, range: &mut Range) -
         return true;
     }
     let (x, y) = (x / length, y / length);
+    // R - (x t + w) <= e, so h^2 + t^2 <= (x t + w + e)^2; it holds between two values of t for which it does
+    let e = y * a - x * b + tolerance;
+    let h2 = base.half * base.half;
+    let holds = |t: f64| x * t + e >= 0.0 && (y * y * t - 2.0 * x * e) * t + h2 - e * e <= 0.0;
+    if holds(range.low) && holds(range.high) {
+        return true;
+    }
     // the foot of (0, t) on the line is inside it where its share is between 0 and the length
     let share = |t: f64| y * (t - b) - x * a;
     let (mut first, mut last) = (range.low, range.high);
@@ -179,9 +197,6 @@ fn chord_serves(base: &Base, pair: &[Flat], tolerance: f64, range: &mut Range) -
     if first > last {
         return true;
     }
-    // R - (x t + w) <= e, so h^2 + t^2 <= (x t + w + e)^2
-    let e = y * a - x * b + tolerance;
-    let h2 = base.half * base.half;
     let lead = y * y;
     let (low, high) = if lead > 1e-12 {
         let root = e * e - lead * h2;
@@ -202,20 +217,21 @@ fn chord_serves(base: &Base, pair: &[Flat], tolerance: f64, range: &mut Range) -
 }
 
 /// Whether the points go round the centre one way, less than 350 deg in all, on a circle of useful size.
-fn in_order(base: &Base, points: &[Flat], t: f64) -> bool {
+fn in_order(base: &Base, [first, last]: [&Flat; 2], points: &[Flat], t: f64) -> bool {
     let radius = (base.half * base.half + t * t).sqrt();
     if radius > MOST_RADIUS || t < 0.0 && base.half < LEAST_OPENING * radius {
         return false;
     }
-    let mut before = base.local(&points[0]);
-    points[1..].iter().all(|point| {
+    let mut before = base.local(first);
+    let mut goes_on = |point: &Flat| {
         let at = base.local(point);
         let turn = before[0] * (at[1] - t) - (before[1] - t) * at[0];
         // over the top, where no arc from end to end goes
         let over = before[0] > 0.0 && at[0] <= 0.0;
         before = at;
         turn > 0.0 && !over
-    })
+    };
+    points[1..points.len() - 1].iter().all(&mut goes_on) && goes_on(last)
 }
 
 #[cfg(test)]

@@ -1,9 +1,14 @@
 //! The fewest pieces of a chain: the shortest path over its points, layer by layer.
 
-/// So many points after the last one that can be reached are tried too: one piece may fit where a shorter one with the same start does not.
-const AHEAD: usize = 32;
-/// The same where the chain of lines is long: points lie densely there.
-const AHEAD_OF_MANY: usize = 8;
+/// So many points after the last one that can be reached are tried too: one piece may fit where a shorter one with the same start does not. Where
+/// a piece has many points they lie densely, and that is rare.
+fn ahead(points: usize) -> usize {
+    match points {
+        0..=16 => 32,
+        17..=64 => 8,
+        _ => 3,
+    }
+}
 
 /// The joints of a division of `0..=last` into the fewest pieces, both ends included. `fits(i, j)` says whether the part from `i` to `j` is
 /// one piece; `fits(i, i + 1)` must be true.
@@ -28,7 +33,7 @@ pub(crate) fn fewest(last: usize, fits: &mut impl FnMut(usize, usize) -> bool) -
                         next.push(j);
                     } else {
                         failed += 1;
-                        if failed > if j - i > 64 { AHEAD_OF_MANY } else { AHEAD } {
+                        if failed > ahead(j - i) {
                             break;
                         }
                     }

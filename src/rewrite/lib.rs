@@ -2,11 +2,15 @@
 //!
 //! It does no I/O and never vouches for itself.
 mod attempt;
+mod beside;
 mod chain_words;
 mod circle;
+mod divide;
 mod edited;
+mod excursion;
 mod fewest;
 mod gains;
+mod lanes;
 mod line_points;
 mod pieces;
 mod polyline;
@@ -19,13 +23,14 @@ mod reposition;
 mod rewrites;
 mod shortest_path;
 mod slots;
-mod stations;
+mod smooth;
 mod style;
 mod survey;
 mod taut_string;
 mod unwrap;
+mod whole_circle;
 
 pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};
-pub use propose::{Change, Options, Place, Proposal, Proposed, Refusal, Rewrite};
+pub use propose::{Change, Options, Place, ProgrammedPoint, Proposal, Proposed, Refusal, Rewrite};
 pub use rewrites::{rewrite, rewrites};

@@ -1,5 +1,5 @@
 //! The fewest lines and arcs for a chain of lines, with numbers that the program can write.
-use crate::circle::{Flat, circle};
+use crate::circle::{Circle, Flat, circle, circle_between};
 use crate::fewest::fewest;
 use crate::style::NumberStyle;
 use std::collections::BTreeSet;
@@ -29,6 +29,8 @@ pub(crate) struct Limits<'a> {
     pub planes: &'a [Plane],
     /// How I, J and K are written; none where no arcs are.
     pub styles: Option<[NumberStyle; 3]>,
+    /// How X, Y and Z are written, if arcs may meet beside the points of a chain.
+    pub ends: Option<NumberStyle>,
     /// mm per programmed length unit.
     pub unit_mm: f64,
     /// How far the two radii of an arc may differ.
@@ -53,6 +55,19 @@ pub(crate) struct Piece {
     pub to: usize,
     /// None: a line.
     pub arc: Option<WrittenArc>,
+    /// Where it ends, if it ends or begins beside a point.
+    pub beside: Option<Beside>,
+}
+
+/// An end whose words are not in the program.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Beside {
+    /// mm.
+    pub at: Vec3,
+    /// It is a point of the chain: then its words may be in the program.
+    pub is_point: bool,
+    /// The axes that differ (0 X, 1 Y, 2 Z), and their numbers.
+    pub words: [(usize, String); 2],
 }
 
 /// A chain divided.
@@ -67,71 +82,19 @@ pub(crate) struct Pieces {
 const CORNER_COS: f64 = 0.866;
 
 /// The lines of one chain as points.
-struct Points<'a> {
-    all: &'a [Vec3],
-    limits: &'a Limits<'a>,
+pub(crate) struct Points<'a> {
+    pub(crate) all: &'a [Vec3],
+    pub(crate) limits: &'a Limits<'a>,
     /// For each axis and point the last point up to which the coordinate is the same.
-    level_until: [Vec<usize>; 3],
+    pub(crate) level_until: [Vec<usize>; 3],
     /// How many corners come before a point.
-    corners: Vec<u32>,
+    pub(crate) corners: Vec<u32>,
     /// The points in each plane that may be written, in that order.
-    flat: Vec<Vec<Flat>>,
-}
-
-/// Rounds of [`divide`] before a chain is left as it is.
-const MOST_ROUNDS: usize = 40;
-
-/// Divides the chain through `points` into the fewest pieces. Doing the same to the result changes nothing: lines that were put together, and
-/// would be put together with their neighbours again because the points inside are gone, stay apart.
-pub(crate) fn divide(points: &[Vec3], limits: &Limits<'_>) -> Pieces {
-    let chain = Points::new(points, limits);
-    let mut refused = BTreeSet::new();
-    let mut unrounded = None;
-    for _ in 0..MOST_ROUNDS {
-        let pieces = chain.fewest(&mut refused, &mut unrounded);
-        let unstable = again(points, limits, &pieces);
-        if unstable.is_empty() {
-            let unrounded = unrounded.unwrap_or(pieces.len());
-            return Pieces { pieces, unrounded };
-        }
-        refused.extend(unstable);
-    }
-    let pieces: Vec<Piece> = (1..points.len())
-        .map(|to| Piece {
-            from: to - 1,
-            to,
-            arc: None,
-        })
-        .collect();
-    let unrounded = pieces.len();
-    Pieces { pieces, unrounded }
-}
-
-/// The lines that were put together beside others with which they would be put together again.
-fn again(points: &[Vec3], limits: &Limits<'_>, pieces: &[Piece]) -> Vec<(usize, usize)> {
-    let mut found = Vec::new();
-    for lines in pieces.chunk_by(|a, b| a.arc.is_none() && b.arc.is_none()) {
-        let joined = || {
-            lines
-                .iter()
-                .filter(|piece| piece.arc.is_none() && piece.to > piece.from + 1)
-        };
-        if lines.len() < 2 || joined().next().is_none() {
-            continue;
-        }
-        let joints: Vec<Vec3> = core::iter::once(points[lines[0].from])
-            .chain(lines.iter().map(|piece| points[piece.to]))
-            .collect();
-        let next = Points::new(&joints, limits).fewest(&mut BTreeSet::new(), &mut None);
-        if next.len() < lines.len() {
-            found.extend(joined().map(|piece| (piece.from, piece.to)));
-        }
-    }
-    found
+    pub(crate) flat: Vec<Vec<Flat>>,
 }
 
 impl<'a> Points<'a> {
-    fn new(all: &'a [Vec3], limits: &'a Limits<'a>) -> Self {
+    pub(crate) fn new(all: &'a [Vec3], limits: &'a Limits<'a>) -> Self {
         let level_until = [0, 1, 2].map(|axis| {
             let mut until: Vec<usize> = (0..all.len()).collect();
             for index in (0..all.len() - 1).rev() {
@@ -166,7 +129,7 @@ impl<'a> Points<'a> {
     }
 
     /// The fewest pieces that can be written, without those that are refused.
-    fn fewest(&self, refused: &mut BTreeSet<(usize, usize)>, unrounded: &mut Option<usize>) -> Vec<Piece> {
+    pub(crate) fn fewest(&self, refused: &mut BTreeSet<(usize, usize)>, unrounded: &mut Option<usize>) -> Vec<Piece> {
         loop {
             let joints = fewest(self.all.len() - 1, &mut |from, to| {
                 to == from + 1
@@ -179,11 +142,20 @@ impl<'a> Points<'a> {
             for pair in joints.windows(2) {
                 let (from, to) = (pair[0], pair[1]);
                 let is_line = to == from + 1 || self.is_line(from, to);
-                let arc = if is_line { None } else { self.written(from, to) };
+                let ends = [self.all[from], self.all[to]];
+                let arc = match self.planes(from, to) {
+                    Some((plane, circle)) if !is_line => self.written((from, to), ends, plane, &circle),
+                    _ => None,
+                };
                 if !is_line && arc.is_none() {
                     refused.insert((from, to));
                 }
-                pieces.push(Piece { from, to, arc });
+                pieces.push(Piece {
+                    from,
+                    to,
+                    arc,
+                    beside: None,
+                });
             }
             if refused.len() == refusals {
                 return pieces;
@@ -192,7 +164,7 @@ impl<'a> Points<'a> {
     }
 
     /// Whether all points of a part are near the line between its ends, in order.
-    fn is_line(&self, from: usize, to: usize) -> bool {
+    pub(crate) fn is_line(&self, from: usize, to: usize) -> bool {
         let (start, end) = (self.all[from], self.all[to]);
         let way = end - start;
         let length = way.norm();
@@ -211,7 +183,7 @@ impl<'a> Points<'a> {
     }
 
     /// The first plane in which some arc or helix serves, with its circle.
-    fn planes(&self, from: usize, to: usize) -> Option<(Plane, crate::circle::Circle)> {
+    fn planes(&self, from: usize, to: usize) -> Option<(Plane, Circle)> {
         if to < from + 2 || self.limits.planes.is_empty() {
             return None;
         }
@@ -233,7 +205,11 @@ impl<'a> Points<'a> {
             let Some(circle) = circle(&flat[from..=to], self.limits.tolerance_mm, !points_only) else {
                 continue;
             };
-            let serves = |centre: &Flat| self.apart(from, to, plane, circle.counter_clockwise, *centre).is_some();
+            let ends = [self.all[from], self.all[to]];
+            let serves = |centre: &Flat| {
+                self.apart((from, to), ends, (plane, circle.counter_clockwise, *centre))
+                    .is_some()
+            };
             if is_level || circle.centres.iter().any(serves) {
                 return Some((plane, circle));
             }
@@ -260,8 +236,13 @@ impl<'a> Points<'a> {
         (self.all[middle][normal] - expected).abs() <= 1.5 * self.limits.tolerance_mm + 0.01 * climb.abs()
     }
 
-    /// The arc about a centre, and how far the part is from it; `None` above the tolerance.
-    fn apart(&self, from: usize, to: usize, plane: Plane, counter_clockwise: bool, centre: Flat) -> Option<(Arc, f64)> {
+    /// The arc between two ends about a centre, and how far the part is from it; `None` above the tolerance.
+    fn apart(
+        &self,
+        (from, to): (usize, usize),
+        [start, end]: [Vec3; 2],
+        (plane, counter_clockwise, centre): (Plane, bool, Flat),
+    ) -> Option<(Arc, f64)> {
         let [first, second, normal] = axes(plane);
         let (mut up, mut middle) = (Vec3::zeros(), Vec3::zeros());
         up[normal] = 1.0;
@@ -272,10 +253,12 @@ impl<'a> Points<'a> {
         } else {
             Turning::Clockwise
         };
-        let (start, end) = (self.all[from], self.all[to]);
         let arc = Arc::from_centre(start, end, middle, up, turning, 0)?;
-        let mut along = Along::new(Course::Arc(arc), start);
+        let mut along = Along::new(Course::Arc(arc), self.all[from]);
         self.all[from + 1..=to].iter().for_each(|point| along.to(*point));
+        if end != self.all[to] {
+            along = along.ended();
+        }
         let off = if self.limits.source == RefitSource::Points {
             along.points_apart()
         } else {
@@ -284,15 +267,17 @@ impl<'a> Points<'a> {
         (off <= self.limits.tolerance_mm && along.is_through()).then_some((arc, off))
     }
 
-    /// The centre of the circle that comes nearest to the points of a part, to a thousandth of the tolerance.
-    fn nearest(&self, from: usize, to: usize, plane: Plane) -> Option<Flat> {
+    /// The centre of the circle through two ends that comes nearest to the points of a part, to a thousandth of the tolerance.
+    fn nearest(&self, (from, to): (usize, usize), [start, end]: [Vec3; 2], plane: Plane) -> Option<Flat> {
         let index = self.limits.planes.iter().position(|other| *other == plane)?;
         let points = &self.flat[index][from..=to];
+        let [first, second, _] = axes(plane);
+        let ends = [[start[first], start[second]], [end[first], end[second]]];
         let (mut low, mut high) = (0.0, self.limits.tolerance_mm);
         let mut found = None;
         for _ in 0..10 {
             let middle = 0.5 * (low + high);
-            match circle(points, middle, false) {
+            match circle_between([&ends[0], &ends[1]], points, middle, false) {
                 Some(circle) => (high, found) = (middle, Some(circle.centres[0])),
                 None => low = middle,
             }
@@ -300,15 +285,20 @@ impl<'a> Points<'a> {
         found
     }
 
-    /// The arc of a part with numbers as the program writes them; `None` where no rounding serves.
-    fn written(&self, from: usize, to: usize) -> Option<WrittenArc> {
-        let (plane, circle) = self.planes(from, to)?;
+    /// The arc of a part between two ends with numbers as the program writes them; `None` where no rounding serves.
+    pub(crate) fn written(
+        &self,
+        part: (usize, usize),
+        ends: [Vec3; 2],
+        plane: Plane,
+        circle: &Circle,
+    ) -> Option<WrittenArc> {
         let styles = self.limits.styles?;
         let [first, second, _] = axes(plane);
         let unit = self.limits.unit_mm;
-        let start = self.all[from];
+        let start = ends[0];
         // the circle nearest to the points first: others serve, but look arbitrary
-        for centre in self.nearest(from, to, plane).into_iter().chain(circle.centres) {
+        for centre in self.nearest(part, ends, plane).into_iter().chain(circle.centres) {
             let numbers = |axis: usize, value: f64| {
                 let distance = (value - start[axis]) / unit;
                 let style = &styles[axis];
@@ -330,7 +320,7 @@ impl<'a> Points<'a> {
                     continue;
                 }
                 let rounded = [start[first] + x * unit, start[second] + y * unit];
-                let Some((arc, _)) = self.apart(from, to, plane, circle.counter_clockwise, rounded) else {
+                let Some((arc, _)) = self.apart(part, ends, (plane, circle.counter_clockwise, rounded)) else {
                     continue;
                 };
                 let limit = self.limits.dialect.arc_limit_mm(arc.radius_end, unit != 1.0);
@@ -351,6 +341,6 @@ impl<'a> Points<'a> {
 }
 
 /// The value of a number as a control reads it.
-fn parsed(text: &str) -> Option<f64> {
+pub(crate) fn parsed(text: &str) -> Option<f64> {
     Decimal::parse(text.as_bytes()).map(Decimal::to_f64)
 }

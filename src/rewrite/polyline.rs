@@ -70,6 +70,18 @@ struct Seen {
     goes_on: bool,
 }
 
+impl Seen {
+    /// A block of codes without coordinates (`G1 F500`): it needs no motion code, and begins no chain.
+    fn is_code_alone(&self, program: &Program) -> bool {
+        self.linear
+            && self.ends.is_ok_and(|(start, end)| start == end)
+            && program
+                .block(self.block)
+                .words()
+                .all(|word| matches!(word.address, Address::Letter(b'N' | b'G' | b'F' | b'S' | b'M' | b'T')))
+    }
+}
+
 struct Collector {
     all: Vec<Seen>,
     last: Option<Motion>,
@@ -216,6 +228,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         chains: Vec::new(),
         reasons: Vec::new(),
     };
+    let waits = |seen: &Seen| seen.waits || seen.is_code_alone(program);
     let mut open: Option<Chain> = None;
     let mut stops = false;
     let mut at = 0;
@@ -230,15 +243,16 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         while seen.get(at + motions).is_some_and(|seen| seen.block == block.id()) {
             motions += 1;
         }
-        let next = seen[at + motions..].iter().find(|seen| !seen.waits);
+        let next = seen[at + motions..].iter().find(|seen| !waits(seen));
         let text = text_of(&block);
         if text == Text::Other
             && let Some(on) = exact_stop(&block)
         {
             stops = on;
         }
-        if motions == 0 {
-            if text != Text::Blank {
+        if seen[at..at + motions].iter().all(waits) {
+            at += motions;
+            if motions > 0 || text != Text::Blank {
                 close(&mut open, next);
             }
             continue;
@@ -256,7 +270,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             Ok(_) => None,
         };
         if let Some(why) = why {
-            close(&mut open, seen[at - motions..].iter().find(|seen| !seen.waits));
+            close(&mut open, seen[at - motions..].iter().find(|seen| !waits(seen)));
             if one.linear && !why.is_empty() {
                 match found.reasons.iter_mut().find(|(known, _)| *known == why) {
                     Some((_, count)) => *count += 1,

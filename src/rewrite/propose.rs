@@ -2,7 +2,7 @@
 use trunnion_certify::Claim;
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
-use trunnion_check::config::{FixCost, FixSettings};
+use trunnion_check::config::{FixCost, FixPoint, FixSettings};
 use trunnion_check::{Diagnostic, Settings};
 use trunnion_syntax::{BlockId, Program, TextEdit};
 
@@ -22,6 +22,18 @@ pub struct Options {
     pub feed_mm_min: f64,
     /// What a refitted path must be near (`fit-arcs`).
     pub source: RefitSource,
+    /// Which point of a ball X Y Z are (`smooth-pole`).
+    pub point: ProgrammedPoint,
+}
+
+/// Which point of a ball X Y Z of a program are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ProgrammedPoint {
+    /// Its tip.
+    #[default]
+    Tip,
+    /// Its centre: the tool length is measured to there.
+    Centre,
 }
 
 impl Default for Options {
@@ -33,6 +45,7 @@ impl Default for Options {
             given_mm: None,
             feed_mm_min: 0.0,
             source: RefitSource::default(),
+            point: ProgrammedPoint::default(),
         }
     }
 }
@@ -50,6 +63,10 @@ impl Options {
                 FixCost::Deviation => PostureCost::Deviation,
             }),
             given_mm: settings.tolerance_mm,
+            point: settings.point.map_or(defaults.point, |point| match point {
+                FixPoint::Tip => ProgrammedPoint::Tip,
+                FixPoint::Centre => ProgrammedPoint::Centre,
+            }),
             ..defaults
         }
     }

@@ -1,10 +1,14 @@
-//! A tool pose turned about the rotary axis nearest the workpiece and written back into its block, the ball's centre kept.
+//! A tool pose turned about the rotary axis nearest the workpiece, in either posture, and written back into its block, the ball's centre
+//! kept.
 use crate::slots::{Scheme, Slot, Slots, Styles, insert_word, slots};
 use crate::style::NumberStyle;
 use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Vec3, deg, rad};
-use trunnion_machine::{Machine, Stance, forward};
+use trunnion_machine::{Joints, Machine, POLE_TOLERANCE, Stance, forward};
 use trunnion_syntax::{Block, BlockId, Program, TextEdit};
+
+/// So many tilts are tried for a tool vector that lies on the pole and is to carry an azimuth.
+const TILTS: u32 = 64;
 
 /// What is the same for all points of a window.
 pub(crate) struct Writer<'a> {
@@ -18,10 +22,10 @@ pub(crate) struct Writer<'a> {
     pub styles: Styles,
     /// mm per programmed length unit.
     pub unit_mm: f64,
-    /// Radius of the ball, mm.
+    /// Distance of the ball's centre from the programmed point along the tool axis, mm.
     pub ball_radius: f64,
-    /// Work offset of the rotary axis, deg.
-    pub rotary_zero: f64,
+    /// Work offsets of the rotary axes, deg.
+    pub rotary_zero: [f64; 2],
     /// The tool axis may turn by this much, deg.
     pub tolerance_deg: f64,
     /// The ball's centre may shift by this much, mm.
@@ -35,37 +39,49 @@ struct Number {
     value: f64,
 }
 
+/// Where the rotary joints are to be at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aim {
+    /// First rotary joint, rad.
+    pub q: f64,
+    /// The second one, rad, where the posture changes; `None`: as programmed.
+    pub second: Option<f64>,
+    /// On which side of the pole the second joint was before, where a tool vector at the pole is to carry an azimuth: 1 or -1.
+    pub side: f64,
+}
+
 /// An orientation as it will be written.
 struct Orientation {
     /// The tool axis of these numbers.
     axis: Vec3,
-    /// The rotary joint that gives it, rad.
+    /// The first rotary joint that gives it, rad.
     q: f64,
     /// Coordinate and number.
     numbers: Vec<(usize, Number)>,
 }
 
 impl Writer<'_> {
-    /// Programmed coordinates of a stance as the file counts them: X, Y, Z in file units, then the rotary word.
-    pub(crate) fn programmed(&self, stance: &Stance) -> [f64; 4] {
+    /// Programmed coordinates of a stance as the file counts them: X, Y, Z in file units, then the rotary words.
+    pub(crate) fn programmed(&self, stance: &Stance) -> [f64; 5] {
         let tip = stance.tip / self.unit_mm;
-        [
-            tip.x,
-            tip.y,
-            tip.z,
-            deg(stance.joints[self.machine.rotary[0]]) - self.rotary_zero,
-        ]
+        [tip.x, tip.y, tip.z, self.word(stance, 0), self.word(stance, 1)]
     }
 
-    /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
-    /// in effect before the block in the program after, and those after it on return. Gives the rotary joint that is
-    /// written, rad: `q` but for rounding.
+    /// The word of a rotary axis at a stance, deg.
+    fn word(&self, stance: &Stance, axis: usize) -> f64 {
+        let joint = self.machine.rotary.get(axis);
+        joint.map_or(0.0, |&joint| deg(stance.joints[joint]) - self.rotary_zero[axis])
+    }
+
+    /// Writes the pose of `stance`, turned as `aim` says, into its block. `current` holds the coordinates
+    /// in effect before the block in the program after, and those after it on return. Gives the first rotary joint that is
+    /// written, rad: that of `aim` but for rounding.
     pub(crate) fn turn(
         &self,
         block: BlockId,
         stance: &Stance,
-        q: f64,
-        current: &mut [f64; 4],
+        aim: Aim,
+        current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,
     ) -> Result<f64, String> {
         let view = self.program.block(block);
@@ -74,7 +90,7 @@ impl Writer<'_> {
             axis,
             q,
             numbers: orientation,
-        } = self.orientation(stance, q, &slots)?;
+        } = self.orientation(stance, aim, &slots)?;
         let tip = (stance.tip + (stance.axis - axis) * self.ball_radius) / self.unit_mm;
         let mut numbers: Vec<(usize, Number)> = Vec::new();
         for index in 0..3 {
@@ -95,14 +111,14 @@ impl Writer<'_> {
         &self,
         block: BlockId,
         stance: &Stance,
-        current: &mut [f64; 4],
+        current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let view = self.program.block(block);
         let slots = slots(self.program, &view, self.scheme)?;
         let programmed = self.programmed(stance);
         // an active vector stays active; a rotary word may have to be repeated
-        let words = if self.scheme.count() == 4 { 4 } else { 3 };
+        let words = if self.by_words() { 5 } else { 3 };
         let mut numbers = Vec::new();
         for (index, &value) in programmed.iter().enumerate().take(words) {
             match &slots[index] {
@@ -119,33 +135,47 @@ impl Writer<'_> {
         self.edit(&view, &slots, numbers, current, edits)
     }
 
-    /// The orientation nearest to the rotary joint `q` (rad) that can be written and is turned by no more than allowed.
-    fn orientation(&self, stance: &Stance, q: f64, slots: &Slots) -> Result<Orientation, String> {
-        let joint = self.machine.rotary[0];
+    /// Rotary words are written, not vectors.
+    fn by_words(&self) -> bool {
+        matches!(self.scheme, Scheme::Rotaries(_))
+    }
+
+    /// The orientation nearest to `aim` that can be written and is turned by no more than allowed.
+    fn orientation(&self, stance: &Stance, aim: Aim, slots: &Slots) -> Result<Orientation, String> {
+        if self.by_words() {
+            return self.rotary_words(stance, aim, slots);
+        }
+        if stance.pole_angle > POLE_TOLERANCE {
+            return self.vector(stance, &stance.joints, aim.q, slots);
+        }
+        // any small tilt carries the azimuth: the first one whose rounded components do, or else the best
+        let mut best: Option<Orientation> = None;
+        for part in 1..=TILTS {
+            let tilt = 0.45 * rad(self.tolerance_deg) * f64::from(part) / f64::from(TILTS);
+            let Some(joints) = self.beside_pole(stance, aim.side, tilt) else {
+                continue;
+            };
+            let Ok(found) = self.vector(stance, &joints, aim.q, slots) else {
+                continue;
+            };
+            let off = |one: &Orientation| (one.q - aim.q).abs();
+            if best.as_ref().is_none_or(|best| off(&found) < off(best)) {
+                best = Some(found);
+            }
+            if best.as_ref().is_some_and(|best| off(best) < rad(0.005)) {
+                break;
+            }
+        }
+        best.ok_or_else(|| "a tool vector on the pole has too few digits to carry an azimuth".into())
+    }
+
+    /// The tool vector nearest to the one of `joints` with the first rotary joint at `q`, rad.
+    fn vector(&self, stance: &Stance, joints: &Joints, q: f64, slots: &Slots) -> Result<Orientation, String> {
         let at = |q: f64| {
-            let mut joints = stance.joints;
-            joints[joint] = q;
+            let mut joints = *joints;
+            joints[self.machine.rotary[0]] = q;
             forward(self.machine, &joints, stance.tool_length).axis
         };
-        let allowed = |axis: &Vec3| self.allowed_turn(stance, axis);
-        if let Scheme::Rotary(_) = self.scheme {
-            let wanted = deg(q) - self.rotary_zero;
-            let off = |number: &Number| (number.value - wanted).abs();
-            let best = self
-                .neighbours(3, wanted, slots[3].as_ref())?
-                .into_iter()
-                .min_by(|a, b| {
-                    let fits = |number: &Number| !allowed(&at(rad(number.value + self.rotary_zero)));
-                    fits(a).cmp(&fits(b)).then(off(a).total_cmp(&off(b)))
-                });
-            let number = best.ok_or("not a number")?;
-            let written = rad(number.value + self.rotary_zero);
-            return Ok(Orientation {
-                axis: at(written),
-                q: written,
-                numbers: vec![(3, number)],
-            });
-        }
         let [Some(i), Some(j), Some(k)] = [&slots[3], &slots[4], &slots[5]] else {
             return Err("the block has no tool vector to turn".into());
         };
@@ -155,25 +185,84 @@ impl Writer<'_> {
             [(3, i), (4, j), (5, k)].map(|(index, slot)| self.neighbours(index, wanted[index - 3], Some(slot)));
         let [i, j, k] = choices;
         let (i, j, k) = (i?, j?, k?);
+        let e = self.machine.axes[self.machine.rotary[0]].direction;
         let mut best: Option<(bool, f64, [&Number; 3], Vec3)> = None;
         for combination in 0..8usize {
             let numbers = [&i[combination & 1], &j[combination >> 1 & 1], &k[combination >> 2]];
             let vector = Vec3::from(numbers.map(|number| number.value));
             let norm = vector.norm();
-            if norm <= 0.0 {
+            if norm <= 0.0 || (vector / norm).cross(&e).norm() <= POLE_TOLERANCE {
                 continue;
             }
-            let (out, off) = (!allowed(&(vector / norm)), (vector - wanted).norm());
+            let (out, off) = (!self.allowed_turn(stance, &(vector / norm)), (vector - wanted).norm());
             if best.as_ref().is_none_or(|best| (out, off) < (best.0, best.1)) {
                 best = Some((out, off, numbers, vector / norm));
             }
         }
-        let (_, _, numbers, axis) = best.ok_or("the tool vector would round to zero")?;
+        let (_, _, numbers, axis) = best.ok_or("the tool vector would round to the pole or to zero")?;
         Ok(Orientation {
             axis,
             q: q + self.azimuth_between(&at(q), &axis),
             numbers: (3..).zip(numbers.map(Number::clone)).collect(),
         })
+    }
+
+    /// The rotary words nearest to `aim`.
+    fn rotary_words(&self, stance: &Stance, aim: Aim, slots: &Slots) -> Result<Orientation, String> {
+        let [first, second] = [self.machine.rotary[0], self.machine.rotary[1]];
+        let mut joints = stance.joints;
+        let other = match (aim.second, &slots[4]) {
+            (Some(q), slot) => {
+                let number = self.number(
+                    4,
+                    deg(q) - self.rotary_zero[1],
+                    slot.as_ref().map(|slot| slot.text.as_str()),
+                )?;
+                joints[second] = rad(number.value + self.rotary_zero[1]);
+                number
+            }
+            (None, Some(slot)) => Number {
+                text: slot.text.clone(),
+                value: slot.value,
+            },
+            (None, None) => self.number(4, self.word(stance, 1), None)?,
+        };
+        let at = |number: &Number| {
+            let mut joints = joints;
+            joints[first] = rad(number.value + self.rotary_zero[0]);
+            forward(self.machine, &joints, stance.tool_length).axis
+        };
+        let wanted = deg(aim.q) - self.rotary_zero[0];
+        let rank = |number: &Number| (!self.allowed_turn(stance, &at(number)), (number.value - wanted).abs());
+        let best = self
+            .neighbours(3, wanted, slots[3].as_ref())?
+            .into_iter()
+            .min_by(|a, b| {
+                let (a, b) = (rank(a), rank(b));
+                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+            });
+        let number = best.ok_or("not a number")?;
+        Ok(Orientation {
+            axis: at(&number),
+            q: rad(number.value + self.rotary_zero[0]),
+            numbers: vec![(3, number), (4, other)],
+        })
+    }
+
+    /// Joints beside the pole for a tool vector on it, so that the vector says where the first rotary axis is: tilted by `tilt`, rad, to
+    /// the side `side` of the second rotary axis.
+    fn beside_pole(&self, stance: &Stance, side: f64, tilt: f64) -> Option<Joints> {
+        let second = *self.machine.rotary.get(1)?;
+        let tilted = |by: f64| {
+            let mut joints = stance.joints;
+            joints[second] += side * by;
+            joints
+        };
+        let found = angle_between(
+            &stance.axis,
+            &forward(self.machine, &tilted(tilt), stance.tool_length).axis,
+        );
+        (found > 0.0).then(|| tilted(tilt * tilt / found))
     }
 
     /// By how much the rotary joint turns from one tool axis to a neighbouring one, rad.
@@ -246,7 +335,7 @@ impl Writer<'_> {
         block: &Block<'_>,
         slots: &Slots,
         numbers: Vec<(usize, Number)>,
-        current: &mut [f64; 4],
+        current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
         let mut found = Vec::new();
@@ -259,12 +348,12 @@ impl Writer<'_> {
                 }),
                 None => {
                     let rounding = self.styles[index].map_or(0.0, |style| style.rounding());
-                    if (number.value - current[index.min(3)]).abs() > 0.5 * rounding {
+                    if (number.value - current[index.min(4)]).abs() > 0.5 * rounding {
                         found.push(self.insertion(block, index, &number.text)?);
                     }
                 }
             }
-            if index < 3 || self.scheme.count() == 4 {
+            if index < 3 || self.by_words() {
                 current[index] = number.value;
             }
         }

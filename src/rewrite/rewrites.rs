@@ -4,6 +4,7 @@ mod adapt_feed;
 mod drop_redundant;
 mod fit_arcs;
 mod insert_points;
+mod insert_retract;
 mod renumber;
 mod reroute_rapid;
 mod smooth_pole;
@@ -46,6 +47,7 @@ static REWRITES: &[&Rewrite] = table![
     switch_angles,
     unwind_rotary,
     smooth_pole,
+    insert_retract,
     reroute_rapid,
     fit_arcs,
     drop_redundant,
@@ -78,6 +80,7 @@ mod tests {
             (".fix_posture(", "switch-angles"),
             (".fix_feed(", "adapt-feed"),
             (".fix_points(", "insert-points"),
+            (".fix_retract(", "insert-retract"),
             (".fix_rapid(", "reroute-rapid"),
         ];
         let mut offered: BTreeSet<(String, &str)> = BTreeSet::new();

@@ -2,11 +2,9 @@
 use crate::style::NumberStyle;
 use trunnion_syntax::{Address, AptArg, Block, Format, Program, TextEdit, TextRange, Value};
 
-/// Which numbers of a block a rewrite handles: X, Y, Z, and then one rotary word or three components of the tool vector.
+/// Which numbers of a block a rewrite handles: X, Y, Z, and then two rotary words or three components of the tool vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scheme {
-    /// ISO words X, Y, Z and this rotary letter.
-    Rotary(u8),
     /// ISO words X, Y, Z and these rotary letters; 0 for one that the machine lacks.
     Rotaries([u8; 2]),
     /// ISO words X, Y, Z and A3= B3= C3=.
@@ -53,7 +51,6 @@ impl Scheme {
     fn index(self, address: Address) -> Option<usize> {
         let vector = match (self, address) {
             (_, Address::Letter(letter @ b'X'..=b'Z')) => return Some(usize::from(letter - b'X')),
-            (Self::Rotary(rotary), Address::Letter(letter)) => return (letter == rotary).then_some(3),
             (Self::Rotaries(rotaries), Address::Letter(letter)) => {
                 return rotaries.iter().position(|&rotary| rotary == letter).map(|at| 3 + at);
             }
@@ -64,21 +61,11 @@ impl Scheme {
         vector.filter(|&i| i < 3).map(|i| 3 + usize::from(i))
     }
 
-    /// Number of coordinates.
-    pub(crate) fn count(self) -> usize {
-        match self {
-            Self::Rotary(_) => 4,
-            Self::Rotaries(_) => 5,
-            Self::IndexedVector | Self::LetterVector | Self::Goto => 6,
-        }
-    }
-
     /// The axis letter of a coordinate; `None` for components of a vector.
     pub(crate) fn letter(self, index: usize) -> Option<u8> {
         match (self, index) {
             (Self::Goto, _) => None,
             (_, 0..=2) => Some(b"XYZ"[index]),
-            (Self::Rotary(letter), _) => Some(letter),
             (Self::Rotaries(letters), 3..=4) => Some(letters[index - 3]),
             _ => None,
         }
@@ -88,7 +75,6 @@ impl Scheme {
     pub(crate) fn name(self, index: usize) -> String {
         match (self, index) {
             (_, 0..=2) => char::from(b"XYZ"[index]).to_string(),
-            (Self::Rotary(letter), _) => char::from(letter).to_string(),
             (Self::Rotaries(letters), _) => char::from(letters[(index - 3).min(1)]).to_string(),
             (Self::IndexedVector, _) => format!("{}3", char::from(b"ABC"[(index - 3).min(2)])),
             _ => char::from(b"IJK"[(index - 3).min(2)]).to_string(),
@@ -216,4 +202,19 @@ fn blank_before(program: &Program, start: u32) -> &'static str {
         None | Some(b'\n' | b'\r') if separated() => " ",
         _ => "",
     }
+}
+
+/// Numbers with at least the digits that every control has: 0.001 mm or 0.0001 in, and 0.001 deg. Tool vectors as they are.
+pub(crate) fn finer(styles: Styles, scheme: Scheme, unit_mm: f64) -> Styles {
+    let mut styles = styles;
+    let lengths = if unit_mm > 1.0 { 4 } else { 3 };
+    for (index, style) in styles.iter_mut().enumerate() {
+        let least = match (index, scheme) {
+            (0..=2, _) => lengths,
+            (_, Scheme::Rotaries(_)) => 3,
+            _ => 0,
+        };
+        *style = style.map(|style| style.with_decimals(least));
+    }
+    styles
 }

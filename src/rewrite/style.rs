@@ -15,12 +15,12 @@ pub(crate) struct NumberStyle {
 
 impl NumberStyle {
     /// Learns from numbers as written. `None` when there is none, or none that is a plain decimal.
-    pub(crate) fn learn<'t>(texts: impl Iterator<Item = &'t str>) -> Option<Self> {
+    pub(crate) fn learn<T: AsRef<str>>(texts: impl Iterator<Item = T>) -> Option<Self> {
         let mut style: Option<Self> = None;
         let (mut fewest, mut zero_ended) = (usize::MAX, 0);
         let (mut whole_without_point, mut bare_point) = (false, false);
         for text in texts {
-            let digits = text.trim_start_matches(['+', '-']);
+            let digits = text.as_ref().trim_start_matches(['+', '-']);
             if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit() || b == b'.') {
                 continue;
             }
@@ -65,6 +65,18 @@ impl NumberStyle {
     pub(crate) fn neighbours(&self, value: f64, plus: bool) -> [String; 2] {
         let step = 2.0 * self.rounding();
         [(value / step).floor(), (value / step).ceil()].map(|count| self.write(count * step, plus))
+    }
+
+    /// The same with at least so many digits after the point, as many as a value needs.
+    pub(crate) fn with_decimals(self, least: usize) -> Self {
+        if self.decimals >= least {
+            return self;
+        }
+        Self {
+            decimals: least,
+            trims: true,
+            ..self
+        }
     }
 
     /// Half of the last digit: by this much rounding may change a number.

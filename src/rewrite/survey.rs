@@ -1,7 +1,7 @@
 //! A program run once for a rewrite: each motion with what the machine does, kept small.
 use trunnion_check::Settings;
 use trunnion_interp::{
-    ChainId, Fault, Interpreter, ModalState, Motion, MotionKind, Orientation, Setup, Sink, ToolShape, run,
+    ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Orientation, Setup, Sink, ToolShape, run,
 };
 use trunnion_machine::{Follower, Machine, NoStance, Stance};
 use trunnion_syntax::{BlockId, LineIndex, Program};
@@ -48,8 +48,33 @@ pub(crate) struct Point {
     pub swap: bool,
     /// Length of the programmed tip path, mm.
     pub length: f64,
-    /// Work offset of the rotary axis nearest the workpiece, deg.
-    pub rotary_zero: f64,
+    /// Work offsets of the rotary axes, workpiece side first, deg; 0 in machine coordinates.
+    pub rotary_zero: [f64; 2],
+    /// G53: X Y Z and the rotary words are positions of the machine.
+    pub machine_coordinates: bool,
+    /// Rapid.
+    pub rapid: bool,
+    /// Time of the motion under G93, s.
+    pub time: Option<f64>,
+    /// Feed per minute, mm/min.
+    pub feed_mm_min: Option<f64>,
+}
+
+impl Point {
+    /// What the slope of a rotary axis is measured by: length of the path, mm; under G93 the time in units of 1/60 s.
+    pub(crate) fn extent(&self) -> f64 {
+        self.time.map_or(self.length, |seconds| seconds * 60.0)
+    }
+
+    /// Time of the motion as programmed, s.
+    pub(crate) fn seconds(&self) -> Option<f64> {
+        self.time.or_else(|| Some(60.0 * self.length / self.feed_mm_min?))
+    }
+
+    /// It turns the rotary axis nearest the workpiece by more than a whole turn.
+    pub(crate) fn many_turns(&self) -> bool {
+        self.rotary_change[0] > core::f64::consts::TAU
+    }
 }
 
 struct Collector<'m> {
@@ -62,16 +87,13 @@ impl Sink for Collector<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
         let vector = matches!(motion.orientation, Orientation::Vector(..));
-        let letter = self
-            .machine
-            .rotary
-            .first()
-            .and_then(|&joint| self.machine.axes.get(joint))
-            .map(|axis| axis.letter);
-        let zero = letter
-            .filter(|_| !motion.machine_coordinates)
-            .and_then(trunnion_interp::AxisLetter::new)
-            .map_or(0.0, |axis| motion.zero[usize::from(axis.0)]);
+        let mut rotary_zero = [0.0; 2];
+        for (zero, &joint) in rotary_zero.iter_mut().zip(&self.machine.rotary) {
+            let axis = trunnion_interp::AxisLetter::new(self.machine.axes[joint].letter);
+            if let (Some(axis), false) = (axis, motion.machine_coordinates) {
+                *zero = motion.zero[usize::from(axis.0)];
+            }
+        }
         self.points.push(Point {
             block: motion.block,
             linear: motion.kind == MotionKind::Linear,
@@ -91,7 +113,17 @@ impl Sink for Collector<'_> {
             pole_angle_min: leg.pole_angle_min,
             swap: leg.rotary_excess > self.machine.tolerances.swap_excess,
             length: leg.length,
-            rotary_zero: zero,
+            rotary_zero,
+            machine_coordinates: motion.machine_coordinates,
+            rapid: motion.kind == MotionKind::Rapid,
+            time: match motion.feed {
+                Feed::InverseTime(per_minute) if per_minute > 0.0 => Some(60.0 / per_minute),
+                _ => None,
+            },
+            feed_mm_min: match motion.feed {
+                Feed::PerMinute(feed) if feed > 0.0 => Some(feed),
+                _ => None,
+            },
         });
     }
     fn fault(&mut self, _: Fault) {}

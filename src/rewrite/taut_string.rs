@@ -3,58 +3,97 @@
 //! It minimises every convex function of the slope at once (docs/kinematics.md#smoothing-at-the-pole), so one pass gives the least
 //! total travel and the least peak speed together.
 
+use std::collections::VecDeque;
+
 /// The taut string through the tube `lower[i]..=upper[i]` over the stations `s` (strictly increasing), any units. The ends
 /// are where `lower` and `upper` meet; between them either side may be infinite (no wall there).
 ///
-/// The result has one value for each station. Empty input, and one station, are their own answer. Time: linear unless the
-/// string bends at most stations (then quadratic in the length of the longest straight part).
+/// The result has one value for each station. Empty input, and one station, are their own answer. Time: linear. From the last bend
+/// on, two chains are kept: the tightest line below the upper walls (its slopes rise) and the one above the lower walls (its slopes
+/// fall). Where a new wall makes the first of them start less steep than the other, the string bends along the other one.
 pub(crate) fn taut_string(s: &[f64], lower: &[f64], upper: &[f64]) -> Vec<f64> {
     let count = s.len().min(lower.len()).min(upper.len());
-    let mut string = Vec::with_capacity(count);
+    let mut bends: Vec<Knot> = Vec::new();
     if count == 0 {
-        return string;
+        return Vec::new();
     }
-    string.push(lower[0]);
-    let mut apex = 0;
-    while apex + 1 < count {
-        let from = string[apex];
-        let (bend, to) = next_bend(&s[..count], lower, upper, apex, from);
-        for station in apex + 1..=bend {
-            let share = (s[station] - s[apex]) / (s[bend] - s[apex]);
-            string.push(if station == bend {
-                to
-            } else {
-                from + (to - from) * share
-            });
+    let apex = Knot {
+        at: 0,
+        s: s[0],
+        height: lower[0],
+    };
+    bends.push(apex);
+    let (mut above, mut below) = (VecDeque::from([apex]), VecDeque::from([apex]));
+    for at in 1..count {
+        for (walls, side) in [(upper, 1.0), (lower, -1.0)] {
+            if walls[at].is_finite() {
+                let (near, far) = if side > 0.0 {
+                    (&mut above, &mut below)
+                } else {
+                    (&mut below, &mut above)
+                };
+                let knot = Knot {
+                    at,
+                    s: s[at],
+                    height: walls[at],
+                };
+                lean(knot, side, near, far, &mut bends);
+            }
         }
-        apex = bend;
     }
-    string
+    // both chains lead straight to the last station now; where it has no walls the string keeps its height
+    bends.extend(below.iter().skip(1).filter(|knot| knot.at == count - 1).take(1));
+    between(&s[..count], &bends)
 }
 
-/// Where the string that leaves `apex` at height `from` touches the tube next: station and height. The last station if it
-/// touches nothing.
-fn next_bend(s: &[f64], lower: &[f64], upper: &[f64], apex: usize, from: f64) -> (usize, f64) {
-    let (mut steepest, mut flattest) = (f64::INFINITY, f64::NEG_INFINITY);
-    let (mut at_upper, mut at_lower) = (apex + 1, apex + 1);
-    for station in apex + 1..s.len() {
-        let run = s[station] - s[apex];
-        let over = (upper[station] - from) / run;
-        let under = (lower[station] - from) / run;
-        if under > steepest {
-            return (at_upper, upper[at_upper]);
+/// A place that the string may touch.
+#[derive(Clone, Copy)]
+struct Knot {
+    at: usize,
+    s: f64,
+    height: f64,
+}
+
+/// Slope from one place to another.
+fn slope(from: &Knot, to: &Knot) -> f64 {
+    (to.height - from.height) / (to.s - from.s)
+}
+
+/// Adds a wall to the chain of its side. `side`: 1 for the upper walls, -1 for the lower ones.
+fn lean(knot: Knot, side: f64, near: &mut VecDeque<Knot>, far: &mut VecDeque<Knot>, bends: &mut Vec<Knot>) {
+    while near.len() > 1
+        && side * slope(&near[near.len() - 2], &knot) <= side * slope(&near[near.len() - 2], &near[near.len() - 1])
+    {
+        near.pop_back();
+    }
+    if near.len() == 1 {
+        // the wall turns the string below the other chain: it bends along that one
+        while far.len() > 1 && side * slope(&far[0], &knot) < side * slope(&far[0], &far[1]) {
+            far.pop_front();
+            bends.push(far[0]);
         }
-        if over < flattest {
-            return (at_lower, lower[at_lower]);
-        }
-        if over <= steepest {
-            (steepest, at_upper) = (over, station);
-        }
-        if under >= flattest {
-            (flattest, at_lower) = (under, station);
+        near[0] = far[0];
+    }
+    near.push_back(knot);
+}
+
+/// The height at each station on the line through these bends; level after the last one.
+fn between(s: &[f64], bends: &[Knot]) -> Vec<f64> {
+    let mut string = Vec::with_capacity(s.len());
+    for pair in bends.windows(2) {
+        let (from, to) = (&pair[0], &pair[1]);
+        for &station in &s[from.at..to.at] {
+            let share = (station - from.s) / (to.s - from.s);
+            string.push(if station <= from.s {
+                from.height
+            } else {
+                from.height + (to.height - from.height) * share
+            });
         }
     }
-    (s.len() - 1, lower[s.len() - 1])
+    let last = bends.last().map_or(0.0, |bend| bend.height);
+    string.resize(s.len(), last);
+    string
 }
 
 #[cfg(test)]

@@ -2,20 +2,21 @@
 //!
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
-use crate::cut::{cut, is_idle, may_be_cut, repeats_place};
+use crate::cut::{cut, is_idle, may_be_cut};
 use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::happens::happens;
 use crate::item::{Item, Sort, Step};
 use crate::judge::Judge;
-use crate::process::{motion_difference, shown, unlike};
+use crate::process::{motion_difference, unlike};
 use crate::rapids;
-use crate::refit::{Following, Refit, follow, may_begin};
+use crate::refit::{Followed, Following, Joint, Refit, begin_together, follow, may_begin};
 use crate::retracts;
-use crate::since::sets_from_here;
+use crate::sentences::{kind, only_one, undecided};
 use crate::steps::Steps;
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
+use std::collections::VecDeque;
 use trunnion_interp::{MotionKind, Orientation, same_number};
 
 /// What is claimed to be the same.
@@ -87,6 +88,8 @@ fn walk(
     let mut a = next(before, claim);
     let mut b = next(after, claim);
     let mut following = None;
+    // motions of the program before that were followed beyond the end of a new one
+    let mut again = VecDeque::new();
     while let (Some(was), Some(is)) = (&mut a, &mut b) {
         if claim.rapid_runs && rapids::begins(Some(was)) && rapids::begins(Some(is)) {
             let (left, right) = (was.clone(), is.clone());
@@ -115,13 +118,19 @@ fn walk(
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
             Ok(Paired::SecondInPart) => (false, true),
+            Ok(Paired::EndedBefore(joint)) => {
+                let rest = joint.rest.into_iter().map(|step| Item::Motion(Box::new(step)));
+                let behind = core::mem::take(&mut again);
+                again.extend(rest.chain(a.take()).chain(behind));
+                (true, true)
+            }
             Err(verdict) => {
                 twins.judge(was, is, Err(undecided(was, is, verdict)))?;
                 (true, true)
             }
         };
         if moved_on.0 {
-            a = next(before, claim);
+            a = again.pop_front().or_else(|| next(before, claim));
         }
         if moved_on.1 {
             b = next(after, claim);
@@ -140,23 +149,6 @@ fn walk(
     Ok(())
 }
 
-/// If one program repeats the position of the motion before, after something that may have moved the machine, it may not move at all: other
-/// differences found there are undecided.
-fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
-    let repeats = |item: &Item| matches!(item, Item::Motion(step) if repeats_place(step));
-    match verdict {
-        Verdict::Differs(mut found) if repeats(was) != repeats(is) => {
-            let which = if repeats(was) { "original" } else { "changed" };
-            found.what = format!(
-                "{}; the {which} program repeats its last position here, and it is unknown whether that moves the machine",
-                found.what
-            );
-            Verdict::Unknown(found)
-        }
-        verdict => verdict,
-    }
-}
-
 /// The result of comparing two items.
 enum Paired {
     /// Both are done.
@@ -165,6 +157,8 @@ enum Paired {
     FirstInPart,
     /// The second is the beginning of the first.
     SecondInPart,
+    /// The second ended before the first, beside an earlier point.
+    EndedBefore(Box<Joint>),
 }
 
 fn pair(
@@ -186,21 +180,27 @@ fn pair(
                     return Ok(if last { Paired::Both } else { Paired::SecondInPart });
                 }
             }
-            if let Some(refit) = claim.refit
-                && (following.is_some() || may_begin(was, is) && !same_line(was, is, claim))
-            {
-                in_effect(was, is, claim)?;
-                if following.is_none()
-                    && let Some(off) = cut(was, is, claim)
-                {
-                    judge.cut(off);
-                    return Ok(Paired::SecondInPart);
+            if let Some(refit) = claim.refit {
+                let together = following.is_some() || begin_together(was, is);
+                if following.is_some() || may_begin(was, is) && !(together && same_line(was, is, claim)) {
+                    return match refitted(was, is, (refit, claim), together, judge, following) {
+                        Err(verdict) => match Following::joint(following) {
+                            Some(joint) => {
+                                judge.refitted(&joint.was, is, joint.found)?;
+                                Ok(Paired::EndedBefore(joint))
+                            }
+                            None => Err(verdict),
+                        },
+                        found => found,
+                    };
                 }
-                let Some(found) = follow(following, was, is, refit, claim)? else {
-                    return Ok(Paired::FirstInPart);
-                };
-                judge.refitted(was, is, found)?;
-                return Ok(Paired::Both);
+                if !together {
+                    return Err(Verdict::Differs(Difference {
+                        before: Some(was.motion.block),
+                        after: Some(is.motion.block),
+                        what: "they begin at different places".to_owned(),
+                    }));
+                }
             }
             held(was, is, claim)?;
             if claim.cuts && !ends_together(was, is, claim) {
@@ -221,20 +221,37 @@ fn pair(
     Ok(Paired::Both)
 }
 
+/// A line of the program before and the motion that takes its place, alone or with others.
+fn refitted(
+    was: &mut Step,
+    is: &Step,
+    (refit, claim): (Refit, &Claim),
+    together: bool,
+    judge: &mut dyn Judge,
+    following: &mut Option<Following>,
+) -> Result<Paired, Verdict> {
+    in_effect(was, is, claim)?;
+    if following.is_none()
+        && together
+        && let Some(off) = cut(was, is, claim)
+    {
+        judge.cut(off);
+        return Ok(Paired::SecondInPart);
+    }
+    let Followed::Through(found) = follow(following, was, is, refit, claim)? else {
+        return Ok(Paired::FirstInPart);
+    };
+    *following = None;
+    judge.refitted(was, is, found)?;
+    Ok(Paired::Both)
+}
+
 /// The next item that matters.
 pub(crate) fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
     steps.find(|item| match item {
         Item::Motion(step) => !(claim.cuts && is_idle(step)),
         Item::Happens { sort, .. } => !claim.path_only || *sort == Sort::Unmodelled,
     })
-}
-
-pub(crate) fn at(was: Option<&Item>, is: Option<&Item>, what: String) -> Difference {
-    Difference {
-        before: was.map(Item::block),
-        after: is.map(Item::block),
-        what,
-    }
 }
 
 /// What must be the same at two motions before their paths are compared.
@@ -313,17 +330,6 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
     Ok(())
 }
 
-/// A kind of motion in words.
-fn kind(kind: &MotionKind) -> &'static str {
-    match kind {
-        MotionKind::Rapid => "a rapid",
-        MotionKind::Linear => "a line at feed",
-        MotionKind::Arc(_) => "an arc",
-        MotionKind::Dwell(_) => "a dwell",
-        MotionKind::Unknown => "a motion that is not modelled",
-    }
-}
-
 /// Whether two motions end at the same position, so that neither need be cut.
 fn ends_together(was: &Step, is: &Step, claim: &Claim) -> bool {
     let (a, b) = (&was.motion, &is.motion);
@@ -337,37 +343,4 @@ fn ends_together(was: &Step, is: &Step, claim: &Claim) -> bool {
             let off = (a.end.values[axis] + a.zero[axis]) - (b.end.values[axis] + b.zero[axis]);
             off.is_nan() || off.abs() <= if (3..6).contains(&axis) { claim.deg } else { claim.mm }
         })
-}
-
-/// One program does something where the other does something else, or has ended.
-pub(crate) fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
-    let name = |item: Option<&Item>| match item {
-        None => "ends".to_owned(),
-        Some(Item::Motion(step)) if step.is_part => format!("continues with {}", kind(&step.motion.kind)),
-        Some(Item::Motion(step)) => format!("makes {}", kind(&step.motion.kind)),
-        Some(Item::Happens { words, .. }) => format!("does `{}`", shown(words)),
-    };
-    let unmodelled = |item: Option<&Item>| {
-        matches!(
-            item,
-            Some(Item::Happens {
-                sort: Sort::Unmodelled,
-                ..
-            })
-        ) || matches!(item, Some(Item::Motion(step)) if step.motion.kind == MotionKind::Unknown)
-    };
-    let part = |item: Option<&Item>| matches!(item, Some(Item::Motion(step)) if step.is_part);
-    let what = match (part(was), part(is)) {
-        (true, false) | (false, true) => "a motion ends at another position: ",
-        _ => "",
-    };
-    let what = format!("{what}the original program {}, the changed one {}", name(was), name(is));
-    let place = at(was, is, what);
-    let from_here = |item: Option<&Item>| matches!(item, Some(Item::Happens { words, .. }) if sets_from_here(words));
-    let ends_elsewhere = part(was) != part(is) && (from_here(was) || from_here(is));
-    if !ends_elsewhere && (unmodelled(was) || unmodelled(is)) {
-        Verdict::Unknown(place)
-    } else {
-        Verdict::Differs(place)
-    }
 }

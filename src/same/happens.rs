@@ -1,7 +1,8 @@
 //! Two things that programs do apart from motions.
-use crate::compare::{Claim, at};
+use crate::compare::Claim;
 use crate::item::{Item, Sort};
 use crate::process::{shown, stops, unlike};
+use crate::sentences::at;
 use crate::verdict::Verdict;
 
 /// Whether they are the same, with everything that is in effect.

@@ -21,6 +21,7 @@ mod process;
 mod rapids;
 mod refit;
 mod retracts;
+mod sentences;
 mod since;
 mod steps;
 mod twins;

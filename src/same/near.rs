@@ -1,6 +1,6 @@
 //! Two motions along the same path within tolerances, by what is programmed and, with a machine, by what the machine does.
-use crate::compare::Judge;
 use crate::item::Step;
+use crate::judge::Judge;
 use crate::verdict::{Difference, Verdict};
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::angle_between;

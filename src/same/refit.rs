@@ -5,6 +5,7 @@
 use crate::compare::Claim;
 use crate::cut::may_be_cut;
 use crate::item::Step;
+use crate::sentences::kind;
 use crate::verdict::{Difference, Verdict};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::along::{Along, Course};
@@ -30,14 +31,48 @@ pub struct Refitted {
     pub motions: u32,
 }
 
-/// Ends at which a new motion begins and ends must be those of the old ones, mm: rounding of sums.
+/// Ends that are no farther apart are the same, mm: rounding of sums.
 pub(crate) const JOINT: f64 = 1e-6;
 
 /// A motion of the program after that is being followed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Following {
     along: Along,
     motions: u32,
+    /// The point of the program before at which it may end, if no better one comes.
+    best: Option<Box<Joint>>,
+}
+
+/// A point of the program before that is near the end of a new motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Joint {
+    /// The motion that ends there.
+    pub(crate) was: Step,
+    /// What was found up to there.
+    pub(crate) found: Refitted,
+    /// How far it is from the end, mm.
+    off: f64,
+    /// The motions that were followed after it.
+    pub(crate) rest: Vec<Step>,
+}
+
+impl Following {
+    /// Where it may end, if it must end before the next motion.
+    pub(crate) fn joint(following: &mut Option<Self>) -> Option<Box<Joint>> {
+        let joint = following.as_mut()?.best.take();
+        if joint.is_some() {
+            *following = None;
+        }
+        joint
+    }
+}
+
+/// What became of following a motion.
+pub(crate) enum Followed {
+    /// It goes on.
+    InPart,
+    /// Both end together.
+    Through(Refitted),
 }
 
 /// Whether the line `was` may begin what `is` does in one motion.
@@ -45,20 +80,24 @@ pub(crate) fn may_begin(was: &Step, is: &Step) -> bool {
     was.motion.kind == MotionKind::Linear && matches!(is.motion.kind, MotionKind::Linear | MotionKind::Arc(Some(_)))
 }
 
-/// Follows the line `was` along `is`; once it ends where `is` ends, what was found.
+/// Follows the line `was` along `is`, until it ends where `is` ends. After an error [`Following::joint`] says whether `is` ended before `was`.
 pub(crate) fn follow(
     following: &mut Option<Following>,
     was: &Step,
     is: &Step,
     refit: Refit,
     claim: &Claim,
-) -> Result<Option<Refitted>, Verdict> {
+) -> Result<Followed, Verdict> {
     let (a, b) = (&was.motion, &is.motion);
     let place = |what: String| Difference {
         before: Some(a.block),
         after: Some(b.block),
         what,
     };
+    if a.kind != MotionKind::Linear {
+        let what = format!("one is {}, the other {}", kind(&a.kind), kind(&b.kind));
+        return Err(Verdict::Differs(place(what)));
+    }
     if let Some(why) = not_comparable(was, is, claim) {
         return Err(Verdict::Unknown(place(why)));
     }
@@ -68,7 +107,7 @@ pub(crate) fn follow(
             "the position of X, Y or Z is unknown".to_owned(),
         )));
     };
-    let mut now = following.take().unwrap_or_else(|| {
+    let now = following.get_or_insert_with(|| {
         let course = match &b.kind {
             MotionKind::Arc(Some(arc)) => Course::Arc(*arc),
             _ => Course::Line { start, end },
@@ -76,32 +115,62 @@ pub(crate) fn follow(
         Following {
             along: Along::new(course, from),
             motions: 0,
+            best: None,
         }
     });
     now.along.to(to);
     now.motions += 1;
-    let (points_mm, paths_mm) = (now.along.points_apart(), now.along.apart());
-    let (counts, what) = if refit.points_only {
-        (points_mm, "a point")
-    } else {
-        (paths_mm, "the path")
+    let counts = |along: &Along| {
+        if refit.points_only {
+            along.points_apart()
+        } else {
+            along.apart()
+        }
     };
+    let refitted = |along: &Along, motions: u32| Refitted {
+        points_mm: along.points_apart(),
+        paths_mm: along.apart(),
+        motions,
+    };
+    let off = counts(&now.along);
     // not a number is above every limit
-    if counts.is_nan() || counts > refit.mm {
+    if off.is_nan() || off > refit.mm {
+        let what = if refit.points_only { "a point" } else { "the path" };
         return Err(Verdict::Differs(place(format!(
-            "{what} is up to {counts:.6} mm from the new path; {} mm is allowed",
+            "{what} is up to {off:.6} mm from the new path; {} mm is allowed",
             refit.mm
         ))));
     }
     if (to - end).norm() <= JOINT && now.along.is_through() {
-        return Ok(Some(Refitted {
-            points_mm,
-            paths_mm,
-            motions: now.motions,
-        }));
+        return Ok(Followed::Through(refitted(&now.along, now.motions)));
     }
-    *following = Some(now);
-    Ok(None)
+    // the new motion may end beside this point: it does so at the nearest one, unless it ends exactly at a later one
+    let from_end = now.along.from_end();
+    let nearer = from_end <= refit.mm && now.best.as_ref().is_none_or(|best| from_end < best.off);
+    let ended = if nearer { now.along.ended() } else { now.along };
+    if nearer && counts(&ended) <= refit.mm {
+        now.best = Some(Box::new(Joint {
+            was: was.clone(),
+            found: refitted(&ended, now.motions),
+            off: from_end,
+            rest: Vec::new(),
+        }));
+    } else if let Some(best) = &mut now.best {
+        best.rest.push(was.clone());
+    }
+    Ok(Followed::InPart)
+}
+
+/// Whether two motions begin at one place, or where neither is known to.
+pub(crate) fn begin_together(was: &Step, is: &Step) -> bool {
+    let (a, b) = (&was.motion, &is.motion);
+    (0..3).all(|axis| match (a.start.get(axis), b.start.get(axis)) {
+        (Some(from), Some(to)) => {
+            let moved = a.zero[axis] - b.zero[axis];
+            (from - to + if moved.is_nan() { 0.0 } else { moved }).abs() <= JOINT
+        }
+        (from, to) => from.is_none() && to.is_none(),
+    })
 }
 
 /// Why the shape of the path does not follow from the programmed coordinates of X, Y and Z, or why a motion must not be made in another

@@ -1,14 +1,15 @@
 //! Motions that only the program after has: away from the part with rapids, and back with lines at feed, between two cuts.
-use crate::compare::{Claim, in_effect, next, only_one};
+use crate::compare::{Claim, in_effect, next};
 use crate::item::{Item, Step};
 use crate::judge::Judge;
 use crate::rapids;
+use crate::sentences::only_one;
 use crate::steps::Steps;
 use crate::verdict::Verdict;
 use trunnion_interp::MotionKind;
 
-/// Most lines at feed that bring the tool back: down along its axis, and a ramp.
-const MOST_RETURNS: usize = 2;
+/// Most lines at feed that bring the tool back: a turn in the air, down along its axis, and a ramp.
+const MOST_RETURNS: usize = 3;
 
 /// Takes the motions away from the part and back, the first of which is `away`; `cut` is the motion that comes next in the program before. The
 /// item after them.

@@ -139,6 +139,12 @@ impl Encode for Claim {
                     .field(3, clearance_mm)
                     .field(4, assumed_zeros);
             }),
+            Self::SameProgrammedCentre {
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(9, |fields| {
+                fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
             Self::LeastPostures {
                 tolerance_mm,
                 tolerance_deg,

@@ -25,6 +25,7 @@ fn path<'m>(machine: &'m Machine, ends: &[[f64; MAX_AXES]; 2], interpolation: In
         interpolation,
         joints,
         axes,
+        tips: joints.map(|joints| forward(machine, &joints, 40.0).tip),
         tool_length: 40.0,
         height,
     }

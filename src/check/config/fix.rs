@@ -14,6 +14,16 @@ pub enum FixCost {
     Deviation,
 }
 
+/// Which point of a ball X Y Z of a program are.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum FixPoint {
+    /// Its tip.
+    Tip,
+    /// Its centre.
+    Centre,
+}
+
 /// What the file says; what it does not say is the rewrite's own default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FixSettings {
@@ -23,6 +33,8 @@ pub struct FixSettings {
     pub tolerance_deg: Option<f64>,
     /// `cost`: of `switch-angles`.
     pub cost: Option<FixCost>,
+    /// `point`: of `smooth-pole`.
+    pub point: Option<FixPoint>,
 }
 
 /// The table as it is written.
@@ -32,6 +44,7 @@ pub(super) struct FileFix {
     tolerance_mm: Option<Spanned<f64>>,
     tolerance_deg: Option<Spanned<f64>>,
     cost: Option<FixCost>,
+    point: Option<FixPoint>,
 }
 
 impl FileFix {
@@ -47,6 +60,38 @@ impl FileFix {
             tolerance_mm: positive("tolerance_mm", self.tolerance_mm)?,
             tolerance_deg: positive("tolerance_deg", self.tolerance_deg)?,
             cost: self.cost,
+            point: self.point,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FixCost, FixPoint, FixSettings};
+    use crate::config::Config;
+
+    #[test]
+    fn every_key_is_read() {
+        let text = "[fix]\ntolerance_mm = 0.002\ntolerance_deg = 0.2\ncost = \"time\"\npoint = \"centre\"\n";
+        let wanted = FixSettings {
+            tolerance_mm: Some(0.002),
+            tolerance_deg: Some(0.2),
+            cost: Some(FixCost::Time),
+            point: Some(FixPoint::Centre),
+        };
+        assert_eq!(Config::parse(text).expect("a whole table").fix, wanted);
+        assert_eq!(Config::parse("").expect("an empty file").fix, FixSettings::default());
+    }
+
+    #[test]
+    fn what_no_rewrite_can_keep_to_is_refused() {
+        for text in [
+            "tolerance_mm = 0.0",
+            "tolerance_deg = -1.0",
+            "point = \"middle\"",
+            "points = \"tip\"",
+        ] {
+            Config::parse(&format!("[fix]\n{text}\n")).expect_err(text);
+        }
     }
 }

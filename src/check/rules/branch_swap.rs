@@ -54,7 +54,8 @@ fn check(swap: &facts::PostureSwap<'_>, out: &mut Reporter<'_>) {
             .value("rotary_excess_deg", deg(swap.excess))
             .value("rotary_change_deg", deg(d1))
             .value("pole_angle_deg", deg(swap.leg.pole_angle_min))
-            .fix_posture(swap);
+            .fix_posture(swap)
+            .fix_retract(swap);
         if let Some(beyond) = swap.forced_swap() {
             let name = letter(swap.machine.axes[beyond.axis].letter);
             draft

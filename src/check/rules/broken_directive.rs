@@ -41,7 +41,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
                 out.report(*range, what.clone())
                     .help("write `allow RULE because REASON`, `tool NUMBER SHAPE diameter MM`, `dialect NAME` or `machine NAME`");
             }
-            Directive::Allow { .. } | Directive::Tool(_) | Directive::Mode { .. } => {}
+            Directive::Allow { .. } | Directive::Tool(_) | Directive::Turned(_) | Directive::Mode { .. } => {}
         }
     }
 }

@@ -25,6 +25,9 @@ pub(crate) struct Fix {
     /// fit-arcs: what the new path must be near, the lines as they are programmed or only their ends. Default: chords.
     #[arg(long, value_enum)]
     pub(crate) source: Option<crate::cli::fix::SourceOf>,
+    /// smooth-pole: which point of a ball the programmed X Y Z are. Default: `point` of [fix] in trunnion.toml, else its tip.
+    #[arg(long, value_enum)]
+    pub(crate) point: Option<crate::cli::fix::PointOf>,
     /// adapt-feed: make cuts that are slower than this as fast as the axes allow, up to this, in mm/min. Plunges too: see --lines.
     #[arg(long, value_name = "MM_MIN")]
     pub(crate) feed: Option<f64>,

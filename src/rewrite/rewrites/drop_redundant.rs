@@ -43,7 +43,8 @@
 //! docs/kinematics.md#arcs-through-points: fewest pieces as a shortest path.
 use super::Body;
 use crate::chain_words::{Hand, lean};
-use crate::pieces::{Limits, divide};
+use crate::divide::divide;
+use crate::pieces::Limits;
 use crate::polyline::chains;
 use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::{Claim, RefitSource};
@@ -70,6 +71,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             source: RefitSource::Chords,
             planes: &[],
             styles: None,
+            ends: None,
             unit_mm: chain.unit_mm,
             dialect: settings.dialect,
         };

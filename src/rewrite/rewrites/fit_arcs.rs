@@ -8,7 +8,8 @@
 //! A chain of lines with one feed and nothing between them is divided into the fewest arcs and lines: the shortest path over its points.
 //! A part may become an arc if a circle through its two ends comes near all its points (`--source points`), and also near the lines
 //! between them (`--source chords`, the default). All centres that serve are found, and then one whose numbers, rounded to the digits of the
-//! program, still serve. A part that cannot be written so is divided again.
+//! program, still serve. A part that cannot be written so is divided again. Where that saves blocks, arcs meet beside the points of the program,
+//! within the tolerance. Lines that come back to where they began become one whole circle.
 //!
 //! # Example
 //! ```gcode before fanuc-30i mill-3axis
@@ -39,7 +40,7 @@
 //!
 //! # Traps
 //! - A control slows down in arcs where it does not on lines; the programmed feed stays as it is.
-//! - Arcs are at most 350 degrees and 10 m in radius, and never have equal ends; a whole circle becomes two.
+//! - Arcs are at most 350 degrees and 10 m in radius, or whole circles.
 //! - A block with a comment begins a new piece, so comments stay. Words other than a number, G1, X, Y, Z and F end a chain.
 //! - On a Sinumerik arcs are only written in the active plane, because another plane turns the tool's length.
 //! - Left alone, with the reason: G41 and G42, G91, G93, exact stop, tool centre point control, moving rotary axes, frames, G90.1.
@@ -49,14 +50,15 @@
 //! Vickers and Bradley, curved surface machining through circular arc interpolation (1992), for arcs through points; docs/kinematics.md#arcs-through-points.
 use super::Body;
 use crate::chain_words::{Hand, write};
-use crate::pieces::{Limits, divide};
+use crate::divide::divide;
+use crate::pieces::Limits;
 use crate::polyline::{Chain, Reasons, chains};
 use crate::style::NumberStyle;
 use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
-use trunnion_syntax::{Address, Format, Program, Value};
+use trunnion_syntax::{Address, Format, Program, TextRange, Value};
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
@@ -65,7 +67,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         return Err("APT: arcs are not written there".into());
     }
     let found = chains(program, settings, 2);
-    let (hand, styles) = (Hand::of(program), centre_styles(program));
+    let (hand, (ends, styles)) = (Hand::of(program), styles(program));
     let (mut places, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
     // chains that follow each other directly are one place: the first may end with an arc, and then the next begins with G1
     for group in found
@@ -80,6 +82,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
                 source: options.source,
                 planes: &planes,
                 styles: Some(styles),
+                ends: Some(ends),
                 unit_mm: chain.unit_mm,
                 dialect: settings.dialect,
             };
@@ -127,29 +130,30 @@ fn planes(settings: &Settings<'_>, chain: &Chain) -> Vec<Plane> {
     planes
 }
 
-/// How I, J and K are written: like those that are there, else like X, Y and Z together.
-fn centre_styles(program: &Program) -> [NumberStyle; 3] {
-    let texts = |letters: &'static [u8]| {
-        let words = program.blocks().flat_map(|block| block.words().collect::<Vec<_>>());
-        let own = words.filter(move |word| {
-            matches!(word.address, Address::Letter(letter) if letters.contains(&letter))
-                && matches!(word.value, Value::Number(_))
-        });
-        own.map(|word| program.text(word.value_range).into_owned())
-            .collect::<Vec<_>>()
-    };
-    let learn = |texts: &[String]| NumberStyle::learn(texts.iter().map(String::as_str));
-    let all = learn(&texts(b"XYZ")).unwrap_or(NumberStyle {
+/// How X, Y and Z are written, all together, and I, J and K: like those that are there, else like the others.
+fn styles(program: &Program) -> (NumberStyle, [NumberStyle; 3]) {
+    let (mut coordinates, mut centres) = (Vec::new(), Vec::new());
+    for block in program.blocks() {
+        for word in block.words().filter(|word| matches!(word.value, Value::Number(_))) {
+            match word.address {
+                Address::Letter(b'X'..=b'Z') => coordinates.push(word.value_range),
+                Address::Letter(b'I'..=b'K') => centres.push(word.value_range),
+                _ => {}
+            }
+        }
+    }
+    let learn = |ranges: &[TextRange]| NumberStyle::learn(ranges.iter().map(|range| program.text(*range)));
+    let all = learn(&coordinates).unwrap_or(NumberStyle {
         decimals: 3,
         trims: false,
         whole_point: true,
         leading_zero: true,
     });
     // fewer digits than those of the coordinates would only make worse arcs
-    let style = learn(&texts(b"IJK"))
+    let centres = learn(&centres)
         .filter(|style| style.decimals >= all.decimals)
         .unwrap_or(all);
-    [style; 3]
+    (all, [centres; 3])
 }
 
 /// Why other lines were not looked at.

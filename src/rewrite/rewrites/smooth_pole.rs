@@ -6,10 +6,21 @@
 //! straight, as far as the tolerance allows.
 //!
 //! # How
-//! In each run of straight feed motions around a `pole-flip`, the second rotary axis keeps its values. The first one follows the
-//! taut string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least total travel and the least peak speed at
-//! once. The ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by
-//! `r (u - u')`, so that the centre of the ball, and with it the contact with the surface, stays where it was.
+//! The unit is a chain: straight feed motions under tool centre point control, one after the other. In a chain with a steep motion (one that
+//! `pole-flip` reports, or in which the first rotary axis limits the feed near the pole) the first rotary axis may be anywhere in the
+//! tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)` around its value. What counts is the slope: degrees per millimetre of path, or
+//! per time under G93, because the slope limits the feed.
+//!
+//! 1. Postures and turns. Where the tool axis is within half the tolerance of the pole, its azimuth is free, and the posture may change.
+//!    Turns are free everywhere, and both are free at an end of the chain that a rapid leads to or away from. The choice is a shortest path
+//!    over the chain. An exact search checks that it is within 1 % of the least possible slope, and replaces it where it is not.
+//! 2. The taut string through the tubes: the least travel and the least slope at once.
+//! 3. At most 1.003 times as steep as the string around it, the axis takes the course with the least sum of squares of the changes of slope.
+//!
+//! Points far from the pole keep their tool axis (beyond twice the pole cone, where the tube is narrower than a degree), unless that
+//! would make the chain steeper. The tip moves by `r (u - u')`, so that the centre of the ball, and with it the contact with the surface,
+//! stays where it was. With `--point centre` X Y Z are the centre of the ball, and stay. A tool vector on the pole has no azimuth; it is
+//! turned by less than half the tolerance to carry one.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -28,7 +39,7 @@
 //! T1 M6
 //! TRAORI
 //! G0 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 S8000 M3
-//! N2920 G1 X-28.38059 Y-1.84015 Z59.90263 A1.047 C2.212 F2000
+//! N2920 G1 X-28.38059 Y-1.84015 Z59.90263 A1.047 C2.212 F2000 ; trunnion: turned 0.1
 //! N2930 G1 X-28.38161 Y-1.53288 Z59.93222 A0.081 C1.066
 //! N2940 G1 X-28.38489 Y-1.28033 Z59.95290 A-0.79 C0.107
 //! N2950 G1 X-28.39015 Y-1.01049 Z59.97066 A-1.676 C-0.905
@@ -37,8 +48,9 @@
 //!
 //! # Claim
 //! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No feed, no spindle word and no other byte changes. The certificate states a measured value and a proven bound
-//! of how far apart the paths are between block ends.
+//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes, but for the comment
+//! `trunnion: turned`. The
+//! certificate states a measured value and a proven bound of how far apart the paths are between block ends.
 //!
 //! # Traps
 //! - Only a ball keeps its contact when the tool axis turns. The shape of the tool must be declared; a flat or bull-nosed tool
@@ -47,20 +59,31 @@
 //! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works on the words
 //!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
+//! - Where the digits of the program are too few, up to 0.001 mm, 0.0001 in and 0.001 deg are written.
+//! - The tolerance counts from the program as it was before the first run: the comment `trunnion: turned 0.08` at each place records it,
+//!   and a further run subtracts it. Without the comment, each run may turn the tool axis by as much again.
+//! - A low slope over a long block can be a large step. The largest step may grow while the slope falls.
+//! - Arcs, motions of more than a whole turn and changes of posture far from the pole are left alone. Where tool vectors are
+//!   programmed, the control chooses the posture.
 //!
 //! # Sources
 //! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.
 use super::Body;
+use crate::propose::ProgrammedPoint;
 use crate::reposition::Writer;
-use crate::slots::{Scheme, Styles, styles};
-use crate::stations::{Station, chain, largest_step, stance, straighten, window};
+use crate::slots::{Scheme, Styles, finer, styles};
+use crate::smooth::chain::{Station, chain, half_width};
+use crate::smooth::mark::{Marks, mark};
+use crate::smooth::obstacles::{obstacle, refused, unknown_position};
+use crate::smooth::plan::{Plan, plan};
+use crate::smooth::window::{Smoothed, steepest, write};
 use crate::survey::{Point, Tip, survey};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::{deg, rad};
-use trunnion_machine::{Machine, NoStance};
-use trunnion_syntax::{LineIndex, Program, TextEdit};
+use trunnion_machine::Machine;
+use trunnion_syntax::{BlockId, LineIndex, Program};
 
 pub(super) const REWRITE: Body = Body {
     cures: &[
@@ -73,31 +96,29 @@ pub(super) const REWRITE: Body = Body {
     propose,
 };
 
-/// What was done in one window.
-struct Smoothed {
-    edits: Vec<TextEdit>,
-    ball_radius: f64,
-    /// Indices of the window's first and last point, and the lines of its ends.
-    first: usize,
-    last: usize,
-    lines: (u32, u32),
-    /// Largest step of the rotary axis before and after, deg.
-    steps: (f64, f64),
-}
+/// Beyond the pole cone, a motion is looked at where the tube is so wide to either side, deg: there the tolerance matters.
+const WIDE_TUBE_DEG: f64 = 5.0;
 
-/// Values computed for one window that the next one reuses.
+/// What was found so far.
 #[derive(Default)]
-struct Memory {
-    chain: Vec<Station>,
-    styles: Vec<(Scheme, Styles)>,
+struct Found {
+    places: Vec<Place>,
+    windows: Vec<Smoothed>,
+    /// Radius of the ball, mm.
+    radius: Option<f64>,
 }
 
+/// What is the same for all windows.
 struct Task<'a> {
     program: &'a Program,
     machine: &'a Machine,
     options: &'a Options,
     points: &'a [Point],
     lines: LineIndex,
+    /// What is recorded about earlier runs.
+    marks: Marks,
+    /// How the program writes the numbers of each scheme.
+    styles: Vec<(Scheme, Styles)>,
 }
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
@@ -108,133 +129,76 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         return Ok(None);
     }
     let points = survey(program, settings, machine);
-    let task = Task {
+    let mut task = Task {
         program,
         machine,
         options,
         points: &points,
         lines: LineIndex::new(program.source()),
+        marks: Marks::of(program),
+        styles: Vec::new(),
     };
-    let flips: Vec<usize> = (0..points.len()).filter(|&index| task.flips(index)).collect();
-    if flips.is_empty() {
-        return task.unknown_position().map_or(Ok(None), |reason| Err(reason.into()));
+    let steep: Vec<usize> = (0..points.len()).filter(|&index| task.steep(index)).collect();
+    if steep.is_empty() {
+        return unknown_position(&points, |at| task.line(at)).map_or(Ok(None), |reason| Err(reason.into()));
     }
-    let mut memory = Memory::default();
     let mut done: Option<usize> = None;
-    let mut radius = None;
-    let mut windows = Vec::new();
-    let mut places = Vec::new();
-    for flip in flips {
-        if done.is_some_and(|last| flip <= last) {
+    let mut found = Found::default();
+    for index in steep {
+        if done.is_some_and(|last| index <= last) {
             continue;
         }
-        let smoothed = match task.smooth(flip, &mut memory) {
-            Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => smoothed,
-            Ok(_) => {
-                let why = "a different ball radius, which needs a separate run";
-                places.push(task.place(flip, Change::Refused(why.to_owned())));
-                continue;
+        match (obstacle(&points[index]), points[index].tip) {
+            (None, Tip::Ball(ball)) => done = Some(task.smooth_chain(index, ball, &mut found)),
+            (obstacle, _) => {
+                let why = obstacle.unwrap_or_else(|| refused("the tool is not a ball"));
+                found.places.push(task.place((index, index), why));
             }
-            Err(change) => {
-                places.push(task.place(flip, change));
-                continue;
-            }
-        };
-        done = Some(smoothed.last);
-        places.push(Place {
-            first: points[smoothed.first].block,
-            last: points[smoothed.last].block,
-            change: Change::Edits(smoothed.edits.clone()),
-        });
-        windows.push(smoothed);
+        }
     }
-    let Some(ball_radius_mm) = radius else {
+    let Found {
+        places,
+        windows,
+        radius,
+    } = found;
+    let Some(ball_radius_mm) = radius.filter(|_| !windows.is_empty()) else {
         return Err(Refusal::Places(places));
     };
-    let claim = Claim::SameBallCentre {
-        ball_radius_mm,
-        tolerance_mm: options.tolerance_mm,
-        tolerance_deg: options.tolerance_deg,
+    let claim = match options.point {
+        ProgrammedPoint::Tip => Claim::SameBallCentre {
+            ball_radius_mm,
+            tolerance_mm: options.tolerance_mm,
+            tolerance_deg: options.tolerance_deg,
+        },
+        ProgrammedPoint::Centre => Claim::SameProgrammedCentre {
+            tolerance_mm: options.tolerance_mm,
+            tolerance_deg: options.tolerance_deg,
+        },
     };
-    let letter = char::from(machine.axes[machine.rotary[0]].letter);
-    Ok(Some(Proposal {
-        places,
-        claim,
-        summary: summary(&windows, letter),
-    }))
+    let summary = task.summary(&windows);
+    Ok(Some(Proposal { places, claim, summary }))
 }
 
-/// What was done, in one line.
-fn summary(windows: &[Smoothed], letter: char) -> String {
-    let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
-        (worst.0.max(w.steps.0), worst.1.max(w.steps.1))
-    });
-    let (first, last) = windows
-        .first()
-        .zip(windows.last())
-        .map_or((0, 0), |(a, b)| (a.lines.0, b.lines.1));
-    let count = if windows.len() > 1 {
-        format!(" in {} windows", windows.len())
-    } else {
-        String::new()
-    };
-    format!(
-        "lines {first} to {last}{count}: largest step of {letter} {:.3} -> {:.3} deg",
-        worst.0, worst.1
-    )
-}
-
-/// Why a motion with a flip cannot be changed.
-fn obstacle(point: &Point) -> Option<Change> {
-    if !point.tcp {
-        return Some(Change::Refused(
-            "tool centre point control is off, so turning the table would move the tip".into(),
-        ));
-    }
-    if !point.linear {
-        return Some(Change::Refused(
-            "the motion is an arc: the rewrite handles straight motions".into(),
-        ));
-    }
-    if !point.from_known {
-        return Some(Change::Refused("the position before the motion is unknown".into()));
-    }
-    tool_obstacle(point)
-}
-
-/// Why a tool or its coordinates cannot be turned.
-fn tool_obstacle(point: &Point) -> Option<Change> {
-    match point.tip {
-        Tip::Undeclared => Some(Change::Possible(
-            "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
-                .into(),
-        )),
-        Tip::Other => Some(Change::Refused("the tool is not a ball: its contact with the surface would move".into())),
-        Tip::Ball(_) if point.incremental => Some(Change::Refused("coordinates are incremental (G91)".into())),
-        Tip::Ball(_) => None,
-    }
-}
-
-fn refused(why: impl Into<String>) -> Change {
-    Change::Refused(why.into())
+/// How far a tool axis may turn, rad, from the tolerance in degrees: slightly less, so that the last bit of a double decides nothing.
+fn room(tolerance_deg: f64) -> f64 {
+    rad(tolerance_deg) * (1.0 - 1e-8)
 }
 
 impl Task<'_> {
-    /// One motion as a place.
-    fn place(&self, index: usize, change: Change) -> Place {
-        let block = self.points[index].block;
-        Place {
-            first: block,
-            last: block,
-            change,
-        }
-    }
-
-    /// The rule pole-flip fires here.
-    fn flips(&self, index: usize) -> bool {
+    /// The first rotary axis turns as far as the rule pole-flip reports, or limits the feed, near the pole or where the tube is wide.
+    fn steep(&self, index: usize) -> bool {
         let point = &self.points[index];
         let tolerances = &self.machine.tolerances;
-        point.feed && point.pole_angle_min < tolerances.pole_cone && point.rotary_change[0] > tolerances.pole_angle
+        let wide = || half_width(room(self.options.tolerance_deg), point.pole_angle_min) >= rad(WIDE_TUBE_DEG);
+        if !point.feed || point.pole_angle_min >= tolerances.pole_cone && !wide() {
+            return false;
+        }
+        let fastest = self.machine.axes[self.machine.rotary[0]].max_speed;
+        let slows = || {
+            let limits = |(fastest, seconds)| point.rotary_change[0] > fastest * seconds;
+            point.tcp && fastest.zip(point.seconds()).is_some_and(limits)
+        };
+        point.rotary_change[0] > tolerances.pole_angle || slows()
     }
 
     fn line(&self, index: usize) -> u32 {
@@ -242,159 +206,190 @@ impl Task<'_> {
         self.lines.line_column(self.program.source(), start).0
     }
 
-    /// The first feed motion whose pose is unknown: a flip there would not be seen.
-    fn unknown_position(&self) -> Option<String> {
-        let unknown = |point: &Point| {
-            let unknown = |why: &NoStance| {
-                matches!(
-                    why,
-                    NoStance::PositionUnknown(_)
-                        | NoStance::NotModelled
-                        | NoStance::RotaryOffset(_)
-                        | NoStance::HeldElsewhere { .. }
-                        | NoStance::PlaneMisaligned(_)
-                )
-            };
-            point.feed && point.end.as_ref().is_err_and(unknown)
-        };
-        let index = self.points.iter().position(unknown)?;
-        let why = match &self.points[index].end {
-            Err(NoStance::PositionUnknown(letters)) => format!(
-                "the position of {} is unknown",
-                letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
-            ),
-            Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
-            Err(NoStance::HeldElsewhere { axis, .. }) => {
-                format!(
-                    "the machine file holds axis {} at a different position",
-                    char::from(*axis)
-                )
+    /// Motions as a place.
+    fn place(&self, (first, last): (usize, usize), change: Change) -> Place {
+        let block = |index: usize| -> BlockId { self.points[index].block };
+        Place {
+            first: block(first),
+            last: block(last),
+            change,
+        }
+    }
+
+    /// Smooths the chain around one steep motion, window by window. Gives the last motion of the chain.
+    fn smooth_chain(&mut self, index: usize, ball: f64, found: &mut Found) -> usize {
+        let mut stations = chain(self.machine, self.points, index, room(self.options.tolerance_deg));
+        let last = stations.last().map_or(index, |station| station.last);
+        let only = |task: &Self, change| vec![task.place((index, last), change)];
+        let begin = stations.first().map_or(index, |station| station.first);
+        let allowed = match self.allowed(begin, last) {
+            Ok(allowed) => allowed,
+            Err(change) => {
+                found.places.extend(only(self, change));
+                return last;
             }
-            _ => "the motion is not modelled".into(),
         };
-        Some(format!(
-            "line {}: {why}, so it is unknown whether the table flips at the pole",
-            self.line(index)
-        ))
-    }
-
-    /// Smooths the window around one flip.
-    fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, Change> {
-        let point = &self.points[flip];
-        if let Some(obstacle) = obstacle(point) {
-            return Err(obstacle);
+        if allowed < self.options.tolerance_deg {
+            stations = chain(self.machine, self.points, index, room(allowed));
         }
-        let Tip::Ball(ball_radius) = point.tip else {
-            return Err(refused("the tool is not a ball"));
-        };
-        let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
-            && memory.chain.last().is_some_and(|station| flip <= station.last);
-        if !covers {
-            memory.chain = chain(self.machine, self.points, flip);
+        if *found.radius.get_or_insert(ball) != ball {
+            let why = "a different ball radius, which needs a separate run";
+            found.places.extend(only(self, refused(why)));
+            return last;
         }
-        let stations = &memory.chain;
-        let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
-            return Err(refused("there is no point between the two fixed ends"));
+        if stations.len() < 3 {
+            found
+                .places
+                .extend(only(self, refused("there is no point between the two fixed ends")));
+            return last;
+        }
+        let asks = |station: &Station| self.steep(station.first);
+        let Some(plan) = plan(self.machine, self.points, stations, &asks) else {
+            found
+                .places
+                .extend(only(self, refused("the rotary axis is already outside its limits")));
+            return last;
         };
-        let stations = &stations[left..=right];
-        let writer = self.writer(point, ball_radius, &mut memory.styles);
-        // slightly less than allowed, so that the last bit of a double decides nothing
-        let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
-        let q = straighten(self.machine, stations, room)
-            .ok_or_else(|| refused("the rotary axis is already outside its limits"))?;
-        let before = largest_step(stations.iter().map(|station| station.q));
-        let after = largest_step(q.iter().copied());
-        if after > 0.99 * before {
-            return Err(Change::Possible(format!(
-                "within {} deg the largest step can only be reduced from {:.3} deg to {:.3} deg (--tolerance-deg)",
+        let mut places = Vec::new();
+        for &(station, was, is) in &plan.useless {
+            let at = plan.stations[station].first;
+            let why = Change::Possible(format!(
+                "within {} deg the slope of the table can only be reduced from {:.3} to {:.3} deg/mm (--tolerance-deg)",
                 self.options.tolerance_deg,
-                deg(before),
-                deg(after)
-            )));
+                deg(was),
+                deg(is)
+            ));
+            places.push(self.place((at, at), why));
         }
-        let (edits, written) = self.write(&writer, stations, &q)?;
-        let last = stations[stations.len() - 1].first;
-        let steps = (deg(before), deg(largest_step(written.iter().copied())));
-        let lines = (self.line(stations[0].last), self.line(last));
-        Ok(Smoothed {
-            edits,
-            ball_radius,
-            first: stations[0].last + 1,
-            last,
-            lines,
-            steps,
-        })
+        let (scheme, styles) = self.scheme(index);
+        let writers = [styles, finer(styles, scheme, self.points[index].unit_mm)]
+            .map(|styles| self.writer(index, (ball, allowed), (scheme, styles)));
+        let mut windows = Vec::new();
+        for &(first, end) in &plan.stretches {
+            let planned = steepest(&plan, (first, end), |at| plan.q[at]);
+            let mut written = write(self.points, &writers[0], &plan, (first, end));
+            let coarse = written
+                .as_ref()
+                .map_or(true, |window| window.slopes.1 > 1.005 * planned);
+            if coarse && writers[0].styles != writers[1].styles {
+                written = write(self.points, &writers[1], &plan, (first, end)).or(written);
+            }
+            match written.and_then(|window| self.recorded(window, &plan, (first, end))) {
+                Ok(window) => {
+                    places.push(self.place(window.changed, Change::Edits(window.edits.clone())));
+                    windows.push(window);
+                }
+                Err(change) => {
+                    let lines = (plan.stations[first].last + 1, plan.stations[end].first);
+                    places.push(self.place(lines, change));
+                }
+            }
+        }
+        places.sort_by_key(|place| place.first);
+        found.places.extend(places);
+        found.windows.extend(windows);
+        last
     }
 
-    fn writer(&self, point: &Point, ball_radius: f64, known: &mut Vec<(Scheme, Styles)>) -> Writer<'_> {
+    /// How far the tool axes of a chain may still turn, deg: what earlier runs recorded is subtracted.
+    fn allowed(&self, first: usize, last: usize) -> Result<f64, Change> {
+        let tolerance = self.options.tolerance_deg;
+        let blocks = [first, last].map(|at| self.points[at].block);
+        let Some((byte, turned)) = self.marks.within(self.program, blocks[0], blocks[1]) else {
+            return Ok(tolerance);
+        };
+        if tolerance - turned > 1e-6 {
+            return Ok(tolerance - turned);
+        }
+        let (line, _) = self.lines.line_column(self.program.source(), byte);
+        Err(Change::Possible(format!(
+            "line {line} says that the tool axes were already turned by up to {turned} deg, and no more than {tolerance} deg is allowed (--tolerance-deg)"
+        )))
+    }
+
+    /// The window with the comment that records how far its tool axes are turned.
+    fn recorded(&self, mut window: Smoothed, plan: &Plan, (first, end): (usize, usize)) -> Result<Smoothed, Change> {
+        let inner = &self.points[plan.stations[first].last + 1..=plan.stations[end].first];
+        let blocks = inner.iter().map(|point| point.block);
+        let Some(edit) = mark(self.program, blocks, self.options.tolerance_deg) else {
+            let why = "no block has room for the comment that records how far its tool axes are turned";
+            return Err(refused(why));
+        };
+        window.edits.push(edit);
+        Ok(window)
+    }
+
+    /// Which words the chain around a motion is written in, and how.
+    fn scheme(&mut self, index: usize) -> (Scheme, Styles) {
+        let point = &self.points[index];
         let scheme = if point.vector {
             Scheme::of_vector(self.program, &self.program.block(point.block))
         } else {
-            Scheme::Rotary(self.machine.axes[self.machine.rotary[0]].letter)
+            let letter = |at: usize| self.machine.axes[self.machine.rotary[at]].letter;
+            Scheme::Rotaries([letter(0), letter(1)])
         };
-        let styles = if let Some(&(_, styles)) = known.iter().find(|(of, _)| *of == scheme) {
-            styles
-        } else {
-            let found = styles(self.program, scheme);
-            known.push((scheme, found));
-            found
-        };
+        if let Some(&known) = self.styles.iter().find(|(of, _)| *of == scheme) {
+            return known;
+        }
+        let found = (scheme, styles(self.program, scheme));
+        self.styles.push(found);
+        found
+    }
+
+    fn writer(
+        &self,
+        index: usize,
+        (ball, tolerance_deg): (f64, f64),
+        (scheme, styles): (Scheme, Styles),
+    ) -> Writer<'_> {
+        let point = &self.points[index];
         Writer {
             program: self.program,
             machine: self.machine,
             scheme,
             styles,
             unit_mm: point.unit_mm,
-            ball_radius,
+            ball_radius: if self.options.point == ProgrammedPoint::Centre {
+                0.0
+            } else {
+                ball
+            },
             rotary_zero: point.rotary_zero,
-            tolerance_deg: self.options.tolerance_deg,
+            tolerance_deg,
             tolerance_mm: self.options.tolerance_mm,
         }
     }
 
-    /// Edits for all points between the ends, and for what the last one takes over from them; and the rotary joint as written, rad,
-    /// each station.
-    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<(Vec<TextEdit>, Vec<f64>), Change> {
-        let unknown = || refused("a position inside the window is unknown");
-        let last = stations.len() - 1;
-        let start = stance(&self.points[stations[0].last]).ok_or_else(unknown)?;
-        let mut current = writer.programmed(start);
-        let mut edits = Vec::new();
-        let mut written = vec![stations[0].q];
-        for (station, &q) in stations.iter().zip(q).take(last).skip(1) {
-            for (index, point) in self
-                .points
-                .iter()
-                .enumerate()
-                .take(station.last + 1)
-                .skip(station.first)
-            {
-                if let Some(obstacle) = tool_obstacle(point) {
-                    return Err(obstacle);
-                }
-                if point.rotary_zero != writer.rotary_zero {
-                    return Err(refused("the work offset of the rotary axis changes inside the window"));
-                }
-                let q = writer
-                    .turn(
-                        point.block,
-                        stance(point).ok_or_else(unknown)?,
-                        q,
-                        &mut current,
-                        &mut edits,
-                    )
-                    .map_err(refused)?;
-                if index == station.first {
-                    written.push(q);
-                }
-            }
-        }
-        written.push(stations[last].q);
-        let end = &self.points[stations[last].first];
-        let stance = stance(end).ok_or_else(unknown)?;
-        writer
-            .restore(end.block, stance, &mut current, &mut edits)
-            .map_err(refused)?;
-        Ok((edits, written))
+    /// What was done, in one line.
+    fn summary(&self, windows: &[Smoothed]) -> String {
+        let letter = char::from(self.machine.axes[self.machine.rotary[0]].letter);
+        let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
+            (worst.0.max(w.slopes.0), worst.1.max(w.slopes.1))
+        });
+        let lines = |at: usize, last: bool| {
+            windows
+                .get(at)
+                .map_or(0, |w| self.line(if last { w.points.1 } else { w.points.0 }))
+        };
+        let count = if windows.len() > 1 {
+            format!(" in {} windows", windows.len())
+        } else {
+            String::new()
+        };
+        let crossings = windows
+            .iter()
+            .fold((0, 0), |sum, w| (sum.0 + w.crossings.0, sum.1 + w.crossings.1));
+        let postures = if crossings.0 == crossings.1 {
+            String::new()
+        } else {
+            format!("; {} -> {} changes of posture", crossings.0, crossings.1)
+        };
+        format!(
+            "lines {} to {}{count}: largest slope of {letter} {:.3} -> {:.3} deg/mm{postures}",
+            lines(0, false),
+            lines(windows.len().saturating_sub(1), true),
+            deg(worst.0),
+            deg(worst.1)
+        )
     }
 }

@@ -60,9 +60,8 @@ fn judged(name: &str, text: &[u8], settings: &Settings<'_>, path: &Path) -> &'st
     assert!(verdicts[1] <= verdicts[0], "{}: the verdict is worse", place());
     let second = attempt(rewrite, &after, settings, &options).outcome();
     let second = second.map(|proved| proved.map(|proved| proved.summary));
-    // within its tolerance a path may be smoothed again
     assert!(
-        name == "smooth-pole" || !matches!(second, Ok(Some(_))),
+        !matches!(second, Ok(Some(_))),
         "{}: a second attempt changes more: {second:?}",
         place()
     );

@@ -1,6 +1,6 @@
 //! Rewrites on random chains near the pole and on damaged programs.
 
-use super::strategy_2::{ROWS, VECTORS, apt, ball, largest_c_step, run, settings, sinumerik, smooth, turned, words};
+use super::strategy_2::{ROWS, VECTORS, apt, ball, run, settings, sinumerik, smooth, turned, words};
 use proptest::prelude::*;
 use std::fmt::Write;
 use trunnion::rewrite::{Options, Proved, rewrites};
@@ -25,11 +25,17 @@ proptest! {
                 let (before, after) = (words(&rows), words(&String::from_utf8(after).expect("UTF-8")));
                 prop_assert!(certificate.worst.axis_change_deg.value <= tolerance);
                 let travel = |rows: &[[f64; 5]]| rows.windows(2).map(|w| (w[1][4] - w[0][4]).abs()).sum::<f64>();
-                prop_assert!(travel(&after) <= travel(&before) + 0.01);
-                prop_assert!(largest_c_step(&after) <= largest_c_step(&before) + 0.002);
+                // another posture or turn is chosen where it is less steep, and may travel farther
+                let chosen = before.iter().zip(&after).any(|(was, is)| was[3] != is[3] || (was[4] - is[4]).abs() > 180.0);
+                prop_assert!(chosen || travel(&after) <= travel(&before) + 0.01);
+                // the slope is what it makes small: over a long block a larger step may be less steep
+                let length = |row: usize| (0..3).map(|axis| (before[row + 1][axis] - before[row][axis]).powi(2)).sum::<f64>().sqrt();
+                let slope = |rows: &[[f64; 5]]| rows.windows(2).enumerate().map(|(row, w)| (w[1][4] - w[0][4]).abs() / length(row)).fold(0.0, f64::max);
+                prop_assert!(slope(&after) <= slope(&before) + 0.01, "{} {}", slope(&after), slope(&before));
                 for (was, is) in before.iter().zip(&after) {
                     prop_assert!(turned(was, is) <= tolerance + 1e-9);
-                    prop_assert_eq!(was[3], is[3]);
+                    // the other posture has the other sign
+                    prop_assert_eq!(was[3].abs(), is[3].abs());
                 }
             }
             Err(reason) => prop_assert!(!reason.is_empty()),

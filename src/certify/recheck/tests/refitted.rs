@@ -174,3 +174,44 @@ fn rotary_axes_must_stand_still() {
     let found = refused(prove(&turning(chords("", "")), &arc("", ARC, ""), 0.08));
     assert!(found.contains("a rotary axis moves"), "{found}");
 }
+
+/// Where two new motions meet, they need not meet at a point of the old path: near one is enough, and both parts count from there.
+#[test]
+fn new_motions_may_meet_beside_the_old_points() {
+    let before = chords("", "G1 X-5.\n");
+    let two = |x: f64, y: f64| arc("", &format!("G3 X{x:.3} Y{y:.3} R20.\nG3 X0. Y20. R20."), "G1 X-5.\n");
+    let at = |degrees: f64, radius: f64| {
+        let (sin, cos) = sin_cos(f64::to_radians(degrees));
+        (radius * cos, radius * sin)
+    };
+    let (x, y) = at(40.0, 20.02);
+    let certificate = proved(prove(&before, &two(x, y), 0.11));
+    assert_eq!((certificate.motions.total, certificate.motions.changed), (6, 2));
+    // sag 0.076 mm, and up to 0.02 more
+    let found = certificate.worst.point_shift_mm.value;
+    assert!((0.085..0.1).contains(&found), "{found}");
+    assert!(refused(prove(&before, &two(x, y), 0.085)).contains("0.085 mm is allowed"));
+    // beyond the tolerance, or not near any point
+    for (degrees, radius) in [(40.0, 20.2), (45.0, 20.0)] {
+        let (x, y) = at(degrees, radius);
+        assert!(refused(prove(&before, &two(x, y), 0.11)).contains("from the new path"));
+    }
+    // it must not begin or end beside the points at which something else happens
+    for (text, tail, why) in [
+        ("G3 X0. Y20.02 R20.", "", "begin at different places"),
+        ("G3 X0. Y20.02 R20.\nM8", "M8\n", "begin at different places"),
+        ("G3 X0. Y20.02 R20.\nG4 X1.", "G4 X1.\n", "begin at different places"),
+    ] {
+        let (before, after) = (chords("", tail), arc("", text, ""));
+        let found = refused(prove(&before, &after, 0.11));
+        assert!(found.contains(why), "{text}: {found}");
+    }
+    // a line that begins beside the old one and ends with it is not the same line
+    let (before, aside) = (
+        chords("", "G1 X-5. Y20.\n"),
+        arc("", "G3 X0. Y20.02 R20.", "G1 X-5. Y20.\n"),
+    );
+    let certificate = proved(prove(&before, &aside, 0.11));
+    assert!(certificate.motions.changed == 2);
+    assert!(refused(prove(&before, &aside.replace("20.02", "20.2"), 0.11)).contains("from the new path"));
+}

@@ -62,12 +62,28 @@ fn broken_directives() {
         "tool 1",
         "allow",
         "dialect",
+        "turned",
+        "turned by 0.1",
+        "turned -0.1",
+        "turned 0",
         "frobnicate",
         "",
     ] {
         let got = read("iso-6983", &format!("(trunnion: {text})\n"));
         assert!(matches!(&got[..], [Directive::Broken(_)]), "{text}: {got:?}");
     }
+}
+
+#[test]
+fn turned_tool_axes() {
+    assert_eq!(
+        read("iso-6983", "X1 (trunnion: turned 0.1)\n"),
+        [Directive::Turned(0.1)]
+    );
+    assert_eq!(read("apt", "$$ Trunnion: TURNED 1\n"), [Directive::Turned(1.0)]);
+    assert_eq!(trunnion_interp::turned_deg(" trunnion: turned 0.25 "), Some(0.25));
+    assert_eq!(trunnion_interp::turned_deg("turned 0.25"), None);
+    assert_eq!(trunnion_interp::turned_deg("trunnion: tool 1 ball diameter 10"), None);
 }
 
 #[test]

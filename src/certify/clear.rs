@@ -1,6 +1,6 @@
 //! Whether a tool stays clear of all declared obstacles in a motion.
 use crate::Outcome;
-use trunnion_machine::{Leg, Machine, Nearness, ToolBody, nearness};
+use trunnion_machine::{Leg, Machine, Nearness, ToolBody, nearness_with_part};
 use trunnion_same::Step;
 
 /// A motion whose distance from the obstacles is asked for.
@@ -24,7 +24,7 @@ impl Clearance<'_> {
         let body =
             body.ok_or_else(|| here("the diameter of the tool is not declared: [[tool]] diameter in trunnion.toml"))?;
         let mut least = f64::INFINITY;
-        for near in nearness(self.machine, leg, &body, keep) {
+        for near in nearness_with_part(self.machine, leg, &body, keep) {
             if !counts(near.obstacle) {
                 continue;
             }

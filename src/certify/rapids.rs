@@ -69,7 +69,7 @@ impl ChangedRun<'_> {
                 line: *line,
                 keep: clearance_mm,
             };
-            let least = clearance.clear(step, leg, |_| true)?;
+            let least = clearance.clear(step, leg, |obstacle| !self.machine.obstacles[obstacle].is_part())?;
             if least.is_finite() && total.least_distance_mm.is_none_or(|known| least < known) {
                 (total.least_distance_mm, total.line) = (Some(least), *line);
             }

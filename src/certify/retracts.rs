@@ -54,9 +54,16 @@ impl Judge<'_> {
                 "the shape of the tool is not declared: [[tool]] shape in trunnion.toml",
             ));
         }
+        let mut obstacles = self.machine.obstacles.iter();
+        if !obstacles.any(|obstacle| obstacle.is_part() && obstacle.frame(self.machine) == Some(0)) {
+            return Err(unknown(
+                lines[0],
+                "the part is not declared: [[obstacle]] with `part = true` that moves with the workpiece",
+            ));
+        }
         let mut found = Vec::new();
         for (index, (step, &line)) in run.iter().zip(lines).enumerate() {
-            let (leg, start, end) = self.stances(step, line)?;
+            let (leg, start, end) = stances(step, line)?;
             self.declared(step, line)?;
             let mut least_mm = f64::INFINITY;
             if index == 0 {
@@ -80,9 +87,9 @@ impl Judge<'_> {
         line: u32,
         excursion: Excursion,
     ) -> Result<(Excursion, Measured), Outcome> {
-        let (leg, start, end) = self.stances(step, line)?;
+        let (leg, start, end) = stances(step, line)?;
         self.declared(step, line)?;
-        let pose = self.start_of(cut, line)?;
+        let pose = start_of(cut, line)?;
         let (mm, degrees) = self.claim.tolerances();
         let arrived = end.tip_distance_to(pose) <= mm && deg(angle_between(&end.axis, &pose.axis)) <= degrees;
         let turns = leg.rotary_change.iter().any(|&change| above(change, STANDS));
@@ -158,23 +165,8 @@ impl Judge<'_> {
         Err(Outcome::refuted_at(self.motion, line, message))
     }
 
-    fn stances<'s>(&self, step: &'s Step, line: u32) -> Result<(&'s Leg, &'s Stance, &'s Stance), Outcome> {
-        let leg = step.leg.as_ref().ok_or_else(|| unknown(line, "no machine is named"))?;
-        match (&leg.start, &leg.end) {
-            (Some(start), Ok(end)) => Ok((leg, start, end)),
-            _ => Err(unknown(line, "the machine's position is unknown")),
-        }
-    }
-
-    /// Where the next motion of the program before begins.
-    fn start_of<'s>(&self, cut: &'s Step, line: u32) -> Result<&'s Stance, Outcome> {
-        let leg = cut.leg.as_ref();
-        leg.and_then(|leg| leg.start.as_ref())
-            .ok_or_else(|| unknown(line, "where the next cut begins is unknown"))
-    }
-
     fn same_pose(&self, cut: &Step, start: &Stance, line: u32) -> Result<(), Outcome> {
-        let pose = self.start_of(cut, line)?;
+        let pose = start_of(cut, line)?;
         let (mm, degrees) = self.claim.tolerances();
         if above(start.tip_distance_to(pose), mm) || above(deg(angle_between(&start.axis, &pose.axis)), degrees) {
             return self.refute(line, "the tool leaves the part where the program before does not cut");
@@ -235,7 +227,7 @@ impl Judge<'_> {
     /// The ramp runs above the last cut: at each moment the tool stands where that cut had it, lifted along its axis.
     fn ramp(&self, last: &Step, cut: &Step, (leg, start): (&Leg, &Stance), line: u32) -> Result<(), Outcome> {
         let (mm, degrees) = self.claim.tolerances();
-        let (old, from, to) = self.stances(last, line)?;
+        let (old, from, to) = stances(last, line)?;
         let straight = [&old.motion, &leg.motion]
             .iter()
             .all(|motion| motion.kind == MotionKind::Linear && motion.tcp);
@@ -293,4 +285,19 @@ impl Judge<'_> {
 
 fn unknown(line: u32, message: &str) -> Outcome {
     Outcome::unknown_at(Some(line), format!("line {line}: {message}"))
+}
+
+fn stances(step: &Step, line: u32) -> Result<(&Leg, &Stance, &Stance), Outcome> {
+    let leg = step.leg.as_ref().ok_or_else(|| unknown(line, "no machine is named"))?;
+    match (&leg.start, &leg.end) {
+        (Some(start), Ok(end)) => Ok((leg, start, end)),
+        _ => Err(unknown(line, "the machine's position is unknown")),
+    }
+}
+
+/// Where the next motion of the program before begins.
+fn start_of(cut: &Step, line: u32) -> Result<&Stance, Outcome> {
+    let leg = cut.leg.as_ref();
+    leg.and_then(|leg| leg.start.as_ref())
+        .ok_or_else(|| unknown(line, "where the next cut begins is unknown"))
 }

@@ -166,7 +166,7 @@ impl<'p> Draft<'p> {
 
     /// The rewrite that leads rapid motions past the declared obstacles.
     pub(crate) fn fix_rapid(&mut self, view: &LegView<'_>) -> &mut Self {
-        if !view.machine.obstacles.is_empty() {
+        if !view.machine.obstacles.only_parts() {
             self.fix("reroute-rapid");
         }
         self

@@ -11,7 +11,7 @@ mod verdict;
 pub use column::{SLACK_MM, ToolBody, column_distance, corridor_distance};
 pub use frame::tool_in_frame;
 pub use space::{NoRoute, Space};
-pub use verdict::{Near, Nearness, nearness};
+pub use verdict::{Near, Nearness, nearness, nearness_with_part};
 
 use crate::{AxisKind, Machine, Side};
 use trunnion_geometry::plane::{Point, Polygon};
@@ -63,6 +63,18 @@ pub struct Obstacle {
     pub bottom: f64,
     /// Upper end, mm.
     pub top: f64,
+    /// What it is.
+    pub kind: ObstacleKind,
+}
+
+/// What an obstacle is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ObstacleKind {
+    /// A body that the tool must not touch.
+    #[default]
+    Body,
+    /// The part, or what it is made from: the tool cuts it. Only a tool that turns in the air must keep clear of it ([`nearness_with_part`]).
+    Part,
 }
 
 /// The obstacles of a machine.
@@ -73,6 +85,13 @@ impl core::ops::Deref for Obstacles {
     type Target = Vec<Obstacle>;
     fn deref(&self) -> &Self::Target {
         &self.0
+    }
+}
+
+impl Obstacles {
+    /// Whether no body is declared that the tool must not touch.
+    pub fn only_parts(&self) -> bool {
+        self.0.iter().all(Obstacle::is_part)
     }
 }
 
@@ -89,9 +108,17 @@ impl Obstacle {
             .axis
             .map_or(String::new(), |axis| format!(", moves with {}", char::from(axis)));
         format!(
-            "obstacle {}: {shape}, Z {} to {} mm{moves}",
-            self.name, self.bottom, self.top
+            "{} {}: {shape}, Z {} to {} mm{moves}",
+            if self.is_part() { "part" } else { "obstacle" },
+            self.name,
+            self.bottom,
+            self.top
         )
+    }
+
+    /// Whether it is what the tool cuts.
+    pub fn is_part(&self) -> bool {
+        self.kind == ObstacleKind::Part
     }
 
     /// The frame that it moves with: how many axes of the chain, counted from the workpiece, lie between the workpiece and it. `None` where the

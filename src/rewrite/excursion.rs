@@ -6,7 +6,7 @@ use core::f64::consts::PI;
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::{MotionKind, Tool};
 use trunnion_machine::{
-    Joints, Leg, Limits, Machine, Nearness, Orientations, RapidPath, Stance, ToolBody, inverse, nearness, orientations,
+    Joints, Leg, Limits, Machine, Nearness, Orientations, Stance, ToolBody, inverse, nearness_with_part, orientations,
     windings,
 };
 use trunnion_syntax::Decimal;
@@ -61,6 +61,8 @@ pub(crate) struct Excursion {
     pub(crate) ramp: Option<Pose>,
     /// Where the part was left.
     pub(crate) back: Pose,
+    /// The axes turn at rapid; else at feed, where it is not certain what the axes of a rapid pass.
+    pub(crate) at_rapid: bool,
     /// Height, mm.
     pub(crate) height_mm: f64,
 }
@@ -100,28 +102,41 @@ impl Planner<'_> {
             Some((_, base)) => (*base, self.rotary(base)),
             None => (back.stance, self.rotary(&back.stance)),
         };
-        let mut height = LOWEST_MM;
-        while height <= HIGHEST_MM {
-            let out = self.lifted(flip, start, self.rotary(start), height)?;
-            let turned = self.lifted(flip, &base, base_q, height)?;
-            if !self.inside(&out.stance) || !self.inside(&turned.stance) {
-                break;
+        // rapids first: the time at the part is the same, and what F means for a turn alone depends on the control
+        for kind in [MotionKind::Rapid, MotionKind::Linear] {
+            let mut height = LOWEST_MM;
+            while height <= HIGHEST_MM {
+                let out = self.lifted(flip, start, self.rotary(start), height)?;
+                let turned = self.lifted(flip, &base, base_q, height)?;
+                if !self.inside(&out.stance) || !self.inside(&turned.stance) {
+                    break;
+                }
+                if self.is_clear(flip, (&out.stance, &turned.stance), &body, kind) {
+                    return Ok(Excursion {
+                        at_rapid: kind == MotionKind::Rapid,
+                        out,
+                        turned,
+                        ramp: ramp.map(|(pose, _)| pose),
+                        back,
+                        height_mm: height,
+                    });
+                }
+                height *= HIGHER;
             }
-            if self.is_clear(flip, &out.stance, &turned.stance, &body) {
-                return Ok(Excursion {
-                    out,
-                    turned,
-                    ramp: ramp.map(|(pose, _)| pose),
-                    back,
-                    height_mm: height,
-                });
-            }
-            height *= HIGHER;
         }
         Err(Change::Possible(format!(
             "at no height along the tool axis inside the travel of the axes is it proved that the tool clears all obstacles by {} mm while the axes turn",
             self.machine.tolerances.clearance_mm()
         )))
+    }
+
+    /// Whether the tool is in the air all along: then it may turn over there.
+    pub(crate) fn is_in_the_air(&self, flip: &Flip) -> bool {
+        let body = flip.tool.as_ref().and_then(ToolBody::of);
+        match (&flip.leg.start, &flip.leg.end, body) {
+            (Some(start), Ok(end), Some(body)) => self.is_clear(flip, (start, end), &body, flip.leg.motion.kind),
+            _ => false,
+        }
     }
 
     /// Rotary joints that give `axis` nearest to those at the end of the cut, in its posture, rad.
@@ -254,6 +269,12 @@ impl Planner<'_> {
             return Ok(None);
         };
         let base = self.pose(flip, from, q, 0.0)?;
+        let left = flip.leg.start.as_ref().map_or(q, |start| self.rotary(start));
+        let turned = self.rotary(&base.stance);
+        if left.iter().zip(turned).any(|(was, is)| (was - is).abs() > PI + 1e-9) {
+            // `angle-wrap` would rightly ask why
+            return Ok(None);
+        }
         let turn: f64 = last.rotary_change.iter().sum();
         let length = from.tip_distance_to(&back.stance);
         let height = (LIFT_SHARE * self.tolerance_mm / turn.max(1e-9))
@@ -270,11 +291,6 @@ impl Planner<'_> {
         Ok((up > 0.0 && beside <= SHARE * self.tolerance_mm).then_some((pose, base.stance)))
     }
 
-    /// The axes of a rapid arrive together, so that what they pass while they turn is known. Else they turn at feed.
-    pub(crate) fn turns_at_rapid(&self) -> bool {
-        self.machine.control.rapid == RapidPath::Synchronous
-    }
-
     fn inside(&self, stance: &Stance) -> bool {
         let mut axes = self.machine.axes.iter().zip(stance.joints);
         axes.all(|(axis, value)| match axis.limits {
@@ -284,18 +300,16 @@ impl Planner<'_> {
     }
 
     /// Whether the tool clears all obstacles while the axes turn, as `certify` will judge it.
-    fn is_clear(&self, flip: &Flip, from: &Stance, to: &Stance, body: &ToolBody) -> bool {
+    fn is_clear(&self, flip: &Flip, (from, to): (&Stance, &Stance), body: &ToolBody, kind: MotionKind) -> bool {
         let mut leg = flip.leg.clone();
-        if self.turns_at_rapid() {
-            leg.motion.kind = MotionKind::Rapid;
-        }
+        leg.motion.kind = kind;
         for (change, &joint) in leg.rotary_change.iter_mut().zip(&self.machine.rotary) {
             *change = (to.joints[joint] - from.joints[joint]).abs();
         }
         leg.start = Some(*from);
         leg.end = Ok(*to);
         let keep = self.machine.tolerances.clearance_mm();
-        let found = nearness(self.machine, &leg, body, keep);
+        let found = nearness_with_part(self.machine, &leg, body, keep);
         found.iter().all(|near| matches!(near.nearness, Nearness::Clear(_)))
     }
 }

@@ -6,6 +6,7 @@ mod fitting;
 mod mutants;
 mod points;
 mod random;
+mod retracting;
 mod routing;
 mod slopes;
 mod smoothing;

@@ -80,15 +80,24 @@ record! {
     }
 }
 
+impl Claim {
+    /// A claim of nothing but two tolerances.
+    fn encode_tolerances(&self, variant: u16, out: &mut CanonicalV1) {
+        let (mm, degrees) = self.tolerances();
+        out.variant(variant, |fields| {
+            fields.field(1, &mm).field(2, &degrees);
+        });
+    }
+}
+
 impl Encode for Claim {
     fn encode(&self, out: &mut CanonicalV1) {
         match self {
-            Self::SamePoses {
-                tolerance_mm,
-                tolerance_deg,
-            } => out.variant(1, |fields| {
-                fields.field(1, tolerance_mm).field(2, tolerance_deg);
-            }),
+            Self::SamePoses { .. } => self.encode_tolerances(1, out),
+            Self::SameToolPath { .. } => self.encode_tolerances(3, out),
+            Self::SamePath { .. } => self.encode_tolerances(4, out),
+            Self::SameProgrammedCentre { .. } => self.encode_tolerances(9, out),
+            Self::InsertedPoints { .. } => self.encode_tolerances(10, out),
             Self::SameBallCentre {
                 ball_radius_mm,
                 tolerance_mm,
@@ -99,18 +108,6 @@ impl Encode for Claim {
                     .field(2, tolerance_mm)
                     .field(3, tolerance_deg);
             }),
-            Self::SameToolPath {
-                tolerance_mm,
-                tolerance_deg,
-            } => out.variant(3, |fields| {
-                fields.field(1, tolerance_mm).field(2, tolerance_deg);
-            }),
-            Self::SamePath {
-                tolerance_mm,
-                tolerance_deg,
-            } => out.variant(4, |fields| {
-                fields.field(1, tolerance_mm).field(2, tolerance_deg);
-            }),
             Self::AdaptedFeed {
                 tolerance_mm,
                 tolerance_deg,
@@ -120,12 +117,6 @@ impl Encode for Claim {
                     .field(1, tolerance_mm)
                     .field(2, tolerance_deg)
                     .field(3, asked_mm_min);
-            }),
-            Self::InsertedPoints {
-                tolerance_mm,
-                tolerance_deg,
-            } => out.variant(10, |fields| {
-                fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
             Self::InsertedRetracts {
                 tolerance_mm,
@@ -138,12 +129,6 @@ impl Encode for Claim {
                     .field(2, tolerance_deg)
                     .field(3, clearance_mm)
                     .field(4, assumed_zeros);
-            }),
-            Self::SameProgrammedCentre {
-                tolerance_mm,
-                tolerance_deg,
-            } => out.variant(9, |fields| {
-                fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
             Self::LeastPostures {
                 tolerance_mm,

@@ -2,7 +2,7 @@
 use super::{CanonicalV1, Encode};
 use trunnion_machine::{
     Axis, AxisExtra, AxisSign, Branch, Control, Criterion, Footprint, Gantry, Home, Limits, Machine, Obstacle,
-    Obstacles, PostureWords, Tolerances,
+    ObstacleKind, Obstacles, PostureWords, Tolerances,
 };
 
 // The rest is prose, or the axes in a form made for speed, or bodies, which no proof looks at.
@@ -106,10 +106,26 @@ impl Encode for Criterion {
 
 record! {
     Obstacle {
-        axis = 1, footprint = 2, bottom = 3, top = 4,
+        axis = 1, footprint = 2, bottom = 3, top = 4, kind = 5,
     } without {
         // for people
         name,
+    }
+}
+
+/// None: an obstacle of the versions that knew no parts.
+impl Encode for ObstacleKind {
+    fn encode(&self, out: &mut CanonicalV1) {
+        out.variant(
+            match self {
+                Self::Body => 1,
+                Self::Part => 2,
+            },
+            |_| {},
+        );
+    }
+    fn is_nothing(&self) -> bool {
+        *self == Self::Body
     }
 }
 

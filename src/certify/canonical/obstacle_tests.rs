@@ -10,6 +10,7 @@ fn obstacle(axis: Option<u8>, bottom: f64) -> trunnion_machine::Obstacle {
         footprint: trunnion_machine::Footprint::Circle { centre, radius: 3.0 },
         bottom,
         top: 5.0,
+        kind: trunnion_machine::ObstacleKind::Body,
     }
 }
 
@@ -35,11 +36,15 @@ fn obstacles_are_part_of_a_machine() {
         obstacle(Some(b'X'), 0.0),
         obstacle(None, 1.0),
         square(),
+        trunnion_machine::Obstacle {
+            kind: trunnion_machine::ObstacleKind::Part,
+            ..square()
+        },
     ];
     let mut digests: BTreeSet<String> = kinds.iter().map(|kind| with(core::slice::from_ref(kind))).collect();
     digests.insert(with(&[]));
     digests.insert(with(&kinds));
-    assert_eq!(digests.len(), 6);
+    assert_eq!(digests.len(), 7);
     // a name is for people
     let mut named = obstacle(None, 0.0);
     named.name = "vice".into();

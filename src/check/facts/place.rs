@@ -56,11 +56,11 @@ over_view!(LostEnd, LostArc, Arrival, Passing);
 impl<'v> Passing<'v> {
     #[inline]
     pub(crate) fn may(look: &Look<'_>) -> bool {
-        !look.of.machine.obstacles.is_empty()
+        !look.of.machine.obstacles.only_parts()
     }
     pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
         let moves = view.stances().is_some() && !matches!(view.motion().kind, MotionKind::Dwell(_));
-        (moves && !view.machine.obstacles.is_empty()).then_some(Self { view })
+        (moves && !view.machine.obstacles.only_parts()).then_some(Self { view })
     }
 }
 

@@ -1,7 +1,7 @@
 //! `[[obstacle]]`, in a machine file and in `trunnion.toml` alike.
 use crate::file::raw::{Number, Word};
 use crate::file::validate::{Fault, finite, letter};
-use crate::{Footprint, Machine, MachineError, Obstacle};
+use crate::{Footprint, Machine, MachineError, Obstacle, ObstacleKind};
 use serde::Deserialize;
 use toml::Spanned;
 use trunnion_geometry::plane::{Point, Polygon, PolygonFault};
@@ -17,6 +17,8 @@ pub struct RawObstacle {
     #[serde(rename = "box")]
     cuboid: Option<Spanned<[[f64; 3]; 2]>>,
     cylinder: Option<Spanned<RawCylinder>>,
+    #[serde(default)]
+    part: bool,
 }
 
 /// An upright cylinder.
@@ -97,6 +99,11 @@ fn obstacle(entry: &Spanned<RawObstacle>, known: &[Obstacle]) -> Result<Obstacle
         footprint,
         bottom,
         top,
+        kind: if raw.part {
+            ObstacleKind::Part
+        } else {
+            ObstacleKind::Body
+        },
     })
 }
 

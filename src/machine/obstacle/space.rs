@@ -50,7 +50,11 @@ impl Space {
         body: &ToolBody,
         keep: f64,
     ) -> Result<Self, String> {
-        let first = machine.obstacles.first().ok_or("no obstacle is declared")?;
+        let first = machine
+            .obstacles
+            .iter()
+            .find(|obstacle| !obstacle.is_part())
+            .ok_or("no obstacle is declared")?;
         let frame_of = |obstacle: &Obstacle| {
             let missing = || format!("the machine lacks the axis that {} moves with", obstacle.name);
             obstacle.frame(machine).ok_or_else(missing)
@@ -62,7 +66,7 @@ impl Space {
             .try_inverse()
             .ok_or_else(|| format!("{} moves with a linear axis", first.name))?;
         let mut obstacles = Vec::new();
-        for obstacle in machine.obstacles.iter() {
+        for obstacle in machine.obstacles.iter().filter(|obstacle| !obstacle.is_part()) {
             let other = frame_of(obstacle)?;
             let axis = tool_in_frame(machine, joints, length, other).axis;
             if (axis - Vec3::z()).norm() > PARALLEL {

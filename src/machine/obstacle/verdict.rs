@@ -35,7 +35,15 @@ pub struct Near {
 ///
 /// An upright tool on a straight line is judged exactly, as a column without upper end; where the axes do not certainly arrive together in a rapid, all
 /// that they may pass is judged. Otherwise the tool is a cylinder of its length, and the result is proved by bounds or unknown.
+/// The part is left out.
 pub fn nearness(machine: &Machine, leg: &Leg, body: &ToolBody, keep: f64) -> Vec<Near> {
+    let mut found = nearness_with_part(machine, leg, body, keep);
+    found.retain(|near| !machine.obstacles[near.obstacle].is_part());
+    found
+}
+
+/// [`nearness`] of the part, too.
+pub fn nearness_with_part(machine: &Machine, leg: &Leg, body: &ToolBody, keep: f64) -> Vec<Near> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return Vec::new();
     };
@@ -94,7 +102,7 @@ impl One<'_> {
         let [from, to] = poses.map(|pose| pose.tip);
         let obstacles = self.machine.obstacles.iter();
         let others: Vec<&Obstacle> = obstacles
-            .filter(|other| other.frame(self.machine) == Some(self.frame))
+            .filter(|other| other.kind == obstacle.kind && other.frame(self.machine) == Some(self.frame))
             .collect();
         let own = others
             .iter()

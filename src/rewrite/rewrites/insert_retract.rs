@@ -11,18 +11,31 @@
 //! the cut before and joins it on a ramp, so that it does not stand still on the surface; else it comes straight down, at the feed of the cut.
 //!
 //! # Example
-//! ```gcode before sinumerik-840d mikron-ucp710
-//! ; (trunnion: tool 1 flat diameter 6 length 50)
+//! ```gcode before sinumerik-840d mikron-ucp710+part
+//! ; trunnion: tool 1 flat diameter 6 length 50
 //! T1 M6
 //! TRAORI
 //! G0 X0 Y0 Z20 A20 C10
 //! G1 X0 Y0 Z5 A20 C10 S8000 M3 F400
 //! N30 X4 A20.2 C10.1
-//! N40 X5 A-20.5 C-169.8
-//! N50 X9 A-20.7 C-169.7
+//! N40 X5 A-20.5 C190.2
+//! N50 X9 A-20.7 C190.3
 //! M30
 //! ```
 //! ```gcode after
+//! ; trunnion: tool 1 flat diameter 6 length 50
+//! T1 M6
+//! TRAORI
+//! G0 X0 Y0 Z20 A20 C10
+//! G1 X0 Y0 Z5 A20 C10 S8000 M3 F400
+//! N30 X4 A20.2 C10.1
+//! G0 X4.294 Y-1.650 Z9.555
+//! G1 X0.296 Y-1.679 Z9.684 A-20 C190
+//! X0.003 Y-0.017 Z5.047
+//! X4.000 Y0.000 Z5.000 A-20.2 C190.1
+//! N40 X5 A-20.5 C190.2
+//! N50 X9 A-20.7 C190.3
+//! M30
 //! ```
 //!
 //! # Claim
@@ -30,7 +43,7 @@
 //! along its axis, or on a ramp above the cut before. The cut after it ends where it did, changes no posture and turns no axis farther.
 //!
 //! # Traps
-//! - Obstacles must be declared, with the part and its clamps among them: nothing else is known of the space in which the machine turns.
+//! - The part must be declared (`[[obstacle]]` with `part = true`), and its clamps as other obstacles: nothing else is known of the space in which the machine turns.
 //! - Shape and diameter of the tool must be declared: a tool that is wider than its shank must not be pulled out along its axis.
 //! - Where the tool leaves the part it stands still for a moment and may leave a mark.
 //! - Tool vectors, incremental coordinates, tilted planes and inverse time are left alone.
@@ -147,10 +160,11 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     if flips.is_empty() {
         return Ok(None);
     }
-    if machine.obstacles.is_empty() {
+    let mut obstacles = machine.obstacles.iter();
+    if !obstacles.any(|obstacle| obstacle.is_part() && obstacle.frame(machine) == Some(0)) {
         return Err(Refusal::missing(
-            "no obstacle is declared, so it is unknown where the machine may turn: declare the part and its clamps as [[obstacle]] in \
-             trunnion.toml or in the machine file",
+            "the part is not declared, so it is unknown where the machine may turn: declare it as [[obstacle]] with `part = true` and the `axis` \
+             that carries it, and its clamps as other obstacles, in trunnion.toml or in the machine file",
         ));
     }
     let scheme = Scheme::Rotaries(letters);
@@ -161,6 +175,10 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         styles: &styles,
         tolerance_mm: options.tolerance_mm,
     };
+    let flips: Vec<Flip> = flips.into_iter().filter(|flip| !planner.is_in_the_air(flip)).collect();
+    if flips.is_empty() {
+        return Ok(None);
+    }
     let mut heights = Vec::new();
     let places: Vec<Place> = flips
         .iter()
@@ -172,7 +190,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             let change = match planned {
                 Ok(excursion) => {
                     heights.push(excursion.height_mm);
-                    Change::Edits(vec![lines(program, &planner, flip, &excursion)])
+                    Change::Edits(vec![lines(program, scheme, flip, &excursion)])
                 }
                 Err(change) => change,
             };
@@ -192,19 +210,21 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             tolerance_mm: options.tolerance_mm,
             tolerance_deg: options.tolerance_deg,
             clearance_mm: machine.tolerances.clearance_mm(),
-            assumed_zeros: settings.assume == Assume::ALL,
+            assumed_zeros: settings.assume.work_offset && settings.assume.tool_length,
         },
         summary: format!(
-            "{} cuts turn over in the air, up to {:.1} mm above the part",
-            heights.len(),
+            "{} the machine turns over in the air, up to {:.1} mm above the part",
+            match heights.len() {
+                1 => "before one cut".to_owned(),
+                count => format!("before {count} cuts"),
+            },
             heights.iter().copied().fold(0.0, f64::max)
         ),
     }))
 }
 
 /// The lines of an excursion, before the line of the cut.
-fn lines(program: &Program, planner: &Planner<'_>, flip: &Flip, excursion: &Excursion) -> TextEdit {
-    let scheme = planner.scheme;
+fn lines(program: &Program, scheme: Scheme, flip: &Flip, excursion: &Excursion) -> TextEdit {
     let end = if program.source().contains(&b'\r') {
         "\r\n"
     } else {
@@ -235,11 +255,12 @@ fn lines(program: &Program, planner: &Planner<'_>, flip: &Flip, excursion: &Excu
     };
     let mut text = format!("G0 {}{end}", words(&excursion.out, 0..3));
     let turned = words(&excursion.turned, 0..5);
-    text += &if planner.turns_at_rapid() {
-        format!("{turned}{end}")
+    if excursion.at_rapid {
+        text.push_str(&turned);
+        text.push_str(end);
     } else {
-        feeds(turned)
-    };
+        text.push_str(&feeds(turned));
+    }
     match &excursion.ramp {
         Some(ramp) => {
             text += &feeds(words(ramp, 0..3));

@@ -79,7 +79,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             "no machine is named, and obstacles stand in a machine (--machine)",
         ));
     };
-    if machine.obstacles.is_empty() {
+    if machine.obstacles.only_parts() {
         return Err(Refusal::missing(
             "no obstacle is declared, so nothing says what a shorter way would pass: [[obstacle]] in trunnion.toml",
         ));

@@ -32,6 +32,7 @@ fn mill(prisms: &[(&[[f64; 2]], f64)], clearance: f64) -> Machine {
             footprint: Footprint::Polygon(Polygon::new(&corners).expect("a polygon")),
             bottom: -10.0,
             top: *top,
+            kind: trunnion::machine::ObstacleKind::Body,
         });
     }
     machine

@@ -66,6 +66,10 @@ fn every_rewrites_example_holds() {
         if info.ends_with(" mill-3axis+wall") {
             settings.machine = Some(&walled);
         }
+        let with_part = super::retracting::with_part();
+        if info.ends_with(" mikron-ucp710+part") {
+            settings.machine = Some(&with_part);
+        }
         let options = Options::default();
         assert_eq!(
             &certified(run(rewrite.name, before, &settings, &options)).0,
@@ -93,6 +97,7 @@ fn walled_mill() -> Machine {
         footprint: Footprint::Polygon(Polygon::new(&corners).expect("a polygon")),
         bottom: -20.0,
         top: 35.0,
+        kind: trunnion::machine::ObstacleKind::Body,
     });
     machine
 }

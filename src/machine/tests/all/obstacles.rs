@@ -17,6 +17,7 @@ fn prism(corners: &[[f64; 2]], bottom: f64, top: f64) -> Obstacle {
         footprint: Footprint::Polygon(Polygon::new(&corners).expect("a polygon")),
         bottom,
         top,
+        kind: trunnion_machine::ObstacleKind::Body,
     }
 }
 

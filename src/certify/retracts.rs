@@ -259,7 +259,10 @@ impl Judge<'_> {
         if above(-height, mm) || above(off, mm) {
             return self.refute(
                 line,
-                &format!("the ramp is not above the cut before: {off:.6} mm beside it; {mm} mm is allowed"),
+                &format!(
+                    "the ramp is not above the cut before, but {:.6} mm off; {mm} mm is allowed",
+                    off.max(-height)
+                ),
             );
         }
         Ok(())

@@ -54,6 +54,17 @@ impl Judge<'_> {
                 "the shape of the tool is not declared: [[tool]] shape in trunnion.toml",
             ));
         }
+        let narrow = |tool: &trunnion_interp::Tool| {
+            tool.holder_mm
+                .zip(tool.diameter_mm)
+                .is_some_and(|(holder, own)| holder < own)
+        };
+        if cut.held.tool.as_ref().is_some_and(narrow) {
+            return Err(unknown(
+                lines[0],
+                "the holder is narrower than the tool: on its way out the tool would pass where it has not been",
+            ));
+        }
         let mut obstacles = self.machine.obstacles.iter();
         if !obstacles.any(|obstacle| obstacle.is_part() && obstacle.frame(self.machine) == Some(0)) {
             return Err(unknown(

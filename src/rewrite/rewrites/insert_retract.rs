@@ -212,15 +212,18 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             clearance_mm: machine.tolerances.clearance_mm(),
             assumed_zeros: settings.assume.work_offset && settings.assume.tool_length,
         },
-        summary: format!(
-            "{} the machine turns over in the air, up to {:.1} mm above the part",
-            match heights.len() {
-                1 => "before one cut".to_owned(),
-                count => format!("before {count} cuts"),
-            },
-            heights.iter().copied().fold(0.0, f64::max)
-        ),
+        summary: summary(&heights),
     }))
+}
+
+/// What is gained, in one line.
+fn summary(heights: &[f64]) -> String {
+    let cuts = match heights.len() {
+        1 => "one cut".to_owned(),
+        count => format!("{count} cuts"),
+    };
+    let highest = heights.iter().copied().fold(0.0, f64::max);
+    format!("before {cuts} the machine turns over in the air, up to {highest:.1} mm above the part")
 }
 
 /// The lines of an excursion, before the line of the cut.

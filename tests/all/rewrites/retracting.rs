@@ -243,6 +243,11 @@ fn what_is_not_declared_is_unknown_to_the_kernel() {
         proves(&after, &machine, &setup(None), claim),
         Outcome::Unknown(_)
     ));
+    let mut narrow = own.clone();
+    narrow.tools[0].holder_mm = Some(5.0);
+    assert!(matches!(proves(&after, &machine, &narrow, claim), Outcome::Unknown(_)));
+    narrow.tools[0].holder_mm = Some(8.0);
+    assert!(matches!(proves(&after, &machine, &narrow, claim), Outcome::Proved(_)));
     let mut clamped = with_part();
     clamped.obstacles.0.push(Obstacle {
         name: "clamp".to_owned(),

@@ -13,7 +13,7 @@ pub trait Judge {
         let _ = (before, after);
         Ok(None)
     }
-    /// A motion that takes the place of one or several lines, the last of which is `before`; called where [`Claim::refit`] allows that.
+    /// A motion that takes the place of one or several lines, the last of which is `before`; called where [`Claim::refit`](crate::Claim::refit) allows that.
     fn refitted(&mut self, before: &Step, after: &Step, found: Refitted) -> Result<(), Verdict> {
         let _ = (before, after, found);
         Ok(())

@@ -102,7 +102,7 @@ mod tests {
         );
         assert!(!found.help.as_deref().unwrap().contains("previous posture"));
         let flip = report.findings().find(|d| d.rule == "pole-flip").unwrap();
-        assert!(flip.fixes.is_empty() && !flip.help.as_deref().unwrap().contains("smooth-pole"));
+        assert!(flip.fixes == ["insert-retract"] && !flip.help.as_deref().unwrap().contains("smooth-pole"));
     }
 
     /// Tool vectors that tilt from 10 to 40 deg towards +Y (A runs to -30) or towards -Y (A runs to 40).

@@ -5,18 +5,19 @@
 //! 4 digits. `cargo bench --bench fitting -- FILE` takes a program of LinuxCNC instead.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 use std::fmt::Write;
-use std::hint::black_box;
 use trunnion::check::Settings;
 use trunnion::dialect::builtin;
 use trunnion::geometry::math::{acos, sin_cos};
-use trunnion::interp::{Fault, ModalState, Motion, Setup, Sink, run};
-use trunnion::machine::{self, Follower, Machine};
+use trunnion::interp::Setup;
+use trunnion::machine;
 use trunnion::rewrite::{Options, attempt, rewrite};
-use trunnion::syntax::{Program, parse};
+use trunnion::syntax::parse;
 
 #[path = "support/cpu.rs"]
 #[allow(dead_code, reason = "it also times other programs")]
 mod cpu;
+#[path = "support/plain_pass.rs"]
+mod plain_pass;
 
 const RUNS: usize = 3;
 
@@ -27,7 +28,9 @@ fn main() {
     let file = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let text = file.map_or_else(curves, |file| std::fs::read(file).expect("a file"));
     let lines = parse(text.clone(), dialect.lex).block_count();
-    let plain = cpu::best(RUNS, || follow(&parse(text.clone(), dialect.lex), &settings, machine));
+    let plain = cpu::best(RUNS, || {
+        plain_pass::follow(&parse(text.clone(), dialect.lex), &settings, machine);
+    });
     println!(
         "{lines} lines; a plain pass takes {:.2} us a line",
         plain / lines as f64 * 1e6
@@ -65,24 +68,6 @@ fn main() {
             outcome
         );
     }
-}
-
-struct Follow<'m>(Follower<'m>);
-
-impl Sink for Follow<'_> {
-    fn motion(&mut self, motion: &Motion, _: &ModalState) {
-        black_box(self.0.follow(motion));
-    }
-    fn fault(&mut self, _: Fault) {}
-}
-
-fn follow(program: &Program, settings: &Settings<'_>, machine: &Machine) {
-    run(
-        program,
-        settings.dialect,
-        &settings.setup,
-        &mut Follow(Follower::new(machine)),
-    );
 }
 
 /// Numbers between 0 and 1, always the same (a linear congruence).

@@ -6,17 +6,18 @@
 //! line passes the pole at some distance.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 use std::fmt::Write;
-use std::hint::black_box;
 use trunnion::check::Settings;
 use trunnion::dialect::builtin;
 use trunnion::geometry::math::{atan2, hypot, sin};
-use trunnion::interp::{Fault, ModalState, Motion, Setup, Sink, Tool, ToolShape, run};
-use trunnion::machine::{self, Follower, Machine};
+use trunnion::interp::{Setup, Tool, ToolShape};
+use trunnion::machine;
 use trunnion::rewrite::{Options, attempt, rewrite};
-use trunnion::syntax::{Program, parse};
+use trunnion::syntax::parse;
 
 #[path = "support/cpu.rs"]
 mod cpu;
+#[path = "support/plain_pass.rs"]
+mod plain_pass;
 
 const RUNS: usize = 3;
 
@@ -40,7 +41,9 @@ fn main() {
     );
     for (points, line) in [(20_000, 200), (80_000, 200), (200_000, 200), (80_000, 50)] {
         let text = zigzag(points, line, false).into_bytes();
-        let plain = cpu::best(RUNS, || follow(&parse(text.clone(), dialect.lex), &settings, machine));
+        let plain = cpu::best(RUNS, || {
+            plain_pass::follow(&parse(text.clone(), dialect.lex), &settings, machine);
+        });
         print_row("plain pass", (points, points / line), plain, plain, "");
         for (name, text) in [
             ("smooth-pole", text),
@@ -69,24 +72,6 @@ fn print_row(name: &str, (points, flips): (usize, usize), seconds: f64, plain: f
         per_point * 1e6,
         seconds / plain,
         outcome.chars().take(100).collect::<String>()
-    );
-}
-
-struct Follow<'m>(Follower<'m>);
-
-impl Sink for Follow<'_> {
-    fn motion(&mut self, motion: &Motion, _: &ModalState) {
-        black_box(self.0.follow(motion));
-    }
-    fn fault(&mut self, _: Fault) {}
-}
-
-fn follow(program: &Program, settings: &Settings<'_>, machine: &Machine) {
-    run(
-        program,
-        settings.dialect,
-        &settings.setup,
-        &mut Follow(Follower::new(machine)),
     );
 }
 

@@ -90,8 +90,8 @@ pub enum Claim {
         tolerance_deg: f64,
     },
     /// All of [`Self::SameToolPath`], but between two cuts the tool may leave the part and come back to where it was in another posture or with other
-    /// turns (`insert-retract`): away along its axis, with rapids that keep it at least `clearance_mm` away from all declared obstacles, and back along its axis
-    /// at feed, or on a ramp above the cut before. The cut that follows ends where it did, changes no posture and turns no rotary axis
+    /// turns (`insert-retract`): away along its axis at rapid, turned at rapid or at feed at least `clearance_mm` away from all declared obstacles, the part among
+    /// them, and back along its axis at feed, or on a ramp above the cut before. The cut that follows ends where it did, changes no posture and turns no rotary axis
     /// farther than before or by more than half a turn; nothing else is claimed of its path.
     InsertedRetracts {
         /// mm.

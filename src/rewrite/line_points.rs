@@ -3,6 +3,7 @@ use crate::Change;
 use crate::slots::{Scheme, Styles};
 use crate::style::NumberStyle;
 use trunnion_geometry::{Vec3, deg, rad};
+use trunnion_interp::Position;
 use trunnion_machine::{Leg, Machine, Stance, inverse, tip_deviation};
 use trunnion_syntax::{Decimal, Program};
 
@@ -44,6 +45,20 @@ pub(crate) struct End {
 
 pub(crate) fn refused(why: impl Into<String>) -> Change {
     Change::Refused(why.into())
+}
+
+/// X Y Z and the two rotary axes (as indices of axis letters) of a programmed position, mm and deg.
+pub(crate) fn programmed(position: &Position, rotary: [Option<usize>; 2]) -> [Option<f64>; 5] {
+    [Some(0), Some(1), Some(2), rotary[0], rotary[1]].map(|axis| position.get(axis?))
+}
+
+/// Where the tip is depends on what is not declared.
+pub(crate) fn undeclared_path() -> Change {
+    Change::Possible(
+        "the path of the tip depends on work offset and tool length, which are not declared: declare them in trunnion.toml or take \
+         them as zero with --assume work-offset,tool-length"
+            .into(),
+    )
 }
 
 impl Writer<'_> {

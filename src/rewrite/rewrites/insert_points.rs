@@ -49,7 +49,7 @@
 //! # Sources
 //! docs/kinematics.md#between-the-ends-of-a-block.
 use super::Body;
-use crate::line_points::{Line, Writer, refused};
+use crate::line_points::{Line, Writer, programmed, refused, undeclared_path};
 use crate::slots::{Scheme, Slots, insert_word, slots, styles};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
@@ -83,16 +83,9 @@ impl Sink for Collector<'_> {
         if strays.is_none_or(|found| found.bound_mm <= self.tolerance_mm) {
             return;
         }
-        let word = |axis: Option<usize>| axis.and_then(|axis| motion.end.get(axis));
         let left = self.assume.leaves(motion.undeclared);
         self.lines.push(Line {
-            words: [
-                word(Some(0)),
-                word(Some(1)),
-                word(Some(2)),
-                word(self.rotary[0]),
-                word(self.rotary[1]),
-            ],
+            words: programmed(&motion.end, self.rotary),
             unit_mm: state.coordinates.unit_mm(),
             incremental: state.coordinates.incremental(),
             undeclared: left.zero & 0b111 != 0 || left.length,
@@ -171,11 +164,7 @@ impl Writer<'_> {
     /// The edits that cut a line in pieces, and the number of points.
     fn line(&self, line: &Line) -> Result<(Vec<TextEdit>, usize), Change> {
         if line.undeclared {
-            return Err(Change::Possible(
-                "the path of the tip depends on work offset and tool length, which are not declared: declare them in trunnion.toml or take \
-                 them as zero with --assume work-offset,tool-length"
-                    .into(),
-            ));
+            return Err(undeclared_path());
         }
         if line.incremental {
             return Err(refused("coordinates are incremental (G91)"));

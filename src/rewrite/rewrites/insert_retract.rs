@@ -6,8 +6,8 @@
 //! the machine must turn over, but not at the part.
 //!
 //! # How
-//! Before the cut that would turn over, the tool leaves the part along its own axis, up to the lowest height at which it clears all declared obstacles
-//! while the axes turn. There the axes take the posture in which the cut ends. Under tool centre point control the tool comes down above
+//! Before the cut that would turn over, the tool leaves the part along its own axis, up to the first of a series of heights at which
+//! it clears all declared obstacles while the axes turn. There the axes take the posture in which the cut ends. Under tool centre point control the tool comes down above
 //! the cut before and joins it on a ramp, so that it does not stand still on the surface; else it comes straight down, at the feed of the cut.
 //!
 //! # Example
@@ -45,6 +45,8 @@
 //! # Traps
 //! - The part must be declared (`[[obstacle]]` with `part = true`), and its clamps as other obstacles: nothing else is known of the space in which the machine turns.
 //! - Shape and diameter of the tool must be declared: a tool that is wider than its shank must not be pulled out along its axis.
+//! - Where the axes of a rapid may arrive at different times, it is often unknown what the tool passes. Then it turns at the feed of the cut, and `pole-flip`
+//!   and `branch-swap` report that turn as they would in the cut.
 //! - Where the tool leaves the part it stands still for a moment and may leave a mark.
 //! - Tool vectors, incremental coordinates, tilted planes and inverse time are left alone.
 //!
@@ -52,6 +54,7 @@
 //! Guide-vane paper (2006), on posture swaps at an axis limit; docs/kinematics.md#retracting.
 use super::Body;
 use crate::excursion::{Excursion, Flip, Planner, Pose};
+use crate::line_points::{programmed, undeclared_path};
 use crate::slots::{Scheme, styles};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
@@ -82,16 +85,9 @@ impl Sink for Collector<'_> {
         let leg = self.follower.follow(motion);
         let last = self.last.take();
         if motion.kind == MotionKind::Linear && self.turns_over(&leg) {
-            let word = |axis: Option<usize>| axis.and_then(|axis| motion.start.get(axis));
             self.flips.push(Flip {
                 last,
-                words: [
-                    word(Some(0)),
-                    word(Some(1)),
-                    word(Some(2)),
-                    word(self.rotary[0]),
-                    word(self.rotary[1]),
-                ],
+                words: programmed(&motion.start, self.rotary),
                 unit_mm: state.coordinates.unit_mm(),
                 tool: state.tool.data(),
                 fixed: self.why_fixed(motion, state),
@@ -116,11 +112,7 @@ impl Collector<'_> {
     fn why_fixed(&self, motion: &Motion, state: &ModalState) -> Option<Change> {
         let left = self.assume.leaves(motion.undeclared);
         if left.zero & 0b111 != 0 || left.length {
-            return Some(Change::Possible(
-                "the path of the tool depends on work offset and tool length, which are not declared: declare them in trunnion.toml or take \
-                 them as zero with --assume work-offset,tool-length"
-                    .into(),
-            ));
+            return Some(undeclared_path());
         }
         let why = if matches!(motion.orientation, Orientation::Vector(..)) {
             "tool vectors are programmed, so the control chooses the posture"

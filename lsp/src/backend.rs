@@ -2,7 +2,12 @@
 //!
 //! Notification handlers contain no `.await`: tower-lsp polls handlers in wire order, so nothing yields before the event
 //! is in the inbox and edits cannot overtake each other.
-use crate::{event::Event, outbox, owner::Owner};
+use crate::{
+    backplot::{Backplot, BackplotParams},
+    event::Event,
+    outbox,
+    owner::Owner,
+};
 use std::sync::{
     Arc,
     atomic::{AtomicBool, Ordering},
@@ -46,6 +51,14 @@ impl Backend {
         let (sender, answer) = oneshot::channel();
         self.post(event(sender));
         answer.await.unwrap_or_else(|_| Err(Error::content_modified()))
+    }
+}
+
+/// Requests of our own clients.
+impl Backend {
+    /// `trunnion/backplot`.
+    pub(crate) async fn backplot(&self, params: BackplotParams) -> Result<Backplot> {
+        self.ask(|answer| Event::Backplot(params, answer)).await
     }
 }
 

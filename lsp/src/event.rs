@@ -1,5 +1,6 @@
 //! What reaches the owner of the state.
 use crate::analysis::Analysed;
+use crate::backplot::{Backplot, BackplotParams};
 use std::sync::Arc;
 use tokio::sync::oneshot;
 use tower_lsp::{
@@ -39,4 +40,6 @@ pub(crate) enum Event {
         Box<CodeActionParams>,
         oneshot::Sender<Result<Option<Vec<CodeActionOrCommand>>>>,
     ),
+    /// The path for a viewer.
+    Backplot(BackplotParams, oneshot::Sender<Result<Backplot>>),
 }

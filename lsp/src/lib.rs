@@ -4,6 +4,7 @@
 //! await an answer. Work that takes time runs on a pool with a snapshot; newest version wins.
 mod analysis;
 mod backend;
+mod backplot;
 mod code_action;
 mod document;
 mod event;
@@ -41,7 +42,9 @@ pub fn serve() -> i32 {
     let shutdown = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&shutdown);
     runtime.block_on(async move {
-        let (service, socket) = LspService::new(|client| Backend::start(client, Arc::clone(&seen)));
+        let (service, socket) = LspService::build(|client| Backend::start(client, Arc::clone(&seen)))
+            .custom_method("trunnion/backplot", Backend::backplot)
+            .finish();
         let service = Outer::new(service, Arc::clone(&seen));
         let (messages, input) = tokio::io::duplex(1 << 16);
         tokio::spawn(frames::pump(tokio::io::stdin(), messages));

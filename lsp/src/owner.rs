@@ -2,7 +2,7 @@
 use crate::{
     analysis::{Analysed, Judged, analyse},
     backend::wants_utf8,
-    code_action,
+    backplot, code_action,
     document::Document,
     event::Event,
     hover,
@@ -20,7 +20,7 @@ use tokio::{
 };
 use tower_lsp::{
     jsonrpc::{Error, Result},
-    lsp_types::{TextDocumentPositionParams, Url},
+    lsp_types::{Position, TextDocumentPositionParams, Url},
 };
 use trunnion_check::{Severity, Verdict};
 use trunnion_workspace::Overrides;
@@ -106,6 +106,21 @@ impl Owner {
                 let encoding = self.encoding;
                 self.ask(&at, answer, move |a| {
                     Ok(code_action::code_actions(a, &params, encoding))
+                });
+            }
+            Event::Backplot(params, answer) => {
+                let at = TextDocumentPositionParams::new(params.text_document.clone(), Position::default());
+                let newest = self
+                    .documents
+                    .get(&at.text_document.uri)
+                    .map(|d| (d.version, Arc::clone(&d.newest)));
+                self.ask(&at, answer, move |a| match &a.outcome {
+                    Err(error) => Err(Error::invalid_params(error.to_string())),
+                    Ok(judged) => backplot::backplot(judged, &a.uri, &params, &|| {
+                        newest
+                            .as_ref()
+                            .is_none_or(|(version, newest)| newest.load(Ordering::SeqCst) != *version)
+                    }),
                 });
             }
         }

@@ -11,6 +11,7 @@ mod generated_rewrite_docs;
 mod guide_vane;
 mod independent;
 mod lsp;
+mod lsp_backplot;
 mod lsp_client;
 mod lsp_edits;
 mod lsp_malformed;

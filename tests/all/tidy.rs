@@ -27,6 +27,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-check", 6),
     ("trunnion-layout", 6),
     ("trunnion-plot", 6),
+    ("trunnion-scene", 6),
     ("trunnion-files", 6),
     ("trunnion-rewrite", 7),
     ("trunnion-convert", 7),

@@ -1,6 +1,7 @@
 // Starts `trunnion lsp` for G-code and APT programs, and shows what it says about machine and dialect.
 import * as vscode from 'vscode';
 import { LanguageClient, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
+import { Backplot } from './backplot';
 import { chooseDialect, chooseMachine } from './choose';
 import { findProgram, firstFolder } from './server';
 import { type Status, StatusItem } from './status';
@@ -16,16 +17,23 @@ interface Surroundings {
   status: StatusItem;
   output: vscode.LogOutputChannel;
   configs: vscode.FileSystemWatcher;
+  backplot: Backplot;
 }
 
 /** Starts and stops of the server wait for each other here. */
 let turn: Promise<void> = Promise.resolve();
 
-export async function activate(context: vscode.ExtensionContext): Promise<void> {
+/** What tests in the extension host may look at. */
+export interface Api {
+  backplot: Backplot['seen'];
+}
+
+export async function activate(context: vscode.ExtensionContext): Promise<Api> {
   const status = new StatusItem();
   const output = vscode.window.createOutputChannel('Trunnion', { log: true });
   const configs = vscode.workspace.createFileSystemWatcher('**/trunnion.toml');
-  const restart = () => (turn = turn.then(() => stop()).then(() => start({ context, status, output, configs })));
+  const backplot = new Backplot(context, () => client);
+  const restart = () => (turn = turn.then(() => stop()).then(() => start({ context, status, output, configs, backplot })));
   const withProgram = (action: (program: string) => unknown) => async () => {
     const found = findProgram(context);
     await ('program' in found ? Promise.resolve(action(found.program)).catch(complain) : complain(found.problem));
@@ -37,6 +45,8 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     vscode.commands.registerCommand('trunnion.restartServer', restart),
     vscode.commands.registerCommand('trunnion.chooseMachine', withProgram(chooseMachine)),
     vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
+    vscode.commands.registerCommand('trunnion.showBackplot', () => backplot.open()),
+    vscode.commands.registerCommand('trunnion.compareBackplot', () => backplot.compare()),
     vscode.commands.registerCommand('trunnion.checkFile', withProgram(checkActiveFile)),
     vscode.tasks.registerTaskProvider('trunnion', taskProvider(() => {
       const found = findProgram(context);
@@ -52,13 +62,14 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     }),
   );
   await restart();
+  return { backplot: backplot.seen };
 }
 
 export function deactivate(): Promise<void> {
   return (turn = turn.then(() => stop()));
 }
 
-async function start({ context, status, output, configs }: Surroundings): Promise<void> {
+async function start({ context, status, output, configs, backplot }: Surroundings): Promise<void> {
   const found = findProgram(context);
   if ('problem' in found) {
     status.fail(found.problem);
@@ -81,7 +92,10 @@ async function start({ context, status, output, configs }: Surroundings): Promis
     },
   );
   client = started;
-  started.onNotification('trunnion/status', (said: Status) => status.update(said));
+  started.onNotification('trunnion/status', (said: Status) => {
+    status.update(said);
+    backplot.analysed(said.uri);
+  });
   started.onDidChangeState(({ newState }) => {
     if (newState === State.Running) {
       status.fail(undefined);

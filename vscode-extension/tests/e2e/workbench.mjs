@@ -107,6 +107,62 @@ await test('a click on the status bar offers the machines, the choice is used', 
   assert.equal(JSON.parse(readFileSync(settings, 'utf8'))['trunnion.machine'], 'ferrari-bc');
 });
 
+/** The page of the backplot, among the frames in frames of a webview. */
+async function backplotPage() {
+  for (const frame of page.frames()) {
+    if (await frame.evaluate(() => document.getElementById('readout') !== null).catch(() => false)) return frame;
+  }
+  return undefined;
+}
+
+/** In the page: how many pixels of the drawing have a colour (neither grey nor the background), and where their middle one is. */
+function coloured() {
+  const canvas = document.getElementById('view');
+  const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+  const pen = copy.getContext('2d');
+  pen.drawImage(canvas, 0, 0);
+  const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+  const found = [];
+  for (let at = 0; at < data.length; at += 4) {
+    const [r, g, b] = [data[at], data[at + 1], data[at + 2]];
+    // the blue of a cut without findings
+    if (b > 120 && b - r > 80 && g < b) found.push(at / 4);
+  }
+  const middle = found[Math.floor(found.length / 2)] ?? 0;
+  const box = canvas.getBoundingClientRect();
+  return { count: found.length, x: ((middle % copy.width) * box.width) / copy.width, y: (Math.floor(middle / copy.width) * box.height) / copy.height };
+}
+
+await test('the backplot draws the path, follows the cursor, and a click on it goes to the line', async () => {
+  set({ 'trunnion.machine': 'mikron-ucp710' });
+  await page.locator('.statusbar-item', { hasText: 'mikron-ucp710' }).waitFor({ timeout: 20_000 });
+  await page.locator('.editor-actions a[aria-label^="Show Backplot"]').first().click();
+  const frame = await until('page of the backplot', backplotPage);
+  const drawn = await until('path', async () => {
+    const found = await frame.evaluate(coloured);
+    return found.count > 50 ? found : JSON.stringify(found);
+  });
+  assert.match(await frame.locator('#legend').innerText(), /Findings/);
+  // from the line to the path
+  await page.locator('.view-line', { hasText: 'C52.595' }).click();
+  await until('line of the flip', async () => /^line 9 /.test(await frame.locator('#readout').innerText()) || (await frame.locator('#readout').innerText()));
+  await page.screenshot({ path: `${shots}/backplot.png` });
+  // and back
+  await frame.locator('#top').click();
+  const place = await until('path from above', async () => {
+    const found = await frame.evaluate(coloured);
+    return found.count > 20 ? found : JSON.stringify(found);
+  });
+  assert.ok(drawn.count > 0);
+  await frame.locator('#view').click({ position: { x: place.x, y: place.y } });
+  const line = /^line (\d+) /.exec(await frame.locator('#readout').innerText())?.[1];
+  await until(`cursor on line ${line}`, async () => (await page.locator('.statusbar-item[id="status.editor.selection"]').innerText()).startsWith(`Ln ${line},`));
+  await frame.locator('#mode').selectOption('feed');
+  assert.match(await frame.locator('#legend').innerText(), /Feed that the axes allow/);
+  await page.screenshot({ path: `${shots}/backplot-feed.png` });
+  await page.keyboard.press('Escape');
+});
+
 await test('a program that is not there is named in a message, and a good setting ends it', async () => {
   set({ 'trunnion.machine': 'mikron-ucp710', 'trunnion.path': '/no/such/program' });
   await page.locator('.statusbar-item[id="trunnion.trunnion.trunnion.status"]', { has: page.locator('.codicon-warning') }).waitFor({ timeout: 30_000 });

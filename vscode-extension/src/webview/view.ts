@@ -1,0 +1,250 @@
+// The path in three dimensions, with the tool on it.
+import * as three from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+import { type Path, RAPID, START, kindOf } from './path';
+
+export type Side = 'iso' | 'top' | 'front' | 'right';
+
+const SIDES: Record<Side, [number, number, number]> = { iso: [1, -1, 0.8], top: [0, -1e-4, 1], front: [0, -1, 0], right: [1, 0, 0] };
+
+/** How near a click must be to the path, in pixels. */
+const NEAR = 12;
+
+export class View {
+  private readonly renderer: three.WebGLRenderer;
+  private readonly world = new three.Scene();
+  private readonly camera = new three.OrthographicCamera(-1, 1, 1, -1, -1e6, 1e6);
+  private readonly controls: OrbitControls;
+  private readonly feeds = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ vertexColors: true }));
+  private readonly rapids = new three.LineSegments(new three.BufferGeometry(), new three.LineDashedMaterial({ color: 0x8a8a8a, dashSize: 2, gapSize: 1.5 }));
+  private readonly other = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0xcc79a7 }));
+  private readonly normals = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0xe69f00, transparent: true, opacity: 0.7 }));
+  private readonly chosen = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 4, depthTest: false }));
+  private readonly tool = new three.Group();
+  private path: Path | undefined;
+  private size = 1;
+  private waiting = false;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    // colours are drawn as the legend shows them
+    three.ColorManagement.enabled = false;
+    this.renderer = new three.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = three.LinearSRGBColorSpace;
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener('change', () => this.draw());
+    this.chosen.renderOrder = 2;
+    for (const lines of [this.rapids, this.feeds, this.other, this.normals, this.chosen]) {
+      lines.frustumCulled = false;
+      this.world.add(lines);
+    }
+    this.world.add(this.tool, new three.AmbientLight(0xffffff, 1.2), light(1, -1, 2), light(-1, 1, 1));
+    new ResizeObserver(() => this.fitCanvas()).observe(canvas.parentElement!);
+  }
+
+  /** The colours of the page, from the theme. */
+  theme(background: string, foreground: string): void {
+    this.renderer.setClearColor(new three.Color(background));
+    this.chosen.material.color = new three.Color(foreground);
+    this.draw();
+  }
+
+  /** Shows a path; `fresh`: also looks at all of it. */
+  show(path: Path, colours: Float32Array, toolDiameter: number | null, fresh: boolean): void {
+    this.path = path;
+    const box = new three.Box3().setFromArray(cuts(path));
+    this.size = Math.max(box.getSize(new three.Vector3()).length(), 1);
+    fill(this.feeds, path, colours, (kind) => kind !== RAPID);
+    fill(this.rapids, path, undefined, (kind) => kind === RAPID);
+    const dashes = this.rapids.material as three.LineDashedMaterial;
+    dashes.dashSize = this.size / 60;
+    dashes.gapSize = this.size / 90;
+    this.rapids.computeLineDistances();
+    this.normals.geometry.setAttribute('position', new three.BufferAttribute(bristles(path, this.size), 3));
+    this.makeTool(toolDiameter);
+    if (fresh) this.look('iso');
+    this.draw();
+  }
+
+  /** New colours for the same path. */
+  paint(colours: Float32Array): void {
+    if (this.path) fill(this.feeds, this.path, colours, (kind) => kind !== RAPID);
+    this.draw();
+  }
+
+  /** A second path over the first; undefined removes it. */
+  compare(other: Path | undefined): void {
+    if (other && this.path) {
+      fill(this.other, other, undefined, (kind) => kind !== RAPID);
+      const [from, to] = [other.origin, this.path.origin];
+      this.other.position.set(from[0] - to[0], from[1] - to[1], from[2] - to[2]);
+    }
+    this.other.visible = other !== undefined;
+    this.draw();
+  }
+
+  toggle(what: 'rapids' | 'normals' | 'tool', on: boolean): void {
+    this[what].visible = on;
+    this.draw();
+  }
+
+  /** Puts the tool on a vertex and marks the block that leads there. */
+  place(at: number): void {
+    const path = this.path;
+    if (!path || at >= path.count) return;
+    const tip = new three.Vector3().fromArray(path.tip, 3 * at);
+    this.tool.position.copy(tip);
+    this.tool.quaternion.setFromUnitVectors(new three.Vector3(0, 0, 1), new three.Vector3().fromArray(path.axis, 3 * at).normalize());
+    const line = path.line[at];
+    let first = at;
+    while (first > 0 && kindOf(path, first) !== START && path.line[first - 1] === line) first -= 1;
+    let last = at;
+    while (last + 1 < path.count && path.line[last + 1] === line && kindOf(path, last + 1) !== START) last += 1;
+    if (first > 0 && kindOf(path, first) !== START) first -= 1;
+    const points: number[] = [];
+    for (let i = first; i < last; i += 1) points.push(...path.tip.subarray(3 * i, 3 * i + 6));
+    this.chosen.geometry.dispose();
+    this.chosen.geometry = new LineSegmentsGeometry().setPositions(points);
+    this.chosen.visible = points.length > 0;
+    this.draw();
+  }
+
+  /** The vertex nearest to a place on the canvas, if one is near. */
+  pick(x: number, y: number): number | undefined {
+    const path = this.path;
+    if (!path) return undefined;
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const matrix = new three.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+    const [a, b] = [new three.Vector3(), new three.Vector3()];
+    const project = (at: number, into: three.Vector3) => {
+      into.fromArray(path.tip, 3 * at).applyMatrix4(matrix);
+      into.set((into.x * 0.5 + 0.5) * width, (0.5 - into.y * 0.5) * height, into.z);
+    };
+    let best: number | undefined;
+    let least = NEAR;
+    for (let at = 0; at < path.count; at += 1) {
+      project(at, b);
+      if (at > 0 && kindOf(path, at) !== START && (kindOf(path, at) !== RAPID || this.rapids.visible)) {
+        const off = distance(x, y, a, b);
+        if (off < least) [least, best] = [off, at];
+      }
+      a.copy(b);
+    }
+    return best;
+  }
+
+  /** Looks at all of the path from one side. */
+  look(side: Side): void {
+    const box = new three.Box3();
+    if (this.path) box.setFromArray(cuts(this.path));
+    const centre = box.isEmpty() ? new three.Vector3() : box.getCenter(new three.Vector3());
+    this.controls.target.copy(centre);
+    this.camera.position.copy(centre).add(new three.Vector3(...SIDES[side]).normalize().multiplyScalar(this.size));
+    this.camera.zoom = 1;
+    this.controls.update();
+    this.fitCanvas();
+  }
+
+  private fitCanvas(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    const half = this.size * 0.55;
+    const wide = clientWidth / clientHeight;
+    Object.assign(this.camera, { left: -half * Math.max(wide, 1), right: half * Math.max(wide, 1), top: half / Math.min(wide, 1), bottom: -half / Math.min(wide, 1) });
+    this.camera.near = -100 * this.size;
+    this.camera.far = 100 * this.size;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  private makeTool(declared: number | null): void {
+    this.tool.clear();
+    // a tool larger than what is cut would hide it: then, and where none is declared, a slim cone shows tip and axis
+    const diameter = declared !== null && declared < 0.4 * this.size ? declared : null;
+    const radius = diameter === null ? this.size / 150 : diameter / 2;
+    const length = Math.max(this.size / 4, 4 * radius);
+    const shape = diameter === null ? new three.ConeGeometry(radius * 2, length, 24) : new three.CylinderGeometry(radius, radius, length, 32);
+    // a cone whose tip is the tool tip, or a cylinder that stands on it: +Z is away from the part
+    if (diameter === null) shape.rotateX(-Math.PI / 2);
+    else shape.rotateX(Math.PI / 2);
+    shape.translate(0, 0, length / 2);
+    this.tool.add(new three.Mesh(shape, new three.MeshPhongMaterial({ color: 0x9aa7b0, transparent: true, opacity: 0.55, side: three.DoubleSide })));
+  }
+
+  private draw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.renderer.render(this.world, this.camera);
+    });
+  }
+}
+
+function light(x: number, y: number, z: number): three.DirectionalLight {
+  const lamp = new three.DirectionalLight(0xffffff, 1.5);
+  lamp.position.set(x, y, z);
+  return lamp;
+}
+
+/** The tips of the cuts, or of all motions where nothing is cut. */
+function cuts(path: Path): number[] | Float32Array {
+  const points: number[] = [];
+  for (let at = 0; at < path.count; at += 1) {
+    if (kindOf(path, at) !== RAPID && kindOf(path, at) !== START) points.push(path.tip[3 * at]!, path.tip[3 * at + 1]!, path.tip[3 * at + 2]!);
+  }
+  return points.length > 0 ? points : path.tip;
+}
+
+/** Joins neighbours of the wanted kind; colours are those of the later one. */
+function fill(lines: three.LineSegments, path: Path, colours: Float32Array | undefined, wanted: (kind: number) => boolean): void {
+  let count = 0;
+  for (let at = 1; at < path.count; at += 1) if (kindOf(path, at) !== START && wanted(kindOf(path, at))) count += 1;
+  const positions = new Float32Array(6 * count);
+  const painted = colours ? new Float32Array(6 * count) : undefined;
+  let next = 0;
+  for (let at = 1; at < path.count; at += 1) {
+    if (kindOf(path, at) === START || !wanted(kindOf(path, at))) continue;
+    positions.set(path.tip.subarray(3 * at - 3, 3 * at + 3), next);
+    if (colours && painted) {
+      painted.set(colours.subarray(3 * at, 3 * at + 3), next);
+      painted.set(colours.subarray(3 * at, 3 * at + 3), next + 3);
+    }
+    next += 6;
+  }
+  lines.geometry.dispose();
+  lines.geometry = new three.BufferGeometry().setAttribute('position', new three.BufferAttribute(positions, 3));
+  if (painted) lines.geometry.setAttribute('color', new three.BufferAttribute(painted, 3));
+}
+
+/** Short lines along the tool axis at some of the cuts, evenly along the path. */
+function bristles(path: Path, size: number): Float32Array {
+  const points: number[] = [];
+  let way = 0;
+  let next = 0;
+  let total = 0;
+  const step = (at: number) => Math.hypot(...[0, 1, 2].map((k) => path.tip[3 * at + k]! - path.tip[3 * at - 3 + k]!));
+  for (let at = 1; at < path.count; at += 1) if (kindOf(path, at) !== START && kindOf(path, at) !== RAPID) total += step(at);
+  for (let at = 1; at < path.count; at += 1) {
+    if (kindOf(path, at) === START || kindOf(path, at) === RAPID) continue;
+    way += step(at);
+    if (way < next) continue;
+    next = way + total / 400;
+    for (const reach of [0, 0.05 * size]) for (let k = 0; k < 3; k += 1) points.push(path.tip[3 * at + k]! + reach * path.axis[3 * at + k]!);
+  }
+  return new Float32Array(points);
+}
+
+/** Distance of a point from the segment between two projected points, pixels. */
+function distance(x: number, y: number, a: three.Vector3, b: three.Vector3): number {
+  const [dx, dy] = [b.x - a.x, b.y - a.y];
+  const length2 = dx * dx + dy * dy;
+  const share = length2 > 0 ? Math.min(1, Math.max(0, ((x - a.x) * dx + (y - a.y) * dy) / length2)) : 0;
+  return Math.hypot(x - a.x - share * dx, y - a.y - share * dy);
+}

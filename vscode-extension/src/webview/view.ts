@@ -21,7 +21,7 @@ export class View {
   private readonly feeds = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ vertexColors: true }));
   private readonly rapids = new three.LineSegments(new three.BufferGeometry(), new three.LineDashedMaterial({ color: 0x8a8a8a, dashSize: 2, gapSize: 1.5 }));
   private readonly other = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0xcc79a7 }));
-  private readonly normals = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0xe69f00, transparent: true, opacity: 0.7 }));
+  private readonly normals = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0x999933, transparent: true, opacity: 0.8 }));
   private readonly chosen = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 4, depthTest: false }));
   private readonly tool = new three.Group();
   private path: Path | undefined;

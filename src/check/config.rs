@@ -8,7 +8,7 @@ mod message_tests;
 mod tool;
 mod variables;
 
-pub use fix::{FixCost, FixPoint, FixSettings};
+pub use fix::{FixCost, FixPoint, FixSettings, FixSource};
 pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
 

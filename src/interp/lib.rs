@@ -47,7 +47,7 @@ mod values;
 mod words;
 mod written;
 
-pub use directive::{Directive, directives, turned_deg};
+pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
 pub use effects::Situation;
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};

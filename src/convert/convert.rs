@@ -129,10 +129,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         beyond,
         travel_undecided,
         clamps: setting.clamps_left(),
-        told: Told {
-            assume: source.assume,
-            ..told
-        },
+        told,
     })
 }
 
@@ -292,7 +289,7 @@ fn prove(
     let travel = travel(&after, &parts, machine);
     let told = Told {
         read_on_machine: machine.is_some(),
-        assume: Assume::default(),
+        assume: source.assume,
         dropped: dropped.to_vec(),
         own_codes: meanings,
         parts,

@@ -4,6 +4,7 @@ use super::{Ask, Assume, ConversionClaim, ConversionProof, Coolant, Part, Run, T
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::{NamedDigest, Outcome, TextDigest};
+use core::fmt::Write;
 use serde::{Deserialize, Serialize};
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
@@ -79,15 +80,22 @@ pub struct OwnCode {
 /// What a code of the builder of a machine asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the names say it")]
 pub enum Meaning {
+    /// Flood coolant.
     CoolantFlood,
+    /// Mist.
     CoolantMist,
+    /// Through the tool.
     CoolantThru,
+    /// No longer through the tool.
     CoolantThruOff,
+    /// Air.
     CoolantAir,
+    /// All coolant off.
     CoolantOff,
+    /// The program waits for the operator.
     Stop,
+    /// The same where the switch is set.
     OptionalStop,
 }
 
@@ -323,7 +331,7 @@ impl ConversionCertificate {
         );
         let mut add = |what: &str, names: Vec<&str>| {
             if !names.is_empty() {
-                text.push_str(&format!("; {what} {}", names.join(", ")));
+                let _ = write!(text, "; {what} {}", names.join(", "));
             }
         };
         add(

@@ -296,7 +296,7 @@ fn a_conversion_is_certified() {
         fs::write(&other, program.replacen("0.5", "0.4", 1) + "\n").expect("written");
         let (code, said) = again(&other, &proof, &machine);
         assert!(
-            code == 1 && said.starts_with("REFUTED") && said.contains("sha256"),
+            code == 1 && said.starts_with("REFUTED") && said.contains("after.text"),
             "{to}: {said}"
         );
         // another machine

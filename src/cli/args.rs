@@ -1,7 +1,9 @@
 //! The command line arguments; docs/commands.md lists the commands.
 mod fix;
+mod people;
 
 pub(crate) use fix::Fix;
+pub(crate) use people::{Completions, Init, Report, Schema};
 
 use super::{
     check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
@@ -155,6 +157,16 @@ pub(crate) enum Command {
     Sample(Box<Sample>),
     /// Print the tokens or the tree of a program.
     Parse(Parse),
+    /// Write one self-contained HTML page about programs: verdict, findings, pictures, a replay in 3D, and a set-up sheet.
+    Report(Report),
+    /// Write a settings file for the programs of a folder.
+    Init(Init),
+    /// Print the JSON Schema of what a command prints or of a file.
+    Schema(Schema),
+    /// Print the completions for a shell.
+    Completions(Completions),
+    /// Print the manual page.
+    Man,
     /// Run the language server on standard input and output.
     Lsp(Lsp),
 }
@@ -172,6 +184,24 @@ pub(crate) struct Check {
     /// otherwise motion.
     #[arg(long, value_enum)]
     pub(crate) scope: Option<CheckScope>,
+    /// Write the result to this file instead of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Accept the findings of this baseline: they are counted, but do not fail. A finding that got worse is not accepted.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) baseline: Option<PathBuf>,
+    /// Write all findings to this baseline and end with status 0.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) write_baseline: Option<PathBuf>,
+    /// Also print how many findings each rule has.
+    #[arg(long)]
+    pub(crate) statistics: bool,
+    /// Keep results in this folder, and skip files that did not change since.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) cache: Option<PathBuf>,
+    /// Check again whenever a file changes, until interrupted.
+    #[arg(long)]
+    pub(crate) watch: bool,
     /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
     #[arg(long, default_value_t = 200)]
     pub(crate) limit: usize,
@@ -183,6 +213,26 @@ pub(crate) enum CheckFormat {
     Pretty,
     Short,
     Json,
+    /// SARIF 2.1.0, for code scanning.
+    Sarif,
+    /// JUnit XML, for test reports.
+    Junit,
+    /// Annotations in a GitHub workflow.
+    Github,
+}
+
+impl CheckFormat {
+    /// As it is written on the command line.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Pretty => "pretty",
+            Self::Short => "short",
+            Self::Json => "json",
+            Self::Sarif => "sarif",
+            Self::Junit => "junit",
+            Self::Github => "github",
+        }
+    }
 }
 
 /// `trace`

@@ -1,21 +1,33 @@
 //! The command line arguments; docs/commands.md lists the commands.
+mod check;
 mod fix;
 mod people;
 
+pub(crate) use check::{Check, CheckFormat};
 pub(crate) use fix::Fix;
 pub(crate) use people::{Completions, Init, Report, Schema};
 
 use super::{
-    check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
+    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
     surface::Surface,
 };
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
 
+/// What the help ends with.
+const EXAMPLES: &str = "\
+Examples:
+  trunnion init --machine mill-3axis            settings for the programs of this folder
+  trunnion check part.nc                        the verdict on a program
+  trunnion check . --format sarif -o out.sarif  a gate in CI
+  trunnion report part.nc -o part.html          one page for people
+
+Exit status: 0 nothing found at the --deny level, 1 something found, 2 the job could not be done.";
+
 /// Checks NC programs against the machine that will run them.
 #[derive(Parser)]
-#[command(name = "trunnion", version, about, max_term_width = 110)]
+#[command(name = "trunnion", version, about, max_term_width = 110, after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) global: Global,
@@ -25,6 +37,7 @@ pub(crate) struct Args {
 
 /// Options every command takes.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Options of all commands")]
 pub(crate) struct Global {
     /// The machine: the name of an embedded one (`trunnion machine list`) or a TOML file.
     #[arg(long, global = true, value_name = "NAME|FILE")]
@@ -169,70 +182,6 @@ pub(crate) enum Command {
     Man,
     /// Run the language server on standard input and output.
     Lsp(Lsp),
-}
-
-/// `check`
-#[derive(clap::Args)]
-pub(crate) struct Check {
-    /// Files and directories; `-` reads standard input.
-    #[arg(required = true)]
-    pub(crate) paths: Vec<PathBuf>,
-    /// Output format. Default: pretty on a terminal, otherwise short.
-    #[arg(long, value_enum)]
-    pub(crate) format: Option<CheckFormat>,
-    /// How much is judged: the text, also the programmed motions, also the axes of the machine. Default: machine where one is named,
-    /// otherwise motion.
-    #[arg(long, value_enum)]
-    pub(crate) scope: Option<CheckScope>,
-    /// Write the result to this file instead of standard output.
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
-    /// Accept the findings of this baseline: they are counted, but do not fail. A finding that got worse is not accepted.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) baseline: Option<PathBuf>,
-    /// Write all findings to this baseline and end with status 0.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) write_baseline: Option<PathBuf>,
-    /// Also print how many findings each rule has.
-    #[arg(long)]
-    pub(crate) statistics: bool,
-    /// Keep results in this folder, and skip files that did not change since.
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) cache: Option<PathBuf>,
-    /// Check again whenever a file changes, until interrupted.
-    #[arg(long)]
-    pub(crate) watch: bool,
-    /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
-    #[arg(long, default_value_t = 200)]
-    pub(crate) limit: usize,
-}
-
-/// Formats of `check`.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CheckFormat {
-    Pretty,
-    Short,
-    Json,
-    /// SARIF 2.1.0, for code scanning.
-    Sarif,
-    /// JUnit XML, for test reports.
-    Junit,
-    /// Annotations in a GitHub workflow.
-    Github,
-}
-
-impl CheckFormat {
-    /// As it is written on the command line.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Pretty => "pretty",
-            Self::Short => "short",
-            Self::Json => "json",
-            Self::Sarif => "sarif",
-            Self::Junit => "junit",
-            Self::Github => "github",
-        }
-    }
 }
 
 /// `trace`

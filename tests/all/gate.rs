@@ -4,6 +4,7 @@
 mod baseline;
 mod formats;
 mod people;
+mod python;
 mod recipes;
 mod schemas;
 mod tutorials;

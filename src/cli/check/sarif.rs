@@ -42,7 +42,7 @@ pub(super) fn tail(artifacts: &[String], tally: &Tally, statistics: bool) -> Str
 }
 
 fn tool() -> Value {
-    let rules: Vec<Value> = rules()
+    let all: Vec<Value> = rules()
         .iter()
         .map(|rule| {
             let guarantee = if rule.guarantee == Guarantee::Sound {
@@ -52,7 +52,6 @@ fn tool() -> Value {
             };
             json!({
                 "id": rule.name,
-                "name": pascal(rule.name),
                 "shortDescription": { "text": rule.summary() },
                 "fullDescription": { "text": rule.summary() },
                 "help": { "text": rule.docs, "markdown": rule.docs },
@@ -65,19 +64,8 @@ fn tool() -> Value {
         "name": "trunnion",
         "version": env!("CARGO_PKG_VERSION"),
         "semanticVersion": env!("CARGO_PKG_VERSION"),
-        "rules": rules,
+        "rules": all,
     }})
-}
-
-/// `pole-flip` as `PoleFlip`.
-fn pascal(name: &str) -> String {
-    let upper = |word: &str| {
-        let mut signs = word.chars();
-        signs.next().map_or_else(String::new, |first| {
-            first.to_ascii_uppercase().to_string() + signs.as_str()
-        })
-    };
-    name.split('-').map(upper).collect()
 }
 
 fn level(severity: &str) -> &'static str {
@@ -217,8 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_places_are_those_of_sarif() {
-        assert_eq!(pascal("pole-flip"), "PoleFlip");
+    fn places_are_those_of_sarif() {
         assert_eq!(location("./a b/ä.nc")["uri"], "a%20b/%C3%A4.nc");
         assert_eq!(location("/x/y#1.nc")["uri"], "file:///x/y%231.nc");
         assert_eq!(location("<stdin>")["uri"], "%3Cstdin%3E");

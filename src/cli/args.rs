@@ -7,10 +7,7 @@ pub(crate) use check::{Check, CheckFormat};
 pub(crate) use fix::Fix;
 pub(crate) use people::{Completions, Init, Report, Schema};
 
-use super::{
-    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
-    surface::Surface,
-};
+use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;

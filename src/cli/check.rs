@@ -79,17 +79,10 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
     for file in &found.files {
         outputs.input(file);
     }
-    let target = command
-        .output
-        .as_deref()
-        .map(|path| outputs.output("-o", path))
-        .transpose()?;
-    let to_baseline = command.write_baseline.as_deref();
-    let to_baseline = to_baseline
-        .map(|path| outputs.output("--write-baseline", path))
-        .transpose()?;
+    let mut output = |option: &str, path: Option<&PathBuf>| path.map(|path| outputs.output(option, path)).transpose();
+    let target = output("-o", command.output.as_ref())?;
+    let to_baseline = output("--write-baseline", command.write_baseline.as_ref())?;
     let baseline = command.baseline.as_deref().map(Baseline::read).transpose()?;
-    let mut accepted = Accepted::new(command.write_baseline.as_deref());
     let cache = command.cache.as_deref().map(Cache::open).transpose()?;
     let job = Job {
         global,
@@ -98,67 +91,23 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
         baseline: baseline.as_ref(),
         cache: cache.as_ref(),
     };
-
-    let bar = progress(global, found.files.len());
+    let mut accepted = Accepted::new(command.write_baseline.as_deref());
     let mut tally = Tally::default();
-    for failure in &found.failures {
-        failure.print();
-        tally.not_checked.push(json::NotChecked::of(failure));
-    }
-    let mut kept = Vec::new();
-    let mut standard = Out::standard();
-    let out: &mut dyn Write = if target.is_some() { &mut kept } else { &mut standard };
-    let mut document = Document::new(format, out);
-    document.begin()?;
-    let mut last_lines = Vec::new();
-    let mut failed = None;
-    each(&job, &found.files, &bar, &mut tally, &mut |file| {
-        accepted.take(&file);
-        bar.suspend(|| {
-            if let Err(error) = document.file(&file) {
-                failed.get_or_insert(error);
-            }
-            if format == CheckFormat::Pretty && target.is_none() {
-                last_lines.push(file.line);
-            } else if format == CheckFormat::Github && target.is_none() {
-                let _ = document.line(&file.line);
-            } else if format == CheckFormat::Short || target.is_some() {
-                document.flush();
-                remark(global.quiet, &file.line);
-            }
-        });
-    });
-    bar.finish_and_clear();
-    if let Some(error) = failed {
-        return Err(error.into());
-    }
-    document.end(&tally, command.statistics)?;
-    for line in last_lines.iter().filter(|_| !global.quiet) {
-        let _ = document.line(line);
-    }
-    if found.walked && !global.quiet {
-        let line = tally.line();
-        match format {
-            CheckFormat::Pretty | CheckFormat::Github if target.is_none() => {
-                let _ = document.line(&line);
-            }
-            CheckFormat::Json | CheckFormat::Sarif | CheckFormat::Junit if target.is_none() => {}
-            _ => remark(false, &line),
-        }
-    }
-    document.flush();
-    drop(standard);
     if let Some(target) = target {
+        let mut kept = Vec::new();
+        print(&job, &found, &mut tally, &mut accepted, &mut kept)?;
         target.write(&kept, None)?;
+    } else {
+        print(&job, &found, &mut tally, &mut accepted, &mut Out::standard())?;
     }
-    if let Some(target) = to_baseline {
+    if let Some((target, path)) = to_baseline.zip(command.write_baseline.as_ref()) {
         if !tally.not_checked.is_empty() {
             return Err(Failure::new(
                 "not every file could be checked (see above), so no baseline was written",
             ));
         }
         target.write(accepted.document().as_bytes(), None)?;
-        remark(global.quiet, &accepted.remark(&target_name(command)));
+        remark(global.quiet, &accepted.remark(&path.display().to_string()));
         return Ok(Done::Clean);
     }
     if let Some(baseline) = &baseline {
@@ -170,9 +119,89 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
     Ok(if tally.found { Done::Found } else { Done::Clean })
 }
 
-fn target_name(command: &Check) -> String {
-    let path = command.write_baseline.as_ref();
-    path.map_or_else(String::new, |path| path.display().to_string())
+/// Where the lines with the verdicts go.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Lines {
+    /// Into the document, after all files.
+    Last,
+    /// Into the document, after their file.
+    Here,
+    /// To standard error.
+    Remarks,
+    /// Nowhere: the document has the verdicts itself.
+    Nowhere,
+}
+
+impl Lines {
+    fn of(job: &Job<'_>) -> Self {
+        match job.format {
+            _ if job.command.output.is_some() => Self::Remarks,
+            CheckFormat::Pretty => Self::Last,
+            CheckFormat::Github => Self::Here,
+            CheckFormat::Short => Self::Remarks,
+            CheckFormat::Json | CheckFormat::Sarif | CheckFormat::Junit => Self::Nowhere,
+        }
+    }
+}
+
+/// Checks the files and writes the document.
+fn print(
+    job: &Job<'_>,
+    found: &walk::Found,
+    tally: &mut Tally,
+    accepted: &mut Accepted,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let quiet = job.global.quiet;
+    let lines = Lines::of(job);
+    for failure in &found.failures {
+        failure.print();
+        tally.not_checked.push(json::NotChecked::of(failure));
+    }
+    let bar = progress(job.global, found.files.len());
+    let mut document = Document::new(job.format, out);
+    document.begin()?;
+    let mut last_lines = Vec::new();
+    let mut failed = None;
+    each(job, &found.files, &bar, tally, &mut |file| {
+        accepted.take(&file);
+        bar.suspend(|| {
+            if let Err(error) = document.file(&file) {
+                failed.get_or_insert(error);
+            }
+            match lines {
+                Lines::Last => last_lines.push(file.line),
+                Lines::Here if !quiet => {
+                    // standard output keeps its errors for the end
+                    let _ = document.line(&file.line);
+                }
+                Lines::Remarks => {
+                    document.flush();
+                    remark(quiet, &file.line);
+                }
+                Lines::Here | Lines::Nowhere => {}
+            }
+        });
+    });
+    bar.finish_and_clear();
+    if let Some(error) = failed {
+        return Err(error.into());
+    }
+    document.end(tally, job.command.statistics)?;
+    if !quiet {
+        last_lines.extend(found.walked.then(|| tally.line()));
+        match lines {
+            Lines::Last | Lines::Here => {
+                for line in &last_lines {
+                    let _ = document.line(line);
+                }
+            }
+            Lines::Remarks => last_lines.iter().for_each(|line| remark(false, line)),
+            Lines::Nowhere => {}
+        }
+    }
+    document.flush();
+    Ok(())
 }
 
 /// The result of all files together.

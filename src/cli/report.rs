@@ -56,7 +56,11 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     target.write(page::page(&parts, &failures).as_bytes(), None)?;
     remark(
         global.quiet,
-        &format!("{}: {}", command.output.display(), super::render::counted(parts.len() as u64, "program")),
+        &format!(
+            "{}: {}",
+            command.output.display(),
+            super::render::counted(parts.len() as u64, "program")
+        ),
     );
     if !failures.is_empty() {
         return Err(Failure::new("not every file could be checked (see above)"));

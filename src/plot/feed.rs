@@ -35,7 +35,11 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     } else {
         [0.0, top]
     };
-    let across = range(record.samples.iter().map(|sample| sample.way), 1e-3);
+    // the cuts alone: a rapid to a far tool change would leave no room for them
+    let across = range(
+        cuts.iter().flat_map(|block| record.of(block)).map(|sample| sample.way),
+        1e-3,
+    );
     let across = [across[0].max(0.0), across[1]];
     let low = cuts
         .iter()

@@ -1,6 +1,6 @@
 //! One checked file, in the form that is printed: texts and counts, so that it can be kept in a cache.
 use super::{
-    baseline::{Baseline, Entry},
+    baseline::{self, Baseline, Entry},
     cache::{self, Cache},
     fingerprint, github, junit, sarif, statistics,
 };
@@ -97,12 +97,12 @@ impl Job<'_> {
     pub(super) fn check(&self, path: &Path) -> Result<Checked, Failure> {
         let opened = load::open(self.global, path)?;
         let Some((cache, key)) = self.cache.zip(self.key(path, &opened)) else {
-            return Ok(self.judge(opened.parse()).0);
+            return Ok(self.judge(&opened.parse()).0);
         };
         if let Some(checked) = cache.get(&key) {
             return Ok(checked);
         }
-        let (checked, alone) = self.judge(opened.parse());
+        let (checked, alone) = self.judge(&opened.parse());
         if alone {
             cache.put(&key, &checked);
         }
@@ -138,42 +138,22 @@ impl Job<'_> {
     }
 
     /// The judgement, and whether it depends on no file but those of the key.
-    fn judge(&self, loaded: Loaded) -> (Checked, bool) {
+    fn judge(&self, loaded: &Loaded) -> (Checked, bool) {
         let mut settings = loaded.resolved.settings();
         settings.scope = self.command.scope.map(super::CheckScope::scope);
         let mut report = trunnion_check::check(&loaded.program, &settings);
-        let lines = LineIndex::new(loaded.program.source());
-        let all_marks = fingerprint::of_all(&loaded, &report);
-        let key = self.baseline.map(|baseline| baseline.key(Path::new(&loaded.name)));
+        let marks = fingerprint::of_all(loaded, &report);
+        let entries = self.entries(loaded, &report, &marks);
         let known = self
             .baseline
-            .zip(key.as_deref())
-            .and_then(|(baseline, key)| baseline.of(key));
-        let entries = match &self.command.write_baseline {
-            Some(file) => {
-                let entry = |(d, mark): (&Diagnostic, &String)| Entry::of(d, mark);
-                let all = report.diagnostics.iter().zip(&all_marks).map(entry).collect();
-                (super::baseline::key(file, Path::new(&loaded.name)), all)
-            }
-            None => Default::default(),
-        };
-        let mut marks = Vec::new();
-        let mut accepted_marks = Vec::new();
-        let mut next = all_marks.iter();
-        let accepted = report.take_out(|d| {
-            let Some(mark) = next.next() else { return false };
-            let is_known = known.is_some_and(|known| known.get(mark).is_some_and(|entry| entry.covers(d)));
-            let list = if is_known { &mut accepted_marks } else { &mut marks };
-            list.push(mark.clone());
-            is_known
-        });
+            .and_then(|baseline| baseline.of(&baseline.key(Path::new(&loaded.name))));
+        let split = Split::of(&mut report, marks, known);
         let deny = self.global.deny.severity();
         let verdict = match report.verdict(deny) {
             // what is accepted is not decided by that
-            Verdict::Pass if accepted.iter().any(|d| d.status == Status::Unknown) => Verdict::Unknown,
+            Verdict::Pass if split.accepted.iter().any(|d| d.status == Status::Unknown) => Verdict::Unknown,
             verdict => verdict,
         };
-        let gone = known.map_or(0, |known| known.len() - accepted_marks.len().min(known.len())) as u64;
         let judged = Judged {
             name: &loaded.name,
             verdict,
@@ -185,54 +165,108 @@ impl Job<'_> {
             scope: settings.scope(),
             coverage: &report.coverage,
             assumptions: &report.assumptions,
-            accepted: accepted.len(),
+            accepted: split.accepted.len(),
         };
-        let color = self.format == CheckFormat::Pretty && self.command.output.is_none() && self.global.color.on();
-        let line = render::verdict_line(&judged, color);
-        let limit = self.command.limit;
-        let mut about = String::new();
-        let text = match self.format {
-            CheckFormat::Pretty => render::pretty(&loaded, &lines, &report, limit, color),
-            CheckFormat::Short => shown(&short::short(&loaded, &lines, &report, limit)).into_owned(),
-            format => {
-                let outcome = (verdict, settings.scope());
-                let file = json::file(
-                    &loaded,
-                    &lines,
-                    (&report, &marks),
-                    (&accepted, &accepted_marks),
-                    outcome,
-                );
-                let denied = |item: &json::Item| is_denied(item.severity, item.status, deny, self.global.strict);
-                match format {
-                    CheckFormat::Sarif => {
-                        about = sarif::artifact(&file);
-                        sarif::results(&file)
-                    }
-                    CheckFormat::Junit => junit::suite(&file, &line, denied),
-                    CheckFormat::Github => github::annotations(&file, denied),
-                    _ => serde_json::to_string_pretty(&file)
-                        .unwrap_or_default()
-                        .replace('\n', "\n    "),
-                }
-            }
-        };
-        let found = is_found(&report, deny, self.global.strict);
+        let line = render::verdict_line(&judged, self.colour());
+        let (text, about) = self.text(loaded, &report, &split, &judged, &line);
         let checked = Checked {
             text,
             about,
             line,
             verdict: verdict.name().to_owned(),
-            summary: Counts::of(&report.summary, accepted.len()),
+            summary: Counts::of(&report.summary, split.accepted.len()),
             machine: judged.machine.map(str::to_owned),
-            found,
+            found: is_found(&report, deny, self.global.strict),
             explanation: loaded.explanation(),
             rules: statistics::of(&report),
             entries,
-            gone,
+            gone: split.gone,
             name: loaded.name.clone(),
         };
         (checked, !loaded.resolved.looked_for_subprograms())
+    }
+
+    fn colour(&self) -> bool {
+        self.format == CheckFormat::Pretty && self.command.output.is_none() && self.global.color.on()
+    }
+
+    /// For the baseline that is written.
+    fn entries(&self, loaded: &Loaded, report: &Report, marks: &[String]) -> (String, Vec<Entry>) {
+        let Some(file) = &self.command.write_baseline else {
+            return Default::default();
+        };
+        let all = report.diagnostics.iter().zip(marks);
+        let all = all.map(|(d, mark)| Entry::of(d, mark)).collect();
+        (baseline::key(file, Path::new(&loaded.name)), all)
+    }
+
+    /// The parts of the document.
+    fn text(
+        &self,
+        loaded: &Loaded,
+        report: &Report,
+        split: &Split,
+        judged: &Judged<'_>,
+        line: &str,
+    ) -> (String, String) {
+        let lines = LineIndex::new(loaded.program.source());
+        let limit = self.command.limit;
+        match self.format {
+            CheckFormat::Pretty => {
+                let text = render::pretty(loaded, &lines, report, limit, self.colour());
+                return (text, String::new());
+            }
+            CheckFormat::Short => {
+                let text = shown(&short::short(loaded, &lines, report, limit)).into_owned();
+                return (text, String::new());
+            }
+            CheckFormat::Json | CheckFormat::Sarif | CheckFormat::Junit | CheckFormat::Github => {}
+        }
+        let accepted = (split.accepted.as_slice(), split.accepted_marks.as_slice());
+        let outcome = (judged.verdict, judged.scope);
+        let file = json::file(loaded, &lines, (report, &split.marks), accepted, outcome);
+        let deny = self.global.deny.severity();
+        let denied = |item: &json::Item| is_denied(item.severity, item.status, deny, self.global.strict);
+        match self.format {
+            CheckFormat::Sarif => (sarif::results(&file), sarif::artifact(&file)),
+            CheckFormat::Junit => (junit::suite(&file, line, denied), String::new()),
+            CheckFormat::Github => (github::annotations(&file, denied), String::new()),
+            _ => {
+                let text = serde_json::to_string_pretty(&file).unwrap_or_default();
+                (text.replace('\n', "\n    "), String::new())
+            }
+        }
+    }
+}
+
+/// The findings of a report with what the baseline accepts taken out.
+struct Split {
+    /// Fingerprints of the findings that are left in the report.
+    marks: Vec<String>,
+    accepted: Vec<Diagnostic>,
+    accepted_marks: Vec<String>,
+    /// How many findings of the baseline are not found any more.
+    gone: u64,
+}
+
+impl Split {
+    fn of(report: &mut Report, all: Vec<String>, known: Option<&BTreeMap<String, Entry>>) -> Self {
+        let (mut marks, mut accepted_marks) = (Vec::new(), Vec::new());
+        let mut next = all.into_iter();
+        let accepted = report.take_out(|d| {
+            let Some(mark) = next.next() else { return false };
+            let is_known = known.is_some_and(|known| known.get(&mark).is_some_and(|entry| entry.covers(d)));
+            let list = if is_known { &mut accepted_marks } else { &mut marks };
+            list.push(mark);
+            is_known
+        });
+        let gone = known.map_or(0, |known| known.len().saturating_sub(accepted_marks.len())) as u64;
+        Self {
+            marks,
+            accepted,
+            accepted_marks,
+            gone,
+        }
     }
 }
 

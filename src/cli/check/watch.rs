@@ -66,7 +66,14 @@ fn state(global: &Global, command: &Check) -> State {
         }
         // a called program, a machine file
         for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-            add(entry.path());
+            let path = entry.path();
+            let name = entry.file_name();
+            let kind = path.extension();
+            // not a log that this very command writes
+            if kind.is_none_or(|kind| kind == "toml") || trunnion_dialect::is_program_file_name(&name.to_string_lossy())
+            {
+                add(path);
+            }
         }
     }
     let named = global.machine.iter().map(PathBuf::from).chain(global.config.clone());

@@ -117,9 +117,9 @@ pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
     for (at, part) in parts.iter().enumerate() {
         program(&mut out, at, part);
     }
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "<script>\n{}</script>\n</body>\n</html>\n",
+        "<script>\n{}</script>\n</body>\n</html>",
         include_str!("replay.js")
     );
     out
@@ -127,9 +127,9 @@ pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
 
 fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
     let count = |verdict| parts.iter().filter(|part| part.verdict == verdict).count();
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "<section><h2>Overview</h2><p>{} pass, {} fail, {} unknown, {} not checked</p><table><tr><th>verdict</th><th>program</th></tr>\n",
+        "<section><h2>Overview</h2><p>{} pass, {} fail, {} unknown, {} not checked</p><table><tr><th>verdict</th><th>program</th></tr>",
         count(Verdict::Pass),
         count(Verdict::Fail),
         count(Verdict::Unknown),
@@ -156,9 +156,9 @@ fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
 
 fn program(out: &mut String, at: usize, part: &Part) {
     let verdict = part.verdict.name();
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "<article id=\"p{at}\"><h2><span class=\"badge {verdict}\">{}</span> {}</h2>\n<p class=\"line\">{}</p>\n",
+        "<article id=\"p{at}\"><h2><span class=\"badge {verdict}\">{}</span> {}</h2>\n<p class=\"line\">{}</p>",
         word(part.verdict),
         escape(&part.name),
         escape(&part.line)
@@ -177,11 +177,7 @@ fn program(out: &mut String, at: usize, part: &Part) {
         }
         out.push_str("</ul>");
     }
-    let _ = write!(
-        out,
-        "</section>\n<section><h3>Findings ({})</h3>\n",
-        part.findings.len()
-    );
+    let _ = writeln!(out, "</section>\n<section><h3>Findings ({})</h3>", part.findings.len());
     if part.findings.is_empty() {
         out.push_str("<p>None.</p>");
     }
@@ -210,8 +206,8 @@ fn program(out: &mut String, at: usize, part: &Part) {
         out.push_str("<section class=\"pictures\"><h3>Pictures</h3>\n");
         for (title, picture) in &part.pictures {
             let _ = match picture {
-                Ok(svg) => write!(out, "<figure><figcaption>{title}</figcaption>{svg}</figure>\n"),
-                Err(why) => write!(out, "<p>{title}: {}</p>\n", escape(why)),
+                Ok(svg) => writeln!(out, "<figure><figcaption>{title}</figcaption>{svg}</figure>"),
+                Err(why) => writeln!(out, "<p>{title}: {}</p>", escape(why)),
             };
         }
         out.push_str("</section>\n");
@@ -241,7 +237,7 @@ fn program(out: &mut String, at: usize, part: &Part) {
 }
 
 fn replay(out: &mut String, data: &str) {
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<section class=\"replay\"><h3>Replay</h3>\n<canvas width=\"1100\" height=\"560\" tabindex=\"0\" aria-label=\"The path of the tool tip in \
          space\"></canvas>\n<div class=\"controls\"><button type=\"button\" data-do=\"play\">Play</button>\
@@ -249,8 +245,8 @@ fn replay(out: &mut String, data: &str) {
          <button type=\"button\" data-do=\"iso\">Iso</button><button type=\"button\" data-do=\"front\">Front</button>\
          <button type=\"button\" data-do=\"right\">Right</button><button type=\"button\" data-do=\"top\">Top</button></div>\n\
          <p class=\"state\"></p><pre class=\"now\"></pre>\n\
-         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Red squares: findings. Drag to turn, scroll to zoom, shift and drag to move.</p>\n\
-         <script type=\"application/json\">{data}</script></section>\n"
+         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Red squares: findings about axes. Drag to turn, scroll to zoom, shift and drag to move.</p>\n\
+         <script type=\"application/json\">{data}</script></section>"
     );
 }
 

@@ -141,3 +141,37 @@ fn hostile_names_and_comments_stay_text() {
     assert!(!page.contains("<img") && !page.contains("<b>&amp;"));
     assert!(page.contains("a&lt;img src=x&gt;&amp;&#39;&quot;b.nc"));
 }
+
+/// Waits for a text to stand in a file so many times.
+fn wait_for(file: &Path, text: &str, times: usize) {
+    for _ in 0..1200 {
+        if fs::read_to_string(file).is_ok_and(|all| all.matches(text).count() >= times) {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    panic!("{text} does not stand {times} times in {:?}", fs::read_to_string(file));
+}
+
+#[test]
+fn watching_checks_again_when_a_program_changes() {
+    let folder = folder();
+    let log = folder.path().join("watch.log");
+    let written = fs::File::create(&log).expect("created");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
+        .args(["check", "bad.nc", "--watch"])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(written)
+        .spawn()
+        .expect("runs");
+    wait_for(&log, "watching", 1);
+    write(&folder, "bad.nc", super::GOOD);
+    wait_for(&log, "watching", 2);
+    child.kill().expect("ended");
+    child.wait().expect("ended");
+    let said = fs::read_to_string(&log).expect("read");
+    assert!(said.contains("FAIL bad.nc") && said.contains("PASS bad.nc"), "{said}");
+    // its own log is in the folder and is no reason to check again
+    assert_eq!(said.matches("watching").count(), 2, "{said}");
+}

@@ -11,7 +11,10 @@ fn python(folder: &TempDir, code: &str) -> Option<String> {
     let old = std::env::var("PATH").unwrap_or_default();
     let run = |code: &str| {
         let mut command = Command::new("python3");
-        command.args(["-B", "-c", code]).current_dir(folder.path()).env("PYTHONPATH", &module);
+        command
+            .args(["-B", "-c", code])
+            .current_dir(folder.path())
+            .env("PYTHONPATH", &module);
         command.env("PATH", format!("{}:{old}", built.display())).output()
     };
     if !run("import numpy").is_ok_and(|output| output.status.success()) {
@@ -33,14 +36,25 @@ fn check_and_trace_are_those_of_the_command_line() {
         print(json.dumps([report['files'][0]['verdict'], report['summary'], len(rows), rows['joint_c'].tolist()[-5:], rows['motion'][-1], str(rows['line'].dtype)]))";
     let Some(said) = python(&folder, code) else { return };
     let said: serde_json::Value = serde_json::from_str(&said).expect("JSON");
-    let base = [str(&file), "--machine", "mikron-ucp710", "--dialect", "fanuc-30i", "--format", "json"];
+    let base = [
+        str(&file),
+        "--machine",
+        "mikron-ucp710",
+        "--dialect",
+        "fanuc-30i",
+        "--format",
+        "json",
+    ];
     let report = json(&trunnion(&[&["check"][..], &base[..]].concat()));
     let trace = json(&trunnion(&[&["trace"][..], &base[..]].concat()));
     assert_eq!(said[0], report["files"][0]["verdict"]);
     assert_eq!(said[1], report["summary"]);
     let rows = trace["rows"].as_array().expect("rows");
     assert_eq!(said[2], rows.len());
-    let last: Vec<_> = rows[rows.len() - 5..].iter().map(|row| row["joint_c"].clone()).collect();
+    let last: Vec<_> = rows[rows.len() - 5..]
+        .iter()
+        .map(|row| row["joint_c"].clone())
+        .collect();
     assert_eq!(said[3], serde_json::Value::Array(last));
     assert_eq!((&said[4], &said[5]), (&"linear".into(), &"int64".into()));
 }

@@ -26,7 +26,9 @@ fn schema(name: &str) -> Value {
 fn wrong(name: &str, document: &Value) -> Option<String> {
     let (mut schemas, mut compiler) = (boon::Schemas::new(), boon::Compiler::new());
     compiler.add_resource("schema.json", schema(name)).expect("added");
-    let index = compiler.compile("schema.json", &mut schemas).unwrap_or_else(|error| panic!("{name}: {error:#}"));
+    let index = compiler
+        .compile("schema.json", &mut schemas)
+        .unwrap_or_else(|error| panic!("{name}: {error:#}"));
     let wrong = schemas.validate(document, index).err();
     wrong.map(|error| format!("{error:#}"))
 }

@@ -33,12 +33,11 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
         }
     }
     target.write(text(global, &dialects).as_bytes(), None)?;
-    let read = match dialects.len() {
-        0 => "no program was found there".to_owned(),
-        _ => {
-            let each: Vec<String> = dialects.iter().map(|(name, count)| format!("{count} {name}")).collect();
-            format!("programs found: {}", each.join(", "))
-        }
+    let read = if dialects.is_empty() {
+        "no program was found there".to_owned()
+    } else {
+        let each: Vec<String> = dialects.iter().map(|(name, count)| format!("{count} {name}")).collect();
+        format!("programs found: {}", each.join(", "))
     };
     remark(global.quiet, &format!("{}: written; {read}", file.display()));
     let next = format!(

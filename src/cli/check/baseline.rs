@@ -55,12 +55,14 @@ impl Entry {
 
 /// The numbers of a finding that say how bad it is.
 fn badness(d: &Diagnostic) -> impl Iterator<Item = (String, f64)> {
-    d.values.iter().filter_map(|(key, value)| match value {
+    // more blocks with it are more of it
+    let count = core::iter::once(("count".to_owned(), f64::from(d.count)));
+    count.chain(d.values.iter().filter_map(|(key, value)| match value {
         ValueKey::Number(number) if number.is_finite() && BADNESS.iter().any(|word| key.starts_with(word)) => {
             Some(((*key).to_owned(), *number))
         }
         _ => None,
-    })
+    }))
 }
 
 /// The file.

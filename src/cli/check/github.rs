@@ -61,10 +61,7 @@ mod tests {
 
     #[test]
     fn nothing_in_a_name_ends_the_command() {
-        assert_eq!(
-            property("a,b:c%\n::error::x"),
-            "a%2Cb%3Cc%25%0A%3A%3Aerror%3A%3Ax".replace("%3Cc", "%3Ac")
-        );
+        assert_eq!(property("a,b:c%\n::error::x"), "a%2Cb%3Ac%25%0A%3A%3Aerror%3A%3Ax");
         assert_eq!(data("a\x1b[0m"), "a\\x1b[0m");
     }
 }

@@ -193,7 +193,7 @@ impl Job<'_> {
     /// For the baseline that is written.
     fn entries(&self, loaded: &Loaded, report: &Report, marks: &[String]) -> (String, Vec<Entry>) {
         let Some(file) = &self.command.write_baseline else {
-            return Default::default();
+            return (String::new(), Vec::new());
         };
         let all = report.diagnostics.iter().zip(marks);
         let all = all.map(|(d, mark)| Entry::of(d, mark)).collect();

@@ -5,6 +5,7 @@
 use super::Tally;
 use crate::cli::json::{File, Item};
 use serde_json::{Value, json};
+use std::fmt::Write;
 use trunnion_check::{Guarantee, rules};
 
 /// The name under which the fingerprint is published; a change of how it is computed needs a new one.
@@ -194,7 +195,7 @@ fn encode(path: &str) -> String {
         if byte.is_ascii_alphanumeric() || b"-._~/!$&'()*+,;=@".contains(&byte) {
             out.push(char::from(byte));
         } else {
-            out.push_str(&format!("%{byte:02X}"));
+            let _ = write!(out, "%{byte:02X}");
         }
     }
     out

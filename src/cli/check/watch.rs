@@ -9,7 +9,7 @@ use crate::cli::{
     load, walk,
 };
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     path::PathBuf,
     thread,
     time::{Duration, SystemTime},
@@ -52,15 +52,15 @@ fn state(global: &Global, command: &Check) -> State {
         state.insert(path, seen);
     };
     let found = walk::programs(&command.paths).unwrap_or_default();
-    let mut folders = BTreeMap::new();
+    let mut folders = BTreeSet::new();
     for file in &found.files {
         let folder = std::fs::canonicalize(file).unwrap_or_else(|_| file.clone());
         if let Some(folder) = folder.parent() {
-            folders.insert(folder.to_owned(), ());
+            folders.insert(folder.to_owned());
         }
         add(file.clone());
     }
-    for folder in folders.keys() {
+    for folder in &folders {
         for above in folder.ancestors() {
             add(above.join("trunnion.toml"));
         }

@@ -217,15 +217,15 @@ fn program(out: &mut String, at: usize, part: &Part) {
     }
     for table in part.sheet.iter().filter(|table| !table.rows.is_empty()) {
         let _ = write!(out, "<h4>{}</h4><table><tr>", table.title);
-        table.head.iter().for_each(|cell| {
+        for cell in &table.head {
             let _ = write!(out, "<th>{cell}</th>");
-        });
+        }
         out.push_str("</tr>\n");
         for row in &table.rows {
             out.push_str("<tr>");
-            row.iter().for_each(|cell| {
+            for cell in row {
                 let _ = write!(out, "<td>{}</td>", escape(cell));
-            });
+            }
             out.push_str("</tr>\n");
         }
         out.push_str("</table>\n");

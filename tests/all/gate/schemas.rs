@@ -172,7 +172,7 @@ fn keys(schema: &Value, found: &mut BTreeSet<String>) {
     if let Some(properties) = schema["properties"].as_object() {
         found.extend(properties.keys().cloned());
     }
-    let inner = schema.as_object().into_iter().flat_map(|object| object.values());
+    let inner = schema.as_object().into_iter().flat_map(serde_json::Map::values);
     let inner = inner.chain(schema.as_array().into_iter().flatten());
     inner.for_each(|value| keys(value, found));
 }

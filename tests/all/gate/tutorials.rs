@@ -7,7 +7,7 @@ fn blocks(page: &str) -> Vec<(String, bool)> {
     let mut found = Vec::new();
     let mut before = "";
     for (at, part) in page.split("```").enumerate() {
-        if at % 2 == 0 {
+        if at.is_multiple_of(2) {
             before = part.trim().rsplit("\n\n").next().unwrap_or_default();
         } else if let Some(text) = part.strip_prefix("sh\n") {
             found.push((text.to_owned(), before.contains("status 1")));
@@ -31,22 +31,21 @@ fn follow(name: &str, own_folder: bool) {
             fs::copy(entry.path(), samples.join(entry.file_name())).expect("copied");
         }
     }
-    let mut script = format!(
-        "PATH={:?}:$PATH\n",
-        Path::new(env!("CARGO_BIN_EXE_trunnion")).parent().expect("a folder")
-    );
+    let built = Path::new(env!("CARGO_BIN_EXE_trunnion")).parent().expect("a folder");
+    let mut script = format!("PATH='{}':$PATH\n", built.display());
     let blocks = blocks(&page);
     assert!(blocks.len() >= 4, "{name}: {} blocks", blocks.len());
     for (text, fails) in &blocks {
         let last = text.trim_end();
-        if *fails {
-            script.push_str(&format!(
-                "status=0\n{last} || status=$?\n[ $status = 1 ] || {{ echo \"status $status: {}\"; exit 9; }}\n",
-                last.replace('"', "'")
-            ));
+        let line = if *fails {
+            let shown = last.replace('"', "'");
+            format!(
+                "status=0\n{last} || status=$?\n[ $status = 1 ] || {{ echo \"status $status: {shown}\"; exit 9; }}\n"
+            )
         } else {
-            script.push_str(&format!("{last}\n"));
-        }
+            format!("{last}\n")
+        };
+        script.push_str(&line);
     }
     let output = Command::new("bash")
         .args(["-e", "-c", &script])

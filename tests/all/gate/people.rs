@@ -78,7 +78,7 @@ fn a_report_holds_everything_in_one_page() {
         "FAIL",
         "pole-flip",
         "Coverage",
-        "Assumptions",
+        "Nothing is assumed",
         "Set-up sheet",
         "Joints",
         "Axis plane",

@@ -73,6 +73,24 @@ fn the_first_winding_is_chosen_for_what_comes() {
     );
 }
 
+/// Where the same posture would need more than half a turn, a cut does not change the posture instead: the pole is not inside it.
+#[test]
+fn no_posture_is_changed_in_a_cut_for_want_of_turns() {
+    let machine = mikron((-20.0, 60.0), Some((-500.0, 400.0)));
+    let rows: [Row; 6] = [
+        (40.045, 247.152, false),
+        (-12.39, -317.368, false),
+        (-15.629, -350.0, true),
+        (-17.124, -313.442, true),
+        (19.831, 40.199, false),
+        (22.613, -0.279, true),
+    ];
+    let (_, certificate) = certified(switch(&text_of(&rows), &on(&machine), PostureCost::Travel));
+    let costs = certificate.postures.expect("a proof about postures");
+    // found by a program that shares nothing with this one
+    assert!((costs.after - 311.536_215).abs() < 1e-5, "{costs:?}");
+}
+
 /// Words that the next block leaves out must still say what they said.
 #[test]
 fn words_left_out_are_written_where_they_are_needed() {

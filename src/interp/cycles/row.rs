@@ -11,6 +11,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, MotionKind, Refusal};
 use trunnion_dialect::Action;
+use trunnion_geometry::math::hypot;
 
 /// Holes of one block.
 const MOST_HOLES: usize = 10_000;
@@ -167,7 +168,7 @@ fn nearest(places: &[Place], here: Option<Place>) -> Option<usize> {
 }
 
 fn distance(a: Place, b: Place) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    hypot(a[0] - b[0], a[1] - b[1])
 }
 
 impl Iso<'_> {

@@ -2,6 +2,7 @@
 use super::points::Pending;
 use super::swivel_call::SwivelCall;
 use super::tilt::{Tilted, turn_about};
+use trunnion_geometry::math::{atan2, hypot};
 use trunnion_geometry::{Mat3, Vec3};
 
 /// Degrees, -180 to 180, from a linear congruence (Knuth's MMIX).
@@ -20,10 +21,10 @@ impl Angles {
 /// Angles about Z, the new X, the new Z that make a matrix (column-wise: the plane's axes).
 fn euler(turn: &Mat3) -> [f64; 3] {
     let normal = turn.column(2);
-    let tilt = normal[0].hypot(normal[1]).atan2(normal[2]);
-    let first = normal[0].atan2(-normal[1]);
+    let tilt = atan2(hypot(normal[0], normal[1]), normal[2]);
+    let first = atan2(normal[0], -normal[1]);
     let rest = turn_about(0, tilt.to_degrees()).transpose() * turn_about(2, first.to_degrees()).transpose() * turn;
-    [first, tilt, rest[(1, 0)].atan2(rest[(0, 0)])].map(f64::to_degrees)
+    [first, tilt, atan2(rest[(1, 0)], rest[(0, 0)])].map(f64::to_degrees)
 }
 
 #[test]

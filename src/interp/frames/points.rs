@@ -27,8 +27,14 @@ pub(crate) struct Pending {
 }
 
 impl Pending {
-    /// `None`: something is missing; `Some(None)`: they make no plane.
-    fn plane(&self) -> Option<Option<Tilted>> {
+    /// Whether all points or vectors are there.
+    fn is_complete(&self) -> bool {
+        let needed = if self.by_vectors { 2 } else { 3 };
+        self.given.iter().take(needed).all(Option::is_some)
+    }
+
+    /// `None`: something is missing, or they make no plane.
+    fn plane(&self) -> Option<Tilted> {
         let (x, z) = if self.by_vectors {
             (self.given[0]?, self.given[1]?)
         } else {
@@ -36,10 +42,11 @@ impl Pending {
             let x = second - first;
             (x, x.cross(&(third - first)))
         };
-        Some(axes(x, z).map(|turn| Tilted {
+        let turn = axes(x, z)? * turn_about(2, self.turn);
+        Some(Tilted {
             origin: self.origin,
-            turn: turn * turn_about(2, self.turn),
-        }))
+            turn,
+        })
     }
 }
 
@@ -51,7 +58,7 @@ impl Pending {
             given: points.map(Some),
             ..Self::default()
         };
-        pending.plane().flatten().expect("a plane").turn
+        pending.plane().expect("a plane").turn
     }
     /// The axes of the plane of two vectors.
     pub(super) fn vectors(x: Vec3, z: Vec3) -> Mat3 {
@@ -60,7 +67,7 @@ impl Pending {
             given: [Some(x), Some(z), None],
             ..Self::default()
         };
-        pending.plane().flatten().expect("a plane").turn
+        pending.plane().expect("a plane").turn
     }
 }
 
@@ -98,25 +105,16 @@ impl<'d> Iso<'d> {
             && !self.core.unknown.any()
             && pending.by_vectors == by_vectors;
         let added = clear.then(|| self.add_part(&mut pending, words, report)).flatten();
-        let plane = match added.map(|()| pending.plane()) {
-            Some(None) => {
-                block.takes_coordinates = true;
-                self.memory.frames.pending = Some(pending);
-                return;
-            }
-            Some(Some(plane)) => plane,
-            None => None,
-        };
-        match plane {
-            Some(plane) => {
-                block.takes_coordinates = true;
-                self.core.state.zero.lose(false);
-                self.tilt_to(Some(plane), report);
-            }
-            None => {
-                self.end_tilt(report);
-                self.frame_change(found, words, block, report);
-            }
+        if added.is_some() && !pending.is_complete() {
+            block.takes_coordinates = true;
+            self.memory.frames.pending = Some(pending);
+        } else if let Some(plane) = added.and_then(|()| pending.plane()) {
+            block.takes_coordinates = true;
+            self.core.state.zero.lose(false);
+            self.tilt_to(Some(plane), report);
+        } else {
+            self.end_tilt(report);
+            self.frame_change(found, words, block, report);
         }
     }
 
@@ -201,7 +199,7 @@ mod tests {
     #[test]
     fn points_and_vectors_make_the_plane_of_the_same_euler_angles() {
         // Rx(30): x stays, z is turned towards -y
-        let (sin, cos) = 30f64.to_radians().sin_cos();
+        let (sin, cos) = trunnion_geometry::math::sin_cos(30f64.to_radians());
         let points = Pending {
             given: [Vec3::zeros(), Vec3::x() * 10.0, Vec3::new(3.0, cos, sin)].map(Some),
             ..Pending::default()
@@ -212,7 +210,7 @@ mod tests {
             ..Pending::default()
         };
         for plane in [points, vectors] {
-            let plane = plane.plane().expect("complete").expect("a plane");
+            let plane = plane.plane().expect("a plane");
             assert!((plane.turn - turn_about(0, 30.0)).norm() < 1e-12, "{plane:?}");
         }
     }
@@ -223,16 +221,16 @@ mod tests {
             given: [Vec3::zeros(), Vec3::x(), Vec3::x() * 2.0].map(Some),
             ..Pending::default()
         };
-        assert_eq!(line.plane(), Some(None));
+        assert!(line.is_complete() && line.plane().is_none());
         let skew = |z: Vec3| Pending {
             by_vectors: true,
             given: [Some(Vec3::x()), Some(z), None],
             ..Pending::default()
         };
-        assert_eq!(skew(Vec3::new(0.1, 0.0, 1.0)).plane(), Some(None));
+        assert_eq!(skew(Vec3::new(0.1, 0.0, 1.0)).plane(), None);
         // 4 degrees: x is turned
-        let plane = skew(Vec3::new(0.07, 0.0, 1.0)).plane().flatten().expect("a plane");
+        let plane = skew(Vec3::new(0.07, 0.0, 1.0)).plane().expect("a plane");
         assert!((plane.turn.column(2) - Vec3::new(0.07, 0.0, 1.0).normalize()).norm() < 1e-12);
-        assert_eq!(Pending::default().plane(), None);
+        assert!(!Pending::default().is_complete());
     }
 }

@@ -264,7 +264,7 @@ fn rows_of_holes_run_the_cycle_of_mcall() {
     ] {
         let got = faults("sinumerik-840d", &format!("{HEAD}MCALL CYCLE81(10,0,3,-5)\n{text}\n"));
         assert!(
-            got.iter().any(|fault| fault.contains("not modelled")),
+            got.iter().any(|fault| fault.contains("NotModelled")),
             "{text}: {got:?}"
         );
     }

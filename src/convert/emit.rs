@@ -58,8 +58,9 @@ pub(crate) fn declaration(count: u32, tool: Option<&Tool>) -> String {
     let mut text = String::new();
     let Some(tool) = tool else { return format!("T{count}") };
     match (tool.shape, tool.diameter_mm) {
-        (Some(shape), Some(diameter)) => {
+        (Some(shape), Some(diameter)) if !matches!(shape, ToolShape::Turning(_)) => {
             let (name, radius) = match shape {
+                ToolShape::Turning(_) => ("", None),
                 ToolShape::Ball => ("ball", None),
                 ToolShape::Flat => ("flat", None),
                 ToolShape::Bull(radius) => ("bull", Some(radius)),

@@ -59,6 +59,41 @@ const ITEMS: &[Item] = &[
         [2, 2],
     ),
     (
+        "a further spindle, without an INI file",
+        ["linuxcnc", ""],
+        ["", "G21 G17 G90 G94\nM3 $1 S100\nG0 X0 Y0 Z0\nG1 X1 F100\nM5 $1\nM2\n"],
+        &["2 unknown not-modelled"],
+        [2, 2],
+    ),
+    (
+        "axes U and W, without a machine",
+        ["linuxcnc", ""],
+        ["", "G21 G17 G90 G94\nM3 S100\nG0 X0 Y0 Z0\nG1 X1 W2 F100\nX2 U3\nM2\n"],
+        &["4 unknown not-modelled"],
+        [3, 3],
+    ),
+    (
+        "axis W on a machine without it",
+        ["linuxcnc", "mill-3axis"],
+        ["", "G21 G17 G90 G94\nM3 S100\nG0 X0 Y0 Z0\nG1 X1 W2 F100\nM2\n"],
+        &["4 error unknown-word"],
+        [1, 1],
+    ),
+    (
+        "an M code above 199 is a remap",
+        ["linuxcnc", ""],
+        ["", "G21 G17 G90 G94\nM400\nG0 X0 Y0 Z0\nM2\n"],
+        &["2 unknown unknown-code"],
+        [1, 1],
+    ),
+    (
+        "notes after the end",
+        ["linuxcnc", ""],
+        ["", "G21 G17 G90 G94\nG0 X0 Y0 Z0\nM2\n\nThese are: notes, others\n"],
+        &["5 unknown syntax-error"],
+        [1, 1],
+    ),
+    (
         "#5070 after a probe",
         ["linuxcnc", ""],
         [

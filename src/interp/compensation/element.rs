@@ -113,6 +113,28 @@ impl Element {
         position.set(self.axes[0], point[0]);
         position.set(self.axes[1], point[1]);
     }
+    /// Moves the start, the end or both of a motion that runs in the plane; an arc moves as a whole.
+    pub(super) fn shift(&self, motion: &mut Motion, by: Point, [start, end]: [bool; 2]) {
+        if by == [0.0; 2] {
+            return;
+        }
+        for (position, moves) in [(&mut motion.start, start), (&mut motion.end, end)] {
+            if moves
+                && let Some(point) = self.axes[..2]
+                    .iter()
+                    .map(|&axis| position.get(axis))
+                    .collect::<Option<Vec<_>>>()
+            {
+                self.put(position, add([point[0], point[1]], by, 1.0));
+            }
+        }
+        if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
+            for place in [&mut arc.start, &mut arc.end, &mut arc.centre] {
+                place[self.axes[0]] += by[0];
+                place[self.axes[1]] += by[1];
+            }
+        }
+    }
     pub(super) fn forget(&self, position: &mut Position) {
         position.forget(self.axes[0]);
         position.forget(self.axes[1]);

@@ -185,6 +185,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::Spindle(0, turn) => {
                 self.core.state.spindle.switch(turn != SpindleTurn::Stop);
             }
+            Canon::Spindle(spindle, turn) if spindle > 0 && turn != SpindleTurn::Stop => {
+                self.core.state.spindle.may_start();
+                let what = format!(
+                    "spindle ${spindle}: the INI file says how many spindles there are ([TRAJ]SPINDLES), and it is not known here"
+                );
+                let range = self.code_range(at, b'M', |code| [30, 40].contains(&code));
+                self.fault(at, range, FaultKind::NotModelled { what });
+            }
             // which spindle holds the tool is not known
             Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.spindle.may_start(),
             Canon::SpindleSpeed(0, speed) => {

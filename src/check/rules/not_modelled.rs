@@ -50,11 +50,12 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
             .unknown()
             .merge(Merge::once(hash(what)));
-        if let Some(remedy) = remedy {
-            draft.help(remedy);
-        }
+        draft.help(remedy.unwrap_or_else(|| BY_HAND.to_owned()));
     }
 }
+
+/// What to do where no setting helps.
+const BY_HAND: &str = "look through what depends on it by hand, or try it on the machine without a part";
 
 /// What is not modelled, and what to declare so that it is: `a cycle (declare [control] key)` says both.
 fn divided(what: &str) -> (&str, Option<String>) {

@@ -14,8 +14,10 @@ const OF_TEXT: [&str; 5] = [
 
 /// Puts the findings about such text in their place, and counts anew.
 pub(crate) fn weigh(program: &Program, report: &mut Report) {
-    let joined = join_after_end(program, report);
-    if joined | excuse_missing_end(report) {
+    if join_after_end(program, report) {
+        report.summary.recount(&report.diagnostics);
+    }
+    if excuse_missing_end(report) {
         report.summary.recount(&report.diagnostics);
     }
 }
@@ -52,7 +54,8 @@ fn join_after_end(program: &Program, report: &mut Report) -> bool {
 /// A file that moves nothing and has no end is a piece of a program; whether this is one.
 fn excuse_missing_end(report: &mut Report) -> bool {
     let moves = report.coverage.travels > 0 || report.coverage.not_run.iter().any(|part| part.moves);
-    if moves || report.coverage.given_up.is_some() {
+    // a file with other errors is no piece that works elsewhere
+    if moves || report.coverage.given_up.is_some() || report.summary.errors != 1 {
         return false;
     }
     let ends =
@@ -99,7 +102,10 @@ mod tests {
     #[test]
     fn a_piece_that_moves_nothing_needs_no_end() {
         let severity = |text: &str| {
-            let report = Fixture::parse("gcode linuxcnc", text).check().expect("a report");
+            let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+            let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+            let settings = crate::Settings::new(dialect, None, trunnion_interp::Setup::default());
+            let report = crate::check(&program, &settings);
             let found = report
                 .diagnostics
                 .iter()
@@ -108,5 +114,6 @@ mod tests {
         };
         assert_eq!(severity("G17 G21 G40\nG64 P0.01\n"), Some(Severity::Warning));
         assert_eq!(severity("G17 G21 G40\nG0 X1\n"), Some(Severity::Error));
+        assert_eq!(severity("G17 G21 G40\nG38.2 F10\n"), Some(Severity::Error));
     }
 }

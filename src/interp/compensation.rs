@@ -364,5 +364,7 @@ impl Iso<'_> {
 
 /// Linear axes of the plane are known at both ends.
 fn known(motion: &Motion) -> bool {
-    motion.start.known & motion.end.known & XYZ == XYZ
+    let known = motion.start.known & motion.end.known & XYZ;
+    // a lathe moves in its plane alone: Y need not be known, as long as it stays
+    known == XYZ || motion.radii && known == 0b101 && (motion.start.known | motion.end.known) & XYZ == known
 }

@@ -185,7 +185,8 @@ impl Element {
     }
     /// An arc in the element's plane from a position, about a corner.
     pub(super) fn corner_arc(&self, at: &Position, corner: Point, from: Point, to: Point, sign: f64) -> Option<Arc> {
-        let mut place = at.xyz()?;
+        // Y of a lathe may be unknown, and does not move
+        let mut place = Vec3::from_fn(|axis, _| at.get(axis).unwrap_or(0.0));
         let mut put = |point: Point| {
             place[self.axes[0]] = point[0];
             place[self.axes[1]] = point[1];

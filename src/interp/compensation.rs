@@ -94,7 +94,7 @@ fn link(pending: &PendingMotion, element: &Element, from: Point, link: Link) -> 
     element.put(&mut motion.start, from);
     element.put(&mut motion.end, to);
     motion.kind = match (motion.kind, link.about) {
-        (_, Some((corner, sign))) => MotionKind::Arc(element.corner_arc(&motion.end, corner, from, to, sign)),
+        (_, Some((corner, sign))) => MotionKind::Arc(Some(element.corner_arc(&motion.end, corner, from, to, sign))),
         (MotionKind::Rapid, None) => MotionKind::Rapid,
         _ => MotionKind::Linear,
     };

@@ -184,7 +184,7 @@ impl Element {
         Some(circle.sweep - between(self.start, from) + between(self.end, to))
     }
     /// An arc in the element's plane from a position, about a corner.
-    pub(super) fn corner_arc(&self, at: &Position, corner: Point, from: Point, to: Point, sign: f64) -> Option<Arc> {
+    pub(super) fn corner_arc(&self, at: &Position, corner: Point, from: Point, to: Point, sign: f64) -> Arc {
         // Y of a lathe may be unknown, and does not move
         let mut place = Vec3::from_fn(|axis, _| at.get(axis).unwrap_or(0.0));
         let mut put = |point: Point| {
@@ -194,7 +194,7 @@ impl Element {
         };
         let mut normal = Vec3::zeros();
         normal[self.axes[2]] = 1.0;
-        Some(Arc {
+        Arc {
             start: put(from),
             end: put(to),
             centre: put(corner),
@@ -202,7 +202,7 @@ impl Element {
             sweep: sweep(corner, from, to, sign),
             radius_start: distance(corner, from),
             radius_end: distance(corner, to),
-        })
+        }
     }
     /// Whether the compensated motion runs in the programmed direction.
     pub(super) fn keeps_direction(&self, offset: f64, from: Point, to: Point) -> bool {

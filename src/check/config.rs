@@ -5,6 +5,7 @@ mod fix;
 mod format;
 #[cfg(test)]
 mod message_tests;
+mod nose;
 mod tool;
 mod variables;
 

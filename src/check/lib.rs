@@ -44,6 +44,7 @@ mod suppress;
 mod time;
 mod told;
 mod trail;
+mod unread;
 mod unreadable;
 mod view;
 mod visited;

@@ -58,7 +58,7 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
     }
     if let Some(found) = unlike(before.process(), after.process(), false) {
         let what = format!("{} at the end differs: {} and {}", found.key, found.from, found.to);
-        return if found.is_restated {
+        return if found.is_unknown {
             unknown(what)
         } else {
             nowhere(what)

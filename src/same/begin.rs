@@ -13,7 +13,12 @@ pub(crate) fn begin_alike(a: &Motion, b: &Motion, claim: &Claim) -> Result<(), V
     if a.machine_coordinates || b.machine_coordinates || other_frame || a.kind == MotionKind::Unknown {
         return Ok(());
     }
-    let letter = |mask: u16| AXIS_LETTERS.into_iter().zip(0..9).find(|(_, axis)| mask & (1 << axis) != 0);
+    let letter = |mask: u16| {
+        AXIS_LETTERS
+            .into_iter()
+            .zip(0..9)
+            .find(|(_, axis)| mask & (1 << axis) != 0)
+    };
     let place = |what: String| Difference {
         before: Some(a.block),
         after: Some(b.block),
@@ -80,10 +85,11 @@ pub(crate) fn may_be_part(short: &Step, long: &Step, next: Option<&Item>, claim:
     continues(&piece.end, &rest.end, &whole.end, claim)
 }
 
-/// Whether the way from `corner` to `next` goes along the way from `corner` to `goal`, in the linear axes known in all three.
+/// Whether the way from `corner` to `next` goes along the way from `corner` to `goal`, in the axes known in all three. Rotary axes may run
+/// nearly so: on a great circle their words are not linear.
 fn continues(corner: &Position, next: &Position, goal: &Position, claim: &Claim) -> bool {
     let known = corner.known & next.known & goal.known;
-    let axes: Vec<usize> = [0, 1, 2, 6, 7, 8].into_iter().filter(|axis| known & (1 << axis) != 0).collect();
+    let axes: Vec<usize> = (0..9).filter(|axis| known & (1 << axis) != 0).collect();
     let to = |end: &Position, axis: usize| end.values[axis] - corner.values[axis];
     let Some(&widest) = axes
         .iter()
@@ -91,7 +97,21 @@ fn continues(corner: &Position, next: &Position, goal: &Position, claim: &Claim)
     else {
         return true;
     };
+    if to(goal, widest).abs() <= limit(widest, claim) {
+        // nothing moves in the axes that are known
+        return axes.iter().all(|axis| to(next, *axis).abs() <= 2.0 * limit(*axis, claim));
+    }
     let share = to(next, widest) / to(goal, widest);
-    // not a number where nothing moves there
-    !(share <= 0.0) && axes.iter().all(|axis| !((to(next, *axis) - share * to(goal, *axis)).abs() > 2.0 * limit(*axis, claim) * share.max(1.0)))
+    let off = |axis: usize| (to(next, axis) - share * to(goal, axis)).abs();
+    let bend = |axis: usize| {
+        if (3..6).contains(&axis) {
+            0.05 * to(goal, axis).abs()
+        } else {
+            0.0
+        }
+    };
+    share > 0.0
+        && axes
+            .iter()
+            .all(|axis| off(*axis) <= (2.0 * limit(*axis, claim) + bend(*axis)) * share.max(1.0))
 }

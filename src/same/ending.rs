@@ -58,11 +58,7 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
     }
     if let Some(found) = unlike(before.process(), after.process(), false) {
         let what = format!("{} at the end differs: {} and {}", found.key, found.from, found.to);
-        return if found.is_unknown {
-            unknown(what)
-        } else {
-            nowhere(what)
-        };
+        return if found.is_unknown { unknown(what) } else { nowhere(what) };
     }
     let (zero, other) = (before.state().zero.values(), after.state().zero.values());
     let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();

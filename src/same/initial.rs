@@ -1,7 +1,7 @@
 //! What is in effect before a program sets it: what a control documents, and what is left open.
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use trunnion_dialect::{Action, Dialect};
+use trunnion_dialect::{Action, CodeKind, Dialect};
 use trunnion_interp::Argument;
 
 /// The settings of a control before a program sets them.
@@ -29,10 +29,14 @@ impl Initial {
                 modes.push(code.id.as_str());
             }
             limits |= code.id == "G22" && group == "stroke-check";
-            if matches!(
-                code.action,
-                Action::NoMotion | Action::PathMode | Action::OrientationAxes | Action::OrientationVector
-            ) {
+            // an M code acts when it is programmed, whatever was on before
+            let sets = code.kind != CodeKind::M;
+            if sets
+                && matches!(
+                    code.action,
+                    Action::NoMotion | Action::PathMode | Action::OrientationAxes | Action::OrientationVector
+                )
+            {
                 initial.groups.insert(group.to_owned());
             }
         }

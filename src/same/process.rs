@@ -94,7 +94,10 @@ impl Process {
         let mut settings: Vec<_> = self.settings.iter().chain(from_start).collect();
         settings.retain(|(key, _)| *key != MESSAGE);
         settings.sort_by_key(|(key, _)| *key);
-        settings.into_iter().map(|(key, to)| (key.to_string(), shown(to))).collect()
+        settings
+            .into_iter()
+            .map(|(key, to)| (key.to_string(), shown(to)))
+            .collect()
     }
 
     /// Whether the spindle is known to be stopped: then its speed does not matter.

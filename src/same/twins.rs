@@ -46,7 +46,9 @@ impl Twins {
     /// Whether runs that both stop before the end of their programs are the same after it, too. A run that a bound ends is not: what comes
     /// after it was never compared.
     pub(crate) fn stopped(&self, before: &Steps<'_>, after: &Steps<'_>) -> Result<bool, Verdict> {
-        let both = before.stop().filter(|stop| !stop.by_bound && after.stop() == Some(stop));
+        let both = before
+            .stop()
+            .filter(|stop| !stop.by_bound && after.stop() == Some(stop));
         let stop = match (self, both) {
             (Self::No, _) | (_, None) => return Ok(false),
             (Self::All, Some(_)) => return Ok(true),

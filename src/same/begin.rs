@@ -99,7 +99,9 @@ fn continues(corner: &Position, next: &Position, goal: &Position, claim: &Claim)
     };
     if to(goal, widest).abs() <= limit(widest, claim) {
         // nothing moves in the axes that are known
-        return axes.iter().all(|axis| to(next, *axis).abs() <= 2.0 * limit(*axis, claim));
+        return axes
+            .iter()
+            .all(|axis| to(next, *axis).abs() <= 2.0 * limit(*axis, claim));
     }
     let share = to(next, widest) / to(goal, widest);
     let off = |axis: usize| (to(next, axis) - share * to(goal, axis)).abs();

@@ -2,7 +2,21 @@
 use crate::process::unlike;
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::same_number;
+use trunnion_interp::{FaultKind, same_number};
+
+/// Why a run is not followed to the end of its program, where a fault means that.
+pub(crate) fn ends(kind: &FaultKind) -> Option<String> {
+    Some(match kind {
+        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop returns to the same values".to_owned(),
+        FaultKind::EndlessLoop { blocks, .. } => format!(
+            "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
+             trunnion.toml"
+        ),
+        FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
+        FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
+        _ => return None,
+    })
+}
 
 /// Both were followed to their ends.
 pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {

@@ -1,6 +1,7 @@
 //! A program as a stream of what it does: only the steps of the current block are kept.
 use crate::actions::Actions;
 use crate::counted::Counted;
+use crate::ending::ends;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
@@ -119,20 +120,6 @@ impl Run<'_> {
             }
         }
     }
-}
-
-/// Why a run is not followed to the end of its program, where a fault means that.
-fn ends(kind: &FaultKind) -> Option<String> {
-    Some(match kind {
-        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop returns to the same values".to_owned(),
-        FaultKind::EndlessLoop { blocks, .. } => format!(
-            "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
-             trunnion.toml"
-        ),
-        FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
-        FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
-        _ => return None,
-    })
 }
 
 impl<'a> Steps<'a> {

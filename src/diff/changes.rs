@@ -133,7 +133,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     if matches!(verdict, Verdict::Unknown(_)) && to_their_ends && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
     }
-    if verdict == Verdict::Same {
+    if verdict == Verdict::Same || only_cut_short(&verdict, &sides) {
         let mut found = Found::new(verdict);
         // what the comparison has not come to is counted too; nothing is run a second time
         for (side, steps) in sides.iter_mut().enumerate() {
@@ -145,6 +145,15 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         return found;
     }
     list(pair, tolerance, verdict)
+}
+
+/// Whether the runs were the same up to where a bound ended one of them: then there is nothing to list.
+fn only_cut_short(verdict: &Verdict, sides: &[Steps<'_>; 2]) -> bool {
+    let Verdict::Unknown(found) = verdict else {
+        return false;
+    };
+    let named = |stop: &Stop| stop.by_bound && found.what.ends_with(&stop.why);
+    sides.iter().all(Steps::is_over) && sides.iter().any(|steps| steps.stop().is_some_and(named))
 }
 
 /// Lists what differs in two programs that are not the same; `verdict`: what a comparison has found, which is not made again.

@@ -80,7 +80,8 @@ impl<'d> Iso<'d> {
     }
 
     /// Coordinates, rotary ones too, mean something else from here on: until a reset of the group, or the code itself with a rotary
-    /// coordinate of zero (G7.1 C0).
+    /// coordinate of zero (G7.1 C0), or without any word where it reads that coordinate as the start of the cylinder (Haas G107 A0. R10.;
+    /// Haas mill operator's manual, G107).
     pub(crate) fn frame_lost(
         &mut self,
         found: &Found<'d>,
@@ -89,8 +90,13 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         block.takes_coordinates = true;
-        let zero = (3..6).any(|axis| words.axes.get(axis) == Some(0.0));
-        if zero {
+        let reads_angle = found.code.words.iter().any(|word| word == "A");
+        let ends = if reads_angle {
+            !words.axes.any() && words.letters & crate::unused::letters(found.code) == 0
+        } else {
+            (3..6).any(|axis| words.axes.get(axis) == Some(0.0))
+        };
+        if ends {
             let ended = self.core.unknown.end(found.code);
             self.core.forget_if(ended);
             return;

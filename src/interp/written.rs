@@ -284,6 +284,9 @@ pub(crate) fn call_argument(name: &str, text: &str) -> Argument {
 
 /// The variables that a text names: `#1`, `#<name>`; of a computed number (`#[#1+2]`) what it is computed from.
 pub(crate) fn names(text: &str) -> Vec<String> {
+    if !text.contains('#') {
+        return Vec::new();
+    }
     let packed: String = text.chars().filter(|c| !c.is_ascii_whitespace()).collect();
     let mut found = Vec::new();
     for (at, _) in packed.match_indices('#') {

@@ -52,7 +52,8 @@ fn is_coupled(step: &Step) -> bool {
 /// to the spindle.
 pub(crate) fn may_be_cut(step: &Step) -> bool {
     let stops = step.process.get("path-control").first();
-    let stops = stops.is_some_and(|code| matches!(code.name.as_ref(), "G60" | "G61" | "G61.1"));
+    let exact = |code: &str| code == "G61" && !step.process.exact_path();
+    let stops = stops.is_some_and(|code| matches!(code.name.as_ref(), "G60" | "G61.1") || exact(&code.name));
     !stops
         && !is_coupled(step)
         && !matches!(step.motion.feed, Feed::InverseTime(_))

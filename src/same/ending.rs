@@ -2,7 +2,21 @@
 use crate::process::unlike;
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::same_number;
+use trunnion_interp::{FaultKind, same_number};
+
+/// Why a run is not followed to the end of its program, where a fault means that.
+pub(crate) fn ends(kind: &FaultKind) -> Option<String> {
+    Some(match kind {
+        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop returns to the same values".to_owned(),
+        FaultKind::EndlessLoop { blocks, .. } => format!(
+            "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
+             trunnion.toml"
+        ),
+        FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
+        FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
+        _ => return None,
+    })
+}
 
 /// Both were followed to their ends.
 pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
@@ -58,11 +72,7 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
     }
     if let Some(found) = unlike(before.process(), after.process(), false) {
         let what = format!("{} at the end differs: {} and {}", found.key, found.from, found.to);
-        return if found.is_restated {
-            unknown(what)
-        } else {
-            nowhere(what)
-        };
+        return if found.is_unknown { unknown(what) } else { nowhere(what) };
     }
     let (zero, other) = (before.state().zero.values(), after.state().zero.values());
     let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();

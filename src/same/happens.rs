@@ -64,7 +64,7 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
             found.from,
             found.to
         );
-        return Err(if found.is_restated {
+        return Err(if found.is_unknown {
             Verdict::Unknown(place(what))
         } else {
             Verdict::Differs(place(what))

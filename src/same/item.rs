@@ -70,6 +70,8 @@ pub struct Stop {
     pub block: BlockId,
     /// Why.
     pub why: String,
+    /// It could go on: a bound of the run was reached, which `why` names.
+    pub by_bound: bool,
 }
 
 /// The state before and after the block of an effect, for something unmodelled that may read it.

@@ -6,12 +6,14 @@
 //!
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod actions;
+mod begin;
 mod compare;
 mod counted;
 mod cut;
 mod ending;
 mod exact;
 mod happens;
+mod initial;
 mod input;
 mod item;
 mod judge;

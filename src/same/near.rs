@@ -111,7 +111,7 @@ impl Near {
 }
 
 /// Programmed with the same kind of words.
-fn same_sort(a: &Motion, b: &Motion) -> bool {
+pub(crate) fn same_sort(a: &Motion, b: &Motion) -> bool {
     core::mem::discriminant(&a.orientation) == core::mem::discriminant(&b.orientation) && a.tilt == b.tilt
 }
 

@@ -68,10 +68,28 @@ impl Steps<'_> {
     /// Words of a block of the main program: what they restate matters if everything was unknown, and what they change may move the
     /// coordinates.
     pub(super) fn note_block(&mut self, block: BlockId, effects: u32, lost: bool) {
-        let (program, dialect) = (self.input.program, self.input.dialect);
-        if program.options().format == Format::Apt {
+        if self.input.program.options().format == Format::Apt {
             return;
         }
+        // a block of a loop is read once, as long as what it restates does not count
+        if lost || !self.since.lost {
+            let known = self.disturbs[block.0 as usize];
+            let disturbs = known.unwrap_or_else(|| {
+                let before = std::mem::take(&mut self.since.disturbed);
+                self.read_block(block, effects, false);
+                let found = std::mem::replace(&mut self.since.disturbed, before);
+                self.disturbs[block.0 as usize] = Some(found);
+                found
+            });
+            self.since.disturbed |= disturbs;
+        } else {
+            self.read_block(block, effects, true);
+        }
+    }
+
+    /// See [`Self::note_block`]; `restates`: whether what it restates counts.
+    fn read_block(&mut self, block: BlockId, effects: u32, restates: bool) {
+        let (program, dialect) = (self.input.program, self.input.dialect);
         let view = program.block(block);
         if only_steers(&program.text(view.range())) {
             return;
@@ -120,7 +138,7 @@ impl Steps<'_> {
                 }
                 _ => continue,
             };
-            if !lost && self.since.lost {
+            if restates {
                 let to = vec![Argument::text("", &trunnion_interp::canonical_text(&to))];
                 // before the motion of its block
                 self.run.wait(effects, block, Waits::Restated(key, to));

@@ -1,14 +1,17 @@
 //! The state at a moment of a run, apart from the position of the tool.
+use crate::initial::Initial;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use trunnion_dialect::Plane;
+use trunnion_dialect::{Dialect, Plane};
 use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, same_number};
 
 /// Settings by their key; a key that is absent was never set, or has its initial value again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Process {
     settings: BTreeMap<Cow<'static, str>, Vec<Argument>>,
+    /// Before anything was set.
+    initial: Arc<Initial>,
     /// Words by their group that were programmed after something ran that may have changed everything modal: with and without them the state
     /// may differ.
     restated: BTreeMap<String, Vec<Argument>>,
@@ -22,11 +25,29 @@ pub(crate) struct Unlike {
     pub(crate) key: String,
     pub(crate) from: String,
     pub(crate) to: String,
-    /// The state is unknown: the words were programmed after something ran that may have changed it.
-    pub(crate) is_restated: bool,
+    /// The state is unknown in one of the programs: it never set it, or something ran that may have changed it.
+    pub(crate) is_unknown: bool,
 }
 
 impl Process {
+    /// At the start of a program for a control.
+    pub(crate) fn at_start(dialect: &Dialect) -> Self {
+        Self {
+            initial: Arc::new(Initial::of(dialect)),
+            ..Self::default()
+        }
+    }
+
+    /// Whether G61 stops only where the path bends.
+    pub(crate) fn exact_path(&self) -> bool {
+        self.initial.exact_path
+    }
+
+    /// Whether a key was never set, and what is in effect then is unknown.
+    fn is_open(&self, key: &str) -> bool {
+        !self.settings.contains_key(key) && self.initial.is_open(key)
+    }
+
     /// Sets a key; whether that changes anything.
     pub(crate) fn set(this: &mut Arc<Self>, key: Cow<'static, str>, to: &[Argument]) -> bool {
         if this.get(&key) == to {
@@ -60,15 +81,23 @@ impl Process {
         self.get(MESSAGE)
     }
 
-    /// The value of a key; empty if it is not set.
+    /// The value of a key; empty if it is not set, and the control has no known one from the start.
     pub fn get(&self, key: &str) -> &[Argument] {
-        self.settings.get(key).map_or(&[], Vec::as_slice)
+        self.settings
+            .get(key)
+            .map_or_else(|| self.initial.get(key), Vec::as_slice)
     }
 
     /// All settings for messages, in the order of their keys.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let settings = self.settings.iter().filter(|(key, _)| *key != MESSAGE);
-        settings.map(|(key, to)| (key.to_string(), shown(to))).collect()
+        let from_start = self.initial.all().filter(|(key, _)| !self.settings.contains_key(*key));
+        let mut settings: Vec<_> = self.settings.iter().chain(from_start).collect();
+        settings.retain(|(key, _)| *key != MESSAGE);
+        settings.sort_by_key(|(key, _)| *key);
+        settings
+            .into_iter()
+            .map(|(key, to)| (key.to_string(), shown(to)))
+            .collect()
     }
 
     /// Whether the spindle is known to be stopped: then its speed does not matter.
@@ -109,12 +138,20 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     } else {
         was.differences(is)
     };
-    if let Some((key, from, to)) = found.into_iter().next() {
+    let open = |key: &str| was.is_open(key) || is.is_open(key);
+    let certain = found.iter().find(|(key, ..)| !open(key));
+    if let Some((key, from, to)) = certain.or_else(|| found.first()) {
+        let is_unknown = open(key);
+        let which = if is_unknown {
+            " (what is in effect where nothing is programmed is unknown)"
+        } else {
+            ""
+        };
         return Some(Unlike {
-            key: key.to_owned(),
-            from,
-            to,
-            is_restated: false,
+            key: (*key).to_owned(),
+            from: from.clone(),
+            to: format!("{to}{which}"),
+            is_unknown,
         });
     }
     let groups = was.restated.keys().chain(is.restated.keys());
@@ -125,7 +162,7 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
         key: format!("{group} after a called program that could not be read"),
         from: said(was),
         to: said(is),
-        is_restated: true,
+        is_unknown: true,
     })
 }
 

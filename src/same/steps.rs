@@ -1,6 +1,7 @@
 //! A program as a stream of what it does: only the steps of the current block are kept.
 use crate::actions::Actions;
 use crate::counted::Counted;
+use crate::ending::ends;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
@@ -21,6 +22,8 @@ pub struct Steps<'a> {
     ready: VecDeque<Item>,
     pub(crate) since: Since,
     ran: Vec<u64>,
+    /// Whether a block may move the coordinates or the machine, once it was read.
+    pub(crate) disturbs: Vec<Option<bool>>,
     over: bool,
     pub(crate) counted: Option<Counted>,
 }
@@ -66,6 +69,7 @@ impl Sink for Run<'_> {
             self.stop.get_or_insert(Stop {
                 block: fault.block,
                 why,
+                by_bound: matches!(fault.kind, FaultKind::EndlessLoop { proved: false, .. }),
             });
         }
         if let Some(faults) = &mut self.faults {
@@ -107,7 +111,8 @@ impl Run<'_> {
             let most = self.most_in_block;
             let why = format!("one block makes more than {most} motions: raise `held` of [limits] in trunnion.toml");
             let what = why.clone();
-            self.stop.get_or_insert(Stop { block, why });
+            let by_bound = true;
+            self.stop.get_or_insert(Stop { block, why, by_bound });
             if let Some(faults) = &mut self.faults {
                 let range = trunnion_syntax::TextRange::default();
                 let kind = FaultKind::NotDecided { what };
@@ -115,20 +120,6 @@ impl Run<'_> {
             }
         }
     }
-}
-
-/// Why a run is not followed to the end of its program, where a fault means that.
-fn ends(kind: &FaultKind) -> Option<String> {
-    Some(match kind {
-        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop returns to the same values".to_owned(),
-        FaultKind::EndlessLoop { blocks, .. } => format!(
-            "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
-             trunnion.toml"
-        ),
-        FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
-        FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
-        _ => return None,
-    })
 }
 
 impl<'a> Steps<'a> {
@@ -147,7 +138,7 @@ impl<'a> Steps<'a> {
                 waiting: VecDeque::new(),
                 count: 0,
                 actions: Actions::new(input.program.block_count(), setup.limits.steps),
-                process: Arc::default(),
+                process: Arc::new(Process::at_start(input.dialect)),
                 stores: BTreeMap::new(),
                 stop: None,
                 // two programs are compared, and a step holds twice what a motion does
@@ -160,6 +151,7 @@ impl<'a> Steps<'a> {
             ready: VecDeque::new(),
             since: Since::default(),
             ran: vec![0; input.program.block_count().div_ceil(64)],
+            disturbs: vec![None; input.program.block_count()],
             over: false,
             counted: None,
         }
@@ -179,6 +171,11 @@ impl<'a> Steps<'a> {
     /// Where and why the run stopped before the end of its program; called when there are no more items.
     pub fn stop(&self) -> Option<&Stop> {
         self.run.stop.as_ref()
+    }
+
+    /// Whether there are no more items.
+    pub fn is_over(&self) -> bool {
+        self.over && self.ready.is_empty()
     }
 
     /// Whether tool centre point control is on now.
@@ -257,18 +254,14 @@ impl<'a> Steps<'a> {
         if self.over {
             return None;
         }
-        if self.ready.len() > self.run.most_in_block {
+        let most = self.run.most_in_block;
+        let held = (self.ready.len() > most).then(|| {
+            format!("it does more than {most} actions without a motion: raise `held` of [limits] in trunnion.toml")
+        });
+        if let Some(why) = held.or_else(|| self.run.actions.exceeded()) {
             let block = self.ready.back().map_or(BlockId(0), Item::block);
-            let most = self.run.most_in_block;
-            let why =
-                format!("it does more than {most} actions without a motion: raise `held` of [limits] in trunnion.toml");
-            self.run.stop.get_or_insert(Stop { block, why });
-            self.over = true;
-            return None;
-        }
-        if let Some(why) = self.run.actions.exceeded() {
-            let block = self.ready.back().map_or(BlockId(0), Item::block);
-            self.run.stop.get_or_insert(Stop { block, why });
+            let by_bound = true;
+            self.run.stop.get_or_insert(Stop { block, why, by_bound });
             self.over = true;
             return None;
         }

@@ -30,15 +30,29 @@ impl Twins {
     /// The verdict on a pair of things that the programs do: undecided ones are the same where both are exactly alike.
     pub(crate) fn judge(&self, was: &Item, is: &Item, verdict: Result<(), Verdict>) -> Result<(), Verdict> {
         match verdict {
-            Err(Verdict::Unknown(_)) if matches!(self, Self::Text) && alike(was, is) => Ok(()),
+            Err(Verdict::Unknown(_)) if self.same_at(was, is) => Ok(()),
             verdict => verdict,
         }
     }
 
-    /// Whether runs that both stop before the end of their programs are the same after it, too.
+    fn same_at(&self, was: &Item, is: &Item) -> bool {
+        match self {
+            Self::No => false,
+            Self::Text => alike(was, is),
+            Self::All => true,
+        }
+    }
+
+    /// Whether runs that both stop before the end of their programs are the same after it, too. A run that a bound ends is not: what comes
+    /// after it was never compared.
     pub(crate) fn stopped(&self, before: &Steps<'_>, after: &Steps<'_>) -> Result<bool, Verdict> {
-        let (Self::Text, Some(stop)) = (self, before.stop().filter(|stop| after.stop() == Some(stop))) else {
-            return Ok(false);
+        let both = before
+            .stop()
+            .filter(|stop| !stop.by_bound && after.stop() == Some(stop));
+        let stop = match (self, both) {
+            (Self::No, _) | (_, None) => return Ok(false),
+            (Self::All, Some(_)) => return Ok(true),
+            (Self::Text, Some(stop)) => stop,
         };
         let (old, new) = (before.input(), after.input());
         let mut setup = old.setup.clone();

@@ -188,6 +188,11 @@ pub(crate) fn system_assignment(run: &Iso<'_>, view: &Block<'_>) -> Option<Effec
 
 /// Whether a block reads the present machine coordinates (Series 30i operator's manual, custom macro: #5021 and following).
 pub(crate) fn reads_machine_position(view: &Block<'_>) -> bool {
+    let text = &view.program().source()[view.range().as_usize()];
+    // digits may have blanks between them
+    if !(text.contains(&b'#') && text.contains(&b'5')) {
+        return false;
+    }
     view.items().any(|item| match item {
         Item::Word(word) => names(&view.program().text(word.range))
             .iter()

@@ -4,7 +4,7 @@ mod fix;
 pub(crate) use fix::Fix;
 
 use super::{
-    check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
+    check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, servo::Servo, stats::Stats,
     surface::Surface,
 };
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
@@ -151,6 +151,8 @@ pub(crate) enum Command {
     Plot(Plot),
     /// Measure how far the real tool path deviates from a required surface.
     Surface(Surface),
+    /// Say how far the servo loops cut a corner of a program: closed form, simulated, with and without a corner controller.
+    Servo(Servo),
     /// Write test pieces with known answers, as cutter locations or programs, correct or with a deliberate fault.
     Sample(Box<Sample>),
     /// Print the tokens or the tree of a program.

@@ -18,6 +18,7 @@ mod parse;
 mod plot;
 mod render;
 mod sample;
+mod servo;
 mod short;
 mod stats;
 mod surface;
@@ -55,6 +56,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Machine(command) => machine::run(global, command),
         Command::Plot(command) => plot::run(global, command),
         Command::Surface(command) => surface::run(global, command),
+        Command::Servo(command) => servo::run(global, command),
         Command::Sample(command) => sample::run(global, command),
         Command::Parse(command) => parse::run(global, command),
         Command::Lsp(_) => return ExitCode::from(trunnion_lsp::serve() as u8),

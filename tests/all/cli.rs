@@ -14,6 +14,7 @@ mod lathes;
 mod machines;
 mod pictures;
 mod pieces;
+mod servo;
 mod stats;
 mod switching;
 pub(crate) mod tools;

@@ -49,17 +49,10 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
         ),
     );
     let dynamics = &axis.dynamics;
-    let smooth = [
-        ("jmax", dynamics.jmax.is_some()),
-        ("kv", dynamics.kv.is_some()),
-        ("kff", dynamics.kff.is_some()),
-    ];
-    for (name, set) in smooth {
-        say(
-            set,
-            format!("{name} of {letter}: jerk and position-loop lag are not considered"),
-        );
-    }
+    say(
+        dynamics.jmax.is_some(),
+        format!("jmax of {letter}: jerk is not considered"),
+    );
     say(
         axis.resolution.is_some(),
         format!("resolution of {letter}: axis positions are not rounded to it"),

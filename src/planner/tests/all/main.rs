@@ -1,0 +1,2 @@
+//! The planner against closed forms and independent code.
+#![allow(missing_docs)]

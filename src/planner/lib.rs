@@ -2,7 +2,10 @@
 //! to planned. Units: mm, rad, s. Formulas: docs/kinematics.md#time.
 //!
 //! It knows no rules and no sentences.
+mod clock;
 mod corner;
+#[cfg(test)]
+mod limits_tests;
 mod path;
 mod piece;
 mod pieces;
@@ -10,6 +13,7 @@ mod planner;
 mod run;
 mod timed;
 
+pub use clock::{Listener, time};
 pub use corner::PathControl;
 pub use path::{Ramp, s_curve, trapezoid};
 pub use piece::{Bounds, Limit, Piece};

@@ -17,6 +17,9 @@ pub struct Planner<'m> {
     /// The last motion with a path since the last stop.
     last: Option<Box<Course>>,
     motions: u32,
+    /// For tests: every run with its plan.
+    #[cfg(test)]
+    pub(crate) seen: Vec<(Run, Planned)>,
 }
 
 /// Share of F below which a block is slow, and below which it crawls.
@@ -38,6 +41,8 @@ impl<'m> Planner<'m> {
             open: Vec::new(),
             last: None,
             motions: 0,
+            #[cfg(test)]
+            seen: Vec::new(),
         }
     }
 
@@ -206,6 +211,8 @@ impl<'m> Planner<'m> {
     fn flush(&mut self, out: &mut impl FnMut(Timed)) {
         self.last = None;
         let planned = self.run.plan();
+        #[cfg(test)]
+        self.seen.push((self.run.clone(), planned.clone()));
         let mut next = 0;
         for (timed, count, complete) in self.open.drain(..) {
             let end = next + count as usize;

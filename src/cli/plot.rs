@@ -1,4 +1,5 @@
 //! `plot`: pictures of what the machine does, as SVG.
+mod feeds;
 mod gather;
 
 use super::legs::each_leg;
@@ -62,6 +63,8 @@ enum Kind {
     Path,
     /// Rapid motions past the declared obstacles, seen from above.
     Route,
+    /// The programmed feed and the one that is reached, along the path.
+    Feed,
     /// A corner as the servo loops run it: reference, path, errors; needs --at LINE.
     Servo,
 }
@@ -93,8 +96,12 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| outputs.output("-o", path))
         .transpose()?;
-    if command.kind == Kind::Servo {
-        let text = draw_servo(command, &loaded, machine)?;
+    if matches!(command.kind, Kind::Servo | Kind::Feed) {
+        let text = if command.kind == Kind::Servo {
+            draw_servo(command, &loaded, machine)?
+        } else {
+            feeds::draw(&loaded, machine, lines, &command.file)?
+        };
         load::put(output.as_ref(), text.as_bytes())?;
         return Ok(Done::Clean);
     }
@@ -181,7 +188,7 @@ fn draw(
                 after.as_ref(),
             )?
         }
-        Kind::Path | Kind::Servo => path(&head("Path of the tool tip"), record, tolerance)?,
+        Kind::Path | Kind::Servo | Kind::Feed => path(&head("Path of the tool tip"), record, tolerance)?,
     })
 }
 

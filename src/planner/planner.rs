@@ -129,7 +129,7 @@ impl<'m> Planner<'m> {
     pub fn wait(&mut self, block: BlockId, seconds: Option<f64>, out: &mut impl FnMut(Timed)) {
         let timed = Timed {
             limit: Limit::Wait,
-            ..Timed::of(block, ChainId::MAIN, self.motions)
+            ..Timed::at(block, ChainId::MAIN, self.motions)
         };
         self.emit_alone(timed, [seconds; 2], out);
     }
@@ -144,7 +144,7 @@ impl<'m> Planner<'m> {
         let motion = &leg.motion;
         let timed = Timed {
             engaged: motion.is_feed() && motion.spindle_on == Some(true),
-            ..Timed::of(motion.block, motion.chain, self.motions)
+            ..Timed::at(motion.block, motion.chain, self.motions)
         };
         self.motions += 1;
         timed
@@ -228,8 +228,8 @@ impl<'m> Planner<'m> {
 }
 
 impl Timed {
-    /// A motion of which nothing is known.
-    fn of(block: BlockId, chain: ChainId, motion: u32) -> Self {
+    /// A motion of which nothing is known yet.
+    pub fn at(block: BlockId, chain: ChainId, motion: u32) -> Self {
         Self {
             block,
             chain,
@@ -268,12 +268,7 @@ fn finished(timed: Timed, run: &Run, planned: &Planned, pieces: core::ops::Range
             // what smooths the ends is time below F as well
             let more = own - ramp.seconds();
             below += ramp.seconds_below(SLOW * feed) + more.max(0.0);
-            crawls += ramp.seconds_below(CRAWL * feed)
-                + if planned.top.is_none() {
-                    0.5 * more.max(0.0)
-                } else {
-                    0.0
-                };
+            crawls += ramp.seconds_below(CRAWL * feed);
         }
         if ramp.top < planned.ramps[slowest].top {
             slowest = index;

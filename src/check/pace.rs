@@ -1,5 +1,8 @@
 //! How the machine runs the program: its time, and the places where it slows down, crawls, swings or cuts a corner.
+use crate::pass::ask;
+use crate::sink::{Active, Reporter};
 use crate::view::LegView;
+use crate::wake::Wake;
 use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
@@ -186,21 +189,26 @@ impl<'m> Pace<'m> {
         self.motions += 1;
     }
 
-    /// The end of the program.
-    pub(crate) fn finish(&mut self) {
+    /// The end of the program: its lowest and highest time, s.
+    pub(crate) fn finish(&mut self) -> Option<[f64; 2]> {
         let seen = &mut self.seen;
         self.planner.finish(&mut |timed| seen.take(&timed));
-    }
-
-    /// Lowest and highest time, s.
-    pub(crate) fn interval(&self) -> Option<[f64; 2]> {
-        let Seen { low, high, known, .. } = &self.seen;
+        let Seen { low, high, known, .. } = seen;
         (*known && low.is_finite() && high.is_finite()).then_some([low.min(*high), *high])
     }
 
-    /// In the order of the run, kind by kind.
-    pub(crate) fn places(&self) -> &[Place] {
-        &self.seen.places
+    /// Asks the rules about each place, in the order of the run.
+    pub(crate) fn report(&self, rules: &[Active], reporter: &mut Reporter<'_>) {
+        for place in &self.seen.places {
+            reporter.origin(false, place.chain);
+            ask(rules, reporter, (Some(place.block), 0), |wake, out| {
+                if let Wake::Pace(kind, rule) = wake
+                    && kind == place.kind
+                {
+                    rule(place, self.machine, out);
+                }
+            });
+        }
     }
 
     /// Remembers the corner at the start of a feed motion, where the servo loops are declared.
@@ -266,7 +274,7 @@ impl Seen<'_> {
             self.swing = Swing::default();
             return;
         };
-        if let Some((bend, joint)) = timed.bend_feed.filter(|(bend, _)| *bend < MATTERS * feed) {
+        if let Some((bend, joint)) = timed.bend_feed {
             self.place(timed, PaceKind::Bend, (bend, feed), joint);
         }
         if let Some(most) = timed.block_time_feed {

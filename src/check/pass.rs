@@ -195,9 +195,7 @@ impl<'a> Pass<'a> {
             .assert_silent(&mut self.reporter, (block, number), |wake, out| {
                 wake.read_leg(&view, out);
             });
-        if let Some(pace) = &mut self.pace {
-            pace.add(&view);
-        }
+        self.pace.iter_mut().for_each(|pace| pace.add(&view));
         match &leg.end {
             Ok(end) if end.branch != 0 => self.posture = end.branch,
             Ok(_) => {}
@@ -219,10 +217,7 @@ impl<'a> Pass<'a> {
 
     /// What was found; `interpreter` is at its end and knows the call chains.
     pub(crate) fn finish(mut self, interpreter: &Interpreter<'_>) -> Report {
-        if let Some(pace) = &mut self.pace {
-            pace.finish();
-        }
-        let cycle_time_s = self.pace.as_ref().and_then(Pace::interval);
+        let cycle_time_s = self.pace.as_mut().and_then(Pace::finish);
         let was_checked = |name: &str| self.was_checked(name);
         let ending = Ending {
             unused: self.suppressions.unused(&was_checked),
@@ -245,19 +240,9 @@ impl<'a> Pass<'a> {
         if let Some(follower) = &self.follower {
             reporter.word_worst(follower.machine(), &self.legs.rules);
         }
-        if let (Some(pace), Some(follower)) = (&self.pace, &self.follower) {
-            let machine = follower.machine();
-            for place in pace.places() {
-                reporter.origin(false, place.chain);
-                ask(&self.legs.rules, &mut reporter, (Some(place.block), 0), |wake, out| {
-                    if let Wake::Pace(kind, rule) = wake
-                        && kind == place.kind
-                    {
-                        rule(place, machine, out);
-                    }
-                });
-            }
-        }
+        self.pace
+            .iter()
+            .for_each(|pace| pace.report(&self.legs.rules, &mut reporter));
         if let Some(datum) = &self.datum {
             for overrun in datum.overruns() {
                 reporter.origin(false, overrun.chain);

@@ -18,7 +18,7 @@ pub(crate) struct Course {
     pub(crate) complete: bool,
     /// The lowest acceleration along the path, mm/s^2.
     pub(crate) acceleration: f64,
-    /// Where bends set a lower speed than F: that speed, mm/s, and the joint.
+    /// Where bends hold the feed clearly below F and below what the speeds of the axes allow: that speed, mm/s, and the joint.
     pub(crate) bend: Option<(f64, u8)>,
     /// Where the time for a block sets a lower one, mm/s.
     pub(crate) block_time: Option<f64>,
@@ -135,6 +135,7 @@ fn push(
     let (mut free_cap, mut free_by) = (cap, by);
     let (mut acceleration, mut jerk, mut jerk_time, mut slowest) = (f64::INFINITY, f64::INFINITY, 0.0_f64, 0);
     let mut limited = course.feed.is_finite();
+    let (mut speed_cap, mut bend_cap) = (course.feed, (f64::INFINITY, 0));
     for (joint, axis) in machine.axes.iter().enumerate() {
         let (rate, bend, number) = (rates[joint], bends[joint], joint as u8);
         if !(rate.is_finite() && bend.is_finite()) {
@@ -147,6 +148,7 @@ fn push(
         match axis.max_speed {
             Some(speed) if rate > 0.0 => {
                 limited = true;
+                speed_cap = speed_cap.min(speed / rate);
                 if speed / rate < cap {
                     (cap, by) = (speed / rate, Limit::Speed(number));
                 }
@@ -170,8 +172,8 @@ fn push(
             if whole < free_cap {
                 (free_cap, free_by) = (whole, Limit::Bend(number));
             }
-            if whole < course.feed && course.bend.is_none_or(|(least, _)| whole < least) {
-                course.bend = Some((whole, number));
+            if whole < bend_cap.0 {
+                bend_cap = (whole, number);
             }
         }
         if rate > 0.0 && most / rate < acceleration {
@@ -186,6 +188,10 @@ fn push(
     }
     if !limited || !(cap > 0.0) {
         return None;
+    }
+    // what axes cannot run anyway is not held back by a bend
+    if bend_cap.0 < 0.7 * speed_cap && course.bend.is_none_or(|(least, _)| bend_cap.0 < least) {
+        course.bend = Some(bend_cap);
     }
     // what bends leave along the path
     let mut along = acceleration;
@@ -274,12 +280,12 @@ fn sampled(machine: &Machine, leg: &Leg, motion: u32, course: &mut Course, piece
     for index in 0..count as u32 {
         let from = f64::from(index) / count;
         let (middle, after) = (at(from + 0.5 / count), at(from + 1.0 / count));
-        let (mut rates, mut bends) = ([0.0; _], [0.0; _]);
-        for joint in 0..machine.axes.len() {
-            let (a, m, b) = (before[joint], middle[joint], after[joint]);
+        let (mut rates, mut bends): (Joints, Joints) = ([0.0; _], [0.0; _]);
+        let samples = before.iter().zip(&middle).zip(&after);
+        for ((rate, bend), ((a, m), b)) in rates.iter_mut().zip(&mut bends).zip(samples) {
             let change = (m - a).abs().max((b - m).abs());
-            rates[joint] = a.abs().max(m.abs()).max(b.abs()) + (BETWEEN - 1.0) * change;
-            bends[joint] = if change > 1e-9 * rates[joint] {
+            *rate = a.abs().max(m.abs()).max(b.abs()) + (BETWEEN - 1.0) * change;
+            *bend = if change > 1e-9 * *rate {
                 BETWEEN * change * 2.0 * count / length
             } else {
                 0.0

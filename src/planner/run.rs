@@ -78,11 +78,11 @@ impl Run {
     /// the acceleration is. 1 for long runs, where the filter counts once for many blocks.
     fn best_share(&self, jerk_time: f64) -> f64 {
         const LONG: usize = 64;
+        const GOLDEN: f64 = 0.618_033_988_749_894_8;
         if jerk_time == 0.0 || self.pieces.len() > LONG || self.total(jerk_time, 0.97) >= self.total(jerk_time, 1.0) {
             return 1.0;
         }
         // golden section on a function with one valley
-        const GOLDEN: f64 = 0.618_033_988_749_894_8;
         let (mut low, mut high) = (1e-3, 1.0);
         for _ in 0..28 {
             let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));

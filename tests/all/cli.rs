@@ -17,5 +17,6 @@ mod pieces;
 mod servo;
 mod stats;
 mod switching;
+mod timing;
 pub(crate) mod tools;
 mod twins;

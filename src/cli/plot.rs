@@ -1,5 +1,4 @@
 //! `plot`: pictures of what the machine does, as SVG.
-mod feeds;
 mod gather;
 
 use super::legs::each_leg;
@@ -14,7 +13,8 @@ use std::path::{Path, PathBuf};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Machine, Space, ToolBody};
 use trunnion_plot::{
-    Along, Header, PlotError, Record, ServoSpot, axis_plane, deviation, joints, path, route, servo as servo_picture,
+    Along, Header, PlotError, Record, ServoSpot, axis_plane, deviation, feed, joints, path, route,
+    servo as servo_picture,
 };
 use trunnion_syntax::LineIndex;
 
@@ -59,12 +59,12 @@ enum Kind {
     AxisPlane,
     /// Deviation of the tip from the programmed segments.
     Deviation,
+    /// Programmed feed and the highest that the axes reach.
+    Feed,
     /// The real path in space.
     Path,
     /// Rapid motions past the declared obstacles, seen from above.
     Route,
-    /// The programmed feed and the one that is reached, along the path.
-    Feed,
     /// A corner as the servo loops run it: reference, path, errors; needs --at LINE.
     Servo,
 }
@@ -96,12 +96,8 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| outputs.output("-o", path))
         .transpose()?;
-    if matches!(command.kind, Kind::Servo | Kind::Feed) {
-        let text = if command.kind == Kind::Servo {
-            draw_servo(command, &loaded, machine)?
-        } else {
-            feeds::draw(&loaded, machine, lines, &command.file)?
-        };
+    if command.kind == Kind::Servo {
+        let text = draw_servo(command, &loaded, machine)?;
         load::put(output.as_ref(), text.as_bytes())?;
         return Ok(Done::Clean);
     }
@@ -188,7 +184,8 @@ fn draw(
                 after.as_ref(),
             )?
         }
-        Kind::Path | Kind::Servo | Kind::Feed => path(&head("Path of the tool tip"), record, tolerance)?,
+        Kind::Feed => feed(&head("Feed of the tool tip"), record)?,
+        Kind::Path | Kind::Servo => path(&head("Path of the tool tip"), record, tolerance)?,
     })
 }
 

@@ -1,81 +1,86 @@
-//! The programmed feed and the one that is reached, along the path.
-use crate::canvas::{BLUE, GREY, Header, PlotError, Swatch, VERMILION, sheet};
+//! Programmed feed and the highest feed that the axes reach, along the path.
+use crate::canvas::{BLUE, Entry, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
-use crate::scale::range;
-use plotters::style::text_anchor::{HPos, VPos};
+use crate::record::{Block, Record};
+use crate::scale::{decade, range};
 
-/// One feed motion: path length, mm, and feeds, mm/min.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FeedSpan {
-    /// Line in the file, from 1.
-    pub line: u32,
-    /// mm.
-    pub length: f64,
-    /// F.
-    pub feed: f64,
-    /// Highest, and lowest at an end.
-    pub reached: [f64; 2],
-    /// What holds it back.
-    pub limited_by: String,
-}
-
-/// Draws it.
+/// Draws it, on a logarithmic scale where the limit is far below what is programmed.
 ///
 /// # Errors
-/// The reached feed of no motion is known.
-pub fn feed(header: &Header, spans: &[FeedSpan]) -> Result<String, PlotError> {
-    let worst = spans
-        .iter()
-        .min_by(|a, b| (a.reached[0] / a.feed).total_cmp(&(b.reached[0] / b.feed)));
-    let Some(worst) = worst else {
-        return Err(PlotError(
-            "nothing to draw: the reached feed of no feed motion is known; the axes need speeds and accelerations (dyn = { vmax, amax })".into(),
-        ));
+/// Neither feed is known in any feed block.
+pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
+    let cuts: Vec<&Block> = record.blocks.iter().filter(|block| !block.rapid).collect();
+    let values = || {
+        cuts.iter()
+            .flat_map(|block| block.feed)
+            .flatten()
+            .filter(|feed| *feed > 0.0)
     };
-    let mut ends = vec![0.0];
-    for span in spans {
-        ends.push(ends[ends.len() - 1] + span.length);
+    let (least, most) = values().fold((f64::INFINITY, 0.0_f64), |(low, high), feed| {
+        (low.min(feed), high.max(feed))
+    });
+    if most <= 0.0 {
+        return Err(PlotError(
+            "nothing to draw: the feed of every feed block is unknown".into(),
+        ));
     }
-    let length = ends[ends.len() - 1];
-    let top = spans
+    // a limit far above what is programmed is of no interest
+    let programmed = cuts.iter().filter_map(|block| block.feed[0]).fold(0.0, f64::max);
+    let top = if programmed > 0.0 { 3.0 * programmed } else { most };
+    let least = least.min(top);
+    let decades = top > 20.0 * least;
+    let value = |feed: f64| if decades { decade(feed.max(1e-3)) } else { feed };
+    let upwards = if decades {
+        [decade(least) - 0.2, decade(top) + 0.1]
+    } else {
+        [0.0, top]
+    };
+    // the cuts alone: a rapid to a far tool change would leave no room for them
+    let across = range(
+        cuts.iter().flat_map(|block| record.of(block)).map(|sample| sample.way),
+        1e-3,
+    );
+    let across = [across[0].max(0.0), across[1]];
+    let low = cuts
         .iter()
-        .map(|span| span.feed.max(span.reached[0]))
-        .fold(0.0, f64::max);
-    let legend = vec![
-        (Swatch::Dashed(GREY), "programmed feed".into()),
-        (Swatch::Line(BLUE), "highest feed in the block".into()),
-        (Swatch::Line(VERMILION), "lowest feed in the block".into()),
+        .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
+        .count();
+    let legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
+        (Swatch::Dashed(VERMILION), "programmed feed".into()),
+        (Swatch::Dot(VERMILION), format!("{low} blocks do not reach it")),
     ];
     sheet(header, &legend, |body| {
-        let panel = Panel::new(
-            body,
-            &Frame {
-                x: range([0.0, length].into_iter(), 1e-3),
-                y: [0.0, 1.1 * top],
-                x_name: Some("path in feed / mm"),
-                y_name: "feed / (mm/min)",
-                labels: [10, 8],
-                decades: false,
-                right: 0.0,
+        let frame = Frame {
+            x: across,
+            y: upwards,
+            x_name: Some("travel of the tool tip / mm"),
+            y_name: if decades {
+                "feed of the tip / mm/min (log)"
+            } else {
+                "feed of the tip / mm/min"
             },
-        )?;
-        let stairs = |of: fn(&FeedSpan) -> f64| {
-            spans
-                .iter()
-                .zip(ends.windows(2))
-                .flat_map(move |(span, ends)| [(ends[0], of(span)), (ends[1], of(span))])
+            labels: [
+                10,
+                if decades {
+                    (upwards[1] - upwards[0]).ceil() as usize + 1
+                } else {
+                    8
+                },
+            ],
+            decades,
+            right: 0.0,
         };
-        panel.dashed(stairs(|span| span.feed), GREY, 1.4)?;
-        panel.line(stairs(|span| span.reached[1]), VERMILION, 1.2)?;
-        panel.line(stairs(|span| span.reached[0]), BLUE, 1.8)?;
-        let at = spans.iter().position(|span| span == worst).unwrap_or(0);
-        let x = 0.5 * (ends[at] + ends[at + 1]);
-        panel.ring(x, worst.reached[0], VERMILION, 6.0)?;
-        let text = format!(
-            "line {}: {:.0} of {:.0} mm/min, {}",
-            worst.line, worst.reached[0], worst.feed, worst.limited_by
-        );
-        let side = if x > 0.5 * length { HPos::Right } else { HPos::Left };
-        panel.text((x, worst.reached[0]), &text, VERMILION, (side, VPos::Bottom))
+        let panel = Panel::new(body, &frame)?;
+        let stairs = |which: usize| {
+            cuts.iter().flat_map(move |block| {
+                let samples = record.of(block);
+                let way = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+                let at = block.feed[which].map_or(f64::NAN, |feed| value(feed.min(top)).max(upwards[0]));
+                way.map(|way| (way, at))
+            })
+        };
+        panel.line(stairs(1), BLUE, 1.6)?;
+        panel.dashed(stairs(0), VERMILION, 1.8)
     })
 }

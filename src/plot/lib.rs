@@ -18,7 +18,7 @@ mod thin;
 pub use axis_plane::axis_plane;
 pub use canvas::{Header, PlotError};
 pub use deviation::deviation;
-pub use feed::{FeedSpan, feed};
+pub use feed::feed;
 pub use height_map::height_map;
 pub use joints::{Along, joints};
 pub use path::path;

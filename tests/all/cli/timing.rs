@@ -1,4 +1,4 @@
-//! `stats --time`, the last columns of `trace`, `plot --kind feed`: against times computed by hand.
+//! `stats --time` and the last columns of `trace`: against times computed by hand.
 use super::tools::{json, status, str, text, trunnion, write};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -109,26 +109,4 @@ fn path_control_of_the_program_counts() {
     let (stop, exact, blend, wide) = (time("G61.1"), time("G61"), time("G64 P0.01"), time("G64 P0.5"));
     assert!((stop - exact).abs() < 1e-9, "every corner here turns");
     assert!(blend > wide, "{blend} {wide}");
-}
-
-#[test]
-fn its_picture() {
-    let folder = TempDir::new().expect("works");
-    let (machine, program) = files(&folder, PROGRAM);
-    let picture = folder.path().join("feed.svg");
-    let output = trunnion(&[
-        "plot",
-        str(&program),
-        "--kind",
-        "feed",
-        "--machine",
-        str(&machine),
-        "-o",
-        str(&picture),
-    ]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
-    let drawn = std::fs::read_to_string(&picture).expect("written");
-    for wanted in ["Programmed and reached feed", "path in feed / mm", "line 8"] {
-        assert!(drawn.contains(wanted), "{wanted}");
-    }
 }

@@ -108,6 +108,8 @@ struct Seen<'m> {
     known: bool,
     places: Vec<Place>,
     corners: VecDeque<Pending>,
+    /// Motions in which rotary axes turn, whose time is not known yet.
+    turning: VecDeque<u32>,
     /// Planned speed at the end of the last motion, mm/s.
     leaves: f64,
     swing: Swing,
@@ -158,6 +160,7 @@ impl<'m> Pace<'m> {
                 known: true,
                 places: Vec::new(),
                 corners: VecDeque::new(),
+                turning: VecDeque::new(),
                 leaves: 0.0,
                 swing: Swing::default(),
             },
@@ -179,6 +182,9 @@ impl<'m> Pace<'m> {
             }
         }
         self.corner(view);
+        if view.rotary_turns() {
+            self.seen.turning.push_back(self.motions);
+        }
         if let Some(feed) = tip_feed(view) {
             let timed = Timed::at(leg.motion.block, leg.motion.chain, self.motions);
             self.seen.place(&timed, PaceKind::Mode, (feed[1], feed[0]), 0);
@@ -268,6 +274,10 @@ impl Seen<'_> {
             }
             _ => self.known = false,
         }
+        let turns = self.turning.front() == Some(&timed.motion);
+        if turns {
+            self.turning.pop_front();
+        }
         self.corner(timed);
         self.leaves = timed.leaves.unwrap_or(0.0) / 60.0;
         let Some(feed) = timed.feed.filter(|_| timed.engaged && timed.seconds[1].is_some()) else {
@@ -283,7 +293,9 @@ impl Seen<'_> {
         if timed.crawls > CRAWLS {
             self.place(timed, PaceKind::Crawl, (timed.crawls, feed), 0);
         }
-        if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {
+        if turns {
+            self.swing = Swing::default();
+        } else if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {
             let half = 0.5 * timed.length;
             let first = self.swing.next(half, reached);
             if let Some(low) = self.swing.next(half, leaves).or(first) {

@@ -7,20 +7,20 @@
 //! # Example
 //! ```gcode linuxcnc linuxcnc-xyzac-trt
 //! N10 G21 G17 G90 G94 G49
-//! N20 G0 X0 Y40 Z20 A0 C0
+//! N20 G0 X0 Y40 Z20 A10 C0
 //! N30 S900 M3
-//! N40 G1 X2 C60 F100
-//! ;   ^^^^^^^^^^^^^^ path-deviation: the tip leaves the programmed segment by
-//! ;   ^^^^^^^^^^^^^^ feed-mode: the tip moves at
+//! N40 G1 X2 C60 F20
+//! ;   ^^^^^^^^^^^^^ path-deviation: the tip leaves the programmed segment by
+//! ;   ^^^^^^^^^^^^^ feed-mode: the tip moves at
 //! N50 M2
 //! ```
 //!
 //! # Use instead
 //! ```gcode linuxcnc linuxcnc-xyzac-trt
 //! N10 G21 G17 G90 G94 G49
-//! N20 G0 X0 Y40 Z20 A0 C0
+//! N20 G0 X0 Y40 Z20 A10 C0
 //! N30 S900 M3
-//! N40 G1 X2 F100
+//! N40 G1 X2 F20
 //! N50 M2
 //! ```
 //!

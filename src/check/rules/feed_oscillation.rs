@@ -31,7 +31,7 @@
 //!
 //! # Guarantee
 //! Silence proves nothing. It judges the planned speed of feed motions with the spindle on, on machines that declare the accelerations of their axes. A
-//! single corner is no swing: the feed has to fall below 70 % and recover twice. Consecutive blocks are one finding.
+//! single corner is no swing: the feed has to fall below 70 % and recover twice. Blocks in which rotary axes turn are not judged. Consecutive blocks are one finding.
 //!
 //! # Thresholds
 //! 30 % of the feed, twice within 2 mm of path.

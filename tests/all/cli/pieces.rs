@@ -190,7 +190,6 @@ fn each_cone_calls_exactly_its_rules() {
         "excess-rotary-travel",
         "fast-pole",
         "feed-drop",
-        "feed-oscillation",
         "pole-flip",
     ];
     let rows: [(&str, &str, &[&str]); 5] = [

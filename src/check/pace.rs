@@ -36,11 +36,10 @@ pub(crate) struct Place {
     pub(crate) block: BlockId,
     pub(crate) chain: ChainId,
     pub(crate) last: BlockId,
-    /// How many motions.
     pub(crate) count: u32,
     /// The worst value, see [`PaceKind`].
     pub(crate) value: f64,
-    /// F there, mm/min (deg/min where `turns_only`); for a corner the speed there.
+    /// F there, mm/min (deg/min where `turns_only`); at a corner the speed.
     pub(crate) feed: f64,
     pub(crate) turns_only: bool,
     /// Joint of the axis, where there is one.
@@ -123,7 +122,6 @@ struct Swing {
     high: f64,
     low: f64,
     falling: bool,
-    /// Where the last dip was, mm.
     dip: Option<f64>,
 }
 

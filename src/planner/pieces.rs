@@ -124,6 +124,7 @@ fn feed(leg: &Leg, length: f64) -> Option<f64> {
 
 /// Adds a piece: its length, the highest rates of the joints per mm, their highest second derivatives per mm^2, and the share that bends take.
 /// `None` where a rapid has no limit, or something is not a number.
+#[expect(clippy::too_many_lines, reason = "one limit after the other")]
 fn push(
     machine: &Machine,
     course: &mut Course,
@@ -156,9 +157,8 @@ fn push(
                     (free_cap, free_by) = (speed / rate, Limit::Speed(number));
                 }
             }
-            Some(_) => {}
             None if course.feed.is_infinite() => return None,
-            None => {}
+            Some(_) | None => {}
         }
         let Some(most) = axis.max_acceleration else {
             course.complete = false;
@@ -186,7 +186,7 @@ fn push(
             }
         }
     }
-    if !limited || !(cap > 0.0) {
+    if !limited || cap <= 0.0 || cap.is_nan() {
         return None;
     }
     // what axes cannot run anyway is not held back by a bend

@@ -124,6 +124,7 @@ fn keeps(cornered: &Cornered, tolerance: f64) -> Result<(f64, Within), Failure> 
 }
 
 /// Finds the corner at the start of a line and runs the loops through it.
+#[expect(clippy::too_many_lines, reason = "one value after the other")]
 pub(super) fn corner(
     loaded: &Loaded,
     machine: &Machine,

@@ -102,6 +102,7 @@ pub(super) fn json(loaded: &Loaded, machine: &Machine, cornered: &Cornered, keep
     document
 }
 
+#[expect(clippy::too_many_lines, reason = "one row after the other")]
 pub(super) fn text(loaded: &Loaded, machine: &Machine, cornered: &Cornered, keeps: Option<&(f64, Within)>) -> String {
     let Cornered {
         found,

@@ -2,13 +2,13 @@
 //! only findings and one modal state are kept.
 use crate::apart;
 use crate::both;
-use crate::coverage;
 use crate::event;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
 use crate::unreadable::is_utf16;
 use crate::view::Overview;
 use crate::{Report, Settings};
+use crate::{coverage, unread};
 use core::ops::ControlFlow;
 use trunnion_dialect::Foreign;
 use trunnion_interp::{Interpreter, directives};
@@ -99,6 +99,7 @@ fn with_both(
     event::group(program, &mut report);
     report.coverage.complete(program, settings.dialect);
     coverage::tell(program, settings, &mut report);
+    unread::weigh(program, &mut report);
     Some(report)
 }
 

@@ -44,6 +44,7 @@ mod start;
 mod suppress;
 mod told;
 mod trail;
+mod unread;
 mod unreadable;
 mod view;
 mod visited;

@@ -68,6 +68,7 @@ mod tcp_state;
 mod tilted_plane_misaligned;
 mod tool_length_unset;
 mod tool_vector_not_unit;
+mod unbracketed_comparison;
 mod unclosed_comment;
 mod undefined_variable;
 mod units_unset;
@@ -168,6 +169,7 @@ static RULES: &[&Rule] = table![
     tilted_plane_misaligned,
     tool_length_unset,
     tool_vector_not_unit,
+    unbracketed_comparison,
     unclosed_comment,
     undefined_variable,
     units_unset,

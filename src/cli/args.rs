@@ -230,9 +230,12 @@ pub(crate) struct Certify {
     /// What is claimed: that all is the same, or the geometry of the tool path alone.
     #[arg(long, value_enum, default_value = "all")]
     pub(crate) claim: ClaimOf,
-    /// The certificate to re-check; without it the same tool path is proved or refuted.
+    /// The certificate to re-check, of `fix` or of `convert`; without it the same tool path is proved or refuted.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) certificate: Option<PathBuf>,
+    /// For a certificate of `convert`: the machine that AFTER is for. Default: --machine.
+    #[arg(long, value_name = "NAME|FILE", requires = "certificate")]
+    pub(crate) to_machine: Option<String>,
     /// Without a certificate: how far the tip may be off, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.001)]
     pub(crate) tolerance_mm: f64,

@@ -7,7 +7,9 @@ pub(crate) use check::{Check, CheckFormat};
 pub(crate) use fix::Fix;
 pub(crate) use people::{Completions, Init, Report, Schema};
 
-use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
+use super::{
+    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, servo::Servo, stats::Stats, surface::Surface,
+};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
@@ -163,6 +165,8 @@ pub(crate) enum Command {
     Plot(Plot),
     /// Measure how far the real tool path deviates from a required surface.
     Surface(Surface),
+    /// Say how far the servo loops cut a corner of a program: closed form, simulated, with and without a corner controller.
+    Servo(Servo),
     /// Write test pieces with known answers, as cutter locations or programs, correct or with a deliberate fault.
     Sample(Box<Sample>),
     /// Print the tokens or the tree of a program.

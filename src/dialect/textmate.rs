@@ -21,7 +21,12 @@ pub fn textmate(dialects: &[&Dialect]) -> String {
 }
 
 fn klartext_grammar(dialects: &[&Dialect]) -> Value {
-    let motion = |code: &Code| matches!(code.action, Action::Linear | Action::ArcCounterClockwise | Action::ArcTangent);
+    let motion = |code: &Code| {
+        matches!(
+            code.action,
+            Action::Linear | Action::ArcCounterClockwise | Action::ArcTangent
+        )
+    };
     let moving = names(dialects, motion);
     let other = names(dialects, |code| !motion(code));
     let start = r"(?i)^[ \t]*/?[ \t]*(?:\d+[ \t]+)?/?[ \t]*";

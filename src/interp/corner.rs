@@ -288,7 +288,13 @@ impl Cut {
             no_height: false,
         }
     }
-    pub(crate) fn apply(&self, mut before: PendingMotion, round: bool, next: &mut PendingMotion, on: &mut Vec<PendingMotion>) {
+    pub(crate) fn apply(
+        &self,
+        mut before: PendingMotion,
+        round: bool,
+        next: &mut PendingMotion,
+        on: &mut Vec<PendingMotion>,
+    ) {
         let corner = point(&before.0.end, self.axes);
         let Some(corner) = corner.filter(|_| self.by > 1e-9 && self.turn.abs() > 1e-12) else {
             on.push(before);

@@ -38,19 +38,31 @@ fn line(source: &[u8], options: LexOptions, mut at: usize, out: &mut Builder) ->
                 out.end_block(source, options, end as u32);
                 return end;
             }
-            b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F => {
-                (TokenKind::Blank, run(source, at, |byte| matches!(byte, b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F)))
-            }
+            b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F => (
+                TokenKind::Blank,
+                run(
+                    source,
+                    at,
+                    |byte| matches!(byte, b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F),
+                ),
+            ),
             b';' => (TokenKind::Comment, comment_end(source, at, opens)),
             b'*' if opens => (TokenKind::Comment, comment_end(source, at, false)),
             b'~' => continuation(source, at, out),
             b'"' => text(source, at, out),
-            b'A'..=b'Z' | b'a'..=b'z' | b'_' | 0x80.. => {
-                (TokenKind::Name, run(source, at, |byte| matches!(byte, b'A'..=b'Z' | b'a'..=b'z' | b'_' | 0x80..)))
-            }
+            b'A'..=b'Z' | b'a'..=b'z' | b'_' | 0x80.. => (
+                TokenKind::Name,
+                run(
+                    source,
+                    at,
+                    |byte| matches!(byte, b'A'..=b'Z' | b'a'..=b'z' | b'_' | 0x80..),
+                ),
+            ),
             b'0'..=b'9' => (TokenKind::Number, number_end(source, at)),
             b'+' | b'-' if signs(source, at, before) => (TokenKind::Number, number_end(source, at + 1)),
-            b'.' | b',' if source.get(at + 1).is_some_and(u8::is_ascii_digit) => (TokenKind::Number, number_end(source, at)),
+            b'.' | b',' if source.get(at + 1).is_some_and(u8::is_ascii_digit) => {
+                (TokenKind::Number, number_end(source, at))
+            }
             _ => match plain(byte) {
                 Some(kind) => (kind, at + 1),
                 None => (TokenKind::Unknown, at + character(&source[at..]).max(1)),
@@ -128,7 +140,9 @@ fn comment_end(source: &[u8], at: usize, alone: bool) -> usize {
     let mut end = line_end(source, at);
     loop {
         let text = source[at..end].trim_ascii_end();
-        let Some(before) = text.strip_suffix(b"~") else { return end };
+        let Some(before) = text.strip_suffix(b"~") else {
+            return end;
+        };
         if !alone {
             return at + before.len();
         }

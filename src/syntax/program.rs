@@ -1,7 +1,9 @@
 //! A parsed program: source, tokens, blocks and problems.
 use crate::builder::Builder;
 use crate::scan::Scan;
-use crate::{Block, Format, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, TokenId, TokenTable, apt, iso, klartext};
+use crate::{
+    Block, Format, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, TokenId, TokenTable, apt, iso, klartext,
+};
 use core::ops::Range;
 use std::borrow::Cow;
 use std::sync::Arc;

@@ -56,7 +56,9 @@ const STILL: &[&str] = &[
 const RECORDS: &[&str] = &["GOTO", "GODLTA", "GOHOME", "CIRCLE", "CYCLE", "CALSUB", "CALL"];
 
 /// First words of Klartext blocks that move nothing.
-const PHRASES: &[&str] = &["BEGIN", "END", "LBL", "FN", "Q", "QL", "QR", "QS", "BLK", "CC", "STOP", "SEL", "DECLARE", "M"];
+const PHRASES: &[&str] = &[
+    "BEGIN", "END", "LBL", "FN", "Q", "QL", "QR", "QS", "BLK", "CC", "STOP", "SEL", "DECLARE", "M",
+];
 
 /// See the module.
 pub(super) fn moves(block: &Block<'_>, dialect: &Dialect) -> bool {
@@ -65,7 +67,11 @@ pub(super) fn moves(block: &Block<'_>, dialect: &Dialect) -> bool {
     }
     if let Some(sentence) = block.sentence() {
         let text = sentence.text();
-        let name = text.split(|byte| !byte.is_ascii_alphabetic()).next().unwrap_or_default().to_ascii_uppercase();
+        let name = text
+            .split(|byte| !byte.is_ascii_alphabetic())
+            .next()
+            .unwrap_or_default()
+            .to_ascii_uppercase();
         return !PHRASES.iter().any(|still| name == still.as_bytes());
     }
     let program = block.program();

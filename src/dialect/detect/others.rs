@@ -80,7 +80,10 @@ fn klartext(line: &str, votes: &mut Votes) {
         let mut chars = rest.trim_start().trim_start_matches('I').chars();
         matches!(chars.next(), Some('X' | 'Y' | 'Z')) && chars.next().is_some_and(|c| c.is_ascii_digit())
     };
-    if ["L ", "LN ", "CC ", "CR "].iter().any(|start| text.strip_prefix(start).is_some_and(plain)) {
+    if ["L ", "LN ", "CC ", "CR "]
+        .iter()
+        .any(|start| text.strip_prefix(start).is_some_and(plain))
+    {
         votes.add("heidenhain-klartext", 8, "an L, CR or CC block");
     }
     if has_word(text, "FMAX") {

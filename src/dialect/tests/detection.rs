@@ -214,7 +214,11 @@ fn klartext_is_told_by_its_blocks() {
         "FN 18: SYSREAD Q1 = ID20 NR1\nLBL 1\nL X+5 FMAX\n",
     ] {
         let detected = detect(None, text.as_bytes(), None);
-        assert_eq!((detected.dialect.name.as_str(), detected.foreign), ("heidenhain-klartext", None), "{text}");
+        assert_eq!(
+            (detected.dialect.name.as_str(), detected.foreign),
+            ("heidenhain-klartext", None),
+            "{text}"
+        );
     }
 }
 

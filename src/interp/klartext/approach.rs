@@ -122,9 +122,18 @@ impl Klartext<'_> {
         let way = match &next.motion.kind {
             MotionKind::Arc(Some(arc)) => {
                 let radius = arc.start - arc.centre;
-                Some(rotate(&normal, arc.sweep.signum() * arc.normal.dot(&normal) * core::f64::consts::FRAC_PI_2, &radius))
+                Some(rotate(
+                    &normal,
+                    arc.sweep.signum() * arc.normal.dot(&normal) * core::f64::consts::FRAC_PI_2,
+                    &radius,
+                ))
             }
-            MotionKind::Linear => next.motion.start.xyz().zip(next.motion.end.xyz()).map(|(from, to)| to - from),
+            MotionKind::Linear => next
+                .motion
+                .start
+                .xyz()
+                .zip(next.motion.end.xyz())
+                .map(|(from, to)| to - from),
             _ => None,
         };
         let tangent = way.and_then(|way| (way - normal * normal.dot(&way)).try_normalize(1e-9));
@@ -164,7 +173,10 @@ impl Klartext<'_> {
             if let Some(arc) = arc {
                 motion.kind = MotionKind::Arc(Some(arc));
             }
-            self.finish_motion(&Made { motion, tilt: approach.tilt });
+            self.finish_motion(&Made {
+                motion,
+                tilt: approach.tilt,
+            });
             at = to;
         }
     }
@@ -173,7 +185,10 @@ impl Klartext<'_> {
     pub(crate) fn approach_unknown(&mut self, approach: &Approach) {
         let mut motion = approach.template;
         (motion.kind, motion.feed) = (MotionKind::Unknown, Feed::Unknown);
-        self.finish_motion(&Made { motion, tilt: approach.tilt });
+        self.finish_motion(&Made {
+            motion,
+            tilt: approach.tilt,
+        });
     }
 
     /// DEP: the mirror of APPR at the last contour point; R0 from its end on.
@@ -195,7 +210,10 @@ impl Klartext<'_> {
         let (length, radius) = (mm(found.length), mm(found.radius));
         let normal = self.plane_normal();
         let flat = |vector: Vec3| vector - normal * normal.dot(&vector);
-        let tangent = self.memory.heading.and_then(|heading| flat(heading).try_normalize(1e-9));
+        let tangent = self
+            .memory
+            .heading
+            .and_then(|heading| flat(heading).try_normalize(1e-9));
         let steps = (|| {
             let (from, tangent) = (start.xyz()?, tangent?);
             let inward = normal.cross(&tangent) * side;
@@ -213,7 +231,13 @@ impl Klartext<'_> {
                     let radius = radius.filter(|radius| *radius > 0.0 && side != 0.0)?;
                     let goal = end.xyz()?;
                     let centre = from + inward * radius;
-                    let touch = touch(centre, radius, goal - normal * normal.dot(&(goal - from)), normal, -side)?;
+                    let touch = touch(
+                        centre,
+                        radius,
+                        goal - normal * normal.dot(&(goal - from)),
+                        normal,
+                        -side,
+                    )?;
                     let turn = angle(centre, from, touch, normal, side);
                     vec![(touch, about(from, touch, centre, normal, turn)), (goal, None)]
                 }
@@ -223,7 +247,10 @@ impl Klartext<'_> {
             if form == Form::Normal {
                 Self::not_modelled("DEP LN: the tool radius", report);
             } else {
-                Self::not_modelled("DEP: its words, the side of the tool, or the direction of the contour", report);
+                Self::not_modelled(
+                    "DEP: its words, the side of the tool, or the direction of the contour",
+                    report,
+                );
             }
             self.unknown_motion(report);
             return self.codes_after(&found);
@@ -273,7 +300,11 @@ impl Approach {
 
 /// The arc of a given turn; `None` where it turns by nothing.
 fn about(from: Vec3, to: Vec3, centre: Vec3, normal: Vec3, turn: f64) -> Option<Arc> {
-    let turning = if turn < 0.0 { Turning::Clockwise } else { Turning::CounterClockwise };
+    let turning = if turn < 0.0 {
+        Turning::Clockwise
+    } else {
+        Turning::CounterClockwise
+    };
     let arc = Arc::from_centre(from, to, centre, normal, turning, 0)?;
     (turn.abs() > 1e-9).then_some(Arc { sweep: turn, ..arc })
 }

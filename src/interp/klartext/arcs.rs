@@ -68,13 +68,22 @@ impl Klartext<'_> {
         }
     }
 
-    pub(crate) fn about_pole(&mut self, from: &Position, end: &Position, words: &PathWords, report: &mut Report<'_>) -> MotionKind {
+    pub(crate) fn about_pole(
+        &mut self,
+        from: &Position,
+        end: &Position,
+        words: &PathWords,
+        report: &mut Report<'_>,
+    ) -> MotionKind {
         self.memory.was_rapid = false;
         let arc = (|| {
             let turning = self.turning(words, report)?;
             let (start, end) = (from.xyz()?, end.xyz()?);
             let centre = self.centre(start, report)?;
-            self.checked(Arc::from_centre(start, end, centre, self.plane_normal(), turning, 0), report)
+            self.checked(
+                Arc::from_centre(start, end, centre, self.plane_normal(), turning, 0),
+                report,
+            )
         })();
         MotionKind::Arc(arc)
     }
@@ -90,7 +99,13 @@ impl Klartext<'_> {
         Some(arc)
     }
 
-    pub(crate) fn by_radius(&mut self, from: &Position, end: &Position, words: &PathWords, report: &mut Report<'_>) -> MotionKind {
+    pub(crate) fn by_radius(
+        &mut self,
+        from: &Position,
+        end: &Position,
+        words: &PathWords,
+        report: &mut Report<'_>,
+    ) -> MotionKind {
         self.memory.was_rapid = false;
         let Some(radius) = words.radius else {
             Self::rejected(Refusal::MissingWord, "CR needs its radius R", report);
@@ -105,11 +120,18 @@ impl Klartext<'_> {
                 Ok(arc) => Some(arc),
                 Err(RadiusFault::TooSmall(half_chord)) => {
                     let radius = radius.abs();
-                    report.fault(TextRange::default(), FaultKind::ArcRadiusTooSmall { radius, half_chord });
+                    report.fault(
+                        TextRange::default(),
+                        FaultKind::ArcRadiusTooSmall { radius, half_chord },
+                    );
                     None
                 }
                 Err(RadiusFault::SamePoint) => {
-                    Self::rejected(Refusal::ArcRadius, "CR ends where it starts: its centre is not known", report);
+                    Self::rejected(
+                        Refusal::ArcRadius,
+                        "CR ends where it starts: its centre is not known",
+                        report,
+                    );
                     None
                 }
             }
@@ -132,11 +154,18 @@ impl Klartext<'_> {
                 return None;
             }
             let radius = chord.norm_squared() / (2.0 * across);
-            let turning = if radius > 0.0 { Turning::CounterClockwise } else { Turning::Clockwise };
+            let turning = if radius > 0.0 {
+                Turning::CounterClockwise
+            } else {
+                Turning::Clockwise
+            };
             Arc::from_centre(start, end, start + left * radius, normal, turning, 0)
         })();
         if arc.is_none() && from.xyz().is_some() && end.xyz().is_some() {
-            Self::not_modelled("a tangential arc: the direction before it, or an end straight ahead", report);
+            Self::not_modelled(
+                "a tangential arc: the direction before it, or an end straight ahead",
+                report,
+            );
         }
         MotionKind::Arc(arc)
     }
@@ -205,7 +234,10 @@ impl Klartext<'_> {
             let turning = self.turning(words, report)?;
             let (start, end) = (from.xyz()?, end.xyz()?);
             let centre = self.centre(start, report)?;
-            let arc = self.checked(Arc::from_centre(start, end, centre, self.plane_normal(), turning, 0), report)?;
+            let arc = self.checked(
+                Arc::from_centre(start, end, centre, self.plane_normal(), turning, 0),
+                report,
+            )?;
             let Some(turned) = turned else { return Some(arc) };
             if turned == 0.0 || (turned < 0.0) != (turning == Turning::Clockwise) {
                 Self::rejected(Refusal::Other, "the sign of IPA is not that of DR", report);

@@ -119,12 +119,19 @@ impl Klartext<'_> {
                 let mut pending = (next.motion, self.core.state.clone());
                 cut.apply((before.motion, self.core.state.clone()), true, &mut pending, &mut done);
                 for (motion, _) in done {
-                    self.finish_motion(&Made { motion, tilt: before.tilt });
+                    self.finish_motion(&Made {
+                        motion,
+                        tilt: before.tilt,
+                    });
                 }
                 next.motion = pending.0;
             }
             Some((_, false)) => {
-                Self::rejected(Refusal::Other, "the corner takes more than one of its motions is long", report);
+                Self::rejected(
+                    Refusal::Other,
+                    "the corner takes more than one of its motions is long",
+                    report,
+                );
                 self.finish_motion(&before);
             }
             _ => {

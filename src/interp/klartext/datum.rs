@@ -50,10 +50,14 @@ impl Klartext<'_> {
         let Some(first) = digits else {
             return Self::rejected(Refusal::Syntax, "CYCL DEF needs the number of its cycle", report);
         };
-        let number = text[first..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.');
+        let number = text[first..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit() || **byte == b'.');
         let length = number.count();
         let written = String::from_utf8_lossy(&text[first..first + length]).into_owned();
-        let (cycle, line) = written.split_once('.').map_or((written.as_str(), None), |(a, b)| (a, Some(b)));
+        let (cycle, line) = written
+            .split_once('.')
+            .map_or((written.as_str(), None), |(a, b)| (a, Some(b)));
         let (Ok(cycle), Ok(line)) = (cycle.parse::<u32>(), line.unwrap_or("0").parse::<u32>()) else {
             return Self::rejected(Refusal::Number, "CYCL DEF needs the number of its cycle", report);
         };
@@ -160,7 +164,10 @@ impl Klartext<'_> {
     /// CYCL DEF 247 Q339=n: a preset of the table.
     fn preset(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let number = self.parameter_of(339, words, report);
-        let Some(number) = number.flatten().filter(|number| number.fract() == 0.0 && *number >= 0.0) else {
+        let Some(number) = number
+            .flatten()
+            .filter(|number| number.fract() == 0.0 && *number >= 0.0)
+        else {
             Self::not_modelled("cycle 247: which preset", report);
             return self.lose(DATUM);
         };
@@ -246,14 +253,19 @@ impl Klartext<'_> {
             return;
         }
         let said = words.find(|word| word.is("SCL")).map(|word| word.value);
-        let factor = said.and_then(|said| self.said(said, report)).filter(|factor| *factor > 0.0);
+        let factor = said
+            .and_then(|said| self.said(said, report))
+            .filter(|factor| *factor > 0.0);
         let Some(factor) = factor else {
             Self::not_modelled("cycle 11 without a factor", report);
             return self.lose(SHAPE);
         };
         // whether the axis of the tool is scaled too is a parameter of the machine
         if factor != 1.0 {
-            Self::not_modelled("cycle 11: a machine parameter decides whether the tool axis is scaled", report);
+            Self::not_modelled(
+                "cycle 11: a machine parameter decides whether the tool axis is scaled",
+                report,
+            );
             return self.lose(SHAPE);
         }
         let mut shape = self.memory.frames.shape;
@@ -274,8 +286,13 @@ impl Klartext<'_> {
         if line == 0 {
             return;
         }
-        let said = words.map(|word| word.value).filter(|said| !matches!(said, Said::Nothing | Said::Sign(_))).last();
-        let seconds = said.and_then(|said| self.said(said, report)).filter(|seconds| *seconds >= 0.0);
+        let said = words
+            .map(|word| word.value)
+            .filter(|said| !matches!(said, Said::Nothing | Said::Sign(_)))
+            .last();
+        let seconds = said
+            .and_then(|said| self.said(said, report))
+            .filter(|seconds| *seconds >= 0.0);
         self.dwell(seconds, report);
     }
 
@@ -284,7 +301,9 @@ impl Klartext<'_> {
         let position = self.core.state.position;
         let orientation = self.core.held_orientation();
         let kind = MotionKind::Dwell(seconds);
-        let motion = self.core.motion_in_frame(kind, [position; 2], orientation, Feed::Unknown, report);
+        let motion = self
+            .core
+            .motion_in_frame(kind, [position; 2], orientation, Feed::Unknown, report);
         self.emit(motion, report);
     }
 

@@ -75,7 +75,9 @@ impl Klartext<'_> {
         end.forget(along);
         self.core.state.position = end;
         let orientation = self.core.held_orientation();
-        let motion = self.core.motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
+        let motion = self
+            .core
+            .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
         self.memory.heading = None;
         self.emit(motion, report);
     }
@@ -102,7 +104,10 @@ impl Klartext<'_> {
     fn drill(&mut self, hole: &Hole, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let (Some(clear), Some(depth), Some(surface)) = (hole.clear, hole.depth, hole.surface) else {
-            self.not_modelled_once(&format!("cycle {}: Q200, Q201 or Q203 is not known", hole.cycle), report);
+            self.not_modelled_once(
+                &format!("cycle {}: Q200, Q201 or Q203 is not known", hole.cycle),
+                report,
+            );
             return self.work_unknown(report);
         };
         if depth == 0.0 {
@@ -154,7 +159,10 @@ impl Klartext<'_> {
         let peck = hole.peck.map(|peck| peck * unit).filter(|peck| *peck > 0.0);
         let single = peck.is_none_or(|peck| peck >= depth.abs() - SAME_LEVEL);
         if !by_tip {
-            self.not_modelled_once(&format!("cycle {}: the depth depends on the tool's tip", hole.cycle), report);
+            self.not_modelled_once(
+                &format!("cycle {}: the depth depends on the tool's tip", hole.cycle),
+                report,
+            );
             return self.level(MotionKind::Unknown, None, Feed::Unknown, report);
         }
         let straight = match hole.cycle {
@@ -165,7 +173,9 @@ impl Klartext<'_> {
                 true
             }
             205 => single,
-            209 => hole.chip_depth.is_none_or(|step| step == 0.0 || step * unit >= depth.abs()),
+            209 => hole
+                .chip_depth
+                .is_none_or(|step| step == 0.0 || step * unit >= depth.abs()),
             208 | 241 => false,
             _ => true,
         };
@@ -185,7 +195,11 @@ impl Klartext<'_> {
         let universal = hole.cycle == 203;
         let mm = |value: Option<f64>| value.unwrap_or(0.0) * unit;
         let breaks = if universal { hole.breaks.unwrap_or(0.0) } else { 0.0 };
-        let (shrink, least) = if universal { (mm(hole.shrink), mm(hole.least_peck)) } else { (0.0, 0.0) };
+        let (shrink, least) = if universal {
+            (mm(hole.shrink), mm(hole.least_peck))
+        } else {
+            (0.0, 0.0)
+        };
         let near = self.core.setup.control.peck_clearance_mm;
         let mut step = peck;
         let mut broken = 0.0;
@@ -219,7 +233,10 @@ impl Klartext<'_> {
             }
             depth -= step;
         }
-        self.not_modelled_once(&format!("cycle {}: more than 10000 steps, or steps of nothing", hole.cycle), report);
+        self.not_modelled_once(
+            &format!("cycle {}: more than 10000 steps, or steps of nothing", hole.cycle),
+            report,
+        );
         self.level(MotionKind::Unknown, Some(at.bottom), Feed::Unknown, report);
     }
 
@@ -255,5 +272,9 @@ impl Klartext<'_> {
 }
 
 fn linear(feed: Feed) -> MotionKind {
-    if feed == Feed::Rapid { MotionKind::Rapid } else { MotionKind::Linear }
+    if feed == Feed::Rapid {
+        MotionKind::Rapid
+    } else {
+        MotionKind::Linear
+    }
 }

@@ -7,8 +7,8 @@ use trunnion_syntax::BlockId;
 
 /// First words of blocks that are in the motions and the modal state, or that do nothing.
 const HELD: [&str; 22] = [
-    "L", "LN", "C", "CR", "CT", "LP", "CP", "CTP", "CC", "RND", "APPR", "DEP", "TOOL", "PLANE", "BEGIN", "END", "LBL", "CALL",
-    "FN", "BLK", "STOP", "CYCL",
+    "L", "LN", "C", "CR", "CT", "LP", "CP", "CTP", "CC", "RND", "APPR", "DEP", "TOOL", "PLANE", "BEGIN", "END", "LBL",
+    "CALL", "FN", "BLK", "STOP", "CYCL",
 ];
 
 /// M codes that are in the motions, or in effects of their own.
@@ -41,8 +41,10 @@ impl Klartext<'_> {
             }
         }
         let unknown = self.out.iter().any(|motion| {
-            matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None))
-                || motion.says_way & !motion.end.known != 0
+            matches!(
+                motion.kind,
+                MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
+            ) || motion.says_way & !motion.end.known != 0
         });
         // a block that the operator may skip
         let may_skip = skips && self.core.setup.control.block_delete.is_none();
@@ -86,7 +88,12 @@ impl Klartext<'_> {
 
     fn tool_effects(&mut self, mut words: Words<'_>, block: BlockId) {
         let Some(kind) = words.next() else { return };
-        let named = kind.is("CALL") && (kind.value != Said::Nothing || words.clone().next().is_some_and(|word| matches!(word.value, Said::Text(_))));
+        let named = kind.is("CALL")
+            && (kind.value != Said::Nothing
+                || words
+                    .clone()
+                    .next()
+                    .is_some_and(|word| matches!(word.value, Said::Text(_))));
         let effects = &mut self.core.effects;
         if named {
             let tool = match self.core.tools.in_spindle() {
@@ -132,13 +139,37 @@ impl Klartext<'_> {
         };
         self.core.effects.add(block, Effect::set("cycle", to));
         // tolerances, oriented stops, contours, and cycles whose words are not read
-        let digits = upper.iter().skip_while(|byte| !byte.is_ascii_digit()).take_while(|byte| byte.is_ascii_digit());
-        let number = digits.fold(0u32, |all, digit| all.saturating_mul(10).saturating_add(u32::from(digit - b'0')));
+        let digits = upper
+            .iter()
+            .skip_while(|byte| !byte.is_ascii_digit())
+            .take_while(|byte| byte.is_ascii_digit());
+        let number = digits.fold(0u32, |all, digit| {
+            all.saturating_mul(10).saturating_add(u32::from(digit - b'0'))
+        });
         !matches!(number, 7..=11 | 19 | 200..=203 | 205..=209 | 240 | 247)
     }
 }
 
 /// Words that may stand alone in a block: axes, F, M, R.
 fn is_words(name: &str) -> bool {
-    matches!(name, "X" | "Y" | "Z" | "A" | "B" | "IX" | "IY" | "IZ" | "IA" | "IB" | "IC" | "F" | "FMAX" | "M" | "R" | "U" | "V" | "W")
+    matches!(
+        name,
+        "X" | "Y"
+            | "Z"
+            | "A"
+            | "B"
+            | "IX"
+            | "IY"
+            | "IZ"
+            | "IA"
+            | "IB"
+            | "IC"
+            | "F"
+            | "FMAX"
+            | "M"
+            | "R"
+            | "U"
+            | "V"
+            | "W"
+    )
 }

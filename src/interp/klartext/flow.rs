@@ -84,7 +84,10 @@ impl Klartext<'_> {
         let content = self.core.last_content;
         let chain = self.core.chain;
         if let Some(called) = called.as_deref() {
-            self.core.chain = self.flow.course.stand(chain, next, || frame(program, called, next, true));
+            self.core.chain = self
+                .flow
+                .course
+                .stand(chain, next, || frame(program, called, next, true));
         }
         let mut through = Through {
             reported: std::mem::take(&mut self.flow.reported),
@@ -255,7 +258,9 @@ impl Klartext<'_> {
         let found = match &self.core.setup.library.0 {
             Some(library) => {
                 let load = |file: &str| library.load(file).map(|loaded| (loaded.path, loaded.bytes));
-                self.flow.library.find(&key, files(base).into_iter(), self.core.dialect.lex, load)
+                self.flow
+                    .library
+                    .find(&key, files(base).into_iter(), self.core.dialect.lex, load)
             }
             None => Err(Vec::new()),
         };
@@ -295,7 +300,11 @@ impl Klartext<'_> {
             ends: Ends::Return,
             level,
         };
-        let range = if called.is_none() { program.block(BlockId(from)).range() } else { TextRange::default() };
+        let range = if called.is_none() {
+            program.block(BlockId(from)).range()
+        } else {
+            TextRange::default()
+        };
         let chain = self.core.chain;
         self.core.chain = self.flow.course.enter(going, chain, range, || match called {
             Some(called) => frame(program, called, from, false),
@@ -312,13 +321,22 @@ impl Klartext<'_> {
 
     fn target(&mut self, key: &Key, program: &Program) -> Option<u32> {
         let file = self.flow.course.place().file;
-        let index = self.flow.labels.entry(file).or_insert_with(|| Arc::new(labels(program)));
+        let index = self
+            .flow
+            .labels
+            .entry(file)
+            .or_insert_with(|| Arc::new(labels(program)));
         index.label(key, 0, (0, program.block_count() as u32), Search::FromStart)
     }
 
     /// LBL: a label is passed; LBL 0 ends a subprogram.
     pub(crate) fn label(&mut self, value: Said<'_>, words: &mut Words<'_>) -> Request {
-        let of_label = self.flow.course.programs().last().is_some_and(|level| matches!(level, Level::Label));
+        let of_label = self
+            .flow
+            .course
+            .programs()
+            .last()
+            .is_some_and(|level| matches!(level, Level::Label));
         match key_of(value, words) {
             Some(Key::Number(0)) if of_label => Request::Return,
             _ => Request::Next,
@@ -347,7 +365,10 @@ impl Klartext<'_> {
                 }
             }
             b"PGM" => {
-                let text = String::from_utf8_lossy(words.rest()).trim().trim_matches(['"', '\'']).to_owned();
+                let text = String::from_utf8_lossy(words.rest())
+                    .trim()
+                    .trim_matches(['"', '\''])
+                    .to_owned();
                 Request::Program(text)
             }
             b"SELECTED" => match self.flow.selected.clone() {
@@ -435,7 +456,13 @@ fn labels(program: &Program) -> Index<()> {
             Some(key) => found.push((key, view.id().0)),
         }
     }
-    Index::of(found, Vec::new(), Loops::default(), Vec::new(), program.block_count() as u32)
+    Index::of(
+        found,
+        Vec::new(),
+        Loops::default(),
+        Vec::new(),
+        program.block_count() as u32,
+    )
 }
 
 /// File names that a called program may have.

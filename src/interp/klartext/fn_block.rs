@@ -34,10 +34,14 @@ impl Klartext<'_> {
             // reads of the control and of tables: the parameters that they fill are unknown
             18 | 19 | 20 | 28 => {
                 let text = String::from_utf8_lossy(words.rest()).trim().to_owned();
-                let target: Vec<Parameter> = words.by_ref().filter_map(|word| match word.value {
-                    Said::Parameter(_, parameter) => Some(parameter),
-                    _ => None,
-                }).take(1).collect();
+                let target: Vec<Parameter> = words
+                    .by_ref()
+                    .filter_map(|word| match word.value {
+                        Said::Parameter(_, parameter) => Some(parameter),
+                        _ => None,
+                    })
+                    .take(1)
+                    .collect();
                 for parameter in target {
                     self.memory.parameters.set(parameter, None);
                 }
@@ -56,9 +60,15 @@ impl Klartext<'_> {
     pub(crate) fn assignment(&mut self, text: &[u8], report: &mut Report<'_>) -> Request {
         let mut words = Words::new(text);
         words.blanks();
-        let Some(target) = words.parameter() else { return Request::Next };
+        let Some(target) = words.parameter() else {
+            return Request::Next;
+        };
         if !words.takes(b'=') {
-            Self::rejected(Refusal::Syntax, format!("{target} stands alone: `=` is missing"), report);
+            Self::rejected(
+                Refusal::Syntax,
+                format!("{target} stands alone: `=` is missing"),
+                report,
+            );
             return Request::Next;
         }
         if target.kind == Kind::Text {
@@ -150,7 +160,11 @@ impl Klartext<'_> {
                     3 => words.takes(b'*'),
                     _ => {
                         words.blanks();
-                        let letters = words.rest().iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+                        let letters = words
+                            .rest()
+                            .iter()
+                            .take_while(|byte| byte.is_ascii_alphabetic())
+                            .count();
                         words.at += letters;
                         letters > 0
                     }
@@ -170,12 +184,17 @@ impl Klartext<'_> {
 
     /// `IF +Q1 EQU +5 GOTO LBL 3`, `IF Q1 IS UNDEFINED GOTO LBL 3`.
     fn jump_if(&mut self, number: u32, words: &mut Words<'_>, report: &mut Report<'_>) -> Request {
-        if !words.takes_word("IF") {
+        let Some(opens) = words.next().filter(|word| word.is("IF")) else {
             Self::rejected(Refusal::Syntax, "a jump needs IF", report);
             return Request::Stop;
-        }
-        words.blanks();
-        let first = words.value();
+        };
+        let first = match opens.value {
+            Said::Nothing => {
+                words.blanks();
+                words.value()
+            }
+            said => said,
+        };
         let relation = words.next();
         if relation.is_some_and(|word| word.is("IS")) {
             return self.undecided("whether a parameter is defined", report);
@@ -191,7 +210,11 @@ impl Klartext<'_> {
         let target = words.find(|word| word.is("LBL"));
         let key = target.and_then(|word| self.key(word.value, words, report));
         if first == Said::Nothing || second == Said::Nothing || target.is_none() {
-            Self::rejected(Refusal::Syntax, "a jump is IF, two values with a relation, GOTO LBL", report);
+            Self::rejected(
+                Refusal::Syntax,
+                "a jump is IF, two values with a relation, GOTO LBL",
+                report,
+            );
             return Request::Stop;
         }
         let holds = match (self.said(first, report), self.said(second, report)) {

@@ -69,7 +69,9 @@ impl Klartext<'_> {
             ..Hole::default()
         };
         while let Some(word) = words.next() {
-            let Said::Parameter(false, parameter) = word.value else { continue };
+            let Said::Parameter(false, parameter) = word.value else {
+                continue;
+            };
             if !word.name().is_empty() || !words.takes(b'=') {
                 continue;
             }

@@ -119,7 +119,10 @@ impl Klartext<'_> {
                 before.zip(value).map(|(before, value)| before + value)
             } else if rotary && self.memory.shortest {
                 // M126: 350 to 10 is 20 degrees
-                before.zip(value).map(|(before, value)| before + turn_to(value - before)).or(value)
+                before
+                    .zip(value)
+                    .map(|(before, value)| before + turn_to(value - before))
+                    .or(value)
             } else {
                 value
             };
@@ -176,7 +179,8 @@ impl Klartext<'_> {
             let values = words.tool.map(|value| value.unwrap_or(Some(0.0)));
             match values {
                 [Some(x), Some(y), Some(z)] if self.core.state.tool_axis.tcp() => {
-                    self.core.unit_vector(Vec3::new(x, y, z), true, TextRange::default(), report)
+                    self.core
+                        .unit_vector(Vec3::new(x, y, z), true, TextRange::default(), report)
                 }
                 [Some(_), Some(_), Some(_)] => {
                     Self::not_modelled("a tool vector without M128 or FUNCTION TCPM", report);
@@ -307,12 +311,20 @@ impl Klartext<'_> {
             None => end.known &= !LINEAR,
         }
         let said = words.feed != super::path_words::FeedSaid::Nothing;
-        let kind = if said { self.straight(rapid) } else { MotionKind::Unknown };
+        let kind = if said {
+            self.straight(rapid)
+        } else {
+            MotionKind::Unknown
+        };
         if !said {
             self.not_modelled_once("M140 without F: at which feed", report);
         }
         self.core.state.position = end;
-        let feed = if said { self.core.feed(kind, TextRange::default, report) } else { Feed::Unknown };
+        let feed = if said {
+            self.core.feed(kind, TextRange::default, report)
+        } else {
+            Feed::Unknown
+        };
         let orientation = self.core.held_orientation();
         let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         self.memory.heading = None;
@@ -325,7 +337,9 @@ impl Klartext<'_> {
         self.core.forget_linear();
         let end = self.core.state.position;
         let orientation = self.core.held_orientation();
-        let motion = self.core.motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
+        let motion = self
+            .core
+            .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
         self.memory.heading = None;
         self.emit(motion, report);
     }
@@ -349,7 +363,10 @@ impl Klartext<'_> {
 
 /// Letters whose values are not known.
 fn unread(words: &PathWords) -> u16 {
-    (0..9).filter(|axis| words.values[*axis].is_none()).fold(0, |all, axis| all | 1 << axis) & words.given
+    (0..9)
+        .filter(|axis| words.values[*axis].is_none())
+        .fold(0, |all, axis| all | 1 << axis)
+        & words.given
 }
 
 /// The turn in the shorter direction, -180 < turn <= 180 deg.

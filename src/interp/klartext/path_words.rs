@@ -166,7 +166,11 @@ impl Klartext<'_> {
             b"CCA" => found.centre_angle = Some(self.said(word.value, report)),
             b"MB" => {
                 let most = word.value == Said::Nothing && words.takes_word("MAX");
-                found.back = Some(if most { None } else { Some(self.said(word.value, report)) });
+                found.back = Some(if most {
+                    None
+                } else {
+                    Some(self.said(word.value, report))
+                });
                 return true;
             }
             // distances of M120 LA, M118 X Y Z
@@ -188,18 +192,21 @@ impl Klartext<'_> {
         false
     }
 
-    fn axis(
-        &mut self,
-        word: &Word<'_>,
-        letter: u8,
-        incremental: bool,
-        found: &mut PathWords,
-        report: &mut Report<'_>,
-    ) {
-        let Some(AxisLetter(axis)) = AxisLetter::new(letter) else { return };
+    fn axis(&mut self, word: &Word<'_>, letter: u8, incremental: bool, found: &mut PathWords, report: &mut Report<'_>) {
+        let Some(AxisLetter(axis)) = AxisLetter::new(letter) else {
+            return;
+        };
         let bit = 1 << axis;
-        if let (Said::Parameter(false, Parameter { kind: Kind::Global, number: number @ 120..=122 }), 3..=5) =
-            (word.value, axis)
+        if let (
+            Said::Parameter(
+                false,
+                Parameter {
+                    kind: Kind::Global,
+                    number: number @ 120..=122,
+                },
+            ),
+            3..=5,
+        ) = (word.value, axis)
         {
             if number == 117 + u32::from(axis) && self.memory.angles_wait.is_some() {
                 found.plane_angles |= bit;
@@ -227,7 +234,9 @@ impl Klartext<'_> {
         if word.value == Said::Nothing {
             return false;
         }
-        let Some(code) = self.said(word.value, report).filter(|code| code.fract() == 0.0 && (0.0..1000.0).contains(code))
+        let Some(code) = self
+            .said(word.value, report)
+            .filter(|code| code.fract() == 0.0 && (0.0..1000.0).contains(code))
         else {
             return false;
         };

@@ -18,7 +18,11 @@ impl Klartext<'_> {
     pub(crate) fn plane(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         self.flush(report);
         let Some(form) = words.next() else {
-            return Self::rejected(Refusal::MissingWord, "PLANE needs its form: SPATIAL, VECTOR, RESET, ...", report);
+            return Self::rejected(
+                Refusal::MissingWord,
+                "PLANE needs its form: SPATIAL, VECTOR, RESET, ...",
+                report,
+            );
         };
         let mut numbers = Vec::new();
         let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
@@ -151,9 +155,15 @@ impl Klartext<'_> {
         let mut end = self.core.state.position;
         end.known &= !LINEAR;
         let orientation = Orientation::Vector(None, Vec3::z());
-        let mut motion = self.core.new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+        let mut motion = self
+            .core
+            .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
         (motion.tilt.swivel, motion.tilt.posture, motion.tcp) = (swivel, posture, false);
-        let tilt = self.memory.frames.tilt.or_else(|| Some(Tilted::new(Vec3::zeros(), &[])));
+        let tilt = self
+            .memory
+            .frames
+            .tilt
+            .or_else(|| Some(Tilted::new(Vec3::zeros(), &[])));
         self.finish_motion(&super::Made { motion, tilt });
     }
 
@@ -195,7 +205,10 @@ impl Klartext<'_> {
 }
 
 fn all<const N: usize>(values: [Option<f64>; N]) -> Option<[f64; N]> {
-    values.iter().all(Option::is_some).then(|| values.map(Option::unwrap_or_default))
+    values
+        .iter()
+        .all(Option::is_some)
+        .then(|| values.map(Option::unwrap_or_default))
 }
 
 /// About the fixed axes X, Y, Z in that order.

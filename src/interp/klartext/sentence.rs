@@ -13,7 +13,9 @@ impl Klartext<'_> {
     /// Runs the words of one block.
     pub(crate) fn sentence(&mut self, text: &[u8], report: &mut Report<'_>) -> Request {
         let mut words = Words::new(text);
-        let Some(first) = words.next() else { return Request::Next };
+        let Some(first) = words.next() else {
+            return Request::Next;
+        };
         match first.name() {
             b"L" => self.path_block(Path::Line, &mut words, report),
             b"LN" => self.path_block(Path::Vectors, &mut words, report),
@@ -51,7 +53,11 @@ impl Klartext<'_> {
                 self.path_block(Path::None, &mut words, report);
             }
         }
-        if self.core.state.ended { Request::EndOfProgram } else { Request::Next }
+        if self.core.state.ended {
+            Request::EndOfProgram
+        } else {
+            Request::Next
+        }
     }
 
     fn begin(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
@@ -97,7 +103,10 @@ impl Klartext<'_> {
     /// FUNCTION TCPM, FUNCTION RESET TCPM.
     fn function_block(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let text = words.rest().to_ascii_uppercase();
-        let has = |word: &str| text.split(|byte| byte.is_ascii_whitespace()).any(|found| found == word.as_bytes());
+        let has = |word: &str| {
+            text.split(|byte| byte.is_ascii_whitespace())
+                .any(|found| found == word.as_bytes())
+        };
         if has("RESET") && has("TCPM") {
             return self.guide_tip(false, report);
         }
@@ -186,7 +195,11 @@ impl Klartext<'_> {
     /// M136, M137.
     fn feed_per_turn(&mut self, on: bool) {
         self.memory.per_turn = on;
-        let mode = if on { FeedMode::PerRevolution } else { FeedMode::PerMinute };
+        let mode = if on {
+            FeedMode::PerRevolution
+        } else {
+            FeedMode::PerMinute
+        };
         self.core.state.feed.switch_mode(mode);
     }
 
@@ -215,7 +228,10 @@ impl Klartext<'_> {
             FeedSaid::Value(value) => (value.map(|value| value * unit), value.is_none()),
             FeedSaid::PerTurn(value) => {
                 self.core.state.feed.switch_mode(FeedMode::PerRevolution);
-                (value.map(|value| value * self.core.state.coordinates.unit_mm()), value.is_none())
+                (
+                    value.map(|value| value * self.core.state.coordinates.unit_mm()),
+                    value.is_none(),
+                )
             }
             FeedSaid::PerTooth => {
                 self.not_modelled_once("FZ: the number of teeth is in the tool table", report);
@@ -239,5 +255,7 @@ fn m_range(code: u32, report: &Report<'_>) -> TextRange {
     let text = report.program.text(whole).into_owned();
     let name = format!("M{code}");
     let found = text.find(&name).map(|at| whole.start + at as u32);
-    found.map_or_else(TextRange::default, |start| TextRange::new(start, start + name.len() as u32))
+    found.map_or_else(TextRange::default, |start| {
+        TextRange::new(start, start + name.len() as u32)
+    })
 }

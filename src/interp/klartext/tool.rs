@@ -26,7 +26,9 @@ impl Klartext<'_> {
     fn tool_definition(&mut self, number: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
         let number = match number {
             Said::Nothing => None,
-            said => self.said(said, report).filter(|number| *number >= 0.0 && number.fract() == 0.0),
+            said => self
+                .said(said, report)
+                .filter(|number| *number >= 0.0 && number.fract() == 0.0),
         };
         let number = number.map(|number| number as u32);
         let (mut length, mut radius) = (None, None);
@@ -123,7 +125,11 @@ impl Klartext<'_> {
             _ => self.core.forget_linear(),
         }
         self.core.state.spindle.switch(false);
-        let number = if let Chosen::Number(number) = chosen { Some(number) } else { None };
+        let number = if let Chosen::Number(number) = chosen {
+            Some(number)
+        } else {
+            None
+        };
         self.core.tools.prepare(chosen);
         self.core.tools.load_prepared();
         self.core.state.tool.load(number);
@@ -152,7 +158,11 @@ impl Klartext<'_> {
         let along = self.core.setup.length_along();
         for axis in 0..3 {
             match place.get(axis).filter(|_| !self.core.state.zero.is_lost()) {
-                Some(value) => self.core.state.position.set(axis, value - zero[axis] - length * along[axis]),
+                Some(value) => self
+                    .core
+                    .state
+                    .position
+                    .set(axis, value - zero[axis] - length * along[axis]),
                 None => self.core.state.position.forget(axis),
             }
         }

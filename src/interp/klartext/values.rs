@@ -56,7 +56,9 @@ impl Parameters {
     /// Takes the local ones away.
     pub(crate) fn take_locals(&mut self) -> Vec<(Parameter, Value)> {
         let all = std::mem::take(&mut self.numbers);
-        let (local, rest): (Vec<_>, Vec<_>) = all.into_iter().partition(|(parameter, _)| parameter.kind == Kind::Local);
+        let (local, rest): (Vec<_>, Vec<_>) = all
+            .into_iter()
+            .partition(|(parameter, _)| parameter.kind == Kind::Local);
         self.numbers = rest.into_iter().collect();
         local
     }
@@ -68,14 +70,22 @@ impl Parameters {
     /// Known values by name, without local ones.
     pub(crate) fn known(&self) -> Vec<(String, f64)> {
         let known = |(parameter, value): (&Parameter, &Value)| Some((parameter.to_string(), (*value)?));
-        let kept = self.numbers.iter().filter(|(parameter, _)| parameter.kind != Kind::Local);
+        let kept = self
+            .numbers
+            .iter()
+            .filter(|(parameter, _)| parameter.kind != Kind::Local);
         kept.filter_map(known).collect()
     }
 }
 
 /// A formula at the place of `words`, up to what cannot continue it.
 pub(crate) fn formula(words: &mut Words<'_>, parameters: &Parameters) -> Result<Value, String> {
-    Formula { words, parameters, depth: 0 }.sum()
+    Formula {
+        words,
+        parameters,
+        depth: 0,
+    }
+    .sum()
 }
 
 struct Formula<'w, 't, 'p> {
@@ -127,7 +137,9 @@ impl Formula<'_, '_, '_> {
             let second = self.power()?;
             let value = first.value.zip(second.value).filter(|_| !first.loose);
             first = Operand {
-                value: value.map(|(a, b)| if divides { a / b } else { a * b }).filter(|value| value.is_finite()),
+                value: value
+                    .map(|(a, b)| if divides { a / b } else { a * b })
+                    .filter(|value| value.is_finite()),
                 loose: second.loose,
             };
         }
@@ -139,7 +151,10 @@ impl Formula<'_, '_, '_> {
             return Ok(base);
         }
         let exponent = self.operand()?;
-        let value = base.value.zip(exponent.value).filter(|_| !base.loose && !exponent.loose);
+        let value = base
+            .value
+            .zip(exponent.value)
+            .filter(|_| !base.loose && !exponent.loose);
         Ok(Operand {
             value: value.map(|(a, b)| pow(a, b)).filter(|value| value.is_finite()),
             loose: true,
@@ -188,7 +203,11 @@ impl Formula<'_, '_, '_> {
         }
         let function = function(&name).ok_or_else(|| {
             let text = String::from_utf8_lossy(&rest[..rest.len().min(12)]).into_owned();
-            if text.trim().is_empty() { "a value is missing".to_owned() } else { format!("`{text}` is no value") }
+            if text.trim().is_empty() {
+                "a value is missing".to_owned()
+            } else {
+                format!("`{text}` is no value")
+            }
         })?;
         self.words.blanks();
         let closed = self.words.peek() == Some(b'(');
@@ -231,7 +250,10 @@ mod tests {
 
     fn value(text: &str) -> Result<Value, String> {
         let mut parameters = Parameters::default();
-        let q = |number| Parameter { kind: Kind::Global, number };
+        let q = |number| Parameter {
+            kind: Kind::Global,
+            number,
+        };
         parameters.set(q(1), Some(5.0));
         parameters.set(q(2), Some(-2.5));
         formula(&mut Words::new(text.as_bytes()), &parameters)

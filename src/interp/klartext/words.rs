@@ -107,7 +107,10 @@ impl<'t> Words<'t> {
     /// Takes a word with this name, if it is the next one.
     pub(crate) fn takes_word(&mut self, name: &str) -> bool {
         let mut ahead = *self;
-        if ahead.next().is_some_and(|word| word.is(name) && word.value == Said::Nothing) {
+        if ahead
+            .next()
+            .is_some_and(|word| word.is(name) && word.value == Said::Nothing)
+        {
             *self = ahead;
             return true;
         }
@@ -178,7 +181,9 @@ impl<'t> Words<'t> {
         if digits == 0 || digits > 6 {
             return None;
         }
-        let number = rest[letters..letters + digits].iter().fold(0, |all, digit| all * 10 + u32::from(digit - b'0'));
+        let number = rest[letters..letters + digits]
+            .iter()
+            .fold(0, |all, digit| all * 10 + u32::from(digit - b'0'));
         self.at += letters + digits;
         Some(Parameter { kind, number })
     }
@@ -228,7 +233,10 @@ impl<'t> Words<'t> {
             return;
         }
         self.at = whole;
-        while let Some(byte) = self.peek().filter(|byte| byte.is_ascii_alphabetic() || *byte == b'_' || *byte >= 0x80) {
+        while let Some(byte) = self
+            .peek()
+            .filter(|byte| byte.is_ascii_alphabetic() || *byte == b'_' || *byte >= 0x80)
+        {
             // `FQ50`, `XQL3`: the value begins
             if matches!(byte, b'Q' | b'q') && word.length > 0 && self.parameter().is_some() {
                 self.at = whole + word.length.min(LONGEST);
@@ -241,7 +249,8 @@ impl<'t> Words<'t> {
             self.at += 1;
         }
         // `DR2+0,1`
-        if word.name() == b"DR" && self.peek() == Some(b'2') && matches!(self.text.get(self.at + 1), Some(b'+' | b'-')) {
+        if word.name() == b"DR" && self.peek() == Some(b'2') && matches!(self.text.get(self.at + 1), Some(b'+' | b'-'))
+        {
             word.name[2] = b'2';
             word.length = 3;
             self.at += 1;
@@ -250,8 +259,9 @@ impl<'t> Words<'t> {
         ahead.blanks();
         let gap = ahead.at > self.at;
         let value = ahead.value();
-        // `DR- R5`: behind a blank a sign alone is none
-        if value != Said::Nothing && !(gap && matches!(value, Said::Sign(_))) {
+        // behind a blank a sign alone is no value, and neither is a parameter that is assigned: `DRILLING Q200=2`
+        let assigned = matches!(value, Said::Parameter(..)) && { ahead }.takes(b'=');
+        if value != Said::Nothing && !(gap && (assigned || matches!(value, Said::Sign(_)))) {
             word.value = value;
             *self = ahead;
         }
@@ -264,18 +274,37 @@ mod tests {
 
     fn words(text: &str) -> Vec<(String, Said<'_>)> {
         let found = Words::new(text.as_bytes());
-        found.map(|word| (String::from_utf8_lossy(word.name()).into_owned(), word.value)).collect()
+        found
+            .map(|word| (String::from_utf8_lossy(word.name()).into_owned(), word.value))
+            .collect()
     }
 
     #[test]
     fn words_of_real_blocks() {
-        let q = |number| Said::Parameter(false, Parameter { kind: Kind::Global, number });
+        let q = |number| {
+            Said::Parameter(
+                false,
+                Parameter {
+                    kind: Kind::Global,
+                    number,
+                },
+            )
+        };
         assert_eq!(
             words("L  X+27,975  IY-Q108 Z 25.183 RL FQ50 M3"),
             [
                 ("L".into(), Said::Nothing),
                 ("X".into(), Said::Number(27.975)),
-                ("IY".into(), Said::Parameter(true, Parameter { kind: Kind::Global, number: 108 })),
+                (
+                    "IY".into(),
+                    Said::Parameter(
+                        true,
+                        Parameter {
+                            kind: Kind::Global,
+                            number: 108
+                        }
+                    )
+                ),
                 ("Z".into(), Said::Number(25.183)),
                 ("RL".into(), Said::Nothing),
                 ("F".into(), q(50)),
@@ -287,6 +316,9 @@ mod tests {
         assert_eq!(words("TOOL CALL \"MH10\" Z DL+0 DR2-0,1")[2].1, Said::Text(b"MH10"));
         assert_eq!(words("DR2-0,1")[0], ("DR2".into(), Said::Number(-0.1)));
         assert_eq!(words("X1.2.3")[0].1, Said::Bad);
-        assert_eq!(words("F AUTO"), [("F".into(), Said::Nothing), ("AUTO".into(), Said::Nothing)]);
+        assert_eq!(
+            words("F AUTO"),
+            [("F".into(), Said::Nothing), ("AUTO".into(), Said::Nothing)]
+        );
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! `CALL LBL n` runs the blocks from the label to LBL 0; with REP m the section from the label to the call runs m times more; a called program
 //! ends with END PGM, M2 or M30, and what it has shifted and turned stays. Source: TNC 640 user's manual, subprograms and program sections.
-use super::words::{Kind, Parameter, Said, Words};
+use super::calls::key_of;
+use super::words::{Parameter, Words};
 use super::{Klartext, values::Value};
-use crate::core::Report;
 use crate::flow::through::Through;
 use crate::{Fault, FaultKind, Frame, Refusal, Sink};
 use std::collections::HashMap;
@@ -51,7 +51,7 @@ pub(crate) struct Flow {
     /// Sections that are being repeated: file, block of the call, depth, and how often still.
     repeats: HashMap<(u16, u32, usize), u32>,
     turns: u64,
-    selected: Option<String>,
+    pub(super) selected: Option<String>,
     reported: crate::flow::reported::ReportedFaults,
 }
 
@@ -328,87 +328,6 @@ impl Klartext<'_> {
             .or_insert_with(|| Arc::new(labels(program)));
         index.label(key, 0, (0, program.block_count() as u32), Search::FromStart)
     }
-
-    /// LBL: a label is passed; LBL 0 ends a subprogram.
-    pub(crate) fn label(&mut self, value: Said<'_>, words: &mut Words<'_>) -> Request {
-        let of_label = self
-            .flow
-            .course
-            .programs()
-            .last()
-            .is_some_and(|level| matches!(level, Level::Label));
-        match key_of(value, words) {
-            Some(Key::Number(0)) if of_label => Request::Return,
-            _ => Request::Next,
-        }
-    }
-
-    /// CALL LBL, CALL PGM, CALL SELECTED PGM.
-    pub(crate) fn call(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) -> Request {
-        let Some(first) = words.next() else {
-            Self::rejected(Refusal::MissingWord, "CALL needs LBL or PGM", report);
-            return Request::Next;
-        };
-        match first.name() {
-            b"LBL" => {
-                let Some(key) = self.key(first.value, words, report) else {
-                    return self.undecided("which label is called", report);
-                };
-                match words.next() {
-                    Some(word) if word.is("REP") => match self.said(word.value, report) {
-                        Some(times) if (0.0..65536.0).contains(&times) && times.fract() == 0.0 => {
-                            Request::Repeat(key, times as u32)
-                        }
-                        _ => self.undecided("how often the section runs", report),
-                    },
-                    _ => Request::Call(key),
-                }
-            }
-            b"PGM" => {
-                let text = String::from_utf8_lossy(words.rest())
-                    .trim()
-                    .trim_matches(['"', '\''])
-                    .to_owned();
-                Request::Program(text)
-            }
-            b"SELECTED" => match self.flow.selected.clone() {
-                Some(name) => Request::Program(name),
-                None => self.undecided("which program is selected", report),
-            },
-            _ => {
-                Self::rejected(Refusal::Syntax, "CALL needs LBL or PGM", report);
-                Request::Next
-            }
-        }
-    }
-
-    /// SEL PGM "NAME".
-    pub(crate) fn select(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if !words.takes_word("PGM") {
-            return self.not_modelled_once("SEL of a table or contour", report);
-        }
-        let text = String::from_utf8_lossy(words.rest()).trim().to_owned();
-        let plain = text.starts_with('"') && text.len() > 2;
-        self.flow.selected = plain.then(|| text.trim_matches('"').to_owned());
-    }
-
-    pub(crate) fn undecided(&mut self, what: &str, report: &mut Report<'_>) -> Request {
-        report.fault(TextRange::default(), FaultKind::NotDecided { what: what.to_owned() });
-        Request::Stop
-    }
-
-    /// The label of a call or jump; one in a parameter is known where the parameter is.
-    pub(crate) fn key(&mut self, value: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) -> Option<Key> {
-        if let Said::Parameter(_, parameter) = value {
-            if parameter.kind == Kind::Text {
-                let text = self.memory.parameters.texts.get(&parameter.number)?.clone()?;
-                return Some(Key::Name(text.into()));
-            }
-            let number = self.said(value, report)?;
-            return (number >= 0.0 && number.fract() == 0.0).then_some(Key::Number(number as u32));
-        }
-        key_of(value, words)
-    }
 }
 
 fn too_deep() -> FaultKind {
@@ -426,18 +345,6 @@ fn no_label(key: &Key) -> FaultKind {
         refusal: Refusal::Label,
         message: format!("the program has no label {name}"),
         alarm: None,
-    }
-}
-
-/// A number, or the quoted text that follows.
-fn key_of(value: Said<'_>, words: &mut Words<'_>) -> Option<Key> {
-    match value {
-        Said::Number(number) if number >= 0.0 && number.fract() == 0.0 => Some(Key::Number(number as u32)),
-        Said::Nothing => match words.next()?.value {
-            Said::Text(text) => Some(Key::Name(String::from_utf8_lossy(text).into())),
-            _ => None,
-        },
-        _ => None,
     }
 }
 

@@ -59,6 +59,9 @@ fn code(view: &Block<'_>) -> TextRange {
     if let Some(record) = view.record() {
         return record.range;
     }
+    if let Some(sentence) = view.sentence() {
+        return sentence.range;
+    }
     let number = view.number();
     let items = view.items().filter_map(|item| match item {
         Item::Word(word) => Some(word.range),

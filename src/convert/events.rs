@@ -49,6 +49,10 @@ pub(crate) fn job(
         let block = program.block(ran.block);
         let said = match program.options().format {
             Format::Apt => crate::events_apt::said(&block, options),
+            Format::Klartext => {
+                let message = "Klartext programs are not converted: only checked, compared and proved";
+                Err((block.range(), message.to_owned()))
+            }
             Format::Iso => said(&block, dialect),
         }
         .map_err(|(range, message)| Refused::range(program, range, message))?;

@@ -126,6 +126,7 @@ fn lex_options(lex: Lex) -> LexOptions {
         format: match lex.format {
             FormatRow::Iso => Format::Iso,
             FormatRow::Apt => Format::Apt,
+            FormatRow::Klartext => Format::Klartext,
         },
         paren_comment: lex.paren_comment,
         semicolon_comment: lex.semicolon_comment,

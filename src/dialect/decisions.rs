@@ -106,7 +106,7 @@ impl Dialect {
     /// The language of its expressions and flow. Words alone are read as RS274/NGC, of which they are a subset.
     pub fn expressions(&self) -> Expressions {
         match (self.lex.format, self.quirks.language) {
-            (Format::Apt, _) | (Format::Iso, Language::Sinumerik) => Expressions::Other,
+            (Format::Apt | Format::Klartext, _) | (Format::Iso, Language::Sinumerik) => Expressions::Other,
             (Format::Iso, Language::MacroB) => Expressions::MacroB,
             (Format::Iso, Language::Words | Language::Linuxcnc) => Expressions::Rs274Ngc,
         }

@@ -25,9 +25,9 @@ impl Pattern {
     pub(crate) fn parse(id: &Spanned<String>, format: Format) -> Result<Self, DialectError> {
         let text = id.get_ref();
         let (from, to) = text.split_once("..").unwrap_or((text, text));
-        let numbers = format == Format::Iso && matches!(text.as_bytes(), [b'G' | b'M', b'0'..=b'9', ..]);
+        let numbers = format != Format::Apt && matches!(text.as_bytes(), [b'G' | b'M', b'0'..=b'9', ..]);
         if !numbers {
-            let apt_name = text.split([' ', '-']).all(is_name) && format == Format::Apt;
+            let apt_name = text.split([' ', '-']).all(is_name) && format != Format::Iso;
             return if apt_name || is_name(text) {
                 Ok(Self::Name(text.clone()))
             } else {

@@ -89,12 +89,13 @@ pub(crate) struct Lex {
     pub(crate) blanks_in_numbers: bool,
 }
 
-/// `format = "iso" | "apt"`.
+/// `format = "iso" | "apt" | "klartext"`.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum FormatRow {
     Iso,
     Apt,
+    Klartext,
 }
 
 /// `[arc-tolerance]`.

@@ -6,21 +6,49 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use trunnion_syntax::Format;
 
-/// A grammar, as JSON text, that colours programs of all the `dialects`: `source.apt` if the first is APT, else `source.gcode`.
+/// A grammar, as JSON text, that colours programs of all the `dialects`: `source.apt` if the first is APT, `source.klartext` if it is Klartext, else
+/// `source.gcode`.
 pub fn textmate(dialects: &[&Dialect]) -> String {
-    let apt = dialects
-        .first()
-        .is_some_and(|dialect| dialect.lex.format == Format::Apt);
-    let mut text = format!(
-        "{:#}",
-        if apt {
-            apt_grammar(dialects)
-        } else {
-            iso_grammar(dialects)
-        }
-    );
+    let format = dialects.first().map(|dialect| dialect.lex.format);
+    let grammar = match format {
+        Some(Format::Apt) => apt_grammar(dialects),
+        Some(Format::Klartext) => klartext_grammar(dialects),
+        Some(Format::Iso) | None => iso_grammar(dialects),
+    };
+    let mut text = format!("{grammar:#}");
     text.push('\n');
     text
+}
+
+fn klartext_grammar(dialects: &[&Dialect]) -> Value {
+    let motion = |code: &Code| {
+        matches!(
+            code.action,
+            Action::Linear | Action::ArcCounterClockwise | Action::ArcTangent
+        )
+    };
+    let moving = names(dialects, motion);
+    let other = names(dialects, |code| !motion(code));
+    let start = r"(?i)^[ \t]*/?[ \t]*(?:\d+[ \t]+)?/?[ \t]*";
+    let number = r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)";
+    json!({
+        "name": "HEIDENHAIN Klartext",
+        "scopeName": "source.klartext",
+        "patterns": [
+            { "match": ";.*?(?=~?[ \\t]*$)", "name": "comment.line.semicolon.klartext" },
+            { "match": r"^[ \t]*(?:\d+[ \t]+)?(\*.*)$", "captures": { "1": { "name": "markup.heading.klartext" } } },
+            { "match": "\"[^\"\\n]*\"?", "name": "string.quoted.double.klartext" },
+            { "match": format!(r"{start}({moving})(?=[ \t]|$)"), "captures": { "1": { "name": "keyword.control.motion.klartext" } } },
+            { "match": format!(r"{start}({other})(?=[ \t\d]|$)"), "captures": { "1": { "name": "entity.name.function.klartext" } } },
+            { "match": r"(?i)\bM\d+\b", "name": "entity.name.function.miscellaneous.klartext" },
+            { "match": r"(?i)[+-]?\bQ[LRS]?\d+\b", "name": "variable.other.klartext" },
+            { "match": format!(r"(?i)(?<![A-Z])(I?[XYZABCUVW]|I?P[AR]|[NT][XYZ])({number})"),
+              "captures": { "1": { "name": "variable.parameter.axis.klartext" }, "2": { "name": "constant.numeric.klartext" } } },
+            { "match": r"(?i)\b(?:FMAX|FAUTO|R0|RL|RR|DR[+-])(?![A-Z0-9])", "name": "variable.parameter.klartext" },
+            { "match": number, "name": "constant.numeric.klartext" },
+            { "match": "~[ \\t]*$", "name": "keyword.operator.continuation.klartext" }
+        ]
+    })
 }
 
 fn apt_grammar(dialects: &[&Dialect]) -> Value {

@@ -3,7 +3,7 @@
 /// A control whose programs are recognised and not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unsupported {
-    /// `heidenhain-klartext`, a name like those of the built-in dialects.
+    /// `okuma-osp`, a name like those of the built-in dialects.
     pub name: &'static str,
     /// For people.
     pub title: &'static str,
@@ -11,10 +11,6 @@ pub struct Unsupported {
 
 /// All of them.
 pub const UNSUPPORTED: &[Unsupported] = &[
-    Unsupported {
-        name: "heidenhain-klartext",
-        title: "HEIDENHAIN Klartext",
-    },
     Unsupported {
         name: "heidenhain-iso",
         title: "HEIDENHAIN DIN/ISO",

@@ -40,12 +40,12 @@ impl Corners {
 }
 
 /// How far two motions in the plane are cut short at their corner, and the direction of each; `None` where they are no corner of lines.
-struct Cut {
+pub(crate) struct Cut {
     axes: [usize; 3],
     first: Vec3,
     second: Vec3,
     turn: f64,
-    by: f64,
+    pub(crate) by: f64,
     /// A lathe: no word moves the third axis.
     no_height: bool,
 }
@@ -65,7 +65,7 @@ fn is_known(motion: &Motion, axes: [usize; 3]) -> bool {
     point(&motion.start, axes).is_some() && point(&motion.end, axes).is_some()
 }
 
-fn flat(motion: &Motion, axes: [usize; 3]) -> Option<Vec3> {
+pub(crate) fn flat(motion: &Motion, axes: [usize; 3]) -> Option<Vec3> {
     let height = 1 << axes[2];
     if (motion.start.known ^ motion.end.known) & height != 0 {
         return None;
@@ -270,7 +270,7 @@ impl Iso<'_> {
 }
 
 impl Cut {
-    fn new(axes: [usize; 3], first: Vec3, second: Vec3, letter: u8, size: f64) -> Self {
+    pub(crate) fn new(axes: [usize; 3], first: Vec3, second: Vec3, letter: u8, size: f64) -> Self {
         let mut normal = Vec3::zeros();
         normal[axes[2]] = 1.0;
         let turn = atan2(normal.dot(&first.cross(&second)), first.dot(&second));
@@ -288,7 +288,13 @@ impl Cut {
             no_height: false,
         }
     }
-    fn apply(&self, mut before: PendingMotion, round: bool, next: &mut PendingMotion, on: &mut Vec<PendingMotion>) {
+    pub(crate) fn apply(
+        &self,
+        mut before: PendingMotion,
+        round: bool,
+        next: &mut PendingMotion,
+        on: &mut Vec<PendingMotion>,
+    ) {
         let corner = point(&before.0.end, self.axes);
         let Some(corner) = corner.filter(|_| self.by > 1e-9 && self.turn.abs() > 1e-12) else {
             on.push(before);

@@ -3,9 +3,9 @@
 //! A language reads its statements and leaves a [`Transfer`]; [`crate::Interpreter::advance`] does it. While a program has no such
 //! statement, nothing here runs: [`Flow::trail`] stays empty.
 mod call;
-mod reported;
+pub(crate) mod reported;
 mod run;
-mod through;
+pub(crate) mod through;
 mod transfer;
 
 use crate::macro_b::{self, Deep, Mistake};

@@ -22,6 +22,7 @@ mod engine;
 mod flow;
 mod frames;
 mod iso;
+mod klartext;
 mod macro_b;
 mod memory;
 mod offsets;

@@ -3,6 +3,7 @@ use crate::apt::Apt;
 use crate::core::Core;
 use crate::engine::Engine;
 use crate::iso::Iso;
+use crate::klartext::Klartext;
 use crate::rs274::Ngc;
 use crate::{ChainId, Frame, ModalState, ProgramRun, Setup, Sink, Tool};
 use trunnion_dialect::{Dialect, Language};
@@ -18,6 +19,7 @@ pub struct Interpreter<'d> {
 enum Engines<'d> {
     Iso(Box<Iso<'d>>),
     Apt(Box<Apt<'d>>),
+    Klartext(Box<Klartext<'d>>),
     Ngc(Box<Ngc<'d>>),
 }
 
@@ -27,6 +29,7 @@ macro_rules! with_engine {
         match $interpreter {
             Engines::Iso($engine) => $do,
             Engines::Apt($engine) => $do,
+            Engines::Klartext($engine) => $do,
             Engines::Ngc($engine) => $do,
         }
     };
@@ -42,6 +45,7 @@ impl<'d> Interpreter<'d> {
         core.merge_tool();
         let engine = match (dialect.lex.format, dialect.quirks.language) {
             (Format::Apt, _) => Engines::Apt(Box::new(Apt::new(core))),
+            (Format::Klartext, _) => Engines::Klartext(Box::new(Klartext::new(core))),
             (Format::Iso, Language::Linuxcnc) => Engines::Ngc(Box::new(Ngc::new(core))),
             (Format::Iso, Language::Words | Language::MacroB | Language::Sinumerik) => {
                 Engines::Iso(Box::new(Iso::new(core)))
@@ -73,7 +77,13 @@ impl<'d> Interpreter<'d> {
                     engine.core().missing_end(program, sink);
                 }
             }
-            Engines::Iso(_) | Engines::Apt(_) | Engines::Ngc(_) => {}
+            Engines::Klartext(engine) if is_there => {
+                engine.step(program, block, sink);
+                if is_last {
+                    engine.finish(program, block, sink);
+                }
+            }
+            Engines::Iso(_) | Engines::Apt(_) | Engines::Klartext(_) | Engines::Ngc(_) => {}
         }
     }
 

@@ -121,10 +121,14 @@ fn new_numbers(
     numbers: Numbers,
     survey: &Survey,
 ) -> Result<(Vec<(BlockId, TextEdit)>, usize), Obstacle> {
-    if program.options().format == Format::Apt {
+    if program.options().format != Format::Iso {
         return Err(Obstacle {
             range: TextRange::default(),
-            why: "APT statements have no block numbers".to_owned(),
+            why: match program.options().format {
+                Format::Klartext => "the control numbers the blocks of a Klartext program itself",
+                Format::Apt | Format::Iso => "APT statements have no block numbers",
+            }
+            .to_owned(),
         });
     }
     let most = if dialect.lex.blanks_in_numbers { MOST_NGC } else { MOST };

@@ -42,7 +42,7 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             out.extend_from_slice(ending);
         }
         (blank_lines, any) = (0, true);
-        if program.options().format == Format::Apt {
+        if program.options().format != Format::Iso {
             apt::write(program, &block, &mut out);
         } else {
             let depth = nesting.depth(&block);
@@ -50,7 +50,7 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             percents += u32::from(is_bare_percent(&block));
         }
         let stays = || match program.options().format {
-            Format::Apt => apt::stays(program, &block),
+            Format::Apt | Format::Klartext => apt::stays(program, &block),
             Format::Iso => blocks.stays(&block),
         };
         if !(own_ending.is_empty() && stays()) {

@@ -141,7 +141,7 @@ pub(crate) fn rapid_runs(
     settings: &Settings<'_>,
     machine: &Machine,
 ) -> Result<Vec<Vec<Rapid>>, String> {
-    if settings.dialect.lex.format == Format::Apt {
+    if settings.dialect.lex.format != Format::Iso {
         return Err("rapid motions of APT are not rewritten: its post-processor writes them".into());
     }
     let mut collector = Collector {

@@ -34,7 +34,7 @@ pub(crate) type Slots = [Option<Slot>; 6];
 impl Scheme {
     /// The scheme of a block whose tool axis is programmed as a vector.
     pub(crate) fn of_vector(program: &Program, block: &Block<'_>) -> Self {
-        if program.options().format == Format::Apt {
+        if program.options().format != Format::Iso {
             return Self::Goto;
         }
         let indexed = block

@@ -104,8 +104,11 @@ pub fn run_alike(before: &Input<'_>, after: &Input<'_>) -> bool {
 /// Whether a text may call a program of another file: it has the words of a call, or computes codes. A Sinumerik calls any name.
 fn may_call(input: &Input<'_>) -> bool {
     let (program, quirks) = (input.program, &input.dialect.quirks);
-    if program.options().format == Format::Apt {
-        return false;
+    match program.options().format {
+        Format::Apt => return false,
+        // CALL PGM, SEL PGM and cycle 12
+        Format::Klartext => return true,
+        Format::Iso => {}
     }
     let text: Vec<u8> = (program.source().iter())
         .filter(|byte| !byte.is_ascii_whitespace())

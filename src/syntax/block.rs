@@ -1,6 +1,6 @@
 //! Borrowed views: blocks, and the items in them.
 use crate::items::comment;
-use crate::{BlockId, Decimal, Format, Items, Program, Record, TextRange, TokenId, TokenKind};
+use crate::{BlockId, Decimal, Format, Items, Program, Record, Sentence, TextRange, TokenId, TokenKind, klartext};
 use core::ops::Range;
 
 /// A view of one block.
@@ -138,6 +138,11 @@ impl<'p> Block<'p> {
     }
     /// The block number as written (`N2930`), if there is one. Marks and labels may precede it.
     pub fn number(&self) -> Option<TextRange> {
+        if self.program.options.format == Format::Klartext {
+            let tokens = self.tokens();
+            let scan = self.program.scan(tokens.end);
+            return klartext::head(&scan, tokens.start).0.map(|token| scan.range(token));
+        }
         let first = self
             .items()
             .find(|item| !matches!(item, Item::Skip(..) | Item::Comment(_)))?;
@@ -155,8 +160,16 @@ impl<'p> Block<'p> {
     pub fn record(&self) -> Option<Record<'p>> {
         let tokens = self.tokens();
         match self.program.options.format {
-            Format::Iso => None,
+            Format::Iso | Format::Klartext => None,
             Format::Apt => Record::read(self.program, self.program.scan(tokens.end), tokens.start),
+        }
+    }
+    /// Klartext: its words, unless the block has none.
+    pub fn sentence(&self) -> Option<Sentence<'p>> {
+        let tokens = self.tokens();
+        match self.program.options.format {
+            Format::Iso | Format::Apt => None,
+            Format::Klartext => Sentence::read(self.program, self.program.scan(tokens.end), tokens.start),
         }
     }
     /// All comments of the block, both formats, those inside words and brackets included.

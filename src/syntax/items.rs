@@ -3,7 +3,7 @@ use crate::error::SyntaxErrorKind;
 use crate::expression::is_function;
 use crate::scan::Scan;
 use crate::sink::{Quiet, Sink};
-use crate::{Address, Comment, Decimal, Item, SyntaxError, TextRange, TokenId, TokenKind, Value, Word};
+use crate::{Address, Comment, Decimal, Format, Item, SyntaxError, TextRange, TokenId, TokenKind, Value, Word};
 
 /// How far into a block the reader is: some marks have a meaning only at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -229,6 +229,11 @@ impl<'p> Items<'p> {
         }
         if kind == TokenKind::Slash && stage == Stage::Start {
             return self.skip(at);
+        }
+        if scan.options.format == Format::Klartext {
+            // its words have a view of their own: `Sentence`
+            self.at = at + 1;
+            return self.silent(at, at + 1);
         }
         self.stage = Stage::Inside;
         match kind {

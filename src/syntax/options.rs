@@ -7,12 +7,14 @@ pub enum Format {
     Iso,
     /// APT / CL records: `GOTO / 1, 2, 3`.
     Apt,
+    /// HEIDENHAIN Klartext: `12 L X+10 Y-5,5 R0 FMAX M3`.
+    Klartext,
 }
 
 /// Lexical facts of a dialect. Comments the flags do not name are still lexed as far as that is unambiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LexOptions {
-    /// ISO words or APT records.
+    /// ISO words, APT records or Klartext.
     pub format: Format,
     /// `( ... )` is a comment (else it brackets arguments: `CYCLE81(1,2)`).
     pub paren_comment: bool,

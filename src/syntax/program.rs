@@ -1,7 +1,9 @@
 //! A parsed program: source, tokens, blocks and problems.
 use crate::builder::Builder;
 use crate::scan::Scan;
-use crate::{Block, Format, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, TokenId, TokenTable, apt, iso};
+use crate::{
+    Block, Format, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, TokenId, TokenTable, apt, iso, klartext,
+};
 use core::ops::Range;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -64,6 +66,7 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
     match options.format {
         Format::Iso => iso::lex(source, options, at_start, out),
         Format::Apt => apt::lex(source, options, at_start, out),
+        Format::Klartext => klartext::lex(source, options, at_start, out),
     }
 }
 

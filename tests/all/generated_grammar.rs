@@ -44,6 +44,11 @@ fn apt_grammar_is_fresh() {
 }
 
 #[test]
+fn klartext_grammar_is_fresh() {
+    fresh("klartext.tmLanguage.json", &textmate(&dialects(Format::Klartext)));
+}
+
+#[test]
 fn grammars_know_the_codes_of_the_tables() {
     let grammar: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Iso))).expect("there");
     assert_eq!(grammar["scopeName"], "source.gcode");
@@ -65,6 +70,9 @@ fn grammars_know_the_codes_of_the_tables() {
     let apt: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Apt))).expect("there");
     assert_eq!(apt["scopeName"], "source.apt");
     assert!(apt.to_string().contains("TOOL PATH"));
+    let klartext: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Klartext))).expect("there");
+    assert_eq!(klartext["scopeName"], "source.klartext");
+    assert!(klartext.to_string().contains("APPR|"));
 }
 
 #[test]

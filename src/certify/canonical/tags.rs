@@ -35,7 +35,7 @@ macro_rules! tags {
     };
 }
 
-tags! { Format { Iso = 1, Apt = 2 } }
+tags! { Format { Iso = 1, Apt = 2, Klartext = 3 } }
 tags! { CodeKind { G = 1, M = 2, Name = 3 } }
 tags! { Owner { Control = 1, MachineBuilder = 2 } }
 tags! { AxisKind { Linear = 1, Rotary = 2 } }

@@ -55,10 +55,24 @@ const STILL: &[&str] = &[
 /// Major words of APT that move.
 const RECORDS: &[&str] = &["GOTO", "GODLTA", "GOHOME", "CIRCLE", "CYCLE", "CALSUB", "CALL"];
 
+/// First words of Klartext blocks that move nothing.
+const PHRASES: &[&str] = &[
+    "BEGIN", "END", "LBL", "FN", "Q", "QL", "QR", "QS", "BLK", "CC", "STOP", "SEL", "DECLARE", "M",
+];
+
 /// See the module.
 pub(super) fn moves(block: &Block<'_>, dialect: &Dialect) -> bool {
     if let Some(record) = block.record() {
         return RECORDS.iter().any(|major| record.is(major));
+    }
+    if let Some(sentence) = block.sentence() {
+        let text = sentence.text();
+        let name = text
+            .split(|byte| !byte.is_ascii_alphabetic())
+            .next()
+            .unwrap_or_default()
+            .to_ascii_uppercase();
+        return !PHRASES.iter().any(|still| name == still.as_bytes());
     }
     let program = block.program();
     block.items().any(|item| match item {

@@ -45,7 +45,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
 
 /// Whether a block has a word other than its own or the program's number, a name or a record.
 fn does_something(block: &Block<'_>) -> bool {
-    if block.record().is_some() {
+    if block.record().is_some() || block.sentence().is_some() {
         return true;
     }
     let number = block.number();

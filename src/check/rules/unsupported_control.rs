@@ -6,11 +6,11 @@
 //!
 //! # Example
 //! ```gcode detected
-//! 0 BEGIN PGM PLATE MM
-//! ;^^^^^^^^^^^^^^^^^^^ unsupported-control: the program is for HEIDENHAIN Klartext, which is not supported
-//! 1 TOOL CALL 1 Z S2000
-//! 2 L X+0 Y+0 Z+50 R0 FMAX M3
-//! 3 END PGM PLATE MM
+//! %PLATE G71 *
+//! ;^^^^^^^^^^^ unsupported-control: the program is for HEIDENHAIN DIN/ISO, which is not supported
+//! N10 T1 G17 S2000 *
+//! N20 G00 G40 G90 X+0 Y+0 Z+50 M3 *
+//! N99999999 %PLATE G71 *
 //! ```
 //!
 //! # Use instead

@@ -75,6 +75,17 @@ fn klartext(line: &str, votes: &mut Votes) {
     {
         votes.add("heidenhain-klartext", 8, "an L, C or CC block");
     }
+    // `40 L X+5 ...` without signs
+    let plain = |rest: &str| {
+        let mut chars = rest.trim_start().trim_start_matches('I').chars();
+        matches!(chars.next(), Some('X' | 'Y' | 'Z')) && chars.next().is_some_and(|c| c.is_ascii_digit())
+    };
+    if ["L ", "LN ", "CC ", "CR "]
+        .iter()
+        .any(|start| text.strip_prefix(start).is_some_and(plain))
+    {
+        votes.add("heidenhain-klartext", 8, "an L, CR or CC block");
+    }
     if has_word(text, "FMAX") {
         votes.add("heidenhain-klartext", 8, "FMAX");
     }

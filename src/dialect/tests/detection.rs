@@ -208,16 +208,23 @@ fn signs_of_haas_grbl_and_lathes() {
 }
 
 #[test]
+fn klartext_is_told_by_its_blocks() {
+    for text in [
+        "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM A MM\n",
+        "FN 18: SYSREAD Q1 = ID20 NR1\nLBL 1\nL X+5 FMAX\n",
+    ] {
+        let detected = detect(None, text.as_bytes(), None);
+        assert_eq!(
+            (detected.dialect.name.as_str(), detected.foreign),
+            ("heidenhain-klartext", None),
+            "{text}"
+        );
+    }
+}
+
+#[test]
 fn controls_that_are_not_read() {
     for (text, name) in [
-        (
-            "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM A MM\n",
-            "heidenhain-klartext",
-        ),
-        (
-            "FN 18: SYSREAD Q1 = ID20 NR1\nLBL 1\nL X+5 FMAX\n",
-            "heidenhain-klartext",
-        ),
         ("%A G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN20 G00 X+5*\n", "heidenhain-iso"),
         ("OHOME\nG0 X60.\nG20 HP=4\nRTS\n", "okuma-osp"),
         ("$PART.MIN%\nG50 S2000\nT010101\nG0 X50 Z2\nM2\n", "okuma-osp-lathe"),

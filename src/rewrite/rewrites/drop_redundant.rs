@@ -58,7 +58,7 @@ pub(super) const REWRITE: Body = Body { cures: &[], propose };
 const EXACT: f64 = 1e-9;
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
-    if program.options().format == Format::Apt {
+    if program.options().format != Format::Iso {
         return Err("APT: only G code has words that repeat".into());
     }
     let hand = Hand::of(program);

@@ -63,7 +63,7 @@ use trunnion_syntax::{Address, Format, Program, TextRange, Value};
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
-    if program.options().format == Format::Apt {
+    if program.options().format != Format::Iso {
         return Err("APT: arcs are not written there".into());
     }
     let found = chains(program, settings, 2);

@@ -135,7 +135,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and postures depend on the machine (--machine)".into());
     };
-    if machine.rotary.len() != 2 || settings.dialect.lex.format == Format::Apt {
+    if machine.rotary.len() != 2 || settings.dialect.lex.format != Format::Iso {
         return Ok(None);
     }
     let letters = [0, 1].map(|index| machine.axes[machine.rotary[index]].letter);

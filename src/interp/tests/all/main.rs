@@ -19,6 +19,7 @@ mod faults;
 mod files;
 mod fold_samples;
 mod frames;
+mod klartext;
 mod macro_calls;
 mod macro_flow;
 mod macro_programs;

@@ -1,0 +1,217 @@
+//! HEIDENHAIN Klartext blocks to motions.
+//!
+//! Sources: HEIDENHAIN TNC 640 user's manuals 34059x (Klartext and DIN/ISO programming, cycles); TNC 410 and TNC 407 for approach and
+//! departure. What they leave open is unknown by name.
+mod approach;
+mod arcs;
+mod calls;
+mod corner;
+mod datum;
+mod drill;
+mod effects;
+mod flow;
+mod fn_block;
+mod hole;
+mod path;
+mod path_words;
+mod plane;
+mod sentence;
+mod tool;
+mod values;
+mod words;
+
+use crate::core::{Core, Report};
+use crate::engine::Engine;
+use crate::frames::{Frames, Tilted};
+use crate::reported::Reported;
+use crate::{Fault, FaultKind, Motion, Sink};
+use flow::{Flow, Request};
+use trunnion_geometry::Vec3;
+use trunnion_syntax::{BlockId, Program, TextRange};
+use values::Parameters;
+
+/// A motion in the coordinates of the tilted plane that was active when it was made.
+#[derive(Clone, Debug)]
+pub(crate) struct Made {
+    motion: Motion,
+    tilt: Option<Tilted>,
+}
+
+/// What the language keeps between blocks in addition to the modal state.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Memory {
+    parameters: Parameters,
+    frames: Frames,
+    /// Angle of cycle 10, deg.
+    rotation: f64,
+    /// Reasons why coordinates say nothing: bits of [`datum`].
+    lost: u8,
+    /// CC: coordinates of the pole, and whether a polar radius was given since.
+    pole: [Option<f64>; 3],
+    polar_radius: Option<f64>,
+    /// Direction of the last motion, in the coordinates of the words.
+    heading: Option<Vec3>,
+    /// F of TOOL CALL, mm/min.
+    tool_feed: Option<f64>,
+    /// The cycle that CYCL CALL runs.
+    cycle: hole::Cycle,
+    /// M89.
+    runs_after_each: bool,
+    /// M136.
+    per_turn: bool,
+    /// M126.
+    shortest: bool,
+    /// Rotary words are spatial angles (FUNCTION TCPM AXIS SPAT).
+    spatial: bool,
+    /// FUNCTION TCPM with a programmed point that is not the tip.
+    other_point: bool,
+    /// The last block was a rapid.
+    was_rapid: bool,
+    /// PLANE ... STAY: the angles in Q120 to Q122 have not been gone to.
+    angles_wait: Option<crate::Posture>,
+    waiting: Option<corner::Waiting>,
+    /// TOOL DEF with a length or radius.
+    tools: Vec<crate::Tool>,
+    said: Reported,
+}
+
+/// The engine of Klartext programs.
+#[derive(Clone)]
+pub(crate) struct Klartext<'d> {
+    pub(crate) core: Core<'d>,
+    memory: Memory,
+    flow: Flow,
+    /// Motions of the block that are ready.
+    out: Vec<Motion>,
+}
+
+impl<'d> Engine<'d> for Klartext<'d> {
+    fn core(&self) -> &Core<'d> {
+        &self.core
+    }
+    fn core_mut(&mut self) -> &mut Core<'d> {
+        &mut self.core
+    }
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        self.run_next(program, sink)
+    }
+    fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
+        self.flow.course.frames(chain)
+    }
+    fn motions_wait(&self) -> bool {
+        self.memory.waiting.is_some()
+    }
+    fn variable(&self, text: &str) -> Option<f64> {
+        let mut words = words::Words::new(text.trim().as_bytes());
+        let found = words.parameter()?;
+        self.memory.parameters.get(found)
+    }
+    fn outliving(&self) -> Vec<(String, f64)> {
+        self.memory.parameters.known()
+    }
+    fn turned(&self) -> Vec<f64> {
+        self.memory.frames.turned()
+    }
+}
+
+impl<'d> Klartext<'d> {
+    /// At the start of a program.
+    pub(crate) fn new(core: Core<'d>) -> Self {
+        Self {
+            core,
+            memory: Memory::default(),
+            flow: Flow::default(),
+            out: Vec::new(),
+        }
+    }
+
+    /// Runs one block, for callers that choose the blocks themselves.
+    pub(crate) fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.core.declare(program);
+        if !self.core.state.ended {
+            let request = self.run_block(program, block, sink);
+            if !matches!(request, Request::Next) {
+                self.core.forget_everything();
+                self.memory.parameters.lose();
+            }
+        }
+    }
+
+    /// What waits for a further motion, and a missing program end.
+    pub(crate) fn finish(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.flush_in(program, block, sink);
+        self.core.missing_end(program, sink);
+    }
+
+    /// Puts out the motions that wait, in a run of their own.
+    fn flush_in(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        if self.memory.waiting.is_some() {
+            let mut faults = |fault| sink.fault(fault);
+            let mut report = Report {
+                program,
+                block,
+                record: None,
+                faults: &mut faults,
+            };
+            self.flush(&mut report);
+            self.put_out(sink);
+        }
+    }
+
+    fn put_out(&mut self, sink: &mut impl Sink) {
+        for motion in self.out.drain(..) {
+            sink.motion(&motion, &self.core.state);
+        }
+    }
+
+    /// Runs one block; what it requests of the flow.
+    fn run_block(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) -> Request {
+        let view = program.block(block);
+        let Some(sentence) = view.sentence() else {
+            return Request::Next;
+        };
+        if sentence.skips && self.core.setup.control.block_delete == Some(true) {
+            return Request::Next;
+        }
+        self.core.last_content = Some(block);
+        let text = sentence.text();
+        let mut other = false;
+        let request = {
+            let mut faults = |fault: Fault| {
+                other |= crate::effects::has_other_effects(&fault.kind);
+                sink.fault(fault);
+            };
+            let mut report = Report {
+                program,
+                block,
+                record: Some(sentence.range),
+                faults: &mut faults,
+            };
+            self.sentence(&text, &mut report)
+        };
+        if self.core.effects.wanted() {
+            self.block_effects(&text, block, other, sentence.skips);
+            self.core.emit_effects(sink);
+        }
+        self.put_out(sink);
+        request
+    }
+
+    /// Reports once that something is not followed.
+    fn not_modelled_once(&mut self, what: &str, report: &mut Report<'_>) {
+        if self.memory.said.first(what) {
+            report.fault(TextRange::default(), FaultKind::NotModelled { what: what.to_owned() });
+        }
+    }
+    fn not_modelled(what: impl Into<String>, report: &mut Report<'_>) {
+        report.fault(TextRange::default(), FaultKind::NotModelled { what: what.into() });
+    }
+    fn rejected(refusal: crate::Refusal, message: impl Into<String>, report: &mut Report<'_>) {
+        let kind = FaultKind::Rejected {
+            refusal,
+            message: message.into(),
+            alarm: None,
+        };
+        report.fault(TextRange::default(), kind);
+    }
+}

@@ -1,0 +1,103 @@
+//! LBL, CALL and SEL: which label or program is meant.
+use super::Klartext;
+use super::flow::{Level, Request};
+use super::words::{Kind, Said, Words};
+use crate::core::Report;
+use crate::{FaultKind, Refusal};
+use trunnion_flow::Key;
+use trunnion_syntax::TextRange;
+
+impl Klartext<'_> {
+    /// LBL: a label is passed; LBL 0 ends a subprogram.
+    pub(crate) fn label(&mut self, value: Said<'_>, words: &mut Words<'_>) -> Request {
+        let of_label = self
+            .flow
+            .course
+            .programs()
+            .last()
+            .is_some_and(|level| matches!(level, Level::Label));
+        match key_of(value, words) {
+            Some(Key::Number(0)) if of_label => Request::Return,
+            _ => Request::Next,
+        }
+    }
+
+    /// CALL LBL, CALL PGM, CALL SELECTED PGM.
+    pub(crate) fn call(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) -> Request {
+        let Some(first) = words.next() else {
+            Self::rejected(Refusal::MissingWord, "CALL needs LBL or PGM", report);
+            return Request::Next;
+        };
+        match first.name() {
+            b"LBL" => {
+                let Some(key) = self.key(first.value, words, report) else {
+                    return self.undecided("which label is called", report);
+                };
+                match words.next() {
+                    Some(word) if word.is("REP") => match self.said(word.value, report) {
+                        Some(times) if (0.0..65536.0).contains(&times) && times.fract() == 0.0 => {
+                            Request::Repeat(key, times as u32)
+                        }
+                        _ => self.undecided("how often the section runs", report),
+                    },
+                    _ => Request::Call(key),
+                }
+            }
+            b"PGM" => {
+                let text = String::from_utf8_lossy(words.rest())
+                    .trim()
+                    .trim_matches(['"', '\''])
+                    .to_owned();
+                Request::Program(text)
+            }
+            b"SELECTED" => match self.flow.selected.clone() {
+                Some(name) => Request::Program(name),
+                None => self.undecided("which program is selected", report),
+            },
+            _ => {
+                Self::rejected(Refusal::Syntax, "CALL needs LBL or PGM", report);
+                Request::Next
+            }
+        }
+    }
+
+    /// SEL PGM "NAME".
+    pub(crate) fn select(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if !words.takes_word("PGM") {
+            return self.not_modelled_once("SEL of a table or contour", report);
+        }
+        let text = String::from_utf8_lossy(words.rest()).trim().to_owned();
+        let plain = text.starts_with('"') && text.len() > 2;
+        self.flow.selected = plain.then(|| text.trim_matches('"').to_owned());
+    }
+
+    pub(crate) fn undecided(&mut self, what: &str, report: &mut Report<'_>) -> Request {
+        report.fault(TextRange::default(), FaultKind::NotDecided { what: what.to_owned() });
+        Request::Stop
+    }
+
+    /// The label of a call or jump; one in a parameter is known where the parameter is.
+    pub(crate) fn key(&mut self, value: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) -> Option<Key> {
+        if let Said::Parameter(_, parameter) = value {
+            if parameter.kind == Kind::Text {
+                let text = self.memory.parameters.texts.get(&parameter.number)?.clone()?;
+                return Some(Key::Name(text.into()));
+            }
+            let number = self.said(value, report)?;
+            return (number >= 0.0 && number.fract() == 0.0).then_some(Key::Number(number as u32));
+        }
+        key_of(value, words)
+    }
+}
+
+/// A number, or the quoted text that follows.
+pub(super) fn key_of(value: Said<'_>, words: &mut Words<'_>) -> Option<Key> {
+    match value {
+        Said::Number(number) if number >= 0.0 && number.fract() == 0.0 => Some(Key::Number(number as u32)),
+        Said::Nothing => match words.next()?.value {
+            Said::Text(text) => Some(Key::Name(String::from_utf8_lossy(text).into())),
+            _ => None,
+        },
+        _ => None,
+    }
+}

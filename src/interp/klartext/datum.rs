@@ -1,0 +1,320 @@
+//! Cycles that act where they are defined: datum shift 7, preset 247, mirror 8, rotation 10, scaling 11 and 26, working plane 19, dwell 9.
+//!
+//! An axis that a datum shift leaves out keeps its shift; a shift that is programmed in a tilted plane acts in it; mirror without axes,
+//! rotation by 0 and scaling by 1 end them (TNC 640 cycle manuals, coordinate transformations).
+use super::hole::Cycle;
+use super::path_words::PathWords;
+use super::words::{Said, Words};
+use super::{Klartext, values::Value};
+use crate::core::{LINEAR, Report};
+use crate::frames::{Rotation, Scaling};
+use crate::{AxisLetter, Feed, MotionKind, Refusal, Undeclared};
+use trunnion_syntax::TextRange;
+
+/// A datum shift that is not known.
+pub(crate) const DATUM: u8 = 1;
+/// A working plane that is not known.
+pub(crate) const PLANE: u8 = 2;
+/// Mirror, rotation, scaling that are not known.
+pub(crate) const SHAPE: u8 = 4;
+
+impl Klartext<'_> {
+    /// Coordinates say nothing from here on, for a reason.
+    pub(crate) fn lose(&mut self, reason: u8) {
+        self.memory.lost |= reason;
+        self.core.forget_linear();
+        self.core.state.zero.lose(true);
+    }
+
+    /// The reason has ended.
+    pub(crate) fn found(&mut self, reason: u8) {
+        if self.memory.lost & reason != 0 {
+            self.memory.lost &= !reason;
+            self.core.forget_linear();
+            self.core.state.zero.lose(self.memory.lost != 0);
+        }
+    }
+
+    /// CYCL DEF and CYCL CALL.
+    pub(crate) fn cycle_block(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let Some(kind) = words.next() else {
+            return Self::rejected(Refusal::MissingWord, "CYCL needs DEF or CALL", report);
+        };
+        if kind.is("CALL") {
+            return self.call_cycle(words, report);
+        }
+        // `7.1`: the number of the cycle, and that of its line
+        let start = kind.start;
+        let text = words.text.get(start..).unwrap_or_default();
+        let digits = text.iter().position(u8::is_ascii_digit).filter(|_| kind.is("DEF"));
+        let Some(first) = digits else {
+            return Self::rejected(Refusal::Syntax, "CYCL DEF needs the number of its cycle", report);
+        };
+        let number = text[first..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit() || **byte == b'.');
+        let length = number.count();
+        let written = String::from_utf8_lossy(&text[first..first + length]).into_owned();
+        let (cycle, line) = written
+            .split_once('.')
+            .map_or((written.as_str(), None), |(a, b)| (a, Some(b)));
+        let (Ok(cycle), Ok(line)) = (cycle.parse::<u32>(), line.unwrap_or("0").parse::<u32>()) else {
+            return Self::rejected(Refusal::Number, "CYCL DEF needs the number of its cycle", report);
+        };
+        words.at = start + first + length;
+        self.flush(report);
+        match cycle {
+            7 => self.datum_shift(line, words, report),
+            8 => self.mirror(line, words, report),
+            9 => self.dwell_cycle(line, words, report),
+            10 => self.rotation(line, words, report),
+            11 => self.scaling(line, words, report),
+            19 => self.working_plane(line, words, report),
+            247 => self.preset(words, report),
+            26 | 27 | 28 | 29 | 39 => {
+                if line == 0 {
+                    Self::not_modelled(format!("cycle {cycle}"), report);
+                    self.lose(SHAPE);
+                }
+            }
+            // tolerance, oriented stop, contour data
+            13 | 14 | 20 | 32 | 270..=272 => {}
+            220 | 221 => {
+                Self::not_modelled(format!("cycle {cycle}: a pattern of holes"), report);
+                self.unknown_motion(report);
+            }
+            _ => self.define_cycle(cycle, line, words, report),
+        }
+    }
+
+    /// Axis words of a line.
+    fn axes_of(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) -> PathWords {
+        self.path_words(words, report)
+    }
+
+    /// 7.1 X.. and so on; #n: from a table.
+    fn datum_shift(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if line == 0 {
+            return;
+        }
+        if words.takes(b'#') {
+            Self::not_modelled("cycle 7: a datum from a table", report);
+            return self.lose(DATUM);
+        }
+        let found = self.axes_of(words, report);
+        if found.given == 0 {
+            return;
+        }
+        let unit = self.core.state.coordinates.unit_mm();
+        let mut local = self.memory.frames.local;
+        let mut unknown = false;
+        for axis in 0..9 {
+            let bit = 1 << axis;
+            if found.given & bit == 0 {
+                continue;
+            }
+            let scale = if LINEAR & bit != 0 { unit } else { 1.0 };
+            match found.values[axis] {
+                Some(value) if found.incremental & bit != 0 => local[axis] += value * scale,
+                Some(value) => local[axis] = value * scale,
+                None => unknown = true,
+            }
+        }
+        let shifts = found.given & 7 != 0 && (0..3).any(|axis| local[axis] != self.memory.frames.local[axis]);
+        let zero = local[..3] == [0.0; 3];
+        if unknown {
+            // the value was reported
+            return self.lose(DATUM);
+        }
+        if shifts && !zero && (self.memory.frames.tilt.is_some() || !self.memory.frames.shape.is_identity()) {
+            self.not_modelled_once("cycle 7 in a tilted, turned, mirrored or scaled system", report);
+            self.memory.frames.local = local;
+            return self.lose(DATUM);
+        }
+        self.memory.frames.local = local;
+        if self.memory.lost & DATUM != 0 && (zero || found.given & 7 == 7) {
+            self.found(DATUM);
+        }
+        self.refresh_zero();
+    }
+
+    /// The machine stays where it is, so the position moves against the zero point.
+    fn refresh_zero(&mut self) {
+        let mut zero = self.memory.frames.selected;
+        for (value, local) in zero.iter_mut().zip(self.memory.frames.local) {
+            *value += local;
+        }
+        let before = self.core.state.zero.values();
+        if zero == before {
+            return;
+        }
+        let plain = self.memory.frames.tilt.is_none() && self.memory.frames.shape.is_identity();
+        for (value, (old, new)) in self.core.state.position.values.iter_mut().zip(before.iter().zip(zero)) {
+            *value += old - new;
+        }
+        if !plain {
+            self.core.forget_linear();
+        }
+        self.core.state.zero.set(zero);
+        let position = self.core.state.position;
+        self.memory.frames.refresh(&position);
+        self.memory.pole = [None; 3];
+    }
+
+    /// CYCL DEF 247 Q339=n: a preset of the table.
+    fn preset(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let number = self.parameter_of(339, words, report);
+        let Some(number) = number
+            .flatten()
+            .filter(|number| number.fract() == 0.0 && *number >= 0.0)
+        else {
+            Self::not_modelled("cycle 247: which preset", report);
+            return self.lose(DATUM);
+        };
+        let name = format!("preset {number}");
+        let declared = self.core.setup.work_offset(&name).map(|offset| offset.values);
+        if declared.is_none() && self.core.offsets_reported.first(&name) {
+            let kind = crate::FaultKind::WorkOffsetUnset { name: name.clone() };
+            report.fault(TextRange::default(), kind);
+        }
+        let undeclared = if declared.is_some() { 0 } else { Undeclared::ALL_ZEROS };
+        // the machine stays, so nothing is known of the position in the new system
+        let same = self.core.state.zero.offset() == Some(name.as_str());
+        self.core.state.zero.choose(Some(name.into()), undeclared);
+        self.memory.frames.selected = declared.unwrap_or_default();
+        if !same && declared.is_none() {
+            self.core.forget_linear();
+        }
+        self.refresh_zero();
+    }
+
+    /// The value of `Qn=` among the words; `None`: it is not there.
+    pub(crate) fn parameter_of(&mut self, number: u32, words: &Words<'_>, report: &mut Report<'_>) -> Option<Value> {
+        let mut ahead = *words;
+        while let Some(word) = ahead.next() {
+            let is = matches!(word.value, Said::Parameter(_, found) if found.number == number);
+            if is && word.name().is_empty() && ahead.takes(b'=') {
+                ahead.blanks();
+                let said = ahead.value();
+                return Some(self.said(said, report));
+            }
+        }
+        None
+    }
+
+    /// 8.1 X Y: mirrors the named axes; none: ends.
+    fn mirror(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if line == 0 {
+            return;
+        }
+        let mut mirror = [None; 3];
+        for word in words.by_ref() {
+            if let [letter] = word.name()
+                && let Some(AxisLetter(axis @ 0..=2)) = AxisLetter::new(*letter)
+            {
+                mirror[usize::from(axis)] = Some(0.0);
+            }
+        }
+        let mut shape = self.memory.frames.shape;
+        shape.mirror = mirror;
+        if mirror != [None; 3] && shape.rotation.is_some() {
+            Self::not_modelled("cycle 8 together with cycle 10: their order", report);
+            return self.lose(SHAPE);
+        }
+        self.reshape(shape);
+    }
+
+    /// 10.1 ROT+35, IROT+5.
+    fn rotation(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if line == 0 {
+            return;
+        }
+        let Some(word) = words.find(|word| word.is("ROT") || word.is("IROT")) else {
+            return Self::rejected(Refusal::MissingWord, "cycle 10 needs ROT", report);
+        };
+        let added = if word.is("IROT") { self.memory.rotation } else { 0.0 };
+        let Some(angle) = self.said(word.value, report).map(|angle| angle + added) else {
+            return self.lose(SHAPE);
+        };
+        let mut shape = self.memory.frames.shape;
+        if angle != 0.0 && shape.mirror != [None; 3] {
+            Self::not_modelled("cycle 10 together with cycle 8: their order", report);
+            return self.lose(SHAPE);
+        }
+        self.memory.rotation = angle;
+        let plane = self.core.state.coordinates.plane();
+        shape.rotation = (angle != 0.0).then(|| Rotation::new(plane, [0.0, 0.0], angle));
+        self.reshape(shape);
+    }
+
+    /// 11.1 SCL 0.99.
+    fn scaling(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if line == 0 {
+            return;
+        }
+        let said = words.find(|word| word.is("SCL")).map(|word| word.value);
+        let factor = said
+            .and_then(|said| self.said(said, report))
+            .filter(|factor| *factor > 0.0);
+        let Some(factor) = factor else {
+            Self::not_modelled("cycle 11 without a factor", report);
+            return self.lose(SHAPE);
+        };
+        // whether the axis of the tool is scaled too is a parameter of the machine
+        if factor != 1.0 {
+            Self::not_modelled(
+                "cycle 11: a machine parameter decides whether the tool axis is scaled",
+                report,
+            );
+            return self.lose(SHAPE);
+        }
+        let mut shape = self.memory.frames.shape;
+        shape.scaling = None::<Scaling>;
+        self.reshape(shape);
+    }
+
+    fn reshape(&mut self, shape: crate::frames::Shape) {
+        self.found(SHAPE);
+        self.memory.frames.shape = shape;
+        let position = self.core.state.position;
+        self.memory.frames.refresh(&position);
+        self.memory.pole = [None; 3];
+    }
+
+    /// 9.1 DWELL 5: the last number of the line, seconds.
+    fn dwell_cycle(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if line == 0 {
+            return;
+        }
+        let said = words
+            .map(|word| word.value)
+            .filter(|said| !matches!(said, Said::Nothing | Said::Sign(_)))
+            .last();
+        let seconds = said
+            .and_then(|said| self.said(said, report))
+            .filter(|seconds| *seconds >= 0.0);
+        self.dwell(seconds, report);
+    }
+
+    /// A dwell where the tool is.
+    pub(crate) fn dwell(&mut self, seconds: Option<f64>, report: &mut Report<'_>) {
+        let position = self.core.state.position;
+        let orientation = self.core.held_orientation();
+        let kind = MotionKind::Dwell(seconds);
+        let motion = self
+            .core
+            .motion_in_frame(kind, [position; 2], orientation, Feed::Unknown, report);
+        self.emit(motion, report);
+    }
+
+    /// Any other cycle waits for its call.
+    fn define_cycle(&mut self, cycle: u32, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if cycle >= 200 {
+            self.memory.cycle = self.read_cycle(cycle, words, report);
+            return;
+        }
+        if line == 0 {
+            self.memory.cycle = Cycle::Old(cycle);
+        }
+    }
+}

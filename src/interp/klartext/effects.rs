@@ -1,0 +1,175 @@
+//! What a block does apart from its motions, in the words that other languages use for the same.
+use super::Klartext;
+use super::words::{Said, Words};
+use crate::tools::Chosen;
+use crate::{Argument, Effect, MotionKind, Reach};
+use trunnion_syntax::BlockId;
+
+/// First words of blocks that are in the motions and the modal state, or that do nothing.
+const HELD: [&str; 22] = [
+    "L", "LN", "C", "CR", "CT", "LP", "CP", "CTP", "CC", "RND", "APPR", "DEP", "TOOL", "PLANE", "BEGIN", "END", "LBL",
+    "CALL", "FN", "BLK", "STOP", "CYCL",
+];
+
+/// M codes that are in the motions, or in effects of their own.
+const CODES: [u32; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 30, 89, 91, 92, 99, 126, 127, 128];
+
+impl Klartext<'_> {
+    #[cold]
+    pub(crate) fn block_effects(&mut self, text: &[u8], block: BlockId, other: bool, skips: bool) {
+        let block = self.core.main_block(block);
+        let mut words = Words::new(text);
+        let Some(first) = words.next() else { return };
+        let name = String::from_utf8_lossy(first.name()).into_owned();
+        let mut unmodelled = other;
+        let mut after = Vec::new();
+        if first.is("TOOL") {
+            self.tool_effects(words, block);
+        } else if first.is("STOP") {
+            after.push(Effect::Event(vec![Argument::code("M0")]));
+        } else if first.is("CYCL") || first.is("CYCLE") {
+            unmodelled |= self.cycle_effects(text, block);
+        } else if let Said::Parameter(..) = first.value {
+            // values are compared where they are used; those that outlive the program at its end
+        } else if !HELD.contains(&name.as_str()) && !is_words(&name) {
+            unmodelled = true;
+        }
+        words.at = 0;
+        for word in words.filter(|word| word.is("M")) {
+            if let Said::Number(code) = word.value {
+                self.code_effects(code as u32, block, &mut after, &mut unmodelled);
+            }
+        }
+        let unknown = self.out.iter().any(|motion| {
+            matches!(
+                motion.kind,
+                MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
+            ) || motion.says_way & !motion.end.known != 0
+        });
+        // a block that the operator may skip
+        let may_skip = skips && self.core.setup.control.block_delete.is_none();
+        if unmodelled || unknown || may_skip {
+            let text = crate::canonical_text(&String::from_utf8_lossy(text));
+            let effect = Effect::Unmodelled(vec![Argument::text("", &text)]);
+            self.core.effects.add(block, effect);
+        }
+        for effect in after {
+            // the control goes on from where it was
+            self.core.effects.add_with(block, effect, Reach::Itself);
+        }
+        if self.core.state.ended {
+            let end = Effect::End(vec![Argument::code("M30")]);
+            self.core.effects.add(block, end);
+        }
+    }
+
+    fn code_effects(&mut self, code: u32, block: BlockId, after: &mut Vec<Effect>, unmodelled: &mut bool) {
+        let on = || [Argument::code("on")];
+        let effects = &mut self.core.effects;
+        match code {
+            3 | 13 => effects.add(block, Effect::set("spindle", [Argument::code("M3")])),
+            4 | 14 => effects.add(block, Effect::set("spindle", [Argument::code("M4")])),
+            5 => after.push(Effect::set("spindle", [Argument::code("M5")])),
+            _ => {}
+        }
+        match code {
+            8 | 13 | 14 => effects.add(block, Effect::set("flood coolant", on())),
+            7 => effects.add(block, Effect::set("mist coolant", on())),
+            9 => {
+                after.push(Effect::set("flood coolant", []));
+                after.push(Effect::set("mist coolant", []));
+            }
+            0 => after.push(Effect::Event(vec![Argument::code("M0")])),
+            1 => after.push(Effect::Event(vec![Argument::code("M1")])),
+            _ => {}
+        }
+        *unmodelled |= !CODES.contains(&code) && !matches!(code, 129 | 136 | 137 | 140);
+    }
+
+    fn tool_effects(&mut self, mut words: Words<'_>, block: BlockId) {
+        let Some(kind) = words.next() else { return };
+        let named = kind.is("CALL")
+            && (kind.value != Said::Nothing
+                || words
+                    .clone()
+                    .next()
+                    .is_some_and(|word| matches!(word.value, Said::Text(_))));
+        let effects = &mut self.core.effects;
+        if named {
+            let tool = match self.core.tools.in_spindle() {
+                Chosen::Number(number) => Argument::number("T", f64::from(*number)),
+                Chosen::Named(name) => Argument::text("T", name),
+                Chosen::Nothing | Chosen::Unread => Argument::text("T", "unknown"),
+            };
+            effects.add(block, Effect::set("tool prepared", [tool.clone()]));
+            effects.add(block, Effect::set("tool in use", [tool]));
+            effects.add(block, Effect::Event(vec![Argument::code("tool change")]));
+        }
+        let mut deltas = Vec::new();
+        for word in words {
+            match (word.name(), word.value) {
+                (b"S", Said::Number(speed)) if kind.is("CALL") => {
+                    effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
+                }
+                (name @ (b"DL" | b"DR" | b"DR2"), Said::Number(value)) if value != 0.0 => {
+                    deltas.push(Argument::number(String::from_utf8_lossy(name).into_owned(), value));
+                }
+                _ => {}
+            }
+        }
+        if kind.is("CALL") {
+            effects.add(block, Effect::set("tool deltas", deltas));
+        }
+    }
+
+    /// Whether more than the motions of holes and the frames hold is in the block.
+    fn cycle_effects(&mut self, text: &[u8], block: BlockId) -> bool {
+        use super::hole::Cycle;
+        let upper = text.to_ascii_uppercase();
+        let defines = upper.windows(3).any(|found| found == b"DEF");
+        if !defines {
+            return false;
+        }
+        let to: Vec<Argument> = match &self.memory.cycle {
+            Cycle::Hole(hole) if hole.taps() => {
+                let pitch = hole.pitch.map(|pitch| Argument::number("pitch", pitch));
+                std::iter::once(Argument::code("tap")).chain(pitch).collect()
+            }
+            _ => Vec::new(),
+        };
+        self.core.effects.add(block, Effect::set("cycle", to));
+        // tolerances, oriented stops, contours, and cycles whose words are not read
+        let digits = upper
+            .iter()
+            .skip_while(|byte| !byte.is_ascii_digit())
+            .take_while(|byte| byte.is_ascii_digit());
+        let number = digits.fold(0u32, |all, digit| {
+            all.saturating_mul(10).saturating_add(u32::from(digit - b'0'))
+        });
+        !matches!(number, 7..=11 | 19 | 200..=203 | 205..=209 | 240 | 247)
+    }
+}
+
+/// Words that may stand alone in a block: axes, F, M, R.
+fn is_words(name: &str) -> bool {
+    matches!(
+        name,
+        "X" | "Y"
+            | "Z"
+            | "A"
+            | "B"
+            | "IX"
+            | "IY"
+            | "IZ"
+            | "IA"
+            | "IB"
+            | "IC"
+            | "F"
+            | "FMAX"
+            | "M"
+            | "R"
+            | "U"
+            | "V"
+            | "W"
+    )
+}

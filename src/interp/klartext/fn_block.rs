@@ -1,0 +1,235 @@
+//! FN 0 to FN 29, and assignments of formulas.
+use super::Klartext;
+use super::flow::Request;
+use super::values::{Value, formula};
+use super::words::{Kind, Parameter, Said, Words};
+use crate::core::Report;
+use crate::frames::sin_cos_degrees;
+use crate::{FaultKind, Refusal};
+use trunnion_geometry::math::atan2;
+use trunnion_syntax::TextRange;
+
+impl Klartext<'_> {
+    /// `FN n: ...`, after FN.
+    pub(crate) fn function_of_parameters(
+        &mut self,
+        number: Said<'_>,
+        words: &mut Words<'_>,
+        report: &mut Report<'_>,
+    ) -> Request {
+        let Said::Number(number) = number else {
+            Self::rejected(Refusal::Syntax, "FN needs its number", report);
+            return Request::Next;
+        };
+        words.takes(b':');
+        match number as u32 {
+            0..=8 | 13 => self.arithmetic(number as u32, words, report),
+            9..=12 => return self.jump_if(number as u32, words, report),
+            14 => {
+                let text = String::from_utf8_lossy(words.rest()).trim().to_owned();
+                let message = format!("FN 14: {text}");
+                report.fault(TextRange::default(), FaultKind::ProgramAlarm { message });
+                return Request::Stop;
+            }
+            // reads of the control and of tables: the parameters that they fill are unknown
+            18 | 19 | 20 | 28 => {
+                let text = String::from_utf8_lossy(words.rest()).trim().to_owned();
+                let target: Vec<Parameter> = words
+                    .by_ref()
+                    .filter_map(|word| match word.value {
+                        Said::Parameter(_, parameter) => Some(parameter),
+                        _ => None,
+                    })
+                    .take(1)
+                    .collect();
+                for parameter in target {
+                    self.memory.parameters.set(parameter, None);
+                }
+                let what = text.split(';').next().unwrap_or_default().trim();
+                self.not_modelled_once(&format!("FN {number}: {what}"), report);
+            }
+            15 | 16 | 17 | 26 | 27 | 29 | 37 | 38 => {
+                self.not_modelled_once(&format!("FN {number}: what it writes or sends"), report);
+            }
+            _ => Self::not_modelled(format!("FN {number}"), report),
+        }
+        Request::Next
+    }
+
+    /// `Q1 = formula`; text parameters hold texts.
+    pub(crate) fn assignment(&mut self, text: &[u8], report: &mut Report<'_>) -> Request {
+        let mut words = Words::new(text);
+        words.blanks();
+        let Some(target) = words.parameter() else {
+            return Request::Next;
+        };
+        if !words.takes(b'=') {
+            Self::rejected(
+                Refusal::Syntax,
+                format!("{target} stands alone: `=` is missing"),
+                report,
+            );
+            return Request::Next;
+        }
+        if target.kind == Kind::Text {
+            let text = self.text_of(&mut words);
+            self.memory.parameters.changes += 1;
+            self.memory.parameters.texts.insert(target.number, text);
+            return Request::Next;
+        }
+        match formula(&mut words, &self.memory.parameters) {
+            Ok(value) if words.rest().trim_ascii().is_empty() => self.memory.parameters.set(target, value),
+            Ok(_) => {
+                self.memory.parameters.set(target, None);
+                let rest = String::from_utf8_lossy(words.rest()).trim().to_owned();
+                self.not_modelled_once(&format!("`{rest}` in a formula"), report);
+            }
+            Err(message) => {
+                self.memory.parameters.set(target, None);
+                Self::rejected(Refusal::Expression, message, report);
+            }
+        }
+        Request::Next
+    }
+
+    /// Quoted texts and QS parameters, joined by `||`.
+    fn text_of(&self, words: &mut Words<'_>) -> Option<String> {
+        let mut joined = String::new();
+        loop {
+            match words.next()?.value {
+                Said::Text(text) => joined.push_str(&String::from_utf8_lossy(text)),
+                Said::Parameter(_, parameter) if parameter.kind == Kind::Text => {
+                    joined.push_str(self.memory.parameters.texts.get(&parameter.number)?.as_ref()?);
+                }
+                _ => return None,
+            }
+            if !words.takes(b'|') {
+                break;
+            }
+            words.takes(b'|');
+        }
+        words.rest().trim_ascii().is_empty().then_some(joined)
+    }
+
+    /// `Qn = +a`, `Qn = +a + +b`, `- `, `*`, `DIV`; SQRT, SIN, COS; LEN and ANG of two sides.
+    fn arithmetic(&mut self, number: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        words.blanks();
+        let target = words.parameter();
+        let (Some(target), true) = (target, words.takes(b'=')) else {
+            Self::rejected(Refusal::Syntax, format!("FN {number} needs `Q... =`"), report);
+            return;
+        };
+        let value = self.fn_value(number, words, report);
+        match value {
+            Some(value) => self.memory.parameters.set(target, value),
+            None => {
+                self.memory.parameters.set(target, None);
+                Self::rejected(Refusal::Expression, format!("FN {number} is incomplete"), report);
+            }
+        }
+    }
+
+    fn operand(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) -> Option<Value> {
+        words.blanks();
+        match words.value() {
+            Said::Nothing | Said::Sign(_) | Said::Text(_) => None,
+            said => Some(self.said(said, report)),
+        }
+    }
+
+    fn fn_value(&mut self, number: u32, words: &mut Words<'_>, report: &mut Report<'_>) -> Option<Value> {
+        match number {
+            0 => self.operand(words, report),
+            5..=7 => {
+                // SQRT, SIN, COS: the value may stand with the word
+                let value = match words.next()?.value {
+                    Said::Nothing => self.operand(words, report)?,
+                    said => self.said(said, report),
+                };
+                Some(value.and_then(|value| match number {
+                    5 => (value >= 0.0).then(|| value.sqrt()),
+                    6 => Some(sin_cos_degrees(value).0),
+                    _ => Some(sin_cos_degrees(value).1),
+                }))
+            }
+            _ => {
+                let first = self.operand(words, report)?;
+                let taken = match number {
+                    1 => words.takes(b'+'),
+                    2 => words.takes(b'-'),
+                    3 => words.takes(b'*'),
+                    _ => {
+                        words.blanks();
+                        let letters = words
+                            .rest()
+                            .iter()
+                            .take_while(|byte| byte.is_ascii_alphabetic())
+                            .count();
+                        words.at += letters;
+                        letters > 0
+                    }
+                };
+                let second = self.operand(words, report).filter(|_| taken)?;
+                Some(first.zip(second).and_then(|(a, b)| match number {
+                    1 => Some(a + b),
+                    2 => Some(a - b),
+                    3 => Some(a * b),
+                    4 => (b != 0.0).then(|| a / b),
+                    8 => Some(a.hypot(b)),
+                    _ => (a != 0.0 || b != 0.0).then(|| atan2(a, b).to_degrees().rem_euclid(360.0)),
+                }))
+            }
+        }
+    }
+
+    /// `IF +Q1 EQU +5 GOTO LBL 3`, `IF Q1 IS UNDEFINED GOTO LBL 3`.
+    fn jump_if(&mut self, number: u32, words: &mut Words<'_>, report: &mut Report<'_>) -> Request {
+        let Some(opens) = words.next().filter(|word| word.is("IF")) else {
+            Self::rejected(Refusal::Syntax, "a jump needs IF", report);
+            return Request::Stop;
+        };
+        let first = match opens.value {
+            Said::Nothing => {
+                words.blanks();
+                words.value()
+            }
+            said => said,
+        };
+        let relation = words.next();
+        if relation.is_some_and(|word| word.is("IS")) {
+            return self.undecided("whether a parameter is defined", report);
+        }
+        let second = match relation.map(|word| word.value) {
+            Some(Said::Nothing) => {
+                words.blanks();
+                words.value()
+            }
+            Some(said) => said,
+            None => Said::Nothing,
+        };
+        let target = words.find(|word| word.is("LBL"));
+        let key = target.and_then(|word| self.key(word.value, words, report));
+        if first == Said::Nothing || second == Said::Nothing || target.is_none() {
+            Self::rejected(
+                Refusal::Syntax,
+                "a jump is IF, two values with a relation, GOTO LBL",
+                report,
+            );
+            return Request::Stop;
+        }
+        let holds = match (self.said(first, report), self.said(second, report)) {
+            (Some(a), Some(b)) => match number {
+                9 => a == b,
+                10 => a != b,
+                11 => a > b,
+                _ => a < b,
+            },
+            _ => return self.undecided("the values of a jump", report),
+        };
+        match (holds, key) {
+            (false, _) => Request::Next,
+            (true, Some(key)) => Request::Jump(key),
+            (true, None) => self.undecided("to which label the program jumps", report),
+        }
+    }
+}

@@ -1,0 +1,376 @@
+//! L, LN, C, CR, CT, LP, CP, CTP and CC.
+use super::path_words::PathWords;
+use super::words::Words;
+use super::{Klartext, Made};
+use crate::arc::plane_axes;
+use crate::core::{LINEAR, ROTARY, Report};
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Swivel};
+use trunnion_geometry::Vec3;
+use trunnion_syntax::TextRange;
+
+/// A path function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Path {
+    /// Words without one.
+    None,
+    Line,
+    Vectors,
+    AboutPole,
+    Radius,
+    Tangent,
+    PolarLine,
+    PolarArc,
+    PolarTangent,
+}
+
+impl Klartext<'_> {
+    /// A block with a path function.
+    #[inline]
+    pub(crate) fn path_block(&mut self, path: Path, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let found = self.path_words(words, report);
+        self.run_path(path, &found, report);
+    }
+
+    pub(crate) fn run_path(&mut self, path: Path, words: &PathWords, report: &mut Report<'_>) {
+        if !words.codes().is_empty() {
+            self.codes_before(words, report);
+        }
+        let rapid = if words.has(140) {
+            // the F behind MB is the block's
+            false
+        } else {
+            self.take_feed(words.feed, report)
+        };
+        if let Some(compensation) = words.compensation {
+            self.compensate(compensation, report);
+        }
+        let polar = matches!(path, Path::PolarLine | Path::PolarArc | Path::PolarTangent);
+        let moves = words.moves() || polar || words.tool.iter().any(Option::is_some) || path == Path::AboutPole;
+        if words.has(140) {
+            self.back_along_tool(words, report);
+        } else if moves && (words.has(91) || words.has(92)) {
+            self.machine_motion(words, rapid, report);
+        } else if moves {
+            self.motion(path, words, rapid, report);
+        }
+        if words.has(99) {
+            self.run_cycle(report);
+        } else if self.memory.runs_after_each && moves && !words.has(89) {
+            self.run_cycle(report);
+        }
+        if !words.codes().is_empty() {
+            self.codes_after(words);
+        }
+    }
+
+    fn compensate(&mut self, compensation: u8, report: &mut Report<'_>) {
+        self.core.state.compensation = compensation;
+        if compensation != 0 {
+            let what = "cutter radius compensation: the programmed path is used instead";
+            if !std::mem::replace(&mut self.core.compensation_reported, true) {
+                Self::not_modelled(what, report);
+            }
+        }
+    }
+
+    fn motion(&mut self, path: Path, words: &PathWords, rapid: bool, report: &mut Report<'_>) {
+        let start = self.core.state.position;
+        let from = self.memory.frames.programmed(&start);
+        if words.plane_angles != 0 && words.plane_angles == words.given {
+            return self.turn_to_plane(report);
+        }
+        let mut end = from;
+        self.place(words, &mut end);
+        let kind = match path {
+            Path::None | Path::Line | Path::Vectors => self.straight(rapid),
+            Path::AboutPole => self.about_pole(&from, &end, words, report),
+            Path::Radius => self.by_radius(&from, &end, words, report),
+            Path::Tangent => self.tangent(&from, &end, report),
+            Path::PolarLine | Path::PolarArc | Path::PolarTangent => {
+                let turned = self.polar_end(path, words, &from, &mut end, report);
+                match path {
+                    Path::PolarLine => self.straight(rapid),
+                    Path::PolarArc => self.polar_arc(&from, &end, turned, words, report),
+                    _ => self.tangent(&from, &end, report),
+                }
+            }
+        };
+        self.go(kind, from, end, words, report);
+    }
+
+    pub(crate) fn straight(&mut self, rapid: bool) -> MotionKind {
+        self.memory.was_rapid = rapid;
+        if rapid { MotionKind::Rapid } else { MotionKind::Linear }
+    }
+
+    /// The end of a block in the coordinates of the words.
+    #[inline]
+    pub(crate) fn place(&self, words: &PathWords, end: &mut Position) {
+        let unit = self.core.state.coordinates.unit_mm();
+        let mut rest = words.given;
+        while rest != 0 {
+            let axis = rest.trailing_zeros() as usize;
+            let bit = 1 << axis;
+            rest &= rest - 1;
+            let rotary = ROTARY & bit != 0;
+            let value = words.values[axis].map(|value| if rotary { value } else { value * unit });
+            let before = end.get(axis);
+            let target = if words.incremental & bit != 0 {
+                before.zip(value).map(|(before, value)| before + value)
+            } else if rotary && self.memory.shortest {
+                // M126: 350 to 10 is 20 degrees
+                before
+                    .zip(value)
+                    .map(|(before, value)| before + turn_to(value - before))
+                    .or(value)
+            } else {
+                value
+            };
+            match target.filter(|_| !(rotary && self.memory.spatial)) {
+                Some(target) => end.set(axis, target),
+                None => end.forget(axis),
+            }
+        }
+    }
+
+    /// A motion between two places in the coordinates of the words.
+    pub(crate) fn go(
+        &mut self,
+        kind: MotionKind,
+        from: Position,
+        end: Position,
+        words: &PathWords,
+        report: &mut Report<'_>,
+    ) {
+        let start = self.core.state.position;
+        self.note_heading(&kind, &from, &end);
+        let (mut end, kind) = if self.memory.frames.active {
+            (self.memory.frames.arrive(end), self.memory.frames.kind_to_work(kind))
+        } else {
+            (end, kind)
+        };
+        self.core.state.position = end;
+        let orientation = self.tool_orientation(words, report);
+        if let Orientation::Vector(..) = orientation {
+            self.core.state.position.known &= !ROTARY;
+        }
+        if words.given & ROTARY != 0 && words.given & LINEAR == 0 && self.memory.frames.tilt.is_some() {
+            // rotary words alone turn the tool away from where it was in the plane
+            if !self.core.state.tool_axis.tcp() {
+                self.core.state.position.known &= !LINEAR;
+            }
+        }
+        end.known &= self.core.state.position.known;
+        if self.memory.other_point {
+            end.known &= !LINEAR;
+        }
+        let feed = self.core.feed(kind, TextRange::default, report);
+        let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        motion.says_way = words.incremental | unread(words);
+        if self.memory.shortest {
+            motion.says_way |= words.given & ROTARY;
+        }
+        self.emit(motion, report);
+    }
+
+    /// The orientation from TX TY TZ or rotary words; else it stays.
+    fn tool_orientation(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
+        let orientation = if words.tool.iter().any(Option::is_some) {
+            let values = words.tool.map(|value| value.unwrap_or(Some(0.0)));
+            match values {
+                [Some(x), Some(y), Some(z)] if self.core.state.tool_axis.tcp() => {
+                    self.core
+                        .unit_vector(Vec3::new(x, y, z), true, TextRange::default(), report)
+                }
+                [Some(_), Some(_), Some(_)] => {
+                    Self::not_modelled("a tool vector without M128 or FUNCTION TCPM", report);
+                    self.core.unknown_orientation()
+                }
+                _ => self.core.unknown_orientation(),
+            }
+        } else if words.given & ROTARY != 0 {
+            Orientation::Words
+        } else {
+            self.core.held_orientation()
+        };
+        if words.normal.iter().any(Option::is_some) {
+            let values = words.normal.map(|value| value.unwrap_or(Some(0.0)));
+            if let [Some(x), Some(y), Some(z)] = values {
+                let norm = Vec3::new(x, y, z).norm();
+                if (norm - 1.0).abs() > 1e-5 {
+                    report.fault(TextRange::default(), FaultKind::VectorNotUnit { norm });
+                }
+            }
+            if words.delta {
+                self.not_modelled_once("DR, DL in a block with a surface normal", report);
+            }
+        }
+        self.core.state.orientation = orientation;
+        orientation
+    }
+
+    /// Gives a motion out, or holds it back for the corner or contour that comes.
+    pub(crate) fn emit(&mut self, motion: Motion, report: &mut Report<'_>) {
+        let made = Made {
+            motion,
+            tilt: self.memory.frames.tilt,
+        };
+        if self.memory.waiting.is_some() || super::corner::comes(report) {
+            self.join(made, report);
+        } else {
+            self.finish_motion(&made);
+        }
+    }
+
+    /// In the workpiece frame.
+    pub(crate) fn finish_motion(&mut self, made: &Made) {
+        let motion = match &made.tilt {
+            Some(tilt) if !made.motion.machine_coordinates && !self.core.state.zero.is_lost() => {
+                tilt.motion_to_work(&made.motion)
+            }
+            _ => made.motion,
+        };
+        self.out.push(motion);
+    }
+
+    /// M91 and M92: from the machine's zero; from a point that only the builder knows.
+    fn machine_motion(&mut self, words: &PathWords, rapid: bool, report: &mut Report<'_>) {
+        self.flush(report);
+        let builder = words.has(92);
+        let mut start = self.core.state.position;
+        self.to_machine(&mut start, 1.0);
+        let mut end = start;
+        self.place(words, &mut end);
+        if words.incremental != 0 {
+            // from the last M91 position
+            end.known &= !words.incremental;
+        }
+        if builder {
+            self.not_modelled_once("M92: the point of the machine builder", report);
+            end.known &= !words.given;
+        }
+        let mut back = end;
+        self.to_machine(&mut back, -1.0);
+        let led = self.core.state.tool_axis.tcp() && words.given & LINEAR != 0;
+        if led {
+            report.fault(
+                TextRange::default(),
+                FaultKind::TcpState(crate::TcpMistake::MachineCoordinates),
+            );
+        }
+        self.core.state.position = back;
+        let kind = self.straight(rapid);
+        let feed = self.core.feed(kind, TextRange::default, report);
+        if words.given & ROTARY != 0 {
+            self.core.state.orientation = Orientation::Words;
+        }
+        let orientation = self.core.held_orientation();
+        let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
+        motion.in_machine_coordinates();
+        motion.says_way = words.incremental | unread(words);
+        self.memory.heading = None;
+        self.out.push(motion);
+    }
+
+    /// Between programmed (sign -1) and machine coordinates (sign 1); see the engine of ISO programs.
+    fn to_machine(&self, position: &mut Position, sign: f64) {
+        for (value, zero) in position.values.iter_mut().zip(self.core.state.zero.values()) {
+            *value += sign * zero;
+        }
+        let length = sign * self.core.state.length.mm().unwrap_or(0.0);
+        for (value, along) in position.values.iter_mut().zip(self.core.setup.length_along()) {
+            *value += length * along;
+        }
+        if self.core.state.tool_axis.tcp() || self.core.state.zero.is_lost() || self.memory.frames.tilt.is_some() {
+            position.known &= !LINEAR;
+        }
+    }
+
+    /// M140 MB: back along the tool axis.
+    fn back_along_tool(&mut self, words: &PathWords, report: &mut Report<'_>) {
+        let start = self.core.state.position;
+        let unit = self.core.state.coordinates.unit_mm();
+        let distance = words.back.flatten().flatten().map(|distance| distance * unit);
+        let rapid = self.take_feed(words.feed, report);
+        let stands = (3..6).all(|axis| start.get(axis).is_none_or(|value| value == 0.0));
+        let along = match self.core.state.orientation {
+            _ if self.memory.frames.tilt.is_some() => Some(Vec3::z()),
+            Orientation::Vector(_, vector) => Some(vector),
+            Orientation::Words => stands.then(|| self.plane_normal()),
+        };
+        let mut end = start;
+        match distance.zip(along) {
+            Some((distance, along)) => {
+                for axis in 0..3 {
+                    match start.get(axis) {
+                        Some(value) => end.set(axis, value + distance * along[axis]),
+                        None => end.forget(axis),
+                    }
+                }
+            }
+            None => end.known &= !LINEAR,
+        }
+        let said = words.feed != super::path_words::FeedSaid::Nothing;
+        let kind = if said {
+            self.straight(rapid)
+        } else {
+            MotionKind::Unknown
+        };
+        if !said {
+            self.not_modelled_once("M140 without F: at which feed", report);
+        }
+        self.core.state.position = end;
+        let feed = if said {
+            self.core.feed(kind, TextRange::default, report)
+        } else {
+            Feed::Unknown
+        };
+        let orientation = self.core.held_orientation();
+        let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        self.memory.heading = None;
+        self.emit(motion, report);
+    }
+
+    /// A motion of which nothing is known.
+    pub(crate) fn unknown_motion(&mut self, report: &mut Report<'_>) {
+        let start = self.core.state.position;
+        self.core.forget_linear();
+        let end = self.core.state.position;
+        let orientation = self.core.held_orientation();
+        let motion = self
+            .core
+            .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
+        self.memory.heading = None;
+        self.emit(motion, report);
+    }
+
+    /// Rotary words that are the angles which PLANE has computed.
+    fn turn_to_plane(&mut self, report: &mut Report<'_>) {
+        let posture = self.memory.angles_wait.unwrap_or_default();
+        self.swivel(Swivel::AxesStay, posture, report);
+    }
+
+    pub(crate) fn axes(&self) -> [usize; 3] {
+        plane_axes(self.core.state.coordinates.plane())
+    }
+
+    pub(crate) fn plane_normal(&self) -> Vec3 {
+        let mut normal = Vec3::zeros();
+        normal[self.axes()[2]] = 1.0;
+        normal
+    }
+}
+
+/// Letters whose values are not known.
+fn unread(words: &PathWords) -> u16 {
+    (0..9)
+        .filter(|axis| words.values[*axis].is_none())
+        .fold(0, |all, axis| all | 1 << axis)
+        & words.given
+}
+
+/// The turn in the shorter direction, -180 < turn <= 180 deg.
+fn turn_to(difference: f64) -> f64 {
+    let turn = difference.rem_euclid(360.0);
+    if turn > 180.0 { turn - 360.0 } else { turn }
+}

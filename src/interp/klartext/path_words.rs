@@ -1,0 +1,250 @@
+//! The words of a path block.
+use super::words::{Kind, Parameter, Said, Word, Words};
+use super::{Klartext, values::Value};
+use crate::core::Report;
+use crate::{AxisLetter, FaultKind, Refusal};
+use trunnion_syntax::TextRange;
+
+/// F of a block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum FeedSaid {
+    #[default]
+    Nothing,
+    /// FMAX.
+    Rapid,
+    /// FAUTO: that of TOOL CALL.
+    Auto,
+    Value(Value),
+    /// FU, mm per turn.
+    PerTurn(Value),
+    /// FZ: the number of teeth is in the tool table.
+    PerTooth,
+}
+
+/// M codes of a block, at most.
+const MOST_CODES: usize = 8;
+
+/// See the module. Lengths in the program's unit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PathWords {
+    /// Bits of [`crate::AXIS_LETTERS`].
+    pub(crate) given: u16,
+    pub(crate) incremental: u16,
+    pub(crate) values: [Value; 9],
+    /// Rotary words that are `+Q120`, `+Q121`, `+Q122` of their letter.
+    pub(crate) plane_angles: u16,
+    pub(crate) feed: FeedSaid,
+    codes: [u32; MOST_CODES],
+    code_count: usize,
+    /// R0, RL, RR: 0, 41, 42.
+    pub(crate) compensation: Option<u8>,
+    /// R with a number.
+    pub(crate) radius: Option<Value>,
+    /// DR-: clockwise.
+    pub(crate) clockwise: Option<bool>,
+    pub(crate) polar_radius: Option<Value>,
+    /// Value, and whether it is incremental.
+    pub(crate) polar_angle: Option<(Value, bool)>,
+    pub(crate) polar_radius_adds: bool,
+    /// NX NY NZ, TX TY TZ.
+    pub(crate) normal: [Option<Value>; 3],
+    pub(crate) tool: [Option<Value>; 3],
+    pub(crate) length: Option<Value>,
+    pub(crate) centre_angle: Option<Value>,
+    /// MB: mm, or `None` for MAX.
+    pub(crate) back: Option<Option<Value>>,
+    pub(crate) delta: bool,
+}
+
+impl PathWords {
+    pub(crate) fn codes(&self) -> &[u32] {
+        &self.codes[..self.code_count]
+    }
+    pub(crate) fn has(&self, code: u32) -> bool {
+        self.codes().contains(&code)
+    }
+    pub(crate) fn moves(&self) -> bool {
+        self.given != 0
+    }
+}
+
+impl Klartext<'_> {
+    /// The value of a word; a parameter without one is reported.
+    pub(crate) fn said(&mut self, said: Said<'_>, report: &mut Report<'_>) -> Value {
+        match said {
+            Said::Number(value) => Some(value),
+            Said::Parameter(_, parameter) => {
+                let value = self.memory.parameters.of(said);
+                if value.is_none() {
+                    self.parameter_unknown(parameter, report);
+                }
+                value
+            }
+            Said::Bad => {
+                Self::rejected(Refusal::Number, "a number with two points or commas", report);
+                None
+            }
+            Said::Nothing | Said::Sign(_) | Said::Text(_) => {
+                Self::rejected(Refusal::MissingWord, "a word has no value", report);
+                None
+            }
+        }
+    }
+
+    pub(crate) fn parameter_unknown(&mut self, parameter: Parameter, report: &mut Report<'_>) {
+        let what = match (parameter.kind, parameter.number) {
+            (Kind::Global, 100..=199) => format!("{parameter}: a value of the control"),
+            _ => format!("{parameter}: the program does not set its value"),
+        };
+        self.not_modelled_once(&what, report);
+    }
+
+    /// Reads the words that follow the path function.
+    #[inline]
+    pub(crate) fn path_words(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) -> PathWords {
+        let mut found = PathWords::default();
+        // F behind M103, M128 and M140 is theirs
+        let mut own_feed = false;
+        while let Some(word) = words.next() {
+            own_feed = self.path_word(&word, words, &mut found, own_feed, report);
+        }
+        found
+    }
+
+    fn path_word(
+        &mut self,
+        word: &Word<'_>,
+        words: &mut Words<'_>,
+        found: &mut PathWords,
+        own_feed: bool,
+        report: &mut Report<'_>,
+    ) -> bool {
+        match word.name() {
+            [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
+            [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
+            b"F" => {
+                let feed = match word.value {
+                    Said::Nothing if words.takes_word("MAX") => FeedSaid::Rapid,
+                    Said::Nothing if words.takes_word("AUTO") => FeedSaid::Auto,
+                    Said::Nothing => FeedSaid::Nothing,
+                    said => FeedSaid::Value(self.said(said, report)),
+                };
+                if !own_feed {
+                    found.feed = feed;
+                }
+            }
+            b"FMAX" => found.feed = FeedSaid::Rapid,
+            b"FAUTO" => found.feed = FeedSaid::Auto,
+            b"FU" => found.feed = FeedSaid::PerTurn(self.said(word.value, report)),
+            b"FZ" => found.feed = FeedSaid::PerTooth,
+            b"RL" => found.compensation = Some(41),
+            b"RR" => found.compensation = Some(42),
+            b"R" => match word.value {
+                Said::Number(0.0) => (found.compensation, found.radius) = (Some(0), Some(Some(0.0))),
+                // the compensation stays; R+ and R- belong to blocks along one axis
+                Said::Nothing => {}
+                Said::Sign(_) => self.not_modelled_once("R+ or R-: radius compensation along one axis", report),
+                said => found.radius = Some(self.said(said, report)),
+            },
+            b"DR" => match word.value {
+                Said::Sign(minus) => found.clockwise = Some(minus),
+                _ => found.delta = true,
+            },
+            b"DL" | b"DR2" => found.delta = true,
+            b"M" => return self.m_word(word, found, report),
+            b"PR" => found.polar_radius = Some(self.said(word.value, report)),
+            b"IPR" => (found.polar_radius, found.polar_radius_adds) = (Some(self.said(word.value, report)), true),
+            b"PA" => found.polar_angle = Some((self.said(word.value, report), false)),
+            b"IPA" => found.polar_angle = Some((self.said(word.value, report), true)),
+            [b'N', letter @ b'X'..=b'Z'] => {
+                found.normal[usize::from(letter - b'X')] = Some(self.said(word.value, report));
+            }
+            [b'T', letter @ b'X'..=b'Z'] => {
+                found.tool[usize::from(letter - b'X')] = Some(self.said(word.value, report));
+            }
+            b"LEN" => found.length = Some(self.said(word.value, report)),
+            b"CCA" => found.centre_angle = Some(self.said(word.value, report)),
+            b"MB" => {
+                let most = word.value == Said::Nothing && words.takes_word("MAX");
+                found.back = Some(if most {
+                    None
+                } else {
+                    Some(self.said(word.value, report))
+                });
+                return true;
+            }
+            // distances of M120 LA, M118 X Y Z
+            b"LA" => {}
+            b"" if matches!(word.value, Said::Parameter(..)) && found.codes().is_empty() && found.given == 0 => {
+                Self::rejected(Refusal::Syntax, "a Q parameter without a word in front of it", report);
+            }
+            _ => {
+                let start = report.whole().start;
+                let plain = report.whole().end - start == words.text.len() as u32;
+                let range = if plain {
+                    TextRange::new(start + word.start as u32, start + word.end as u32)
+                } else {
+                    TextRange::default()
+                };
+                report.fault(range, FaultKind::UnknownWord);
+            }
+        }
+        false
+    }
+
+    fn axis(&mut self, word: &Word<'_>, letter: u8, incremental: bool, found: &mut PathWords, report: &mut Report<'_>) {
+        let Some(AxisLetter(axis)) = AxisLetter::new(letter) else {
+            return;
+        };
+        let bit = 1 << axis;
+        if let (
+            Said::Parameter(
+                false,
+                Parameter {
+                    kind: Kind::Global,
+                    number: number @ 120..=122,
+                },
+            ),
+            3..=5,
+        ) = (word.value, axis)
+        {
+            if number == 117 + u32::from(axis) && self.memory.angles_wait.is_some() {
+                found.plane_angles |= bit;
+                found.given |= bit;
+                return;
+            }
+        }
+        if found.given & bit != 0 {
+            report.fault(TextRange::default(), FaultKind::RepeatedWord);
+        }
+        // handwheel distances
+        if found.has(118) {
+            return;
+        }
+        found.values[usize::from(axis)] = self.said(word.value, report);
+        found.given |= bit;
+        if incremental {
+            found.incremental |= bit;
+        }
+    }
+
+    /// Whether an F that follows is the code's own.
+    fn m_word(&mut self, word: &Word<'_>, found: &mut PathWords, report: &mut Report<'_>) -> bool {
+        // `M` alone is how posts write that there is none
+        if word.value == Said::Nothing {
+            return false;
+        }
+        let Some(code) = self
+            .said(word.value, report)
+            .filter(|code| code.fract() == 0.0 && (0.0..1000.0).contains(code))
+        else {
+            return false;
+        };
+        let code = code as u32;
+        if let Some(place) = found.codes.get_mut(found.code_count) {
+            *place = code;
+            found.code_count += 1;
+        }
+        matches!(code, 103 | 128 | 140)
+    }
+}

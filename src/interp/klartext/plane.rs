@@ -1,0 +1,268 @@
+//! Tilted working planes: PLANE and cycle 19.
+//!
+//! SPATIAL: Rz(SPC) Ry(SPB) Rx(SPA), about fixed axes A, B, C. EULER: Rz(EULPR) Rx(EULNU) Rz(EULROT). VECTOR: x from the base vector, z along
+//! the normal. POINTS: x from the first point to the second, the third on the side of y; the datum stays. Sources: TNC guide, PLANE SPATIAL;
+//! TNC 640 DIN/ISO 34059x p. 420 and 424. RELATIV in a plane that is tilted, PROJECTED and AXIAL are not followed.
+use super::Klartext;
+use super::datum::PLANE;
+use super::words::{Said, Words};
+use crate::core::{LINEAR, ROTARY, Report};
+use crate::frames::Tilted;
+use crate::{Feed, MotionKind, Orientation, Posture, Refusal, Swivel};
+use trunnion_geometry::{Mat3, Vec3};
+
+/// Words of a PLANE block that are no numbers of its form.
+const POSITIONING: [&str; 6] = ["DIST", "F", "MB", "SEQ", "SYM", "FMAX"];
+
+impl Klartext<'_> {
+    pub(crate) fn plane(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        self.flush(report);
+        let Some(form) = words.next() else {
+            return Self::rejected(
+                Refusal::MissingWord,
+                "PLANE needs its form: SPATIAL, VECTOR, RESET, ...",
+                report,
+            );
+        };
+        let mut numbers = Vec::new();
+        let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
+        while let Some(word) = words.next() {
+            match word.name() {
+                b"MOVE" => swivel = Some(Swivel::TipStays),
+                b"TURN" => swivel = Some(Swivel::AxesStay),
+                b"STAY" => swivel = None,
+                b"SEQ" => match word.value {
+                    Said::Sign(minus) => posture = if minus { Posture::Lower } else { Posture::Higher },
+                    _ => Self::rejected(Refusal::Syntax, "SEQ needs + or -", report),
+                },
+                b"SYM" => free = Some("SYM: the symmetric solution"),
+                // where the swivel leaves no free axis it makes no difference
+                b"TABLE" | b"COORD" | b"ROT" | b"MAX" | b"AUTO" => {}
+                name if POSITIONING.iter().any(|known| name == known.as_bytes()) => {}
+                _ if word.value == Said::Nothing => {
+                    let what = String::from_utf8_lossy(word.name()).into_owned();
+                    Self::not_modelled(format!("PLANE: {what}"), report);
+                }
+                name => {
+                    let name = String::from_utf8_lossy(name).into_owned();
+                    numbers.push((name, self.said(word.value, report)));
+                }
+            }
+        }
+        if let Some(what) = free {
+            self.not_modelled_once(what, report);
+        }
+        let name = String::from_utf8_lossy(form.name()).into_owned();
+        if name == "RESET" {
+            self.found(PLANE);
+            self.tilt_to(None);
+            self.memory.angles_wait = None;
+            if let Some(swivel) = swivel {
+                // back to the untilted tool: the plane is that of the workpiece
+                self.tilt_to(Some(Tilted::new(Vec3::zeros(), &[])));
+                self.swivel(swivel, posture, report);
+                self.tilt_to(None);
+                self.memory.angles_wait = None;
+            }
+            return;
+        }
+        let number = |wanted: &str| numbers.iter().find(|(found, _)| found == wanted).map(|found| found.1);
+        let turn = match name.as_str() {
+            // an angle that is left out is 0 for RELATIV only
+            "SPATIAL" => spatial([number("SPA"), number("SPB"), number("SPC")].map(Option::flatten)),
+            "EULER" => euler([number("EULPR"), number("EULNU"), number("EULROT")].map(Option::flatten)),
+            "VECTOR" => {
+                let of = |letters: [&str; 3]| letters.map(|letter| number(letter).flatten());
+                vectors(of(["BX", "BY", "BZ"]), of(["NX", "NY", "NZ"]))
+            }
+            "POINTS" => {
+                // P1X and the like are read as P, then 1, then X
+                self.points(words.text, report)
+            }
+            "RELATIV" | "RELATIVE" => {
+                let angles = [number("SPA"), number("SPB"), number("SPC")].map(|said| said.unwrap_or(Some(0.0)));
+                spatial(angles).filter(|_| self.memory.frames.tilt.is_none())
+            }
+            _ => None,
+        };
+        let Some(turn) = turn else {
+            let why = match name.as_str() {
+                "RELATIV" | "RELATIVE" => "PLANE RELATIV in a tilted plane".to_owned(),
+                name => format!("PLANE {name}: its values, or the form itself"),
+            };
+            Self::not_modelled(why, report);
+            self.tilt_to(None);
+            self.memory.angles_wait = None;
+            return self.lose(PLANE);
+        };
+        self.set_plane(turn, swivel, posture, report);
+    }
+
+    fn set_plane(&mut self, turn: Mat3, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
+        self.found(PLANE);
+        if !self.memory.frames.shape.is_identity() {
+            Self::not_modelled("a tilted plane in a turned, mirrored or scaled system", report);
+            return self.lose(PLANE);
+        }
+        let flat = turn == Mat3::identity();
+        self.tilt_to((!flat).then_some(Tilted {
+            origin: Vec3::zeros(),
+            turn,
+        }));
+        self.memory.angles_wait = Some(posture);
+        match swivel {
+            Some(swivel) if flat => {
+                self.tilt_to(Some(Tilted::new(Vec3::zeros(), &[])));
+                self.swivel(swivel, posture, report);
+                self.tilt_to(None);
+                self.memory.angles_wait = None;
+            }
+            Some(swivel) => {
+                self.swivel(swivel, posture, report);
+                self.memory.angles_wait = None;
+            }
+            None => {}
+        }
+    }
+
+    /// Positions are in the coordinates of another plane from here on; the machine stays where it is.
+    fn tilt_to(&mut self, tilt: Option<Tilted>) {
+        if self.memory.frames.tilt == tilt {
+            return;
+        }
+        let mut position = self.core.state.position;
+        if let Some(old) = self.memory.frames.tilt {
+            position = old.to_work(&position);
+        }
+        if let Some(new) = tilt {
+            position = new.to_plane(&position);
+        }
+        self.memory.frames.tilt = tilt;
+        if !self.core.state.tool_axis.tcp() {
+            position.known &= !LINEAR;
+        }
+        self.core.state.position = position;
+        self.core.state.orientation = Orientation::Words;
+        self.memory.frames.refresh(&position);
+        (self.memory.pole, self.memory.heading) = ([None; 3], None);
+    }
+
+    /// Turns the rotary axes onto the plane's normal.
+    pub(crate) fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &mut Report<'_>) {
+        let start = self.core.state.position;
+        self.core.forget_linear();
+        self.core.state.position.known &= !ROTARY;
+        let mut end = self.core.state.position;
+        end.known &= !LINEAR;
+        let orientation = Orientation::Vector(None, Vec3::z());
+        let mut motion = self
+            .core
+            .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+        (motion.tilt.swivel, motion.tilt.posture, motion.tcp) = (swivel, posture, false);
+        let tilt = self
+            .memory
+            .frames
+            .tilt
+            .or_else(|| Some(Tilted::new(Vec3::zeros(), &[])));
+        self.finish_motion(&super::Made { motion, tilt });
+    }
+
+    /// P1X P1Y P1Z P2X ... P3Z.
+    fn points(&mut self, text: &[u8], report: &mut Report<'_>) -> Option<Mat3> {
+        let mut values = [[None; 3]; 3];
+        let upper = text.to_ascii_uppercase();
+        for point in 0..3u8 {
+            for axis in 0..3u8 {
+                let name = [b'P', b'1' + point, b'X' + axis];
+                let at = upper.windows(3).position(|found| found == name)?;
+                let mut words = Words::new(text);
+                words.at = at + 3;
+                words.blanks();
+                let said = words.value();
+                values[usize::from(point)][usize::from(axis)] = Some(self.said(said, report)?);
+            }
+        }
+        let [first, second, third] = values.map(|point| Vec3::from(point.map(Option::unwrap_or_default)));
+        let x = (second - first).try_normalize(1e-9)?;
+        let z = x.cross(&(third - first)).try_normalize(1e-9)?;
+        Some(Mat3::from_columns(&[x, z.cross(&x), z]))
+    }
+
+    /// Cycle 19: whether its angles are those of space or of the axes is a machine parameter; all zero is no plane either way.
+    pub(crate) fn working_plane(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if line != 1 {
+            return;
+        }
+        let found = self.path_words(words, report);
+        let zero = (3..6).all(|axis| found.given & (1 << axis) == 0 || found.values[axis] == Some(0.0));
+        self.found(PLANE);
+        self.tilt_to(None);
+        if !zero {
+            Self::not_modelled("cycle 19: a machine parameter decides what its angles are", report);
+            self.lose(PLANE);
+        }
+    }
+}
+
+fn all<const N: usize>(values: [Option<f64>; N]) -> Option<[f64; N]> {
+    values
+        .iter()
+        .all(Option::is_some)
+        .then(|| values.map(Option::unwrap_or_default))
+}
+
+/// About the fixed axes X, Y, Z in that order.
+pub(crate) fn spatial(angles: [Option<f64>; 3]) -> Option<Mat3> {
+    let [a, b, c] = all(angles)?;
+    Some(Tilted::new(Vec3::zeros(), &[(2, c), (1, b), (0, a)]).turn)
+}
+
+/// Precession about Z, nutation about the turned X, rotation about the tilted Z.
+pub(crate) fn euler(angles: [Option<f64>; 3]) -> Option<Mat3> {
+    let [precession, nutation, rotation] = all(angles)?;
+    Some(Tilted::new(Vec3::zeros(), &[(2, precession), (0, nutation), (2, rotation)]).turn)
+}
+
+/// Z along the normal, X along the part of the base vector that is square to it.
+pub(crate) fn vectors(base: [Option<f64>; 3], normal: [Option<f64>; 3]) -> Option<Mat3> {
+    let (base, normal) = (Vec3::from(all(base)?), Vec3::from(all(normal)?));
+    let z = normal.try_normalize(1e-9)?;
+    let x = (base - z * z.dot(&base)).try_normalize(1e-9)?;
+    Some(Mat3::from_columns(&[x, z.cross(&x), z]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{euler, spatial, vectors};
+    use crate::frames::sin_cos_degrees;
+    use proptest::prelude::*;
+    use trunnion_geometry::Vec3;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(10_000))]
+        /// One plane in three forms: spatial angles, the vectors of its matrix, and the Euler angles of the same matrix.
+        #[test]
+        fn forms_of_a_plane_agree(a in -180.0..180.0f64, b in -89.0..89.0f64, c in -180.0..180.0f64) {
+            let turn = spatial([Some(a), Some(b), Some(c)]).expect("known");
+            let column = |at: usize| [turn[(0, at)], turn[(1, at)], turn[(2, at)]].map(Some);
+            let by_vectors = vectors(column(0), column(2)).expect("known");
+            prop_assert!((turn - by_vectors).norm() < 1e-12);
+            let z: Vec3 = turn.column(2).into();
+            let sine = z.x.hypot(z.y);
+            if sine > 1e-6 {
+                let nutation = sine.atan2(z.z).to_degrees();
+                let precession = z.x.atan2(-z.y).to_degrees();
+                let rotation = turn[(2, 0)].atan2(turn[(2, 1)]).to_degrees();
+                let by_euler = euler([Some(precession), Some(nutation), Some(rotation)]).expect("known");
+                prop_assert!((turn - by_euler).norm() < 1e-9, "{turn} {by_euler}");
+            }
+            // a point is turned about the fixed X, then Y, then Z
+            let ((sa, ca), (sb, cb), (sc, cc)) = (sin_cos_degrees(a), sin_cos_degrees(b), sin_cos_degrees(c));
+            let p = Vec3::new(0.3, -0.7, 1.9);
+            let q = Vec3::new(p.x, ca * p.y - sa * p.z, sa * p.y + ca * p.z);
+            let q = Vec3::new(cb * q.x + sb * q.z, q.y, -sb * q.x + cb * q.z);
+            let q = Vec3::new(cc * q.x - sc * q.y, sc * q.x + cc * q.y, q.z);
+            prop_assert!((turn * p - q).norm() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! What a block begins with, and M codes.
+use super::Klartext;
+use super::datum::PLANE;
+use super::flow::Request;
+use super::path::Path;
+use super::path_words::{FeedSaid, PathWords};
+use super::words::{Said, Words};
+use crate::core::Report;
+use crate::{FaultKind, FeedMode, Refusal};
+use trunnion_syntax::TextRange;
+
+impl Klartext<'_> {
+    /// Runs the words of one block.
+    pub(crate) fn sentence(&mut self, text: &[u8], report: &mut Report<'_>) -> Request {
+        let mut words = Words::new(text);
+        let Some(first) = words.next() else {
+            return Request::Next;
+        };
+        match first.name() {
+            b"L" => self.path_block(Path::Line, &mut words, report),
+            b"LN" => self.path_block(Path::Vectors, &mut words, report),
+            b"C" => self.path_block(Path::AboutPole, &mut words, report),
+            b"CR" => self.path_block(Path::Radius, &mut words, report),
+            b"CT" => self.path_block(Path::Tangent, &mut words, report),
+            b"LP" => self.path_block(Path::PolarLine, &mut words, report),
+            b"CP" => self.path_block(Path::PolarArc, &mut words, report),
+            b"CTP" => self.path_block(Path::PolarTangent, &mut words, report),
+            b"CC" => self.pole(&mut words, report),
+            b"RND" => self.round(first.value, &mut words, report),
+            b"CHF" => self.chamfer(first.value, report),
+            b"APPR" => self.approach(&mut words, report),
+            b"DEP" => self.depart(&mut words, report),
+            b"FL" | b"FLT" | b"FC" | b"FCT" | b"FPOL" | b"FSELECT" => self.free_contour(first.name(), report),
+            b"TOOL" => self.tool_block(&mut words, report),
+            b"CYCL" | b"CYCLE" => self.cycle_block(&mut words, report),
+            b"PLANE" => self.plane(&mut words, report),
+            b"FUNCTION" => self.function_block(&mut words, report),
+            b"BEGIN" => self.begin(&mut words, report),
+            b"END" => return Request::EndOfProgram,
+            b"LBL" => return self.label(first.value, &mut words),
+            b"CALL" => return self.call(&mut words, report),
+            b"SEL" => self.select(&mut words, report),
+            b"FN" => return self.function_of_parameters(first.value, &mut words, report),
+            b"" if matches!(first.value, Said::Parameter(..)) => return self.assignment(text, report),
+            b"STOP" => self.path_block(Path::None, &mut words, report),
+            b"BLK" => {}
+            b"TCH" | b"PATTERN" | b"TRANS" | b"CONTOUR" | b"SPL" | b"IF" | b"DECLARE" => {
+                self.not_followed(first.name(), report);
+            }
+            // a block of words alone: M3, X+10 R0 F100
+            _ => {
+                words.at = 0;
+                self.path_block(Path::None, &mut words, report);
+            }
+        }
+        if self.core.state.ended {
+            Request::EndOfProgram
+        } else {
+            Request::Next
+        }
+    }
+
+    fn begin(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let last = words.text.trim_ascii_end().rsplit(u8::is_ascii_whitespace).next();
+        match last.map(<[u8]>::to_ascii_uppercase).as_deref() {
+            Some(b"MM") => self.core.state.units(1.0, 1.0),
+            // F counts tenths of an inch
+            Some(b"INCH") => self.core.state.units(25.4, 2.54),
+            _ => Self::rejected(Refusal::Syntax, "BEGIN PGM names no unit: MM or INCH", report),
+        }
+    }
+
+    /// A block whose effect on positions is not known.
+    fn not_followed(&mut self, name: &[u8], report: &mut Report<'_>) {
+        let name = String::from_utf8_lossy(name).into_owned();
+        self.flush(report);
+        let text = report.program.text(report.whole());
+        let start: Vec<&str> = text.split_whitespace().take(3).collect();
+        Self::not_modelled(start.join(" "), report);
+        match name.as_str() {
+            "DECLARE" | "PATTERN" | "CONTOUR" => {}
+            "TCH" => {
+                self.core.forget_position();
+                self.memory.parameters.lose();
+            }
+            "TRANS" => self.lose(super::datum::DATUM),
+            _ => {
+                self.core.forget_everything();
+                self.memory.parameters.lose();
+            }
+        }
+    }
+
+    fn free_contour(&mut self, name: &[u8], report: &mut Report<'_>) {
+        self.flush(report);
+        let name = String::from_utf8_lossy(name).into_owned();
+        Self::not_modelled(format!("{name}: free contour programming"), report);
+        if name != "FPOL" && name != "FSELECT" {
+            self.unknown_motion(report);
+        }
+    }
+
+    /// FUNCTION TCPM, FUNCTION RESET TCPM.
+    fn function_block(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let text = words.rest().to_ascii_uppercase();
+        let has = |word: &str| {
+            text.split(|byte| byte.is_ascii_whitespace())
+                .any(|found| found == word.as_bytes())
+        };
+        if has("RESET") && has("TCPM") {
+            return self.guide_tip(false, report);
+        }
+        if !has("TCPM") {
+            if !has("MODE") {
+                let what = String::from_utf8_lossy(&text).trim().to_owned();
+                self.not_modelled_once(&format!("FUNCTION {what}"), report);
+            }
+            return;
+        }
+        self.guide_tip(true, report);
+        if has("VECTOR") {
+            self.core.state.tool_axis.set_great_circle(true);
+        } else if has("PATHCTRL") {
+            self.core.state.tool_axis.set_great_circle(false);
+        }
+        self.memory.spatial = has("SPAT");
+        self.memory.other_point = has("CENTER-CENTER") || has("TIP-CENTER");
+        if self.memory.spatial {
+            Self::not_modelled("FUNCTION TCPM AXIS SPAT: rotary words are spatial angles", report);
+        }
+        if self.memory.other_point {
+            Self::not_modelled("FUNCTION TCPM REFPNT: the programmed point is not the tip", report);
+        }
+        if has("CONT") {
+            self.not_modelled_once("FUNCTION TCPM F CONT: what F means", report);
+        }
+    }
+
+    /// M128, FUNCTION TCPM: X Y Z change their meaning.
+    pub(crate) fn guide_tip(&mut self, on: bool, report: &mut Report<'_>) {
+        self.flush(report);
+        if self.core.state.tool_axis.tcp() != on {
+            self.core.forget_linear();
+            if !on {
+                self.core.state.orientation = crate::Orientation::Words;
+            }
+        }
+        self.core.state.tool_axis.set_tcp(on);
+        (self.memory.spatial, self.memory.other_point) = (false, false);
+        if on && self.memory.frames.tilt.is_some() {
+            // the tool is led in the plane's coordinates: rotary words are still those of the axes
+            self.not_modelled_once("M128 in a tilted plane", report);
+        }
+    }
+
+    /// Codes that act before the block's motion.
+    pub(crate) fn codes_before(&mut self, words: &PathWords, report: &mut Report<'_>) {
+        for &code in words.codes() {
+            match code {
+                3 | 4 | 13 | 14 => self.core.state.spindle.switch(true),
+                6 => self.core.forget_linear(),
+                89 => self.memory.runs_after_each = true,
+                126 => self.memory.shortest = true,
+                127 => self.memory.shortest = false,
+                128 => self.guide_tip(true, report),
+                129 => self.guide_tip(false, report),
+                136 => self.feed_per_turn(true),
+                137 => self.feed_per_turn(false),
+                114 | 144 => {
+                    Self::not_modelled(format!("M{code}"), report);
+                    self.lose(PLANE);
+                }
+                115 | 145 => self.found(PLANE),
+                130 | 143 => {
+                    Self::not_modelled(format!("M{code}"), report);
+                    self.core.forget_linear();
+                }
+                103 | 109 | 110 | 116 => self.not_modelled_once(&format!("M{code}: the feed"), report),
+                94 => {
+                    self.not_modelled_once("M94: the turns of rotary axes after it", report);
+                    self.core.state.position.known &= !crate::core::ROTARY;
+                }
+                _ => {
+                    let known = self.core.dialect.m(code * 10).is_some();
+                    if !known && self.memory.said.first(&format!("M{code}")) {
+                        // all others are the machine builder's
+                        let range = m_range(code, report);
+                        report.fault(range, FaultKind::UnknownCode { machine_builder: true });
+                    }
+                }
+            }
+        }
+    }
+
+    /// M136, M137.
+    fn feed_per_turn(&mut self, on: bool) {
+        self.memory.per_turn = on;
+        let mode = if on {
+            FeedMode::PerRevolution
+        } else {
+            FeedMode::PerMinute
+        };
+        self.core.state.feed.switch_mode(mode);
+    }
+
+    /// Codes that act when the block is done.
+    pub(crate) fn codes_after(&mut self, words: &PathWords) {
+        for &code in words.codes() {
+            match code {
+                5 => self.core.state.spindle.switch(false),
+                2 | 30 => {
+                    self.core.state.spindle.switch(false);
+                    self.core.state.ended = true;
+                    self.core.proper_end = true;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// F of a block: its feed is a rapid for FMAX; all others stay.
+    pub(crate) fn take_feed(&mut self, said: FeedSaid, report: &mut Report<'_>) -> bool {
+        let unit = self.core.state.feed.unit_mm();
+        let (value, unread) = match said {
+            FeedSaid::Nothing => return false,
+            FeedSaid::Rapid => return true,
+            FeedSaid::Auto => (self.memory.tool_feed, self.memory.tool_feed.is_none()),
+            FeedSaid::Value(value) => (value.map(|value| value * unit), value.is_none()),
+            FeedSaid::PerTurn(value) => {
+                self.core.state.feed.switch_mode(FeedMode::PerRevolution);
+                (
+                    value.map(|value| value * self.core.state.coordinates.unit_mm()),
+                    value.is_none(),
+                )
+            }
+            FeedSaid::PerTooth => {
+                self.not_modelled_once("FZ: the number of teeth is in the tool table", report);
+                (None, true)
+            }
+        };
+        let per_turn = matches!(said, FeedSaid::PerTurn(_));
+        if !per_turn && !self.memory.per_turn && self.core.state.feed.mode() == FeedMode::PerRevolution {
+            // FU ends with the next F
+            self.core.state.feed.switch_mode(FeedMode::PerMinute);
+        }
+        self.core.state.feed.set(value);
+        self.core.feed_unread = unread;
+        false
+    }
+}
+
+/// Where an M code stands in its block.
+fn m_range(code: u32, report: &Report<'_>) -> TextRange {
+    let whole = report.whole();
+    let text = report.program.text(whole).into_owned();
+    let name = format!("M{code}");
+    let found = text.find(&name).map(|at| whole.start + at as u32);
+    found.map_or_else(TextRange::default, |start| {
+        TextRange::new(start, start + name.len() as u32)
+    })
+}

@@ -1,0 +1,170 @@
+//! TOOL CALL and TOOL DEF.
+use super::Klartext;
+use super::words::{Said, Words};
+use crate::core::Report;
+use crate::tools::Chosen;
+use crate::{FaultKind, LengthOf, Refusal, TcpMistake, Tool};
+use trunnion_dialect::Plane;
+use trunnion_syntax::TextRange;
+
+impl Klartext<'_> {
+    pub(crate) fn tool_block(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        self.flush(report);
+        let Some(kind) = words.next() else {
+            return Self::rejected(Refusal::MissingWord, "TOOL needs CALL or DEF", report);
+        };
+        if kind.is("DEF") {
+            self.tool_definition(kind.value, words, report);
+        } else if kind.is("CALL") {
+            self.tool_call(kind.value, words, report);
+        } else {
+            Self::rejected(Refusal::Syntax, "TOOL needs CALL or DEF", report);
+        }
+    }
+
+    /// TOOL DEF 5: prepares the tool; with L and R it defines one.
+    fn tool_definition(&mut self, number: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let number = match number {
+            Said::Nothing => None,
+            said => self
+                .said(said, report)
+                .filter(|number| *number >= 0.0 && number.fract() == 0.0),
+        };
+        let number = number.map(|number| number as u32);
+        let (mut length, mut radius) = (None, None);
+        for word in words.by_ref() {
+            match word.name() {
+                b"L" => length = self.said(word.value, report),
+                b"R" => radius = self.said(word.value, report),
+                _ => {}
+            }
+        }
+        match (number, length.or(radius)) {
+            (Some(number), Some(_)) => {
+                let unit = self.core.state.coordinates.unit_mm();
+                let tool = Tool {
+                    number,
+                    shape: None,
+                    diameter_mm: radius.map(|radius| 2.0 * radius * unit),
+                    length_mm: length.map(|length| length * unit),
+                    holder_mm: None,
+                };
+                self.memory.tools.retain(|known| known.number != number);
+                self.memory.tools.push(tool);
+            }
+            (number, None) => self.core.state.tool.prepare(number),
+            _ => {}
+        }
+    }
+
+    /// TOOL CALL 5 Z S2000 F400 DL+0,1: without a number the values change for the tool in use.
+    fn tool_call(&mut self, number: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let chosen = match number {
+            Said::Nothing => {
+                let mut ahead = *words;
+                match ahead.next().map(|word| word.value) {
+                    Some(Said::Text(name)) => {
+                        *words = ahead;
+                        Some(Chosen::Named(String::from_utf8_lossy(name).as_ref().into()))
+                    }
+                    Some(Said::Parameter(..)) => {
+                        *words = ahead;
+                        Some(Chosen::Unread)
+                    }
+                    _ => None,
+                }
+            }
+            said => {
+                let value = self.said(said, report).filter(|number| *number >= 0.0);
+                // 5.1 is an index of tool 5, whose data are its own
+                Some(match value {
+                    Some(number) if number.fract() == 0.0 => Chosen::Number(number as u32),
+                    Some(number) => Chosen::Named(number.to_string().into()),
+                    None => Chosen::Unread,
+                })
+            }
+        };
+        let (mut axis, mut delta, mut feed) = (None, Some(0.0), None);
+        while let Some(word) = words.next() {
+            match word.name() {
+                b"X" => axis = Some(Plane::Yz),
+                b"Y" => axis = Some(Plane::Zx),
+                b"Z" => axis = Some(Plane::Xy),
+                b"S" => {
+                    let rpm = self.said(word.value, report);
+                    self.core.state.spindle.set_rpm(rpm);
+                }
+                b"VC" => self.core.state.spindle.set_rpm(None),
+                b"F" if word.value == Said::Nothing => {}
+                b"F" => feed = Some(self.said(word.value, report)),
+                b"FU" | b"FZ" => feed = Some(None),
+                b"DL" => delta = self.said(word.value, report),
+                _ => {}
+            }
+        }
+        if let Some(plane) = axis {
+            self.core.state.coordinates.set_plane(plane);
+        }
+        if let Some(feed) = feed {
+            self.memory.tool_feed = feed.map(|feed| feed * self.core.state.feed.unit_mm());
+        }
+        if let Some(chosen) = chosen {
+            self.change_tool(chosen, delta, report);
+        }
+    }
+
+    fn change_tool(&mut self, chosen: Chosen, delta: Option<f64>, report: &mut Report<'_>) {
+        if self.core.state.tool_axis.tcp() {
+            report.fault(TextRange::default(), FaultKind::TcpState(TcpMistake::ToolChange));
+        }
+        // the change may move the linear axes; M128 ends with it
+        match self.core.setup.control.tool_change {
+            Some(place) if !self.core.state.tool_axis.tcp() && self.memory.frames.tilt.is_none() => {
+                self.stands_at(&place);
+            }
+            _ => self.core.forget_linear(),
+        }
+        self.core.state.spindle.switch(false);
+        let number = if let Chosen::Number(number) = chosen {
+            Some(number)
+        } else {
+            None
+        };
+        self.core.tools.prepare(chosen);
+        self.core.tools.load_prepared();
+        self.core.state.tool.load(number);
+        self.core.state.tool.prepare(number);
+        self.core.merge_tool();
+        if number == Some(0) {
+            self.core.state.length.set(None, LengthOf::Nothing);
+            return;
+        }
+        let declared = self.core.state.tool.data().and_then(|tool| tool.length_mm);
+        let own = self.memory.tools.iter().find(|tool| Some(tool.number) == number);
+        let length = declared.or(own.and_then(|tool| tool.length_mm));
+        let unit = self.core.state.coordinates.unit_mm();
+        let length = length.zip(delta).map(|(length, delta)| length + delta * unit);
+        let name = self.core.tools.name();
+        if length.is_none() && self.core.tools.first_report_of_length(&name) {
+            report.fault(TextRange::default(), FaultKind::ToolLengthUnset { tool: name });
+        }
+        self.core.state.length.set_declared(length, LengthOf::Tool(number));
+    }
+
+    /// The machine is at a place in machine coordinates.
+    fn stands_at(&mut self, place: &crate::Position) {
+        let zero = self.core.state.zero.values();
+        let length = self.core.state.length.mm().unwrap_or(0.0);
+        let along = self.core.setup.length_along();
+        for axis in 0..3 {
+            match place.get(axis).filter(|_| !self.core.state.zero.is_lost()) {
+                Some(value) => self
+                    .core
+                    .state
+                    .position
+                    .set(axis, value - zero[axis] - length * along[axis]),
+                None => self.core.state.position.forget(axis),
+            }
+        }
+    }
+}

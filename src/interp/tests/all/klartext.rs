@@ -1,0 +1,233 @@
+//! HEIDENHAIN Klartext.
+use crate::support::{faults, lines, run_bytes, run_text, shared};
+use trunnion_geometry::Vec3;
+use trunnion_interp::{Motion, MotionKind, Orientation, Setup};
+
+const NAME: &str = "heidenhain-klartext";
+
+fn program(blocks: &str) -> String {
+    format!("BEGIN PGM T MM\nTOOL CALL 1 Z S1000\n{blocks}END PGM T MM\n")
+}
+
+fn targets(motions: &[Motion]) -> Vec<Vec3> {
+    let known = motions
+        .iter()
+        .filter(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
+    let mut found: Vec<Vec3> = known.filter_map(|motion| motion.end.xyz()).collect();
+    found.dedup();
+    found
+}
+
+#[test]
+fn lines_and_feeds() {
+    let text = program("L X+10 Y-5,5 Z+2 R0 FMAX M3\nL IX+1,5 F200\nL Y+0\nL Z-1 FMAX\nL X+20\n");
+    assert_eq!(
+        lines(NAME, &text),
+        [
+            "R X10 Y-5.5 Z2",
+            "L X11.5 Y-5.5 Z2 F200",
+            "L X11.5 Y0 Z2 F200",
+            "R X11.5 Y0 Z-1",
+            "L X20 Y0 Z-1 F200",
+        ]
+    );
+}
+
+#[test]
+fn arcs_in_all_forms() {
+    let text = program(
+        "L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nC X+0 Y+10 DR+ F100\nCR X+10 Y+0 R+10 DR-\nCP IPA+450 IZ+5 DR+\nL X+0 Y+30\nCT X+10 Y+40\nLP PR+20 PA+90\n",
+    );
+    let motions = run_text(NAME, &text).motions;
+    let sweep = |at: usize| match motions[at].kind {
+        MotionKind::Arc(Some(arc)) => arc.sweep.to_degrees(),
+        _ => f64::NAN,
+    };
+    assert!(
+        (sweep(1) - 90.0).abs() < 1e-9 && (sweep(2) + 90.0).abs() < 1e-9,
+        "{} {}",
+        sweep(1),
+        sweep(2)
+    );
+    assert!((sweep(3) - 450.0).abs() < 1e-9, "{}", sweep(3));
+    let end = motions[3].end.xyz().expect("known");
+    assert!((end - Vec3::new(0.0, 10.0, 5.0)).norm() < 1e-9, "{end}");
+    // from (0, 30) straight up: a quarter to the right
+    assert!((sweep(5) + 90.0).abs() < 1e-9, "{}", sweep(5));
+    let polar = motions[6].end.xyz().expect("known");
+    assert!((polar - Vec3::new(0.0, 20.0, 5.0)).norm() < 1e-9, "{polar}");
+}
+
+/// The approach of the manual's blocks, with the numbers of the notes.
+#[test]
+fn approach_on_a_circle() {
+    let text = program("L X+40 Y+10 Z+0 R0 FMAX\nAPPR CT X+10 Y+20 CCA180 R+10 RR F100\nL X+20 Y+35\n");
+    let motions = run_text(NAME, &text).motions;
+    let at = |place: usize| motions[place].end.xyz().expect("known");
+    assert!((at(1) - Vec3::new(26.641, 8.906, 0.0)).norm() < 1e-3, "{}", at(1));
+    match motions[2].kind {
+        MotionKind::Arc(Some(arc)) => {
+            assert!(
+                (arc.centre - Vec3::new(18.321, 14.453, 0.0)).norm() < 1e-3,
+                "{}",
+                arc.centre
+            );
+            assert!(arc.sweep < 0.0, "clockwise");
+        }
+        _ => panic!("an arc"),
+    }
+    assert!((at(2) - Vec3::new(10.0, 20.0, 0.0)).norm() < 1e-9);
+    assert!((at(3) - Vec3::new(20.0, 35.0, 0.0)).norm() < 1e-9);
+}
+
+#[test]
+fn corners_are_rounded() {
+    let text = program("L X+0 Y+0 Z+0 FMAX\nL X+10 F100\nRND R2\nL Y+10\n");
+    let motions = run_text(NAME, &text).motions;
+    let ends: Vec<[f64; 2]> = targets(&motions)
+        .iter()
+        .map(|point| [point.x, point.y].map(|value| (value * 1e9).round() / 1e9))
+        .collect();
+    assert_eq!(ends, [[0.0, 0.0], [8.0, 0.0], [10.0, 2.0], [10.0, 10.0]]);
+}
+
+#[test]
+fn labels_repeat_and_jump() {
+    let text = program(
+        "L X+0 Y+0 Z+0 FMAX\nQ1 = 0\nLBL 1\nQ1 = Q1 + 1\nL IX+1 F100\nFN 12: IF +Q1 LT +3 GOTO LBL 1\nLBL 2\nL IY+1\nCALL LBL 2 REP 2\nCALL LBL \"down\"\nL M30\nLBL \"down\"\nL IZ-1\nLBL 0\n",
+    );
+    let motions = run_text(NAME, &text).motions;
+    let last = motions.last().and_then(|motion| motion.end.xyz()).expect("known");
+    assert_eq!(last, Vec3::new(3.0, 3.0, -1.0));
+    assert_eq!(motions.len(), 1 + 3 + 3 + 1);
+}
+
+#[test]
+fn an_endless_loop_and_a_missing_label() {
+    let text = program("LBL 1\nFN 9: IF +1 EQU +1 GOTO LBL 1\n");
+    assert!(
+        faults(NAME, &text).iter().any(|fault| fault.contains("EndlessLoop")),
+        "{:?}",
+        faults(NAME, &text)
+    );
+    let text = program("CALL LBL 7\n");
+    assert!(
+        faults(NAME, &text).iter().any(|fault| fault.contains("no label 7")),
+        "{:?}",
+        faults(NAME, &text)
+    );
+}
+
+/// Rapid to the clearance, work, and back; the depth counts from the surface.
+#[test]
+fn a_hole() {
+    let text = program(
+        "L X+5 Y+5 Z+50 FMAX M3\nCYCL DEF 200 BOHREN ~\n Q200=2 ;A ~\n Q201=-20 ;B ~\n Q206=150 ;C ~\n Q202=25 ;D ~\n Q210=0 ~\n Q203=+10 ~\n Q204=30 ~\n Q211=0,5\nCYCL CALL\nL X+15 FMAX M99\n",
+    );
+    assert_eq!(
+        lines(NAME, &text),
+        [
+            "R X5 Y5 Z50",
+            "R X5 Y5 Z12",
+            "L X5 Y5 Z-10 F150",
+            "D0.5 X5 Y5 Z-10",
+            "R X5 Y5 Z12",
+            "R X5 Y5 Z40",
+            "R X15 Y5 Z40",
+            "R X15 Y5 Z12",
+            "L X15 Y5 Z-10 F150",
+            "D0.5 X15 Y5 Z-10",
+            "R X15 Y5 Z12",
+            "R X15 Y5 Z40",
+        ]
+    );
+}
+
+#[test]
+fn what_is_not_sourced_is_unknown_by_name() {
+    for (block, name) in [
+        ("FL X+10 DR+\n", "FL: free contour programming"),
+        ("PLANE PROJECTED PROPR+10 PROMIN+10 ROT+0 STAY\n", "PLANE PROJECTED"),
+        ("CHF 5\n", "CHF"),
+        ("CYCL DEF 19.0 X\nCYCL DEF 19.1 A+45\n", "cycle 19"),
+        ("L Z+0 FMAX M92\n", "M92"),
+    ] {
+        let found = faults(NAME, &program(block));
+        assert!(found.iter().any(|fault| fault.contains(name)), "{block} {found:?}");
+    }
+}
+
+#[test]
+fn the_same_part_for_two_controls() {
+    let (Some(own), Some(fanuc)) = (
+        shared("four-controls/heidenhain/2.5D_MILLING.H"),
+        shared("four-controls/fanuc/2.5D_MILLING.NC"),
+    ) else {
+        return;
+    };
+    let own = targets(&run_bytes(NAME, &own, &Setup::default()).1.motions);
+    let fanuc = targets(&run_bytes("fanuc-30i", &fanuc, &Setup::default()).1.motions);
+    assert!(own.len() > 700, "{}", own.len());
+    // its approaches differ: nearly all other targets are the same
+    let near = |point: &&Vec3| fanuc.iter().any(|other| (*point - other).norm() < 2e-3);
+    let common = own.iter().filter(near).count();
+    eprintln!(
+        "2.5D: {} targets, {} of them in the Fanuc program's {}",
+        own.len(),
+        common,
+        fanuc.len()
+    );
+    assert!(common * 100 >= own.len() * 90, "{common} of {}", own.len());
+}
+
+#[test]
+fn surface_normals_and_tool_vectors() {
+    let Some(bytes) = shared("four-controls/heidenhain/5X_MILLING_VECTOR_part1.H") else {
+        return;
+    };
+    let motions = run_bytes(NAME, &bytes, &Setup::default()).1.motions;
+    let led: Vec<&Motion> = motions
+        .iter()
+        .filter(|motion| matches!(motion.orientation, Orientation::Vector(..)))
+        .collect();
+    assert_eq!(led.len(), 36);
+    assert!(led.iter().all(|motion| motion.tcp && motion.end.xyz().is_some()));
+}
+
+#[test]
+fn holes_of_the_shared_part() {
+    let (Some(own), Some(siemens)) = (
+        shared("four-controls/heidenhain/DRILLING.H"),
+        shared("four-controls/siemens/DRILLING.mpf"),
+    ) else {
+        return;
+    };
+    let bottoms = |name: &str, bytes: Vec<u8>| {
+        let motions = run_bytes(name, &bytes, &Setup::default()).1.motions;
+        let mut deepest: Vec<(i64, i64, i64)> = Vec::new();
+        for motion in motions.iter().filter(|motion| motion.is_feed()) {
+            let Some(end) = motion.end.xyz() else { continue };
+            let key = |value: f64| (value * 100.0).round() as i64;
+            let (x, y, z) = (key(end.x), key(end.y), key(end.z));
+            match deepest.iter_mut().find(|hole| (hole.0, hole.1) == (x, y)) {
+                Some(hole) => hole.2 = hole.2.min(z),
+                None => deepest.push((x, y, z)),
+            }
+        }
+        deepest.sort_unstable();
+        deepest
+    };
+    let (own, siemens) = (bottoms(NAME, own), bottoms("sinumerik-840d", siemens));
+    // the depth of the Siemens program's chip breaking is not known there
+    let there = |hole: &&(i64, i64, i64)| {
+        own.iter()
+            .any(|found| (found.0, found.1) == (hole.0, hole.1) && found.2 <= hole.2)
+    };
+    assert_eq!(
+        siemens.iter().filter(there).count(),
+        siemens.len(),
+        "{own:?} {siemens:?}"
+    );
+    let common = own.iter().filter(|hole| siemens.contains(hole)).count();
+    assert_eq!((own.len(), siemens.len(), common), (41, 33, 23));
+}

@@ -4,18 +4,28 @@
 //! await an answer. Work that takes time runs on a pool with a snapshot; newest version wins.
 mod analysis;
 mod backend;
+mod call_hierarchy;
+mod capabilities;
+mod cheap;
 mod code_action;
+mod coloured;
 mod document;
 mod event;
 mod exit;
+mod folder;
 mod frames;
 mod hover;
 mod names;
+mod navigate;
 mod outbox;
 mod owner;
 mod position;
 mod settings;
+mod snapshot;
+mod status;
+mod structure;
 mod to_proto;
+mod writing;
 
 use backend::Backend;
 use exit::Outer;

@@ -27,6 +27,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-check", 6),
     ("trunnion-layout", 6),
     ("trunnion-plot", 6),
+    ("trunnion-ide", 7),
     ("trunnion-files", 6),
     ("trunnion-rewrite", 7),
     ("trunnion-convert", 7),
@@ -54,6 +55,10 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     (
         "trunnion-convert",
         &["tokio", "clap", "miette", "tower-lsp", "trunnion-files"],
+    ),
+    (
+        "trunnion-ide",
+        &["tokio", "clap", "miette", "tower-lsp", "trunnion-files", "trunnion-certify"],
     ),
     ("trunnion-lsp", &["clap", "miette"]),
 ];

@@ -54,7 +54,8 @@ impl Source {
 
     /// Its outline, likewise.
     pub(crate) fn outline(&self) -> &[Node] {
-        self.outline.get_or_init(|| outline(&self.program, self.resolved.dialect, self.names()))
+        self.outline
+            .get_or_init(|| outline(&self.program, self.resolved.dialect, self.names()))
     }
 }
 
@@ -81,8 +82,16 @@ pub(crate) fn toml_file(uri: &Url, text: &str) -> Option<TomlFile> {
     if name == "trunnion.toml" {
         return Some(TomlFile::Settings);
     }
-    let machine = || text.lines().any(|line| line.starts_with("schema") && line.contains("\"ncmachine/"));
-    (name.ends_with(".toml") && machine()).then_some(TomlFile::Machine)
+    let machine = || {
+        text.lines()
+            .any(|line| line.starts_with("schema") && line.contains("\"ncmachine/"))
+    };
+    (name
+        .to_ascii_lowercase()
+        .rsplit_once('.')
+        .is_some_and(|(_, ending)| ending == "toml")
+        && machine())
+    .then_some(TomlFile::Machine)
 }
 
 /// Parses a version of a document.

@@ -3,8 +3,16 @@
 //! Notification handlers contain no `.await`: tower-lsp polls handlers in wire order, so nothing yields before the event
 //! is in the inbox and edits cannot overtake each other.
 use crate::{
-    call_hierarchy, capabilities::capabilities, code_action, coloured::Coloured, event::Event, hover, navigate, outbox, owner::Owner,
-    position::Encoding, snapshot::{Need, Snapshot}, structure, to_proto, writing,
+    call_hierarchy,
+    capabilities::capabilities,
+    code_action,
+    coloured::Coloured,
+    event::Event,
+    hover, navigate, outbox,
+    owner::Owner,
+    position::Encoding,
+    snapshot::{Need, Snapshot},
+    structure, to_proto, writing,
 };
 use std::sync::{
     Arc,
@@ -14,7 +22,22 @@ use tokio::sync::{mpsc, oneshot};
 use tower_lsp::{
     Client, LanguageServer,
     jsonrpc::{Error, Result},
-    lsp_types::*,
+    lsp_types::{
+        CallHierarchyIncomingCall, CallHierarchyIncomingCallsParams, CallHierarchyItem, CallHierarchyOutgoingCall,
+        CallHierarchyOutgoingCallsParams, CallHierarchyPrepareParams, CodeActionParams, CodeActionResponse, CodeLens,
+        CodeLensParams, CompletionParams, CompletionResponse, DidChangeConfigurationParams,
+        DidChangeTextDocumentParams, DidChangeWatchedFilesParams, DidCloseTextDocumentParams,
+        DidOpenTextDocumentParams, DocumentDiagnosticParams, DocumentDiagnosticReport, DocumentDiagnosticReportResult,
+        DocumentFormattingParams, DocumentHighlight, DocumentHighlightParams, DocumentLink, DocumentLinkParams,
+        DocumentOnTypeFormattingParams, DocumentRangeFormattingParams, DocumentSymbolParams, DocumentSymbolResponse,
+        FoldingRange, FoldingRangeParams, FullDocumentDiagnosticReport, GotoDefinitionParams, GotoDefinitionResponse,
+        Hover, HoverParams, InitializeParams, InitializeResult, InlayHint, InlayHintParams, Location,
+        PositionEncodingKind, PrepareRenameResponse, ReferenceParams, RelatedFullDocumentDiagnosticReport,
+        RenameParams, SelectionRange, SelectionRangeParams, SemanticTokens, SemanticTokensDeltaParams,
+        SemanticTokensFullDeltaResult, SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
+        SemanticTokensResult, ServerInfo, SignatureHelp, SignatureHelpParams, SymbolInformation,
+        TextDocumentPositionParams, TextEdit, Url, WorkspaceEdit, WorkspaceSymbolParams,
+    },
 };
 
 /// The handlers.
@@ -33,7 +56,11 @@ impl Backend {
         let owner = Owner::new(inbox.clone(), messages, tokio::runtime::Handle::current());
         std::thread::spawn(move || owner.run(events));
         let coloured = Coloured::default();
-        Self { inbox, shutdown, coloured }
+        Self {
+            inbox,
+            shutdown,
+            coloured,
+        }
     }
 
     /// The owner lives as long as the process; when it is gone there is no one to notify.
@@ -51,7 +78,8 @@ impl Backend {
         let (sender, answer) = oneshot::channel();
         let work = move |snapshot: Option<Snapshot>| {
             if !sender.is_closed() {
-                let _ = sender.send(snapshot.map_or_else(|| Err(Error::content_modified()), |snapshot| work(&snapshot)));
+                let _ =
+                    sender.send(snapshot.map_or_else(|| Err(Error::content_modified()), |snapshot| work(&snapshot)));
             }
         };
         self.post(Event::Ask {
@@ -101,7 +129,11 @@ pub(crate) fn wants_utf8(params: &InitializeParams) -> bool {
 #[tower_lsp::async_trait]
 impl LanguageServer for Backend {
     async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
-        let encoding = if wants_utf8(&params) { Encoding::Utf8 } else { Encoding::Utf16 };
+        let encoding = if wants_utf8(&params) {
+            Encoding::Utf8
+        } else {
+            Encoding::Utf16
+        };
         self.post(Event::Initialize(Box::new(params)));
         Ok(InitializeResult {
             capabilities: capabilities(encoding),
@@ -172,17 +204,20 @@ impl LanguageServer for Backend {
                 None => to_proto::of_toml(&snapshot.parsed, snapshot.encoding),
             };
             let full = FullDocumentDiagnosticReport { result_id: None, items };
-            DocumentDiagnosticReportResult::Report(DocumentDiagnosticReport::Full(RelatedFullDocumentDiagnosticReport {
-                related_documents: None,
-                full_document_diagnostic_report: full,
-            }))
+            DocumentDiagnosticReportResult::Report(DocumentDiagnosticReport::Full(
+                RelatedFullDocumentDiagnosticReport {
+                    related_documents: None,
+                    full_document_diagnostic_report: full,
+                },
+            ))
         };
         self.show(&params.text_document.uri, Need::Analysed, work).await
     }
 
     async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
         let at = params.text_document_position;
-        let work = move |snapshot: &Snapshot| Some(CompletionResponse::Array(writing::completion(snapshot, at.position)));
+        let work =
+            move |snapshot: &Snapshot| Some(CompletionResponse::Array(writing::completion(snapshot, at.position)));
         self.show(&at.text_document.uri, Need::Parsed, work).await
     }
 
@@ -194,7 +229,8 @@ impl LanguageServer for Backend {
 
     async fn goto_definition(&self, params: GotoDefinitionParams) -> Result<Option<GotoDefinitionResponse>> {
         let at = params.text_document_position_params;
-        let work = move |snapshot: &Snapshot| navigate::definition(snapshot, at.position).map(GotoDefinitionResponse::Array);
+        let work =
+            move |snapshot: &Snapshot| navigate::definition(snapshot, at.position).map(GotoDefinitionResponse::Array);
         self.show(&at.text_document.uri, Need::Parsed, work).await
     }
 
@@ -212,7 +248,7 @@ impl LanguageServer for Backend {
 
     async fn prepare_rename(&self, at: TextDocumentPositionParams) -> Result<Option<PrepareRenameResponse>> {
         let work = move |snapshot: &Snapshot| navigate::prepare(snapshot, at.position);
-        self.ask(&at.text_document.uri, Need::Parsed, work).await
+        self.show(&at.text_document.uri, Need::Parsed, work).await
     }
 
     async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
@@ -268,11 +304,17 @@ impl LanguageServer for Backend {
         self.show(&params.text_document.uri, Need::Parsed, work).await
     }
 
-    async fn semantic_tokens_range(&self, params: SemanticTokensRangeParams) -> Result<Option<SemanticTokensRangeResult>> {
+    async fn semantic_tokens_range(
+        &self,
+        params: SemanticTokensRangeParams,
+    ) -> Result<Option<SemanticTokensRangeResult>> {
         let range = params.range;
         let work = move |snapshot: &Snapshot| {
             let data = writing::colours(snapshot, Some(range));
-            Some(SemanticTokensRangeResult::Tokens(SemanticTokens { result_id: None, data }))
+            Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
+                result_id: None,
+                data,
+            }))
         };
         self.show(&params.text_document.uri, Need::Parsed, work).await
     }
@@ -310,7 +352,10 @@ impl LanguageServer for Backend {
         self.show(&params.text_document.uri, Need::Parsed, work).await
     }
 
-    async fn prepare_call_hierarchy(&self, params: CallHierarchyPrepareParams) -> Result<Option<Vec<CallHierarchyItem>>> {
+    async fn prepare_call_hierarchy(
+        &self,
+        params: CallHierarchyPrepareParams,
+    ) -> Result<Option<Vec<CallHierarchyItem>>> {
         let at = params.text_document_position_params;
         let work = move |snapshot: &Snapshot| call_hierarchy::prepare(snapshot, at.position);
         self.show(&at.text_document.uri, Need::Parsed, work).await
@@ -321,7 +366,8 @@ impl LanguageServer for Backend {
         params: CallHierarchyIncomingCallsParams,
     ) -> Result<Option<Vec<CallHierarchyIncomingCall>>> {
         let (uri, of) = (params.item.uri.clone(), params.item);
-        self.near(&uri, move |snapshot| call_hierarchy::incoming(snapshot, &of)).await
+        self.near(&uri, move |snapshot| call_hierarchy::incoming(snapshot, &of))
+            .await
     }
 
     async fn outgoing_calls(
@@ -329,6 +375,7 @@ impl LanguageServer for Backend {
         params: CallHierarchyOutgoingCallsParams,
     ) -> Result<Option<Vec<CallHierarchyOutgoingCall>>> {
         let (uri, of) = (params.item.uri.clone(), params.item);
-        self.near(&uri, move |snapshot| call_hierarchy::outgoing(snapshot, &of)).await
+        self.near(&uri, move |snapshot| call_hierarchy::outgoing(snapshot, &of))
+            .await
     }
 }

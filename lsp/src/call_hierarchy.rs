@@ -41,7 +41,10 @@ fn files(snapshot: &Snapshot) -> Vec<File<'_>> {
 }
 
 fn file_name(uri: &Url) -> String {
-    uri.path_segments().and_then(|mut all| all.next_back()).unwrap_or_default().to_owned()
+    uri.path_segments()
+        .and_then(|mut all| all.next_back())
+        .unwrap_or_default()
+        .to_owned()
 }
 
 /// An entry: the program that is defined, or a whole file that has no name of its own.
@@ -61,7 +64,10 @@ fn item(snapshot: &Snapshot, file: &File<'_>, of: Option<&Occurrence>) -> CallHi
 }
 
 fn definition<'n>(names: &'n Names, name: &str) -> Option<&'n Occurrence> {
-    names.all.iter().find(|one| one.kind == Kind::Program && one.role == Role::Definition && &*one.name == name)
+    names
+        .all
+        .iter()
+        .find(|one| one.kind == Kind::Program && one.role == Role::Definition && &*one.name == name)
 }
 
 /// The program at a position.
@@ -83,7 +89,9 @@ fn name_of(item: &CallHierarchyItem) -> Option<String> {
 }
 
 fn sites(file: &File<'_>) -> Vec<CallSite> {
-    file.source().map(|source| calls_of(&source.program, source.names())).unwrap_or_default()
+    file.source()
+        .map(|source| calls_of(&source.program, source.names()))
+        .unwrap_or_default()
 }
 
 /// The calls of a program, by caller.
@@ -94,9 +102,15 @@ pub(crate) fn incoming(snapshot: &Snapshot, of: &CallHierarchyItem) -> Vec<CallH
         for site in sites(&file).into_iter().filter(|site| *site.call.name == *name) {
             let from = item(snapshot, &file, site.caller.as_ref());
             let range = file.range(snapshot, site.call.range);
-            match found.iter_mut().find(|known| known.from.uri == from.uri && known.from.range == from.range) {
+            match found
+                .iter_mut()
+                .find(|known| known.from.uri == from.uri && known.from.range == from.range)
+            {
                 Some(known) => known.from_ranges.push(range),
-                None => found.push(CallHierarchyIncomingCall { from, from_ranges: vec![range] }),
+                None => found.push(CallHierarchyIncomingCall {
+                    from,
+                    from_ranges: vec![range],
+                }),
             }
         }
     }
@@ -108,7 +122,9 @@ pub(crate) fn outgoing(snapshot: &Snapshot, of: &CallHierarchyItem) -> Vec<CallH
     let name = name_of(of);
     let files = files(snapshot);
     let mut found: Vec<CallHierarchyOutgoingCall> = Vec::new();
-    let Some(own) = files.iter().find(|file| *file.uri() == of.uri) else { return found };
+    let Some(own) = files.iter().find(|file| *file.uri() == of.uri) else {
+        return found;
+    };
     for site in sites(own) {
         if site.caller.as_ref().map(|caller| caller.name.to_string()) != name {
             continue;
@@ -119,9 +135,15 @@ pub(crate) fn outgoing(snapshot: &Snapshot, of: &CallHierarchyItem) -> Vec<CallH
         });
         let to = target.unwrap_or_else(|| item(snapshot, own, Some(&site.call)));
         let range = own.range(snapshot, site.call.range);
-        match found.iter_mut().find(|known| known.to.uri == to.uri && known.to.name == to.name) {
+        match found
+            .iter_mut()
+            .find(|known| known.to.uri == to.uri && known.to.name == to.name)
+        {
             Some(known) => known.from_ranges.push(range),
-            None => found.push(CallHierarchyOutgoingCall { to, from_ranges: vec![range] }),
+            None => found.push(CallHierarchyOutgoingCall {
+                to,
+                from_ranges: vec![range],
+            }),
         }
     }
     found

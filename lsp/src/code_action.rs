@@ -30,8 +30,18 @@ pub(crate) fn code_actions(
     if !wanted {
         return Some(Vec::new());
     }
-    let start = offset(&analysed.parsed.text, &analysed.parsed.starts, params.range.start, encoding) as u32;
-    let end = offset(&analysed.parsed.text, &analysed.parsed.starts, params.range.end, encoding) as u32;
+    let start = offset(
+        &analysed.parsed.text,
+        &analysed.parsed.starts,
+        params.range.start,
+        encoding,
+    ) as u32;
+    let end = offset(
+        &analysed.parsed.text,
+        &analysed.parsed.starts,
+        params.range.end,
+        encoding,
+    ) as u32;
     let touched: Vec<_> = session
         .report
         .diagnostics
@@ -64,7 +74,10 @@ fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Enc
                 .filter(same)
                 .collect(),
         ),
-        edit: Some(WorkspaceEdit::new(HashMap::from([(analysed.parsed.uri.clone(), vec![edit])]))),
+        edit: Some(WorkspaceEdit::new(HashMap::from([(
+            analysed.parsed.uri.clone(),
+            vec![edit],
+        )]))),
         ..CodeAction::default()
     })
 }

@@ -10,10 +10,13 @@ use tower_lsp::lsp_types::{
     SemanticToken, SemanticTokens, SemanticTokensDelta, SemanticTokensEdit, SemanticTokensFullDeltaResult, Url,
 };
 
+/// The name of an answer, and its colours.
+type Answer = (String, Arc<Vec<SemanticToken>>);
+
 /// The last answer for each document.
 #[derive(Clone, Default)]
 pub(crate) struct Coloured {
-    last: Arc<Mutex<BTreeMap<Url, (String, Arc<Vec<SemanticToken>>)>>>,
+    last: Arc<Mutex<BTreeMap<Url, Answer>>>,
     next: Arc<AtomicU64>,
 }
 
@@ -39,7 +42,13 @@ impl Coloured {
         };
         let head = old.iter().zip(&data).take_while(|(a, b)| a == b).count();
         let most = old.len().min(data.len()) - head;
-        let tail = old.iter().rev().zip(data.iter().rev()).take(most).take_while(|(a, b)| a == b).count();
+        let tail = old
+            .iter()
+            .rev()
+            .zip(data.iter().rev())
+            .take(most)
+            .take_while(|(a, b)| a == b)
+            .count();
         let edit = SemanticTokensEdit {
             // a token is five numbers
             start: head as u32 * 5,

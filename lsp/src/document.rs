@@ -60,7 +60,11 @@ impl Document {
     /// Applies the client's edits in their order.
     pub(crate) fn change(&mut self, version: i32, changes: Vec<TextDocumentContentChangeEvent>, encoding: Encoding) {
         let mut text = String::from(&*self.text);
-        let mut known = self.parsed.as_ref().filter(|parsed| parsed.version == self.version).map(|parsed| &*parsed.starts);
+        let mut known = self
+            .parsed
+            .as_ref()
+            .filter(|parsed| parsed.version == self.version)
+            .map(|parsed| &*parsed.starts);
         for change in changes {
             let Some(range) = change.range else {
                 self.since = vec![(0, u32::MAX, u32::MAX)];
@@ -69,10 +73,13 @@ impl Document {
                 continue;
             };
             // the lines of the parsed version are those of the text until the first edit
-            let starts = known.take().map_or_else(|| Cow::Owned(line_starts(&text)), Cow::Borrowed);
+            let starts = known
+                .take()
+                .map_or_else(|| Cow::Owned(line_starts(&text)), Cow::Borrowed);
             let start = offset(&text, &starts, range.start, encoding);
             let end = offset(&text, &starts, range.end, encoding).max(start);
-            self.since.push((start as u32, end as u32, (start + change.text.len()) as u32));
+            self.since
+                .push((start as u32, end as u32, (start + change.text.len()) as u32));
             text.replace_range(start..end, &change.text);
         }
         self.text = text.into();
@@ -95,7 +102,11 @@ impl Document {
         let mut found = found.clone();
         found.range = place(found.range)?;
         found.last = place(found.last).unwrap_or(found.range);
-        found.related = found.related.into_iter().filter_map(|(range, text)| Some((place(range)?, text))).collect();
+        found.related = found
+            .related
+            .into_iter()
+            .filter_map(|(range, text)| Some((place(range)?, text)))
+            .collect();
         found.also = found.also.iter().filter_map(|led| self.moved(led)).collect();
         Some(found)
     }
@@ -112,6 +123,8 @@ impl Document {
 
     /// Whether the newest parsed version is of the newest text.
     pub(crate) fn is_parsed(&self) -> bool {
-        self.parsed.as_ref().is_some_and(|parsed| parsed.version == self.version)
+        self.parsed
+            .as_ref()
+            .is_some_and(|parsed| parsed.version == self.version)
     }
 }

@@ -122,7 +122,10 @@ impl Folder {
         let text = std::fs::read_to_string(path).ok()?;
         let parsed = Arc::new(parse(uri.clone(), 0, text.into(), &self.overrides));
         let other = Arc::new(Other { uri, parsed });
-        self.kept.lock().ok()?.insert(path.to_owned(), (time, size, Arc::clone(&other)));
+        self.kept
+            .lock()
+            .ok()?
+            .insert(path.to_owned(), (time, size, Arc::clone(&other)));
         Some(other)
     }
 }

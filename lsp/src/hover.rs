@@ -38,7 +38,10 @@ fn hover(analysed: &Analysed, position: Position, encoding: Encoding) -> Option<
     let program = &source.program;
     let id = program.block_at(at)?;
     let block = program.block(id);
-    if program.source()[block.range().as_usize()].iter().all(u8::is_ascii_whitespace) {
+    if program.source()[block.range().as_usize()]
+        .iter()
+        .all(u8::is_ascii_whitespace)
+    {
         return None;
     }
     let mut text = String::new();
@@ -73,7 +76,12 @@ fn findings(text: &mut String, session: &Session, at: u32) {
     for found in session.report.findings().filter(|d| d.range.touches(at)) {
         if !names.contains(&found.rule) {
             names.push(found.rule);
-            let _ = writeln!(text, "* **{}** {} (`trunnion explain {0}`)", found.rule, found.message.replace('\n', " "));
+            let _ = writeln!(
+                text,
+                "* **{}** {} (`trunnion explain {0}`)",
+                found.rule,
+                found.message.replace('\n', " ")
+            );
         }
     }
     if !names.is_empty() {

@@ -4,7 +4,8 @@ use std::{collections::HashMap, sync::Arc};
 use tower_lsp::{
     jsonrpc::{Error, Result},
     lsp_types::{
-        DocumentHighlight, DocumentHighlightKind, Location, Position, PrepareRenameResponse, TextEdit, Url, WorkspaceEdit,
+        DocumentHighlight, DocumentHighlightKind, Location, Position, PrepareRenameResponse, TextEdit, Url,
+        WorkspaceEdit,
     },
 };
 use trunnion_ide::{Kind, Occurrence, RenameError, Role, Scope, rename};
@@ -40,7 +41,11 @@ fn users(snapshot: &Snapshot, of: &Occurrence) -> Vec<Arc<Other>> {
         return Vec::new();
     }
     let mut others = snapshot.others();
-    others.retain(|other| other.source().is_some_and(|source| source.names().same(of).next().is_some()));
+    others.retain(|other| {
+        other
+            .source()
+            .is_some_and(|source| source.names().same(of).next().is_some())
+    });
     others
 }
 
@@ -48,7 +53,11 @@ fn users(snapshot: &Snapshot, of: &Occurrence) -> Vec<Arc<Other>> {
 pub(crate) fn definition(snapshot: &Snapshot, position: Position) -> Option<Vec<Location>> {
     let of = at(snapshot, position)?;
     let names = snapshot.source()?.names();
-    let mut found: Vec<Location> = names.definitions(&of).iter().map(|one| snapshot.location(one.range)).collect();
+    let mut found: Vec<Location> = names
+        .definitions(&of)
+        .iter()
+        .map(|one| snapshot.location(one.range))
+        .collect();
     let here = names.same(&of).any(|one| one.role == Role::Definition);
     if !here {
         let mut others = Vec::new();
@@ -62,7 +71,9 @@ pub(crate) fn definition(snapshot: &Snapshot, position: Position) -> Option<Vec<
         }
     }
     if found.is_empty() && of.kind == Kind::Program {
-        found.extend(called_file(snapshot, &of.name).map(|uri| Location::new(uri, tower_lsp::lsp_types::Range::default())));
+        found.extend(
+            called_file(snapshot, &of.name).map(|uri| Location::new(uri, tower_lsp::lsp_types::Range::default())),
+        );
     }
     (!found.is_empty()).then_some(found)
 }
@@ -76,7 +87,11 @@ pub(crate) fn called_file(snapshot: &Snapshot, name: &str) -> Option<Url> {
     };
     let wanted = name.to_ascii_uppercase();
     let wanted = wanted.trim_start_matches(['O', '0']);
-    snapshot.others().iter().find(|other| stem(&other.uri).as_deref() == Some(wanted)).map(|other| other.uri.clone())
+    snapshot
+        .others()
+        .iter()
+        .find(|other| stem(&other.uri).as_deref() == Some(wanted))
+        .map(|other| other.uri.clone())
 }
 
 /// Every place of the thing at a position.
@@ -84,10 +99,20 @@ pub(crate) fn references(snapshot: &Snapshot, position: Position, declaration: b
     let of = at(snapshot, position)?;
     let wanted = |one: &&Occurrence| declaration || one.role != Role::Definition;
     let names = snapshot.source()?.names();
-    let mut found: Vec<Location> = names.same(&of).filter(wanted).map(|one| snapshot.location(one.range)).collect();
+    let mut found: Vec<Location> = names
+        .same(&of)
+        .filter(wanted)
+        .map(|one| snapshot.location(one.range))
+        .collect();
     for other in users(snapshot, &of) {
         if let Some(source) = other.source() {
-            found.extend(source.names().same(&of).filter(wanted).map(|one| snapshot.elsewhere(&other, one.range)));
+            found.extend(
+                source
+                    .names()
+                    .same(&of)
+                    .filter(wanted)
+                    .map(|one| snapshot.elsewhere(&other, one.range)),
+            );
         }
     }
     Some(found)
@@ -98,18 +123,27 @@ pub(crate) fn highlights(snapshot: &Snapshot, position: Position) -> Option<Vec<
     let of = at(snapshot, position)?;
     let one = |one: &Occurrence| DocumentHighlight {
         range: snapshot.range(one.range),
-        kind: Some(if one.role == Role::Read { DocumentHighlightKind::READ } else { DocumentHighlightKind::WRITE }),
+        kind: Some(if one.role == Role::Read {
+            DocumentHighlightKind::READ
+        } else {
+            DocumentHighlightKind::WRITE
+        }),
     };
     Some(snapshot.source()?.names().same(&of).map(one).collect())
 }
 
 /// What would be renamed.
-pub(crate) fn prepare(snapshot: &Snapshot, position: Position) -> Result<Option<PrepareRenameResponse>> {
-    let Some(of) = at(snapshot, position) else { return Ok(None) };
-    Ok(Some(PrepareRenameResponse::RangeWithPlaceholder {
+pub(crate) fn prepare(snapshot: &Snapshot, position: Position) -> Option<PrepareRenameResponse> {
+    let of = at(snapshot, position)?;
+    Some(PrepareRenameResponse::RangeWithPlaceholder {
         range: snapshot.range(of.range),
-        placeholder: snapshot.parsed.text.get(of.range.as_usize()).unwrap_or_default().to_owned(),
-    }))
+        placeholder: snapshot
+            .parsed
+            .text
+            .get(of.range.as_usize())
+            .unwrap_or_default()
+            .to_owned(),
+    })
 }
 
 fn refused(why: impl Into<String>) -> Error {
@@ -128,29 +162,51 @@ pub(crate) fn renamed(snapshot: &Snapshot, position: Position, new: &str) -> Res
     let new = new.trim_matches(['#', '<', '>']);
     let failed = |error: RenameError| refused(format!("not renamed: {}", error.0));
     let mut changes: HashMap<Url, Vec<TextEdit>> = HashMap::new();
-    let mut of_here = of.clone();
     if of.scope == Scope::Part(u32::MAX) {
         // nothing refers to this number: only it changes
-        let one = trunnion_syntax::TextEdit { range: of.range, new_text: new.to_owned() };
+        let one = trunnion_syntax::TextEdit {
+            range: of.range,
+            new_text: new.to_owned(),
+        };
         trunnion_ide::check_new_name(&of, source.resolved.dialect, new).map_err(failed)?;
         changes.insert(snapshot.parsed.uri.clone(), snapshot.edits([one]));
         return Ok(Some(WorkspaceEdit::new(changes)));
     }
-    of_here.range = of.range;
     let others = users(snapshot, &of);
     let named_file = of.kind == Kind::Program && called_file(snapshot, &of.name).is_some()
         || of.kind == Kind::Program && !others.is_empty() && own_file(&snapshot.parsed.uri, &of.name);
     if named_file {
-        return Err(refused(format!("not renamed: the file of `{}` is found by its name; rename the file instead", of.name)));
+        return Err(refused(format!(
+            "not renamed: the file of `{}` is found by its name; rename the file instead",
+            of.name
+        )));
     }
     let resolved = &source.resolved;
-    let edits = rename(&source.program, resolved.dialect, &resolved.setup, source.names(), &of_here, new).map_err(failed)?;
+    let edits = rename(
+        &source.program,
+        resolved.dialect,
+        &resolved.setup,
+        source.names(),
+        &of,
+        new,
+    )
+    .map_err(failed)?;
     changes.insert(snapshot.parsed.uri.clone(), snapshot.edits(edits));
     for other in others {
         let Some(theirs) = other.source() else { continue };
         let resolved = &theirs.resolved;
-        let edits = rename(&theirs.program, resolved.dialect, &resolved.setup, theirs.names(), &of, new).map_err(failed)?;
-        let edits = edits.into_iter().map(|edit| TextEdit::new(other.range(edit.range, snapshot.encoding), edit.new_text));
+        let edits = rename(
+            &theirs.program,
+            resolved.dialect,
+            &resolved.setup,
+            theirs.names(),
+            &of,
+            new,
+        )
+        .map_err(failed)?;
+        let edits = edits
+            .into_iter()
+            .map(|edit| TextEdit::new(other.range(edit.range, snapshot.encoding), edit.new_text));
         changes.insert(other.uri.clone(), edits.collect());
     }
     Ok(Some(WorkspaceEdit::new(changes)))
@@ -158,7 +214,10 @@ pub(crate) fn renamed(snapshot: &Snapshot, position: Position, new: &str) -> Res
 
 /// Whether the file of a document has the name of the program.
 fn own_file(uri: &Url, name: &str) -> bool {
-    let last = uri.path_segments().and_then(|mut all| all.next_back()).unwrap_or_default();
+    let last = uri
+        .path_segments()
+        .and_then(|mut all| all.next_back())
+        .unwrap_or_default();
     let stem = last.rsplit_once('.').map_or(last, |(stem, _)| stem);
     stem.trim_start_matches(['O', 'o', '0']).eq_ignore_ascii_case(name)
 }

@@ -132,7 +132,10 @@ impl Owner {
             .and_then(|hint| hint.refresh_support)
             .unwrap_or(false);
         let folders = params.workspace_folders.iter().flatten().map(|folder| &folder.uri);
-        let mut roots: Vec<PathBuf> = folders.chain(params.root_uri.iter()).filter_map(|uri| uri.to_file_path().ok()).collect();
+        let mut roots: Vec<PathBuf> = folders
+            .chain(params.root_uri.iter())
+            .filter_map(|uri| uri.to_file_path().ok())
+            .collect();
         roots.dedup();
         self.folder.roots = Arc::new(roots);
     }
@@ -210,12 +213,17 @@ impl Owner {
         };
         // a parsed version is analysed once
         document.due = false;
-        let long = parsed.outcome.as_ref().is_ok_and(|source| source.program.block_count() > LONG);
+        let long = parsed
+            .outcome
+            .as_ref()
+            .is_ok_and(|source| source.program.block_count() > LONG);
         if self.progress && long && document.progress.is_none() {
             let (running, done) = oneshot::channel();
             document.progress = Some(running);
             self.works += 1;
-            let _ = self.outbox.send(Message::Progress(self.works, "Checking the program".to_owned(), done));
+            let _ = self
+                .outbox
+                .send(Message::Progress(self.works, "Checking the program".to_owned(), done));
         }
         let (newest, inbox, version) = (Arc::clone(&document.newest), self.inbox.clone(), document.version);
         self.runtime.spawn_blocking(move || {
@@ -248,7 +256,11 @@ impl Owner {
             self.answer(&parsed.uri.clone());
             return;
         }
-        if parsed.outcome.as_ref().map_or(true, |source| source.resolved.machine.is_none()) {
+        if parsed
+            .outcome
+            .as_ref()
+            .map_or(true, |source| source.resolved.machine.is_none())
+        {
             document.due = true;
         }
         let uri = parsed.uri.clone();
@@ -265,11 +277,20 @@ impl Owner {
             return;
         }
         let before = document.analysed.as_ref().and_then(|analysed| analysed.judged());
-        let others = before.map(|(_, session)| session.report.diagnostics.as_slice()).unwrap_or_default();
-        found.extend(others.iter().filter(|one| !cheap::is_cheap(one)).filter_map(|one| document.moved(one)));
+        let others = before
+            .map(|(_, session)| session.report.diagnostics.as_slice())
+            .unwrap_or_default();
+        found.extend(
+            others
+                .iter()
+                .filter(|one| !cheap::is_cheap(one))
+                .filter_map(|one| document.moved(one)),
+        );
         found.sort_by_key(|one| one.range);
         let list = to_proto::of(parsed, &found, self.encoding);
-        let _ = self.outbox.send(Message::Diagnostics(parsed.uri.clone(), list, Some(parsed.version)));
+        let _ = self
+            .outbox
+            .send(Message::Diagnostics(parsed.uri.clone(), list, Some(parsed.version)));
     }
 
     /// Takes an analysis, publishes it, and answers the requests that waited for it.
@@ -330,7 +351,12 @@ impl Owner {
         let version = document.version;
         match self.snapshot(&uri, need) {
             Some(snapshot) => drop(self.runtime.spawn_blocking(move || work(Some(snapshot)))),
-            None => self.waiting.push(Waiting { uri, version, need, work }),
+            None => self.waiting.push(Waiting {
+                uri,
+                version,
+                need,
+                work,
+            }),
         }
     }
 

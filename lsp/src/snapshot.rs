@@ -76,7 +76,10 @@ impl Snapshot {
 
     /// Edits of this document.
     pub(crate) fn edits(&self, edits: impl IntoIterator<Item = trunnion_syntax::TextEdit>) -> Vec<TextEdit> {
-        edits.into_iter().map(|edit| TextEdit::new(self.range(edit.range), edit.new_text)).collect()
+        edits
+            .into_iter()
+            .map(|edit| TextEdit::new(self.range(edit.range), edit.new_text))
+            .collect()
     }
 
     /// The other programs of the document's folder.

@@ -22,7 +22,9 @@ pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagno
         let text = format!("{error}; nothing is checked until this is corrected");
         return vec![plain("settings", DiagnosticSeverity::ERROR, text)];
     }
-    let Some((_, session)) = analysed.judged() else { return Vec::new() };
+    let Some((_, session)) = analysed.judged() else {
+        return Vec::new();
+    };
     of(&analysed.parsed, &session.report.diagnostics, encoding)
 }
 
@@ -55,7 +57,9 @@ pub(crate) fn of_toml(parsed: &Parsed, encoding: Encoding) -> Vec<Diagnostic> {
     let Some((message, place)) = parsed.toml.and_then(|file| file.problem(&parsed.text)) else {
         return Vec::new();
     };
-    let bytes = place.map_or(TextRange::default(), |place| TextRange::new(place.start as u32, place.end as u32));
+    let bytes = place.map_or(TextRange::default(), |place| {
+        TextRange::new(place.start as u32, place.end as u32)
+    });
     let mut found = plain("settings", DiagnosticSeverity::ERROR, message);
     found.range = range(&parsed.text, &parsed.starts, bytes, encoding);
     vec![found]

@@ -3,8 +3,9 @@ use crate::snapshot::Snapshot;
 use tower_lsp::{
     jsonrpc::{Error, Result},
     lsp_types::{
-        CompletionItem, CompletionItemKind, CompletionTextEdit, Documentation, InlayHint, InlayHintKind, InlayHintLabel, MarkupContent,
-        MarkupKind, ParameterInformation, ParameterLabel, Position, Range, SemanticToken, SignatureHelp, SignatureInformation, TextEdit,
+        CompletionItem, CompletionItemKind, CompletionTextEdit, Documentation, InlayHint, InlayHintKind,
+        InlayHintLabel, MarkupContent, MarkupKind, ParameterInformation, ParameterLabel, Position, Range,
+        SemanticToken, SignatureHelp, SignatureInformation, TextEdit,
     },
 };
 use trunnion_ide::{
@@ -13,7 +14,10 @@ use trunnion_ide::{
 use trunnion_syntax::TextRange;
 
 fn markdown(value: String) -> MarkupContent {
-    MarkupContent { kind: MarkupKind::Markdown, value }
+    MarkupContent {
+        kind: MarkupKind::Markdown,
+        value,
+    }
 }
 
 /// What fits at a position.
@@ -31,11 +35,17 @@ pub(crate) fn completion(snapshot: &Snapshot, position: Position) -> Vec<Complet
         };
         return keys.into_iter().map(one).collect();
     }
-    let Some(source) = snapshot.source() else { return Vec::new() };
+    let Some(source) = snapshot.source() else {
+        return Vec::new();
+    };
     let mut programs = Vec::new();
     for other in snapshot.others() {
         let Some(theirs) = other.source() else { continue };
-        let defined = theirs.names().all.iter().filter(|one| one.kind == Kind::Program && one.role == Role::Definition);
+        let defined = theirs
+            .names()
+            .all
+            .iter()
+            .filter(|one| one.kind == Kind::Program && one.role == Role::Definition);
         programs.extend(defined.map(|one| one.name.to_string()));
     }
     let one = |(at, item): (usize, trunnion_ide::Completion)| CompletionItem {
@@ -52,20 +62,36 @@ pub(crate) fn completion(snapshot: &Snapshot, position: Position) -> Vec<Complet
         documentation: (!item.docs.is_empty()).then(|| Documentation::MarkupContent(markdown(item.docs))),
         // G1, G2, ... in the order of their numbers
         sort_text: Some(format!("{at:05}")),
-        text_edit: Some(CompletionTextEdit::Edit(TextEdit::new(snapshot.range(item.replace), item.label))),
+        text_edit: Some(CompletionTextEdit::Edit(TextEdit::new(
+            snapshot.range(item.replace),
+            item.label,
+        ))),
         ..CompletionItem::default()
     };
-    completions(&source.program, source.resolved.dialect, source.names(), &programs, offset).into_iter().enumerate().map(one).collect()
+    completions(
+        &source.program,
+        source.resolved.dialect,
+        source.names(),
+        &programs,
+        offset,
+    )
+    .into_iter()
+    .enumerate()
+    .map(one)
+    .collect()
 }
 
 /// The words of the code at a position.
 pub(crate) fn signature_help(snapshot: &Snapshot, position: Position) -> Option<SignatureHelp> {
     let source = snapshot.source()?;
     let found = signature(&source.program, source.resolved.dialect, snapshot.offset(position))?;
-    let parameters = found.words.into_iter().map(|((start, end), docs)| ParameterInformation {
-        label: ParameterLabel::LabelOffsets([start, end]),
-        documentation: Some(Documentation::String(docs)),
-    });
+    let parameters = found
+        .words
+        .into_iter()
+        .map(|((start, end), docs)| ParameterInformation {
+            label: ParameterLabel::LabelOffsets([start, end]),
+            documentation: Some(Documentation::String(docs)),
+        });
     Some(SignatureHelp {
         signatures: vec![SignatureInformation {
             label: found.label,
@@ -89,7 +115,14 @@ pub(crate) fn inlay_hints(snapshot: &Snapshot, range: Range) -> Vec<InlayHint> {
         HintKind::Modal => shown.modal,
     };
     let settings = source.resolved.settings();
-    let list = hints(&source.program, &settings, session, source.outline(), snapshot.bytes(range), &wanted);
+    let list = hints(
+        &source.program,
+        &settings,
+        session,
+        source.outline(),
+        snapshot.bytes(range),
+        &wanted,
+    );
     let one = |hint: trunnion_ide::Hint| InlayHint {
         position: snapshot.range(TextRange::new(hint.at, hint.at)).start,
         label: InlayHintLabel::String(hint.text),
@@ -105,10 +138,18 @@ pub(crate) fn inlay_hints(snapshot: &Snapshot, range: Range) -> Vec<InlayHint> {
 
 /// The edits that lay out the document, or the lines of a range.
 pub(crate) fn formatting(snapshot: &Snapshot, range: Option<Range>) -> Result<Option<Vec<TextEdit>>> {
-    let Some(source) = snapshot.source() else { return Ok(None) };
+    let Some(source) = snapshot.source() else {
+        return Ok(None);
+    };
     let resolved = &source.resolved;
     let lines = range.map(|range| snapshot.bytes(range));
-    let edits = format(&source.program, resolved.dialect, &resolved.setup, &style(&resolved.format), lines);
+    let edits = format(
+        &source.program,
+        resolved.dialect,
+        &resolved.setup,
+        &style(&resolved.format),
+        lines,
+    );
     match edits {
         Ok(edits) => Ok(Some(snapshot.edits(edits))),
         Err(why) => {
@@ -129,14 +170,22 @@ pub(crate) fn on_type(snapshot: &Snapshot, position: Position) -> Option<Vec<Tex
 
 /// The colours of the lines of a range, or of all.
 pub(crate) fn colours(snapshot: &Snapshot, range: Option<Range>) -> Vec<SemanticToken> {
-    let Some(source) = snapshot.source() else { return Vec::new() };
+    let Some(source) = snapshot.source() else {
+        return Vec::new();
+    };
     let (text, starts) = (&snapshot.parsed.text, &snapshot.parsed.starts);
     let line = |line: u32| starts.get(line as usize).map_or(text.len(), |&start| start as usize);
     let (first, from, to) = match range {
-        Some(range) => (range.start.line, line(range.start.line), line(range.end.line.saturating_add(1))),
+        Some(range) => (
+            range.start.line,
+            line(range.start.line),
+            line(range.end.line.saturating_add(1)),
+        ),
         None => (0, 0, text.len()),
     };
-    let Some(piece) = text.get(from..to) else { return Vec::new() };
+    let Some(piece) = text.get(from..to) else {
+        return Vec::new();
+    };
     let list = tokens(piece.as_bytes(), source.resolved.dialect.lex, source.resolved.dialect);
     let local = crate::position::line_starts(piece);
     let mut found = Vec::with_capacity(list.len());
@@ -144,7 +193,11 @@ pub(crate) fn colours(snapshot: &Snapshot, range: Option<Range>) -> Vec<Semantic
     for token in list {
         let place = crate::position::range(piece, &local, token.range, snapshot.encoding);
         for at in place.start.line..=place.end.line {
-            let start = if at == place.start.line { place.start.character } else { 0 };
+            let start = if at == place.start.line {
+                place.start.character
+            } else {
+                0
+            };
             let end = if at == place.end.line {
                 place.end.character
             } else {

@@ -264,4 +264,3 @@ fn finish(global: &Global, command: &Fmt, outcome: &Outcome) -> Result<Option<bo
     }
     Ok((!outcome.refused).then_some(changed))
 }
-

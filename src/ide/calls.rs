@@ -17,12 +17,19 @@ pub fn calls_of(program: &Program, names: &Names) -> Vec<CallSite> {
     let programs = || names.all.iter().filter(|one| one.kind == Kind::Program);
     let caller = |call: &Occurrence| {
         let own = part(call);
-        programs().find(|one| one.role == Role::Definition && part(one) == own).cloned()
+        programs()
+            .find(|one| one.role == Role::Definition && part(one) == own)
+            .cloned()
     };
     let closing = |one: &&Occurrence| {
         // endsub and return name the subprogram and call nothing
         let behind = program.source().get(one.range.end as usize..).unwrap_or_default();
-        let text: Vec<u8> = behind.iter().copied().skip_while(|byte| matches!(byte, b'>' | b' ' | b'\t')).take(7).collect();
+        let text: Vec<u8> = behind
+            .iter()
+            .copied()
+            .skip_while(|byte| matches!(byte, b'>' | b' ' | b'\t'))
+            .take(7)
+            .collect();
         let text = text.to_ascii_lowercase();
         !(text.starts_with(b"endsub") || text.starts_with(b"return"))
     };

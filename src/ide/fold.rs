@@ -26,7 +26,10 @@ pub fn folds(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Fold> {
 
 fn lines(program: &Program, first: u32, last: u32, comment: bool, found: &mut Vec<Fold>) {
     if last > first {
-        let range = program.block(BlockId(first)).range().cover(program.block(BlockId(last)).range());
+        let range = program
+            .block(BlockId(first))
+            .range()
+            .cover(program.block(BlockId(last)).range());
         found.push(Fold { range, comment });
     }
 }
@@ -68,10 +71,14 @@ fn comments(program: &Program, found: &mut Vec<Fold>) {
     for block in program.blocks() {
         let id = block.id().0;
         let begins = matches!(
-            program.bytes(block.range()).iter().find(|byte| !byte.is_ascii_whitespace()),
+            program
+                .bytes(block.range())
+                .iter()
+                .find(|byte| !byte.is_ascii_whitespace()),
             Some(b'(' | b';' | b'$' | b'/')
         );
-        let only = begins && block.comments().next().is_some() && block.items().all(|item| matches!(item, Item::Comment(_)));
+        let only =
+            begins && block.comments().next().is_some() && block.items().all(|item| matches!(item, Item::Comment(_)));
         match (only, first) {
             (true, None) => first = Some(id),
             (false, Some(start)) => {

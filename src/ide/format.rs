@@ -51,8 +51,10 @@ pub fn format(
     };
     let edits = edits(program.source(), &text);
     let Some(lines) = lines else { return Ok(edits) };
-    let within: Vec<TextEdit> =
-        edits.into_iter().filter(|edit| edit.range.start <= lines.end && lines.start <= edit.range.end).collect();
+    let within: Vec<TextEdit> = edits
+        .into_iter()
+        .filter(|edit| edit.range.start <= lines.end && lines.start <= edit.range.end)
+        .collect();
     if within.is_empty() {
         return Ok(within);
     }
@@ -74,7 +76,11 @@ fn why(refusal: &Refusal) -> String {
 
 /// The edits from one text to the other: line by line where both have the same number of lines, else the part that differs.
 fn edits(old: &[u8], new: &[u8]) -> Vec<TextEdit> {
-    let cut = |text: &[u8]| text.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect::<Vec<_>>();
+    let cut = |text: &[u8]| {
+        text.split_inclusive(|byte| *byte == b'\n')
+            .map(<[u8]>::to_vec)
+            .collect::<Vec<_>>()
+    };
     let (before, after) = (cut(old), cut(new));
     if before.len() == after.len() {
         let mut at = 0;
@@ -89,17 +95,40 @@ fn edits(old: &[u8], new: &[u8]) -> Vec<TextEdit> {
     }
     let head = before.iter().zip(&after).take_while(|(a, b)| a == b).count();
     let most = before.len().min(after.len()) - head;
-    let tail = before.iter().rev().zip(after.iter().rev()).take(most).take_while(|(a, b)| a == b).count();
+    let tail = before
+        .iter()
+        .rev()
+        .zip(after.iter().rev())
+        .take(most)
+        .take_while(|(a, b)| a == b)
+        .count();
     let at: usize = before[..head].iter().map(Vec::len).sum();
-    vec![edit(at, &before[head..before.len() - tail].concat(), &after[head..after.len() - tail].concat())]
+    vec![edit(
+        at,
+        &before[head..before.len() - tail].concat(),
+        &after[head..after.len() - tail].concat(),
+    )]
 }
 
 /// One edit, without what both ends share; never inside a character.
 fn edit(at: usize, was: &[u8], is: &[u8]) -> TextEdit {
     let ascii = was.is_ascii() && is.is_ascii();
-    let head = if ascii { was.iter().zip(is).take_while(|(a, b)| a == b).count() } else { 0 };
+    let head = if ascii {
+        was.iter().zip(is).take_while(|(a, b)| a == b).count()
+    } else {
+        0
+    };
     let most = was.len().min(is.len()) - head;
-    let tail = if ascii { was.iter().rev().zip(is.iter().rev()).take(most).take_while(|(a, b)| a == b).count() } else { 0 };
+    let tail = if ascii {
+        was.iter()
+            .rev()
+            .zip(is.iter().rev())
+            .take(most)
+            .take_while(|(a, b)| a == b)
+            .count()
+    } else {
+        0
+    };
     TextEdit {
         range: TextRange::new((at + head) as u32, (at + was.len() - tail) as u32),
         new_text: String::from_utf8_lossy(&is[head..is.len() - tail]).into_owned(),

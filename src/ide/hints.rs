@@ -38,7 +38,10 @@ pub fn hints(
     range: TextRange,
     wanted: &dyn Fn(HintKind) -> bool,
 ) -> Vec<Hint> {
-    let (Some(first), Some(last)) = (program.block_at(range.start), program.block_at(range.end.min(program.source().len() as u32))) else {
+    let (Some(first), Some(last)) = (
+        program.block_at(range.start),
+        program.block_at(range.end.min(program.source().len() as u32)),
+    ) else {
         return Vec::new();
     };
     let mut starts = Vec::new();
@@ -84,8 +87,16 @@ fn operations(nodes: &[Node], starts: &mut Vec<u32>) {
 
 /// Unit, distance mode, zero point and feed mode in words.
 fn in_effect(state: &ModalState) -> String {
-    let unit = if state.coordinates.unit_mm() == 1.0 { "mm" } else { "inch" };
-    let sense = if state.coordinates.incremental() { "incremental" } else { "absolute" };
+    let unit = if state.coordinates.unit_mm() == 1.0 {
+        "mm"
+    } else {
+        "inch"
+    };
+    let sense = if state.coordinates.incremental() {
+        "incremental"
+    } else {
+        "absolute"
+    };
     let offset = state.zero.offset().unwrap_or("no work offset");
     let feed = match state.feed.mode() {
         FeedMode::PerMinute => "per minute",
@@ -98,7 +109,8 @@ fn in_effect(state: &ModalState) -> String {
 
 fn has_expression(block: &Block<'_>) -> bool {
     let bytes = block.program().bytes(block.range());
-    bytes.iter().any(|byte| matches!(byte, b'#' | b'=')) && block.words().any(|word| matches!(word.value, Value::Expression(_)))
+    bytes.iter().any(|byte| matches!(byte, b'#' | b'='))
+        && block.words().any(|word| matches!(word.value, Value::Expression(_)))
 }
 
 /// The value behind each computed word. An assignment shows what the variable is afterwards.
@@ -136,7 +148,8 @@ fn sinumerik(program: &Program, block: &Block<'_>, info: &BlockInfo, found: &mut
 /// The variable that a word assigns, as it is written.
 fn assigned(program: &Program, address: &Address) -> Option<String> {
     match address {
-        Address::Named(range) => Some(program.text(*range).trim().trim_end_matches('=').trim().to_owned()).filter(|text| text.starts_with('#')),
+        Address::Named(range) => Some(program.text(*range).trim().trim_end_matches('=').trim().to_owned())
+            .filter(|text| text.starts_with('#')),
         _ => None,
     }
 }

@@ -14,8 +14,8 @@ mod rename;
 mod select;
 mod signature;
 mod text;
-mod tokens;
 mod times;
+mod tokens;
 mod toml_keys;
 
 pub use calls::{CallSite, calls_of};

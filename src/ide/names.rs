@@ -79,7 +79,11 @@ impl Names {
     /// The name at a byte; a cursor behind it touches it too.
     pub fn at(&self, offset: u32) -> Option<&Occurrence> {
         let until = self.all.partition_point(|one| one.range.start <= offset);
-        self.all[..until].iter().rev().take(4).find(|one| one.range.touches(offset))
+        self.all[..until]
+            .iter()
+            .rev()
+            .take(4)
+            .find(|one| one.range.touches(offset))
     }
 
     /// Every place that names the same thing.
@@ -93,7 +97,10 @@ impl Names {
         if !defined.is_empty() {
             return defined;
         }
-        self.same(wanted).find(|one| one.role == Role::Write).into_iter().collect()
+        self.same(wanted)
+            .find(|one| one.role == Role::Write)
+            .into_iter()
+            .collect()
     }
 
     /// The number of the program that a block belongs to.
@@ -156,7 +163,9 @@ fn programs(program: &Program, dialect: &Dialect, found: &mut Names) {
         };
         let text = program.text(range);
         let Some(name) = number_of(&text) else { continue };
-        if found.all.iter().any(|one| one.kind == Kind::Program) || block.id().0 > 0 && runs_before(program, dialect, &block) {
+        if found.all.iter().any(|one| one.kind == Kind::Program)
+            || block.id().0 > 0 && runs_before(program, dialect, &block)
+        {
             found.begin(block.id());
         }
         found.add(range, Kind::Program, Role::Definition, &name, Scope::Shared);
@@ -181,7 +190,10 @@ pub(crate) fn number_of(text: &str) -> Option<String> {
 /// Whether the first byte of a block that is not blank is one of these.
 pub(crate) fn begins_with(block: &Block<'_>, wanted: &[u8]) -> bool {
     let bytes = block.program().bytes(block.range());
-    bytes.iter().find(|byte| !byte.is_ascii_whitespace()).is_some_and(|byte| wanted.contains(byte))
+    bytes
+        .iter()
+        .find(|byte| !byte.is_ascii_whitespace())
+        .is_some_and(|byte| wanted.contains(byte))
 }
 
 /// The O-words of RS274/NGC: `o100 sub`, `o<name> call`.
@@ -195,8 +207,11 @@ fn o_words(program: &Program, found: &mut Names) {
         }
     }
     let of_program = |keyword: &str| matches!(keyword, "sub" | "endsub" | "call" | "return");
-    let programs: std::collections::BTreeSet<String> =
-        lines.iter().filter(|(_, _, _, keyword)| of_program(keyword)).map(|(_, _, name, _)| name.clone()).collect();
+    let programs: std::collections::BTreeSet<String> = lines
+        .iter()
+        .filter(|(_, _, _, keyword)| of_program(keyword))
+        .map(|(_, _, name, _)| name.clone())
+        .collect();
     let mut seen = std::collections::BTreeSet::new();
     for (block, range, name, keyword) in lines {
         match keyword.as_str() {
@@ -204,7 +219,11 @@ fn o_words(program: &Program, found: &mut Names) {
             "endsub" => found.parts.push((BlockId(block.0 + 1), 0)),
             _ => {}
         }
-        let kind = if programs.contains(&name) { Kind::Program } else { Kind::Label };
+        let kind = if programs.contains(&name) {
+            Kind::Program
+        } else {
+            Kind::Label
+        };
         let part = found.part_of(block);
         let first = seen.insert((name.clone(), part));
         let role = match kind {
@@ -212,7 +231,11 @@ fn o_words(program: &Program, found: &mut Names) {
             Kind::Label if first => Role::Definition,
             _ => Role::Read,
         };
-        let scope = if kind == Kind::Program { Scope::Shared } else { Scope::Part(part) };
+        let scope = if kind == Kind::Program {
+            Scope::Shared
+        } else {
+            Scope::Part(part)
+        };
         found.add(range, kind, role, &name, scope);
     }
 }
@@ -235,7 +258,11 @@ pub(crate) fn o_word(block: &Block<'_>) -> Option<(TextRange, String, String)> {
         }
         _ => return None,
     };
-    let text: String = program.text(inner).split_whitespace().collect::<String>().to_ascii_lowercase();
+    let text: String = program
+        .text(inner)
+        .split_whitespace()
+        .collect::<String>()
+        .to_ascii_lowercase();
     let keyword = significant(program, after, end)?;
     if tokens.kind(keyword) != TokenKind::Name {
         return None;

@@ -1,9 +1,9 @@
 //! The outline: programs, and in them operations (from one tool change to the next), labels and macros.
 use crate::names::{Kind, Names, Role};
 use crate::text::{codes, trimmed};
+use trunnion_dialect::Action;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, AptArg, Block, BlockId, Item, Program, TextRange, Value};
-use trunnion_dialect::Action;
 
 /// What an entry is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,13 @@ pub fn outline(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Node>
         return Vec::new();
     }
     let mut bounds: Vec<BlockId> = vec![BlockId(0)];
-    bounds.extend(names.parts.iter().map(|(first, _)| *first).filter(|first| first.0 > 0 && first.0 < count));
+    bounds.extend(
+        names
+            .parts
+            .iter()
+            .map(|(first, _)| *first)
+            .filter(|first| first.0 > 0 && first.0 < count),
+    );
     bounds.dedup();
     let operations = operations(program, dialect, &bounds);
     let mut roots = Vec::new();
@@ -73,7 +79,9 @@ pub fn outline(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Node>
             matches!(one.kind, Kind::Label | Kind::Block) && one.role == Role::Definition && inside(one.range)
         });
         for label in labels {
-            let Some(block) = program.block_at(label.range.start) else { continue };
+            let Some(block) = program.block_at(label.range.start) else {
+                continue;
+            };
             let node = Node {
                 name: program.text(trimmed(program, mark(program, label.range))).into_owned(),
                 detail: String::new(),
@@ -82,9 +90,11 @@ pub fn outline(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Node>
                 selection: label.range,
                 children: Vec::new(),
             };
-            let operation = children
-                .iter_mut()
-                .find(|one| one.kind == NodeKind::Operation && one.range.start <= node.range.start && node.range.end <= one.range.end);
+            let operation = children.iter_mut().find(|one| {
+                one.kind == NodeKind::Operation
+                    && one.range.start <= node.range.start
+                    && node.range.end <= one.range.end
+            });
             match operation {
                 Some(operation) => operation.children.push(node),
                 None => children.push(node),
@@ -117,7 +127,9 @@ pub fn outline(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Node>
 fn mark(program: &Program, range: TextRange) -> TextRange {
     let before = &program.source()[..range.start as usize];
     let open = before.len() - usize::from(before.ends_with(b"<"));
-    let letter = before[..open].last().is_some_and(|byte| matches!(byte, b'O' | b'o' | b'N' | b'n' | b':'));
+    let letter = before[..open]
+        .last()
+        .is_some_and(|byte| matches!(byte, b'O' | b'o' | b'N' | b'n' | b':'));
     let start = if letter { open - 1 } else { open };
     let close = u32::from(open < before.len() && program.source().get(range.end as usize) == Some(&b'>'));
     TextRange::new(start as u32, range.end + close)
@@ -125,7 +137,10 @@ fn mark(program: &Program, range: TextRange) -> TextRange {
 
 fn comment(block: &Block<'_>) -> Option<String> {
     let text = |range| block.program().text(range).trim().to_owned();
-    block.comments().map(|comment| text(comment.inner)).find(|text| !text.is_empty())
+    block
+        .comments()
+        .map(|comment| text(comment.inner))
+        .find(|text| !text.is_empty())
 }
 
 fn operations(program: &Program, dialect: &Dialect, bounds: &[BlockId]) -> Vec<Operation> {
@@ -181,7 +196,10 @@ fn named_tool(dialect: &Dialect, block: &Block<'_>) -> Option<String> {
         return None;
     }
     block.items().find_map(|item| match item {
-        Item::Word(word) if matches!(word.address, Address::Letter(b'T')) && dialect.role(b'T') == Some(trunnion_dialect::Role::Tool) => {
+        Item::Word(word)
+            if matches!(word.address, Address::Letter(b'T'))
+                && dialect.role(b'T') == Some(trunnion_dialect::Role::Tool) =>
+        {
             match word.value {
                 Value::Number(number) => {
                     let number = number.to_integer().and_then(|number| u32::try_from(number).ok())?;
@@ -202,5 +220,8 @@ fn changes(dialect: &Dialect, block: &Block<'_>, names_tool: bool) -> bool {
     }
     let bytes = block.program().bytes(block.range());
     let possible = block.record().is_some() || bytes.iter().any(|byte| matches!(byte, b'M' | b'm'));
-    possible && codes(dialect, block).iter().any(|(code, _)| code.action == Action::ToolChange)
+    possible
+        && codes(dialect, block)
+            .iter()
+            .any(|(code, _)| code.action == Action::ToolChange)
 }

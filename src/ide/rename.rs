@@ -15,15 +15,23 @@ pub struct RenameError(pub String);
 /// # Errors
 /// It is not a name of that kind.
 pub fn check_new_name(of: &Occurrence, dialect: &Dialect, new: &str) -> Result<(), RenameError> {
-    let was_number = of.name.trim_start_matches('R').bytes().all(|byte| byte.is_ascii_digit());
+    let was_number = of
+        .name
+        .trim_start_matches('R')
+        .bytes()
+        .all(|byte| byte.is_ascii_digit());
     let identifier = || {
         let mut bytes = new.bytes();
-        bytes.next().is_some_and(|byte| byte.is_ascii_alphabetic() || byte == b'_')
+        bytes
+            .next()
+            .is_some_and(|byte| byte.is_ascii_alphabetic() || byte == b'_')
             && bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
     };
     let fail = |text: &str| Err(RenameError(format!("`{new}` {text}")));
     match (was_number, of.kind) {
-        (true, _) if number_of(new).is_none_or(|digits| digits.len() > 8) => fail("is not a whole number of at most 8 digits"),
+        (true, _) if number_of(new).is_none_or(|digits| digits.len() > 8) => {
+            fail("is not a whole number of at most 8 digits")
+        }
         (true, Kind::Variable) => {
             let (old, new_number) = (class(dialect, &of.name), class(dialect, new));
             if old == new_number {
@@ -32,7 +40,6 @@ pub fn check_new_name(of: &Occurrence, dialect: &Dialect, new: &str) -> Result<(
                 fail("is a variable of another kind: how long it keeps its value, or what it means, is different")
             }
         }
-        (true, _) => Ok(()),
         (false, _) if !identifier() => fail("is not a name: letters, digits and `_`, and no digit in front"),
         (false, Kind::Variable) if of.name.starts_with('_') != new.starts_with('_') && dialect.quirks.rs274() => {
             fail("would change where the variable is known: a `_` in front makes it global")
@@ -41,7 +48,7 @@ pub fn check_new_name(of: &Occurrence, dialect: &Dialect, new: &str) -> Result<(
         (false, _) if dialect.quirks.language == Language::Sinumerik && new.len() < 2 => {
             fail("is too short: one letter is an address of the control")
         }
-        (false, _) => Ok(()),
+        (true | false, _) => Ok(()),
     }
 }
 
@@ -80,7 +87,11 @@ pub fn rename(
 ) -> Result<Vec<TextEdit>, RenameError> {
     check_new_name(of, dialect, new)?;
     let numbered = number_of(&of.name).is_some() || of.name.starts_with('R');
-    if let Some((_, obstacle)) = known.obstacles.iter().find(|(kind, _)| *kind == of.kind && (numbered || *kind == Kind::Label)) {
+    if let Some((_, obstacle)) = known
+        .obstacles
+        .iter()
+        .find(|(kind, _)| *kind == of.kind && (numbered || *kind == Kind::Label))
+    {
         return Err(RenameError(format!("not certain: {}", obstacle.why)));
     }
     if of.kind == Kind::Variable && class(dialect, &of.name) > 3 && numbered {
@@ -95,8 +106,13 @@ pub fn rename(
         return Err(RenameError(format!("`{new}` is in use already")));
     }
     let places: Vec<_> = known.same(of).map(|one| one.range).collect();
-    let edits: Vec<TextEdit> =
-        places.iter().map(|&range| TextEdit { range, new_text: new.to_owned() }).collect();
+    let edits: Vec<TextEdit> = places
+        .iter()
+        .map(|&range| TextEdit {
+            range,
+            new_text: new.to_owned(),
+        })
+        .collect();
     let text = apply_edits(program.source(), &edits).ok_or_else(|| RenameError("two places overlap".to_owned()))?;
     let after = parse(text, program.options());
     let again = names(&after, dialect);
@@ -106,7 +122,9 @@ pub fn rename(
     if of.kind != Kind::Program
         && let Some(difference) = first_difference(program, &after, dialect, setup, of.kind == Kind::Block)
     {
-        return Err(RenameError(format!("the program would not do the same: {difference:?}")));
+        return Err(RenameError(format!(
+            "the program would not do the same: {difference:?}"
+        )));
     }
     Ok(edits)
 }
@@ -114,19 +132,30 @@ pub fn rename(
 /// The new name as it is compared.
 fn compared(of: &Occurrence, dialect: &Dialect, program: &Program, new: &str) -> Box<str> {
     if let Some(number) = number_of(new) {
-        let prefix = if of.name.starts_with('R') && of.kind == Kind::Variable { "R" } else { "" };
+        let prefix = if of.name.starts_with('R') && of.kind == Kind::Variable {
+            "R"
+        } else {
+            ""
+        };
         return format!("{prefix}{number}").into();
     }
     let upper = program.options().format == Format::Apt || dialect.quirks.language == Language::Sinumerik;
-    if upper { new.to_ascii_uppercase().into() } else { new.to_ascii_lowercase().into() }
+    if upper {
+        new.to_ascii_uppercase().into()
+    } else {
+        new.to_ascii_lowercase().into()
+    }
 }
 
 /// Whether a block of the same program has the number, referred to or not.
 fn block_exists(program: &Program, known: &Names, wanted: &Occurrence) -> bool {
     program.blocks().any(|block| {
-        let same = || known.part_of(block.id()) == match wanted.scope {
-            crate::Scope::Part(part) => part,
-            crate::Scope::Shared => 0,
+        let same = || {
+            known.part_of(block.id())
+                == match wanted.scope {
+                    crate::Scope::Part(part) => part,
+                    crate::Scope::Shared => 0,
+                }
         };
         block.number().is_some_and(|range| {
             let text = program.text(range);

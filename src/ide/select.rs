@@ -15,9 +15,15 @@ pub fn selections(program: &Program, dialect: &Dialect, names: &Names, offset: u
         for item in block.items() {
             match item {
                 Item::Word(word) => found.extend([word.value_range, word.range]),
-                Item::Call(call) => found.extend([Some(call.name), call.arguments, Some(call.range)].into_iter().flatten()),
+                Item::Call(call) => found.extend(
+                    [Some(call.name), call.arguments, Some(call.range)]
+                        .into_iter()
+                        .flatten(),
+                ),
                 Item::Comment(comment) => found.extend([comment.inner, comment.range]),
-                Item::Skip(_, range) | Item::Percent(range) | Item::Label(range) | Item::Other(range) => found.push(range),
+                Item::Skip(_, range) | Item::Percent(range) | Item::Label(range) | Item::Other(range) => {
+                    found.push(range);
+                }
             }
         }
         if let Some(record) = block.record() {
@@ -31,7 +37,10 @@ pub fn selections(program: &Program, dialect: &Dialect, names: &Names, offset: u
     found.sort_by_key(|range| range.end - range.start);
     let mut nested: Vec<TextRange> = Vec::new();
     for range in found {
-        if nested.last().is_none_or(|inner| range != *inner && range.start <= inner.start && inner.end <= range.end) {
+        if nested
+            .last()
+            .is_none_or(|inner| range != *inner && range.start <= inner.start && inner.end <= range.end)
+        {
             nested.push(range);
         }
     }

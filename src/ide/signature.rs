@@ -19,8 +19,10 @@ pub struct Signature {
 /// The signature of the code that the cursor's block programs last before the cursor.
 pub fn signature(program: &Program, dialect: &Dialect, offset: u32) -> Option<Signature> {
     let block = program.block(program.block_at(offset)?);
-    let before = codes(dialect, &block).into_iter().filter(|(_, range)| range.start < offset);
-    let (code, range) = before.filter(|(code, _)| takes_words(code)).last()?;
+    let mut before = codes(dialect, &block)
+        .into_iter()
+        .filter(|(_, range)| range.start < offset);
+    let (code, range) = before.rfind(|(code, _)| takes_words(code))?;
     let mut label = code.id.clone();
     let mut words = Vec::new();
     for word in &code.words {

@@ -10,7 +10,9 @@ const MOST_BLOCKS: u64 = 2_000_000;
 /// The time of the motions whose blocks lie from each start to the next one, s; `None` where one of them is not known. Without a machine
 /// nothing is known.
 pub fn operation_times(program: &Program, settings: &Settings<'_>, starts: &[BlockId]) -> Vec<Option<f64>> {
-    let Some(machine) = settings.machine else { return vec![None; starts.len()] };
+    let Some(machine) = settings.machine else {
+        return vec![None; starts.len()];
+    };
     let mut timer = Timer {
         follower: Follower::new(machine),
         starts,
@@ -35,7 +37,9 @@ impl Sink for Timer<'_> {
     fn motion(&mut self, motion: &Motion, _state: &ModalState) {
         let leg = self.follower.follow(motion);
         let after = self.starts.partition_point(|start| *start <= motion.block);
-        let Some(time) = after.checked_sub(1).and_then(|at| self.times.get_mut(at)) else { return };
+        let Some(time) = after.checked_sub(1).and_then(|at| self.times.get_mut(at)) else {
+            return;
+        };
         let took = match motion.kind {
             MotionKind::Dwell(seconds) => seconds,
             _ if leg.start.is_none() && leg.end.is_ok() => Some(0.0),

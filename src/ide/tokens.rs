@@ -4,7 +4,16 @@ use trunnion_syntax::{Format, LexOptions, TextRange, TokenKind, parse};
 
 /// The kinds of pieces, as the protocol names them; [`Token::kind`] is an index.
 pub const TOKEN_TYPES: [&str; 10] = [
-    "comment", "string", "number", "keyword", "function", "macro", "variable", "parameter", "label", "operator",
+    "comment",
+    "string",
+    "number",
+    "keyword",
+    "function",
+    "macro",
+    "variable",
+    "parameter",
+    "label",
+    "operator",
 ];
 
 const COMMENT: u32 = 0;
@@ -44,17 +53,26 @@ pub fn tokens(lines: &[u8], lex: LexOptions, dialect: &Dialect) -> Vec<Token> {
             TokenKind::Name => name(dialect, lex, &program.text(range)),
             TokenKind::Hash => VARIABLE,
             TokenKind::Less | TokenKind::Greater if text.len() > 1 => LABEL,
-            TokenKind::Equals | TokenKind::Star | TokenKind::Plus | TokenKind::Minus | TokenKind::Less | TokenKind::Greater => {
-                OPERATOR
-            }
+            TokenKind::Equals
+            | TokenKind::Star
+            | TokenKind::Plus
+            | TokenKind::Minus
+            | TokenKind::Less
+            | TokenKind::Greater => OPERATOR,
             TokenKind::Percent => LABEL,
             _ => continue,
         };
         // the number of a word is a number, but for codes, tools and labels, which are one piece
         let whole = matches!(kind, KEYWORD | FUNCTION | LABEL | MACRO | VARIABLE);
         if table.kind(id) == TokenKind::Word && !whole {
-            found.push(Token { range: TextRange::new(range.start, range.start + 1), kind });
-            found.push(Token { range: TextRange::new(range.start + 1, range.end), kind: NUMBER });
+            found.push(Token {
+                range: TextRange::new(range.start, range.start + 1),
+                kind,
+            });
+            found.push(Token {
+                range: TextRange::new(range.start + 1, range.end),
+                kind: NUMBER,
+            });
         } else {
             found.push(Token { range, kind });
         }

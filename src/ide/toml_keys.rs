@@ -23,7 +23,9 @@ impl TomlFile {
     pub fn problem(self, text: &str) -> Option<(String, Option<Range<usize>>)> {
         match self {
             Self::Settings => Config::parse(text).err().map(|error| (error.message, error.span)),
-            Self::Machine => trunnion_machine::load("machine", text).err().map(|error| (error.message, error.span)),
+            Self::Machine => trunnion_machine::load("machine", text)
+                .err()
+                .map(|error| (error.message, error.span)),
         }
     }
 
@@ -34,8 +36,12 @@ impl TomlFile {
             Self::Machine => "schema = \"ncmachine/1\"\n",
         };
         let probe = format!("{head}{header}\n{PROBE} = 0\n");
-        let Some((message, _)) = self.problem(&probe) else { return Vec::new() };
-        let Some((_, known)) = message.split_once(&format!("`{PROBE}`; known keys: ")) else { return Vec::new() };
+        let Some((message, _)) = self.problem(&probe) else {
+            return Vec::new();
+        };
+        let Some((_, known)) = message.split_once(&format!("`{PROBE}`; known keys: ")) else {
+            return Vec::new();
+        };
         known.split(", ").map(str::to_owned).collect()
     }
 }
@@ -44,9 +50,12 @@ impl TomlFile {
 fn header(text: &str, at: usize) -> &str {
     let before = text.get(..at).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    before[..line_start].lines().rev().map(str::trim).find(|line| line.starts_with('[')).map_or("", |line| {
-        line.split('#').next().unwrap_or(line).trim()
-    })
+    before[..line_start]
+        .lines()
+        .rev()
+        .map(str::trim)
+        .find(|line| line.starts_with('['))
+        .map_or("", |line| line.split('#').next().unwrap_or(line).trim())
 }
 
 /// Keys for the beginning of a line, with their explanation, and the bytes that they take the place of.
@@ -97,16 +106,27 @@ pub fn toml_at(file: TomlFile, text: &str, at: usize) -> Option<(String, Range<u
     if docs.is_empty() && known.is_empty() {
         return None;
     }
-    Some((format!("**{key}** {docs}").trim_end().to_owned(), from..from + key.len()))
+    Some((
+        format!("**{key}** {docs}").trim_end().to_owned(),
+        from..from + key.len(),
+    ))
 }
 
 /// What the page of settings says about a key: the line of its example, with its remark.
 fn docs(file: TomlFile, header: &str, key: &str) -> String {
     if file == TomlFile::Machine {
-        let item = PAGE.lines().position(|line| line.starts_with(&format!("* `{key}")) || line.starts_with(&format!("* `[control] {key}")));
+        let item = PAGE.lines().position(|line| {
+            line.starts_with(&format!("* `{key}")) || line.starts_with(&format!("* `[control] {key}"))
+        });
         let Some(item) = item else { return String::new() };
         let mut text = String::new();
-        for line in PAGE.lines().skip(item).enumerate().take_while(|(at, line)| *at == 0 || line.starts_with("  ")).map(|(_, line)| line) {
+        for line in PAGE
+            .lines()
+            .skip(item)
+            .enumerate()
+            .take_while(|(at, line)| *at == 0 || line.starts_with("  "))
+            .map(|(_, line)| line)
+        {
             text.push_str(line.trim_start_matches("* ").trim());
             text.push(' ');
         }
@@ -115,7 +135,10 @@ fn docs(file: TomlFile, header: &str, key: &str) -> String {
     let example = PAGE.split("```").nth(1).unwrap_or_default();
     let mut table = "";
     for line in example.lines() {
-        let (code, remark) = line.split_once(" # ").or_else(|| line.split_once("# ")).unwrap_or((line, ""));
+        let (code, remark) = line
+            .split_once(" # ")
+            .or_else(|| line.split_once("# "))
+            .unwrap_or((line, ""));
         let code = code.trim();
         if code.starts_with('[') {
             table = code;

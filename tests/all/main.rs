@@ -13,6 +13,7 @@ mod independent;
 mod lsp;
 mod lsp_client;
 mod lsp_edits;
+mod lsp_features;
 mod lsp_malformed;
 mod mutated_formats;
 mod mutated_programs;

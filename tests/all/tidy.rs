@@ -58,7 +58,14 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ),
     (
         "trunnion-ide",
-        &["tokio", "clap", "miette", "tower-lsp", "trunnion-files", "trunnion-certify"],
+        &[
+            "tokio",
+            "clap",
+            "miette",
+            "tower-lsp",
+            "trunnion-files",
+            "trunnion-certify",
+        ],
     ),
     ("trunnion-lsp", &["clap", "miette"]),
 ];

@@ -10,9 +10,13 @@ pub(super) fn read(program: &Program, found: &mut Names) {
     let mut places = Vec::new();
     for block in program.blocks() {
         let ids = block.tokens();
-        let Some(first) = significant(program, ids.start, ids.end) else { continue };
+        let Some(first) = significant(program, ids.start, ids.end) else {
+            continue;
+        };
         let behind = significant(program, first + 1, ids.end);
-        let Some(behind) = behind.filter(|_| tokens.kind(first) == TokenKind::Name) else { continue };
+        let Some(behind) = behind.filter(|_| tokens.kind(first) == TokenKind::Name) else {
+            continue;
+        };
         let after = significant(program, behind + 1, ids.end);
         let word = after.map(|id| program.text(tokens.range(id)).to_ascii_uppercase());
         let kind = match tokens.kind(behind) {
@@ -32,7 +36,11 @@ pub(super) fn read(program: &Program, found: &mut Names) {
         let range = tokens.range(id);
         let name = program.text(range).to_ascii_uppercase();
         let Some(kind) = defined.get(&name) else { continue };
-        let role = if places.binary_search(&range).is_ok() { Role::Definition } else { Role::Read };
+        let role = if places.binary_search(&range).is_ok() {
+            Role::Definition
+        } else {
+            Role::Read
+        };
         found.add(range, *kind, role, &name, Scope::Part(0));
     }
 }

@@ -79,7 +79,10 @@ fn parts(program: &Program, found: &mut Names) {
                 let name = TextRange::new(range.start + 1, range.end);
                 let text = program.text(name).trim().to_ascii_uppercase();
                 let plain = text.strip_prefix("_N_").unwrap_or(&text);
-                let plain = plain.strip_suffix("_MPF").or_else(|| plain.strip_suffix("_SPF")).unwrap_or(plain);
+                let plain = plain
+                    .strip_suffix("_MPF")
+                    .or_else(|| plain.strip_suffix("_SPF"))
+                    .unwrap_or(plain);
                 found.add(name, Kind::Program, Role::Definition, plain, Scope::Shared);
                 any = true;
             }
@@ -102,7 +105,10 @@ fn declared(program: &Program, range: TextRange) -> Vec<TextRange> {
             let length = bytes[at..].iter().take_while(|byte| in_name(**byte)).count();
             words += 1;
             if depth == 0 && (wanted || words == 3) {
-                names.push(TextRange::new(range.start + at as u32, range.start + (at + length) as u32));
+                names.push(TextRange::new(
+                    range.start + at as u32,
+                    range.start + (at + length) as u32,
+                ));
                 wanted = false;
             }
             at += length;
@@ -122,7 +128,12 @@ fn declared(program: &Program, range: TextRange) -> Vec<TextRange> {
 /// `PROC NAME(REAL A)`.
 fn proc(program: &Program, range: TextRange, found: &mut Names) {
     let bytes = program.bytes(range);
-    let Some(from) = bytes.get(4..).and_then(|rest| rest.iter().position(|byte| in_name(*byte))) else { return };
+    let Some(from) = bytes
+        .get(4..)
+        .and_then(|rest| rest.iter().position(|byte| in_name(*byte)))
+    else {
+        return;
+    };
     let start = 4 + from;
     let length = bytes[start..].iter().take_while(|byte| in_name(**byte)).count();
     let name = TextRange::new(range.start + start as u32, range.start + (start + length) as u32);
@@ -135,21 +146,35 @@ fn parameter(program: &Program, dialect: &Dialect, word: &trunnion_syntax::Word,
     if let Address::Indexed(letter, number) = word.address
         && dialect.role(letter) == Some(LetterRole::Variable)
     {
-        let digits = program.bytes(word.range)[1..].iter().take_while(|byte| byte.is_ascii_digit()).count() as u32;
+        let digits = program.bytes(word.range)[1..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit())
+            .count() as u32;
         let range = TextRange::new(word.range.start + 1, word.range.start + 1 + digits);
         found.add(range, Kind::Variable, Role::Write, &format!("R{number}"), Scope::Shared);
     } else if let (Address::Letter(letter), Value::Number(_)) = (word.address, word.value)
         && dialect.role(letter) == Some(LetterRole::Variable)
         && let Some(number) = number_of(&program.text(word.value_range))
     {
-        found.add(word.value_range, Kind::Variable, Role::Read, &format!("R{number}"), Scope::Shared);
+        found.add(
+            word.value_range,
+            Kind::Variable,
+            Role::Read,
+            &format!("R{number}"),
+            Scope::Shared,
+        );
     }
 }
 
 /// Whether a block may have names besides plain words.
 fn has_names(block: &Block<'_>) -> bool {
     let tokens = block.program().tokens();
-    block.tokens().any(|id| !matches!(tokens.kind(id), TokenKind::Word | TokenKind::Blank | TokenKind::Newline | TokenKind::Comment))
+    block.tokens().any(|id| {
+        !matches!(
+            tokens.kind(id),
+            TokenKind::Word | TokenKind::Blank | TokenKind::Newline | TokenKind::Comment
+        )
+    })
 }
 
 /// Declared variables, labels in jumps, and R parameters inside expressions, by their text outside of comments and quotes.
@@ -167,13 +192,19 @@ fn identifiers(
     let mut until = 0;
     for id in ids.clone() {
         let range = tokens.range(id);
-        let hidden = matches!(tokens.kind(id), TokenKind::Comment | TokenKind::UnclosedComment | TokenKind::Text);
+        let hidden = matches!(
+            tokens.kind(id),
+            TokenKind::Comment | TokenKind::UnclosedComment | TokenKind::Text
+        );
         let first = program.bytes(range).first().copied().unwrap_or(b' ');
         if hidden || range.start < until || !in_name(first) || first.is_ascii_digit() {
             continue;
         }
         let source = program.source();
-        let length = source[range.start as usize..].iter().take_while(|byte| in_name(**byte)).count() as u32;
+        let length = source[range.start as usize..]
+            .iter()
+            .take_while(|byte| in_name(**byte))
+            .count() as u32;
         let whole = TextRange::new(range.start, range.start + length);
         let text = program.text(whole).to_ascii_uppercase();
         let letter = text.as_bytes()[0];
@@ -181,9 +212,16 @@ fn identifiers(
             && let Some(number) = number_of(&text[1..])
         {
             let digits = TextRange::new(whole.start + 1, whole.end);
-            let assigned = significant(program, id + 1, ids.end).is_some_and(|next| tokens.kind(next) == TokenKind::Equals);
+            let assigned =
+                significant(program, id + 1, ids.end).is_some_and(|next| tokens.kind(next) == TokenKind::Equals);
             let role = if assigned { Role::Write } else { Role::Read };
-            found.add(digits, Kind::Variable, role, &format!("{}{number}", letter as char), Scope::Shared);
+            found.add(
+                digits,
+                Kind::Variable,
+                role,
+                &format!("{}{number}", letter as char),
+                Scope::Shared,
+            );
             until = whole.end;
             continue;
         }

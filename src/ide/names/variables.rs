@@ -18,7 +18,11 @@ pub(super) fn read(program: &Program, dialect: &Dialect, found: &mut Names) {
             let next = significant(program, id + 1, ids.end);
             let (range, name, shared, last) = if program.bytes(own).len() > 2 {
                 let inner = TextRange::new(own.start + 2, own.end - 1);
-                let name: String = program.text(inner).split_whitespace().collect::<String>().to_ascii_lowercase();
+                let name: String = program
+                    .text(inner)
+                    .split_whitespace()
+                    .collect::<String>()
+                    .to_ascii_lowercase();
                 let shared = name.starts_with('_');
                 (inner, name, shared, id)
             } else {
@@ -26,7 +30,9 @@ pub(super) fn read(program: &Program, dialect: &Dialect, found: &mut Names) {
                 let range = tokens.range(next);
                 match tokens.kind(next) {
                     TokenKind::Number => {
-                        let Some(name) = number_of(&program.text(range)) else { continue };
+                        let Some(name) = number_of(&program.text(range)) else {
+                            continue;
+                        };
                         let first = if rs274 { SHARED_NGC } else { SHARED_MACRO };
                         let shared = name.parse::<u32>().map_or(true, |number| number >= first);
                         (range, name, shared, next)
@@ -40,8 +46,8 @@ pub(super) fn read(program: &Program, dialect: &Dialect, found: &mut Names) {
                     _ => continue,
                 }
             };
-            let assigned = significant(program, last + 1, ids.end)
-                .is_some_and(|behind| tokens.kind(behind) == TokenKind::Equals);
+            let assigned =
+                significant(program, last + 1, ids.end).is_some_and(|behind| tokens.kind(behind) == TokenKind::Equals);
             let role = if assigned { Role::Write } else { Role::Read };
             let part = Scope::Part(found.part_of(block.id()));
             let scope = if shared { Scope::Shared } else { part };

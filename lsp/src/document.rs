@@ -16,7 +16,7 @@ use trunnion_check::Diagnostic;
 use trunnion_syntax::TextRange;
 
 /// Shortest and longest pause between an edit and its analysis.
-const SHORTEST_PAUSE: Duration = Duration::from_millis(50);
+const SHORTEST_PAUSE: Duration = Duration::ZERO;
 const LONGEST_PAUSE: Duration = Duration::from_millis(500);
 
 /// One open document.
@@ -31,6 +31,8 @@ pub(crate) struct Document {
     pub(crate) parsed: Option<Arc<Parsed>>,
     /// The pause after the last edit is over.
     pub(crate) due: bool,
+    /// The analysis of this version has begun: it begins once.
+    pub(crate) started: bool,
     /// Newest analysis, perhaps of an older version.
     pub(crate) analysed: Option<Arc<Analysed>>,
     /// The edits since the newest analysis, bytes: start, end before, end after.
@@ -50,6 +52,7 @@ impl Document {
             newest: Arc::new(AtomicI32::new(version)),
             parsed: None,
             due: true,
+            started: false,
             analysed: None,
             since: Vec::new(),
             progress: None,

@@ -38,7 +38,6 @@ struct Waiting {
     work: Work,
 }
 
-/// The state.
 pub(crate) struct Owner {
     inbox: mpsc::UnboundedSender<Event>,
     outbox: mpsc::UnboundedSender<Message>,
@@ -51,12 +50,10 @@ pub(crate) struct Owner {
     /// The client shows work in progress; hints and lenses can be asked for again.
     progress: bool,
     refresh: bool,
-    /// Numbers of the work that was shown.
     works: i32,
 }
 
 impl Owner {
-    /// With nothing open.
     pub(crate) fn new(
         inbox: mpsc::UnboundedSender<Event>,
         outbox: mpsc::UnboundedSender<Message>,
@@ -132,10 +129,10 @@ impl Owner {
             .and_then(|hint| hint.refresh_support)
             .unwrap_or(false);
         let folders = params.workspace_folders.iter().flatten().map(|folder| &folder.uri);
-        let mut roots: Vec<PathBuf> = folders
+        let paths = folders
             .chain(params.root_uri.iter())
-            .filter_map(|uri| uri.to_file_path().ok())
-            .collect();
+            .filter_map(|uri| uri.to_file_path().ok());
+        let mut roots: Vec<PathBuf> = paths.collect();
         roots.dedup();
         self.folder.roots = Arc::new(roots);
     }
@@ -145,7 +142,7 @@ impl Owner {
             return;
         };
         document.change(version, changes, self.encoding);
-        document.due = false;
+        (document.due, document.started) = (false, false);
         let (pause, inbox, due) = (document.pause(), self.inbox.clone(), uri.clone());
         self.drop_stale(uri, version);
         self.start_parsing(uri);
@@ -171,6 +168,7 @@ impl Owner {
             if let Some(document) = self.documents.get_mut(&uri) {
                 // A run with the old settings must not be taken as the answer for the new ones.
                 (document.parsed, document.analysed, document.due) = (None, None, true);
+                document.started = false;
                 document.since.clear();
                 document.newest.store(i32::MIN, Ordering::SeqCst);
                 document.newest = Arc::new(AtomicI32::new(document.version));
@@ -208,11 +206,14 @@ impl Owner {
         let Some(document) = self.documents.get_mut(uri) else {
             return;
         };
-        let Some(parsed) = document.parsed.clone().filter(|_| document.due && document.is_parsed()) else {
+        let Some(parsed) = document
+            .parsed
+            .clone()
+            .filter(|_| document.due && !document.started && document.is_parsed())
+        else {
             return;
         };
-        // a parsed version is analysed once
-        document.due = false;
+        document.started = true;
         let long = parsed
             .outcome
             .as_ref()
@@ -351,12 +352,26 @@ impl Owner {
         let version = document.version;
         match self.snapshot(&uri, need) {
             Some(snapshot) => drop(self.runtime.spawn_blocking(move || work(Some(snapshot)))),
-            None => self.waiting.push(Waiting {
-                uri,
-                version,
-                need,
-                work,
-            }),
+            None => {
+                let waiting = Waiting {
+                    uri: uri.clone(),
+                    version,
+                    need,
+                    work,
+                };
+                self.waiting.push(waiting);
+                self.hurry(&uri, need);
+            }
+        }
+    }
+
+    /// Who asks for what the analysis finds does not wait for the pause.
+    fn hurry(&mut self, uri: &Url, need: Need) {
+        if need == Need::Analysed {
+            if let Some(document) = self.documents.get_mut(uri) {
+                document.due = true;
+            }
+            self.start_analysis(uri);
         }
     }
 

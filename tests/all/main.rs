@@ -15,6 +15,7 @@ mod lsp_client;
 mod lsp_edits;
 mod lsp_features;
 mod lsp_malformed;
+mod lsp_writing;
 mod mutated_formats;
 mod mutated_programs;
 mod mutations;

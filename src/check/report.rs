@@ -90,6 +90,19 @@ impl Report {
         list.flat_map(|found| core::iter::once(found).chain(&found.also))
     }
 
+    /// Takes the findings out that `accepted` names, in the order of the list, and counts the rest anew.
+    pub fn take_out(&mut self, mut accepted: impl FnMut(&Diagnostic) -> bool) -> Vec<Diagnostic> {
+        let all = core::mem::take(&mut self.diagnostics);
+        let (out, rest) = all.into_iter().partition(|found| accepted(found));
+        self.diagnostics = rest;
+        if !Vec::is_empty(&out) {
+            let rest = core::mem::take(&mut self.diagnostics);
+            self.summary.recount(&rest);
+            self.diagnostics = rest;
+        }
+        out
+    }
+
     /// The verdict when findings at or above `deny` count as failures.
     pub fn verdict(&self, deny: Severity) -> Verdict {
         let denied = |d: &Diagnostic| d.status == Status::Fail && d.severity >= deny;

@@ -1,19 +1,30 @@
 //! The command line arguments; docs/commands.md lists the commands.
+mod check;
 mod fix;
+mod people;
 
+pub(crate) use check::{Check, CheckFormat};
 pub(crate) use fix::Fix;
+pub(crate) use people::{Completions, Init, Report, Schema};
 
-use super::{
-    check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
-    surface::Surface,
-};
+use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
 
+/// What the help ends with.
+const EXAMPLES: &str = "\
+Examples:
+  trunnion init --machine mill-3axis            settings for the programs of this folder
+  trunnion check part.nc                        the verdict on a program
+  trunnion check . --format sarif -o out.sarif  a gate in CI
+  trunnion report part.nc -o part.html          one page for people
+
+Exit status: 0 nothing found at the --deny level, 1 something found, 2 the job could not be done.";
+
 /// Checks NC programs against the machine that will run them.
 #[derive(Parser)]
-#[command(name = "trunnion", version, about, max_term_width = 110)]
+#[command(name = "trunnion", version, about, max_term_width = 110, after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) global: Global,
@@ -23,6 +34,7 @@ pub(crate) struct Args {
 
 /// Options every command takes.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Options of all commands")]
 pub(crate) struct Global {
     /// The machine: the name of an embedded one (`trunnion machine list`) or a TOML file.
     #[arg(long, global = true, value_name = "NAME|FILE")]
@@ -155,34 +167,18 @@ pub(crate) enum Command {
     Sample(Box<Sample>),
     /// Print the tokens or the tree of a program.
     Parse(Parse),
+    /// Write one self-contained HTML page about programs: verdict, findings, pictures, a replay in 3D, and a set-up sheet.
+    Report(Report),
+    /// Write a settings file for the programs of a folder.
+    Init(Init),
+    /// Print the JSON Schema of what a command prints or of a file.
+    Schema(Schema),
+    /// Print the completions for a shell.
+    Completions(Completions),
+    /// Print the manual page.
+    Man,
     /// Run the language server on standard input and output.
     Lsp(Lsp),
-}
-
-/// `check`
-#[derive(clap::Args)]
-pub(crate) struct Check {
-    /// Files and directories; `-` reads standard input.
-    #[arg(required = true)]
-    pub(crate) paths: Vec<PathBuf>,
-    /// Output format. Default: pretty on a terminal, otherwise short.
-    #[arg(long, value_enum)]
-    pub(crate) format: Option<CheckFormat>,
-    /// How much is judged: the text, also the programmed motions, also the axes of the machine. Default: machine where one is named,
-    /// otherwise motion.
-    #[arg(long, value_enum)]
-    pub(crate) scope: Option<CheckScope>,
-    /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
-    #[arg(long, default_value_t = 200)]
-    pub(crate) limit: usize,
-}
-
-/// Formats of `check`.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CheckFormat {
-    Pretty,
-    Short,
-    Json,
 }
 
 /// `trace`

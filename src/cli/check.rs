@@ -1,19 +1,38 @@
 //! `check`: the verdict on files and folders.
+mod baseline;
+mod cache;
+mod document;
+mod fingerprint;
+mod github;
+mod junit;
+mod one;
+mod sarif;
+mod statistics;
+mod watch;
+
 use super::{
     Done,
     args::{Check, CheckFormat, Global},
-    failure::{Failure, remark, shown},
-    json, load, render, short, walk,
+    failure::{Failure, remark},
+    json,
+    out::Out,
+    walk,
 };
-use crate::cli::out::Out;
+use baseline::{Accepted, Baseline};
+use cache::Cache;
 use clap::ValueEnum;
+use document::Document;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+pub(super) use one::is_found;
+use one::{Checked, Job};
 use rayon::prelude::*;
+use statistics::Statistics;
 use std::{
     io::{IsTerminal, Write},
-    path::{Path, PathBuf},
+    path::PathBuf,
 };
-use trunnion_check::{Coverage, Report, Scope, Severity, Summary, Verdict};
+use trunnion_check::Scope;
+use trunnion_files::Outputs;
 
 /// Files that are checked before the first of them is printed.
 const AT_ONCE: usize = 64;
@@ -37,82 +56,152 @@ impl CheckScope {
     }
 }
 
-/// One checked file, rendered.
-pub(super) struct Checked {
-    /// Path as given.
-    pub(super) name: String,
-    /// Its text for standard output: findings (pretty, short) or nothing (JSON).
-    pub(super) text: String,
-    /// JSON form.
-    pub(super) json: Option<json::File>,
-    /// Verdict.
-    pub(super) verdict: Verdict,
-    /// Counts.
-    pub(super) summary: Summary,
-    /// Machine it was checked for.
-    pub(super) machine: Option<String>,
-    /// Why the file is not read, if it is not.
-    pub(super) not_read: Option<String>,
-    /// The dialect and why, where that was not certain.
-    pub(super) read_as: Option<String>,
-    /// How much was judged.
-    pub(super) scope: Scope,
-    /// What was checked.
-    pub(super) coverage: Coverage,
-    /// Undeclared values that were assumed.
-    pub(super) assumptions: Vec<String>,
-    /// Some finding at or above `--deny`, or unknown under `--strict`.
-    pub(super) found: bool,
-    /// For `-v`.
-    pub(super) explanation: String,
+/// Runs `check`, again and again with `--watch`.
+pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
+    if command.watch {
+        return watch::run(global, command);
+    }
+    once(global, command)
 }
 
-/// Runs `check`.
-pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
+/// Checks all files once.
+fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
     let found = walk::programs(&command.paths)?;
     found.remark(global.quiet, global.verbose);
     let format = command.format.unwrap_or_else(|| {
-        if std::io::stdout().is_terminal() {
+        if command.output.is_none() && std::io::stdout().is_terminal() {
             CheckFormat::Pretty
         } else {
             CheckFormat::Short
         }
     });
-    let bar = progress(global, found.files.len());
+    let mut outputs = Outputs::new();
+    for file in &found.files {
+        outputs.input(file);
+    }
+    let mut output = |option: &str, path: Option<&PathBuf>| path.map(|path| outputs.output(option, path)).transpose();
+    let target = output("-o", command.output.as_ref())?;
+    let to_baseline = output("--write-baseline", command.write_baseline.as_ref())?;
+    let baseline = command.baseline.as_deref().map(Baseline::read).transpose()?;
+    let cache = command.cache.as_deref().map(Cache::open).transpose()?;
+    let job = Job {
+        global,
+        command,
+        format,
+        baseline: baseline.as_ref(),
+        cache: cache.as_ref(),
+    };
+    let mut accepted = Accepted::new(command.write_baseline.as_deref());
     let mut tally = Tally::default();
-    for failure in &found.failures {
-        failure.print();
-        tally.not_checked.push(json::NotChecked::of(failure));
-    }
-    let mut out = Out::standard();
-    if format == CheckFormat::Json {
-        json::write(&mut out, |put| {
-            each(global, command, format, &found.files, &bar, &mut tally, put);
-            tally.not_checked.as_slice()
-        })?;
+    if let Some(target) = target {
+        let mut kept = Vec::new();
+        print(&job, &found, &mut tally, &mut accepted, &mut kept)?;
+        target.write(&kept, None)?;
     } else {
-        let mut last_lines = Vec::new();
-        each(global, command, format, &found.files, &bar, &mut tally, &mut |file| {
-            bar.suspend(|| print_text(&mut out, global, format, &file, &mut last_lines));
-        });
-        for line in &last_lines {
-            let _ = writeln!(out, "{line}");
-        }
-        if found.walked && !global.quiet {
-            let line = tally.line();
-            if format == CheckFormat::Pretty {
-                let _ = writeln!(out, "{line}");
-            } else {
-                remark(false, &line);
-            }
-        }
+        print(&job, &found, &mut tally, &mut accepted, &mut Out::standard())?;
     }
-    bar.finish_and_clear();
-    out.flush()?;
+    if let Some((target, path)) = to_baseline.zip(command.write_baseline.as_ref()) {
+        if !tally.not_checked.is_empty() {
+            return Err(Failure::new(
+                "not every file could be checked (see above), so no baseline was written",
+            ));
+        }
+        target.write(accepted.document().as_bytes(), None)?;
+        remark(global.quiet, &accepted.remark(&path.display().to_string()));
+        return Ok(Done::Clean);
+    }
+    if let Some(baseline) = &baseline {
+        baseline.remark_gone(global.quiet, tally.gone);
+    }
     if !tally.not_checked.is_empty() {
         return Err(Failure::new("not every file could be checked (see above)"));
     }
     Ok(if tally.found { Done::Found } else { Done::Clean })
+}
+
+/// Where the lines with the verdicts go.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Lines {
+    /// Into the document, after all files.
+    Last,
+    /// Into the document, after their file.
+    Here,
+    /// To standard error.
+    Remarks,
+    /// Nowhere: the document has the verdicts itself.
+    Nowhere,
+}
+
+impl Lines {
+    fn of(job: &Job<'_>) -> Self {
+        match job.format {
+            _ if job.command.output.is_some() => Self::Remarks,
+            CheckFormat::Pretty => Self::Last,
+            CheckFormat::Github => Self::Here,
+            CheckFormat::Short => Self::Remarks,
+            CheckFormat::Json | CheckFormat::Sarif | CheckFormat::Junit => Self::Nowhere,
+        }
+    }
+}
+
+/// Checks the files and writes the document.
+fn print(
+    job: &Job<'_>,
+    found: &walk::Found,
+    tally: &mut Tally,
+    accepted: &mut Accepted,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let quiet = job.global.quiet;
+    let lines = Lines::of(job);
+    for failure in &found.failures {
+        failure.print();
+        tally.not_checked.push(json::NotChecked::of(failure));
+    }
+    let bar = progress(job.global, found.files.len());
+    let mut document = Document::new(job.format, out);
+    document.begin()?;
+    let mut last_lines = Vec::new();
+    let mut failed = None;
+    each(job, &found.files, &bar, tally, &mut |file| {
+        accepted.take(&file);
+        bar.suspend(|| {
+            if let Err(error) = document.file(&file) {
+                failed.get_or_insert(error);
+            }
+            match lines {
+                Lines::Last => last_lines.push(file.line),
+                Lines::Here if !quiet => {
+                    // standard output keeps its errors for the end
+                    let _ = document.line(&file.line);
+                }
+                Lines::Remarks => {
+                    document.flush();
+                    remark(quiet, &file.line);
+                }
+                Lines::Here | Lines::Nowhere => {}
+            }
+        });
+    });
+    bar.finish_and_clear();
+    if let Some(error) = failed {
+        return Err(error.into());
+    }
+    document.end(tally, job.command.statistics)?;
+    if !quiet {
+        last_lines.extend(found.walked.then(|| tally.line()));
+        match lines {
+            Lines::Last | Lines::Here => {
+                for line in &last_lines {
+                    let _ = document.line(line);
+                }
+            }
+            Lines::Remarks => last_lines.iter().for_each(|line| remark(false, line)),
+            Lines::Nowhere => {}
+        }
+    }
+    document.flush();
+    Ok(())
 }
 
 /// The result of all files together.
@@ -124,17 +213,31 @@ struct Tally {
     unknown: u64,
     not_checked: Vec<json::NotChecked>,
     found: bool,
+    /// Findings of the baseline that are not found any more.
+    gone: u64,
+    statistics: Statistics,
+    summary: one::Counts,
+    /// The machine of all files, if it is one.
+    machine: Option<String>,
 }
 
 impl Tally {
     fn count(&mut self, file: &Checked) {
+        if self.files == 0 {
+            self.machine.clone_from(&file.machine);
+        } else if self.machine != file.machine {
+            self.machine = None;
+        }
         self.files += 1;
-        match file.verdict {
-            Verdict::Pass => self.pass += 1,
-            Verdict::Fail => self.fail += 1,
-            Verdict::Unknown => self.unknown += 1,
+        match file.verdict.as_str() {
+            "pass" => self.pass += 1,
+            "fail" => self.fail += 1,
+            _ => self.unknown += 1,
         }
         self.found |= file.found;
+        self.gone += file.gone;
+        self.statistics.add(&file.rules);
+        self.summary.add(&file.summary);
     }
     /// The last line of a folder.
     fn line(&self) -> String {
@@ -156,20 +259,12 @@ impl Tally {
 }
 
 /// Checks the files on all cores and hands them over in order. Only a piece of them is in memory at once.
-fn each(
-    global: &Global,
-    command: &Check,
-    format: CheckFormat,
-    files: &[PathBuf],
-    bar: &ProgressBar,
-    tally: &mut Tally,
-    put: &mut dyn FnMut(Checked),
-) {
+fn each(job: &Job<'_>, files: &[PathBuf], bar: &ProgressBar, tally: &mut Tally, put: &mut dyn FnMut(Checked)) {
     for some in files.chunks(AT_ONCE) {
         let results: Vec<Result<Checked, Failure>> = some
             .par_iter()
             .map(|path| {
-                let checked = check_file(global, command, format, path);
+                let checked = job.check(path);
                 bar.inc(1);
                 checked
             })
@@ -177,7 +272,7 @@ fn each(
         for result in results {
             match result {
                 Ok(file) => {
-                    if global.verbose {
+                    if job.global.verbose {
                         remark(false, &file.explanation);
                     }
                     tally.count(&file);
@@ -190,66 +285,6 @@ fn each(
             }
         }
     }
-}
-
-fn print_text(
-    out: &mut impl Write,
-    global: &Global,
-    format: CheckFormat,
-    file: &Checked,
-    last_lines: &mut Vec<String>,
-) {
-    // standard output keeps its errors for the end
-    let _ = out.write_all(file.text.as_bytes());
-    if format == CheckFormat::Pretty {
-        if !global.quiet {
-            last_lines.push(render::verdict_line(file, global.color.on()));
-        }
-        return;
-    }
-    let _ = out.flush();
-    remark(global.quiet, &render::verdict_line(file, false));
-}
-
-fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path) -> Result<Checked, Failure> {
-    let loaded = load::load_any(global, path)?;
-    let mut settings = loaded.resolved.settings();
-    settings.scope = command.scope.map(CheckScope::scope);
-    let report = trunnion_check::check(&loaded.program, &settings);
-    let lines = trunnion_syntax::LineIndex::new(loaded.program.source());
-    let text = match format {
-        CheckFormat::Pretty => render::pretty(&loaded, &lines, &report, command.limit, global.color.on()),
-        CheckFormat::Short => shown(&short::short(&loaded, &lines, &report, command.limit)).into_owned(),
-        CheckFormat::Json => String::new(),
-    };
-    let deny = global.deny.severity();
-    let verdict = report.verdict(deny);
-    let json = (format == CheckFormat::Json).then(|| json::file(&loaded, &lines, &report, (verdict, settings.scope())));
-    Ok(Checked {
-        scope: settings.scope(),
-        not_read: loaded.not_read(),
-        read_as: (!loaded.resolved.dialect_certain)
-            .then(|| format!("{} ({})", loaded.resolved.dialect.name, loaded.resolved.dialect_reason)),
-        text,
-        json,
-        verdict,
-        summary: report.summary,
-        machine: loaded.resolved.machine.as_ref().map(|m| m.id.clone()),
-        found: is_found(&report, deny, global.strict),
-        explanation: loaded.explanation(),
-        coverage: report.coverage,
-        assumptions: report.assumptions,
-        name: loaded.name,
-    })
-}
-
-/// Whether the exit status is 1.
-pub(super) fn is_found(report: &Report, deny: Severity, strict: bool) -> bool {
-    use trunnion_check::Status;
-    report.diagnostics.iter().any(|d| match d.status {
-        Status::Fail => d.severity >= deny,
-        Status::Unknown => strict || d.severity >= deny,
-    })
 }
 
 fn progress(global: &Global, files: usize) -> ProgressBar {

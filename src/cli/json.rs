@@ -1,61 +1,52 @@
 //! The JSON document of `check`, documented by its schema name `trunnion-check/1`.
-use super::{check::Checked, failure::Failure, load::Loaded, short};
-use serde::{Serialize, Serializer, ser::SerializeMap};
-use serde_json::json;
+use super::{failure::Failure, load::Loaded, short};
+use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
 use std::io::Write;
-use trunnion_check::{Report, Scope, Status, ValueKey, Verdict};
+use trunnion_check::{Diagnostic, Report, Scope, Status, ValueKey, Verdict};
 use trunnion_syntax::LineIndex;
-
-#[derive(Clone, Copy, Default, Serialize)]
-struct Summary {
-    files: u64,
-    blocks: u64,
-    motions: u64,
-    errors: u64,
-    warnings: u64,
-    infos: u64,
-    unknown: u64,
-}
 
 /// One file of the document.
 #[derive(Serialize)]
 pub(super) struct File {
-    path: String,
-    dialect: Option<String>,
-    dialect_reason: String,
-    machine: Option<String>,
-    verdict: &'static str,
-    scope: &'static str,
-    blocks: u64,
-    motions: u64,
-    cycle_time_s: Option<[f64; 2]>,
-    coverage: Coverage,
-    assumptions: Vec<String>,
-    diagnostics: Vec<Item>,
+    pub(super) path: String,
+    pub(super) dialect: Option<String>,
+    pub(super) dialect_reason: String,
+    pub(super) machine: Option<String>,
+    pub(super) verdict: &'static str,
+    pub(super) scope: &'static str,
+    pub(super) blocks: u64,
+    pub(super) motions: u64,
+    pub(super) cycle_time_s: Option<[f64; 2]>,
+    pub(super) coverage: Coverage,
+    pub(super) assumptions: Vec<String>,
+    pub(super) diagnostics: Vec<Item>,
+    /// Findings that the baseline accepts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) accepted: Vec<Item>,
 }
 
 /// What was checked.
 #[derive(Serialize)]
-struct Coverage {
-    blocks: u64,
-    blocks_run: u64,
-    motions: u64,
-    motions_known: u64,
-    not_run: Vec<NotRun>,
-    given_up: Option<GivenUp>,
+pub(super) struct Coverage {
+    pub(super) blocks: u64,
+    pub(super) blocks_run: u64,
+    pub(super) motions: u64,
+    pub(super) motions_known: u64,
+    pub(super) not_run: Vec<NotRun>,
+    pub(super) given_up: Option<GivenUp>,
 }
 
 #[derive(Serialize)]
-struct NotRun {
-    line: u32,
-    last_line: u32,
-    reason: &'static str,
+pub(super) struct NotRun {
+    pub(super) line: u32,
+    pub(super) last_line: u32,
+    pub(super) reason: &'static str,
 }
 
 #[derive(Serialize)]
-struct GivenUp {
-    line: u32,
-    reason: &'static str,
+pub(super) struct GivenUp {
+    pub(super) line: u32,
+    pub(super) reason: &'static str,
 }
 
 impl Coverage {
@@ -88,43 +79,49 @@ impl Coverage {
 }
 
 #[derive(Serialize)]
-struct Item {
-    rule: &'static str,
-    severity: &'static str,
-    line: u32,
-    column: u32,
-    end_line: u32,
-    end_column: u32,
-    byte_start: u32,
-    byte_end: u32,
-    block: Option<String>,
-    message: String,
-    notes: Vec<String>,
-    help: Option<String>,
-    values: Values,
-    status: &'static str,
-    fixes: Vec<&'static str>,
-    docs: String,
+pub(super) struct Item {
+    pub(super) rule: &'static str,
+    pub(super) severity: &'static str,
+    pub(super) line: u32,
+    pub(super) column: u32,
+    pub(super) end_line: u32,
+    pub(super) end_column: u32,
+    pub(super) byte_start: u32,
+    pub(super) byte_end: u32,
+    pub(super) block: Option<String>,
+    pub(super) message: String,
+    pub(super) notes: Vec<String>,
+    pub(super) help: Option<String>,
+    pub(super) values: Values,
+    pub(super) status: &'static str,
+    pub(super) fixes: Vec<&'static str>,
+    pub(super) docs: String,
+    /// What recognises the finding in a later text of the program; only the findings of the list have one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    count: Option<u32>,
+    pub(super) fingerprint: Option<String>,
+    /// The text that the place should have instead.
     #[serde(skip_serializing_if = "Option::is_none")]
-    last_line: Option<u32>,
+    pub(super) replacement: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) count: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) last_line: Option<u32>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    related: Vec<Related>,
+    pub(super) related: Vec<Related>,
     /// The other findings of the event that this one leads.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    also: Vec<Item>,
+    pub(super) also: Vec<Item>,
 }
 
 #[derive(Serialize)]
-struct Related {
-    line: u32,
-    column: u32,
-    message: String,
+pub(super) struct Related {
+    pub(super) line: u32,
+    pub(super) column: u32,
+    pub(super) message: String,
 }
 
 /// Values in the order the rule gave them.
-struct Values(Vec<(&'static str, ValueKey)>);
+pub(super) struct Values(pub(super) Vec<(&'static str, ValueKey)>);
 
 impl Serialize for Values {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -162,7 +159,7 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
 }
 
 /// One finding, with those that it leads.
-fn item(loaded: &Loaded, lines: &LineIndex, d: &trunnion_check::Diagnostic) -> Item {
+fn item(loaded: &Loaded, lines: &LineIndex, d: &Diagnostic, fingerprint: Option<&str>) -> Item {
     let place = |offset| lines.line_column(loaded.program.source(), offset);
     let (line, column) = place(d.range.start);
     let (end_line, end_column) = place(d.range.end);
@@ -184,6 +181,8 @@ fn item(loaded: &Loaded, lines: &LineIndex, d: &trunnion_check::Diagnostic) -> I
         status: if d.status == Status::Fail { "fail" } else { "unknown" },
         fixes: d.fixes.clone(),
         docs: format!("rules/{}", d.rule),
+        fingerprint: fingerprint.map(str::to_owned),
+        replacement: d.replacement.clone(),
         count: merged.then_some(d.count),
         last_line: merged.then(|| place(d.last.start).0),
         related: d
@@ -198,12 +197,25 @@ fn item(loaded: &Loaded, lines: &LineIndex, d: &trunnion_check::Diagnostic) -> I
                 }
             })
             .collect(),
-        also: d.also.iter().map(|led| item(loaded, lines, led)).collect(),
+        also: d.also.iter().map(|led| item(loaded, lines, led, None)).collect(),
     }
 }
 
-/// One file.
-pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome, scope): (Verdict, Scope)) -> File {
+/// Findings with their fingerprints.
+pub(super) type Marked<'a> = (&'a [Diagnostic], &'a [String]);
+
+/// One file: its report, whose findings have the fingerprints `marks`, and what the baseline accepts.
+pub(super) fn file(
+    loaded: &Loaded,
+    lines: &LineIndex,
+    (report, marks): (&Report, &[String]),
+    accepted: Marked<'_>,
+    (outcome, scope): (Verdict, Scope),
+) -> File {
+    let items = |(found, marks): Marked<'_>| {
+        let each = found.iter().zip(marks);
+        each.map(|(d, mark)| item(loaded, lines, d, Some(mark))).collect()
+    };
     File {
         path: loaded.name.clone(),
         dialect: loaded.dialect_name().map(str::to_owned),
@@ -216,17 +228,18 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome
         cycle_time_s: report.cycle_time_s.map(|t| t.map(tidy)),
         coverage: Coverage::of(loaded, lines, report),
         assumptions: report.assumptions.clone(),
-        diagnostics: report.diagnostics.iter().map(|d| item(loaded, lines, d)).collect(),
+        diagnostics: items((&report.diagnostics, marks)),
+        accepted: items(accepted),
     }
 }
 
 /// A file or folder that could not be checked; the exit status is 2.
-#[derive(Serialize)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(super) struct NotChecked {
     /// Path, with the line where it is known.
-    place: String,
+    pub(super) place: String,
     /// What is wrong, and what to do.
-    message: String,
+    pub(super) message: String,
 }
 
 impl NotChecked {
@@ -236,57 +249,6 @@ impl NotChecked {
             message: failure.message().to_owned(),
         }
     }
-}
-
-/// Writes the document of all files, one after the other as `each` hands them over, and their summary after them.
-/// `each` returns what could not be checked.
-pub(super) fn write<'n>(
-    out: &mut impl Write,
-    each: impl FnOnce(&mut dyn FnMut(Checked)) -> &'n [NotChecked],
-) -> Result<(), Failure> {
-    let mut summary = Summary::default();
-    let mut machine = None;
-    let mut error = None;
-    write!(
-        out,
-        "{{\n  \"schema\": \"trunnion-check/1\",\n  \"version\": \"{}\",\n  \"files\": [",
-        env!("CARGO_PKG_VERSION")
-    )?;
-    let not_checked = each(&mut |file| {
-        let s = file.summary;
-        if summary.files == 0 {
-            machine.clone_from(&file.machine);
-        } else if machine != file.machine {
-            machine = None;
-        }
-        let comma = if summary.files == 0 { "" } else { "," };
-        summary.files += 1;
-        summary.blocks += s.blocks;
-        summary.motions += s.motions;
-        summary.errors += s.errors;
-        summary.warnings += s.warnings;
-        summary.infos += s.infos;
-        summary.unknown += s.unknown;
-        let text = file
-            .json
-            .as_ref()
-            .map_or(Ok(String::new()), serde_json::to_string_pretty);
-        let written = text
-            .map_err(std::io::Error::from)
-            .and_then(|text| write!(out, "{comma}\n    {}", text.replace('\n', "\n    ")));
-        if let Err(failed) = written {
-            error.get_or_insert(failed);
-        }
-    });
-    if let Some(error) = error {
-        return Err(error.into());
-    }
-    let rest =
-        serde_json::to_string_pretty(&json!({ "machine": machine, "not_checked": not_checked, "summary": summary }))
-            .map_err(std::io::Error::from)?;
-    // its opening brace is that of the document
-    writeln!(out, "\n  ],{}", &rest[1..])?;
-    Ok(())
 }
 
 /// Writes any document, pretty, with a line end.

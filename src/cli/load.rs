@@ -210,20 +210,46 @@ pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
 
 /// Reads and parses a file with its settings, whatever it is.
 pub(crate) fn load_any(global: &Global, path: &Path) -> Result<Loaded, Failure> {
+    Ok(open(global, path)?.parse())
+}
+
+/// A program that is read but not parsed, with its settings.
+pub(crate) struct Opened {
+    name: String,
+    /// The bytes of the program.
+    pub(crate) source: Vec<u8>,
+    /// Settings, machine, dialect.
+    pub(crate) resolved: Resolved,
+    seen: Option<Seen>,
+}
+
+impl Opened {
+    /// Parses it.
+    pub(crate) fn parse(self) -> Loaded {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        Loaded {
+            program: trunnion_syntax::parse_on(self.source, self.resolved.dialect.lex, threads),
+            name: self.name,
+            resolved: self.resolved,
+            seen: self.seen,
+        }
+    }
+}
+
+/// Reads a file and its settings, whatever it is.
+pub(crate) fn open(global: &Global, path: &Path) -> Result<Opened, Failure> {
     let (source, seen) = read_program(global, path)?;
     let stdin = is_stdin(path);
     let mut resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
     resolved.setup.limits = limits(global, resolved.setup.limits);
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let program = trunnion_syntax::parse_on(source, resolved.dialect.lex, threads);
     let name = if stdin {
         "<stdin>".to_owned()
     } else {
         path.display().to_string()
     };
-    Ok(Loaded {
+    Ok(Opened {
         name,
-        program,
+        source,
         resolved,
         seen,
     })

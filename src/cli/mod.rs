@@ -9,6 +9,7 @@ mod explain;
 mod failure;
 mod fix;
 mod fmt;
+mod init;
 mod json;
 mod legs;
 mod load;
@@ -17,7 +18,10 @@ mod out;
 mod parse;
 mod plot;
 mod render;
+mod report;
 mod sample;
+mod schema;
+mod shell;
 mod short;
 mod stats;
 mod surface;
@@ -56,6 +60,11 @@ pub(crate) fn run() -> ExitCode {
         Command::Plot(command) => plot::run(global, command),
         Command::Surface(command) => surface::run(global, command),
         Command::Sample(command) => sample::run(global, command),
+        Command::Report(command) => report::run(global, command),
+        Command::Init(command) => init::run(global, command),
+        Command::Schema(command) => schema::run(command),
+        Command::Completions(command) => shell::completions(command),
+        Command::Man => shell::man(),
         Command::Parse(command) => parse::run(global, command),
         Command::Lsp(_) => return ExitCode::from(trunnion_lsp::serve() as u8),
     };

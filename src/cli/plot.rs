@@ -11,7 +11,7 @@ use super::{
 use std::path::{Path, PathBuf};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Machine, Space, ToolBody};
-use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, joints, path, route};
+use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, feed, joints, path, route};
 use trunnion_syntax::LineIndex;
 
 pub(super) use gather::{gather, marks};
@@ -50,6 +50,8 @@ enum Kind {
     AxisPlane,
     /// Deviation of the tip from the programmed segments.
     Deviation,
+    /// Programmed feed and the highest that the axes reach.
+    Feed,
     /// The real path in space.
     Path,
     /// Rapid motions past the declared obstacles, seen from above.
@@ -166,6 +168,7 @@ fn draw(
                 after.as_ref(),
             )?
         }
+        Kind::Feed => feed(&head("Feed of the tool tip"), record)?,
         Kind::Path => path(&head("Path of the tool tip"), record, tolerance)?,
     })
 }

@@ -1,6 +1,5 @@
 //! Diagnostics as miette reports: the only file that names miette.
 use super::{
-    check::Checked,
     failure::{is_hidden, shown},
     load::Loaded,
     short,
@@ -10,7 +9,7 @@ use miette::{
     SourceSpan, SpanContents,
 };
 use std::fmt::{self, Write};
-use trunnion_check::{Report, Scope, Severity, Status, Verdict};
+use trunnion_check::{Coverage, Report, Scope, Severity, Status, Summary, Verdict};
 use trunnion_syntax::{LineIndex, TextRange};
 
 /// Columns of the report.
@@ -103,8 +102,29 @@ fn wrapped(text: &str, indent: &str) -> Vec<String> {
     rows
 }
 
+/// What the verdict on a file says.
+pub(super) struct Judged<'a> {
+    /// Path as given.
+    pub(super) name: &'a str,
+    pub(super) verdict: Verdict,
+    pub(super) summary: Summary,
+    /// The machine it was checked for.
+    pub(super) machine: Option<&'a str>,
+    /// Why the file is not read, if it is not.
+    pub(super) not_read: Option<String>,
+    /// The dialect and why, where that was not certain.
+    pub(super) read_as: Option<String>,
+    /// How much was judged.
+    pub(super) scope: Scope,
+    pub(super) coverage: &'a Coverage,
+    /// Undeclared values that were assumed.
+    pub(super) assumptions: &'a [String],
+    /// How many findings the baseline accepts.
+    pub(super) accepted: usize,
+}
+
 /// The last line of the pretty form: verdict and counts.
-pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
+pub(super) fn verdict_line(file: &Judged<'_>, color: bool) -> String {
     let (word, code) = match file.verdict {
         Verdict::Pass => ("PASS", "32"),
         Verdict::Fail => ("FAIL", "31"),
@@ -116,9 +136,9 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
         word.to_owned()
     };
     if let Some(why) = &file.not_read {
-        return format!("{word} {}: not read, because {why}", shown(&file.name));
+        return format!("{word} {}: not read, because {why}", shown(file.name));
     }
-    let of = match (file.scope, file.machine.as_deref()) {
+    let of = match (file.scope, file.machine) {
         (Scope::Machine, Some(machine)) => format!(" on {machine}"),
         (Scope::Machine, None) => " on no machine".to_owned(),
         (scope, None) => format!(" in scope {} (no machine)", scope.name()),
@@ -127,7 +147,7 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
     let s = &file.summary;
     let mut line = format!(
         "{word} {}{of}: {} of {} run, {}",
-        shown(&file.name),
+        shown(file.name),
         file.coverage.blocks_run,
         counted(file.coverage.blocks, "block"),
         counted(s.motions, "motion"),
@@ -136,7 +156,7 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
         let _ = write!(line, ", read as {read_as}");
     }
     if !file.assumptions.is_empty() {
-        let _ = write!(line, ", assuming {}", assumed(&file.assumptions));
+        let _ = write!(line, ", assuming {}", assumed(file.assumptions));
     }
     let found = [
         (s.errors, counted(s.errors, "error")),
@@ -151,6 +171,13 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
         .collect();
     if !found.is_empty() {
         let _ = write!(line, "; {}", found.join(", "));
+    }
+    if file.accepted > 0 {
+        let _ = write!(
+            line,
+            "; {} accepted by the baseline",
+            counted(file.accepted as u64, "finding")
+        );
     }
     line
 }

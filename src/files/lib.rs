@@ -10,4 +10,4 @@ mod temporary;
 pub use error::FileError;
 pub use output::{Outputs, Target};
 pub use read::{Input, Seen, read, read_text};
-pub use temporary::sweep_beside;
+pub use temporary::{sweep_beside, write_kept};

@@ -5,7 +5,7 @@
 use std::{
     collections::BTreeSet,
     fs::{self, File, TryLockError},
-    io,
+    io::{self, Write},
     path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
     time::Duration,
@@ -45,6 +45,17 @@ pub(crate) fn create(folder: &Path, target: &Path, shared: bool) -> io::Result<N
         }
     }
     Err(io::Error::other("another process keeps removing the temporary file"))
+}
+
+/// Replaces a file of our own that can be made anew, such as an entry of a cache: whole or not at all, but without waiting for the disk.
+///
+/// # Errors
+/// The folder cannot be written to.
+pub fn write_kept(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut file = create(folder, path, true)?;
+    file.write_all(bytes)?;
+    file.persist(path).map(drop).map_err(|error| error.error)
 }
 
 /// Removes what killed runs left in the folder of the file that `path` points to, whether or not this run writes there.

@@ -4,6 +4,7 @@
 mod axis_plane;
 mod canvas;
 mod deviation;
+mod feed;
 mod grid;
 mod height_map;
 mod joints;
@@ -16,6 +17,7 @@ mod thin;
 pub use axis_plane::axis_plane;
 pub use canvas::{Header, PlotError};
 pub use deviation::deviation;
+pub use feed::feed;
 pub use height_map::height_map;
 pub use joints::{Along, joints};
 pub use path::path;

@@ -2,7 +2,8 @@
 use core::ops::Range;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration_s, tip_deviation};
+use trunnion_interp::Feed;
+use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration_s, feed_limit, tip_deviation};
 
 /// The machine at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +33,8 @@ pub struct Block {
     pub joined: bool,
     /// Deviation of the tip from the programmed segment, mm: largest sample and proven bound.
     pub deviation: Option<[f64; 2]>,
+    /// Programmed feed of the tip, and the highest at which no axis exceeds its speed, mm/min.
+    pub feed: [Option<f64>; 2],
     /// Least angle between tool axis and pole, deg.
     pub pole_angle: f64,
 }
@@ -60,7 +63,7 @@ pub struct Record {
 
 impl Record {
     /// Samples of a block.
-    pub(crate) fn of(&self, block: &Block) -> &[Sample] {
+    pub fn of(&self, block: &Block) -> &[Sample] {
         &self.samples[block.samples.clone()]
     }
     /// Blocks by their lines: those of a line in the order of the run.
@@ -90,6 +93,17 @@ const MOST_SAMPLES: usize = 1_000_000;
 const NEAR: f64 = 0.02;
 /// How far a rotary axis may turn between two samples, rad.
 const TURN: f64 = 0.05;
+
+/// The programmed feed of the tip, mm/min.
+fn programmed(leg: &Leg) -> Option<f64> {
+    match leg.motion.feed {
+        _ if !leg.motion.is_feed() => None,
+        Feed::PerMinute(feed) => Some(feed),
+        Feed::PerRevolution(feed) => leg.motion.mean_rpm().map(|rpm| feed * rpm),
+        Feed::InverseTime(per_minute) => (leg.length > 0.0).then_some(per_minute * leg.length),
+        Feed::Unknown | Feed::Rapid => None,
+    }
+}
 
 impl<'m> Recorder<'m> {
     /// Nothing recorded.
@@ -152,12 +166,14 @@ impl<'m> Recorder<'m> {
             });
         }
         self.time += duration;
+        let limit = feed_limit(self.machine, leg).map(|limit| limit.feed_mm_min);
         self.record.blocks.push(Block {
             line,
             rapid: !leg.motion.is_feed(),
             samples: first..self.record.samples.len(),
             joined: !self.broken,
             deviation: tip_deviation(self.machine, leg, 1e-4).map(|found| [found.sampled_mm, found.bound_mm]),
+            feed: [programmed(leg), limit.filter(|limit| limit.is_finite())],
             pole_angle: deg(leg.pole_angle_min),
         });
         self.broken = false;

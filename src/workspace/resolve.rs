@@ -5,7 +5,7 @@ use std::sync::Arc;
 use trunnion_check::config::{FixSettings, FormatSettings, parse_tool_flag};
 use trunnion_check::{Assume, Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Detected, Dialect, Foreign, Modeline, Surroundings};
-use trunnion_interp::{ControlData, Library, Setup};
+use trunnion_interp::{ControlData, Files, Library, Setup};
 use trunnion_machine::Machine;
 
 /// Options of the user: they override the files.
@@ -60,9 +60,15 @@ pub struct Resolved {
     pub format: FormatSettings,
     /// What rewrites may do.
     pub fix: FixSettings,
+    /// Where called programs are looked for.
+    pub(crate) subprograms: Option<Arc<Subprograms>>,
 }
 
 impl Resolved {
+    /// Whether a run looked for a program in another file: then its result depends on the folders that were searched.
+    pub fn looked_for_subprograms(&self) -> bool {
+        self.subprograms.as_ref().is_some_and(|found| found.looked())
+    }
     /// In the form of the check floor.
     pub fn settings(&self) -> Settings<'_> {
         Settings {
@@ -121,7 +127,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let declared = setup.control.tcp_codes.take();
     Machine::tell(machine.as_ref(), &mut setup.control);
     setup.control.tcp_codes = declared.or(setup.control.tcp_codes);
-    setup.library = library(path, &config, config_file.as_ref())?;
+    let subprograms = subprograms(path, &config, config_file.as_ref())?;
+    setup.library = Library(subprograms.clone().map(|found| found as Arc<dyn Files>));
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {
         if trunnion_dialect::builtin(name).is_none() {
@@ -156,6 +163,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         assume,
         format: config.format,
         fix: config.fix,
+        subprograms,
     })
 }
 
@@ -179,11 +187,11 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
 }
 
 /// Where programs that this one calls are searched: its own folder, then those of the settings, relative to the settings' file.
-fn library(
+fn subprograms(
     path: Option<&Path>,
     config: &Config,
     config_file: Option<&(PathBuf, String)>,
-) -> Result<Library, LoadError> {
+) -> Result<Option<Arc<Subprograms>>, LoadError> {
     let mut folders = Vec::new();
     // a document that is not saved has a name, but no folder
     if let Some(file) = path.filter(|path| path.is_file()) {
@@ -202,9 +210,9 @@ fn library(
         }
     }
     if folders.is_empty() {
-        return Ok(Library::default());
+        return Ok(None);
     }
-    Ok(Library(Some(Arc::new(Subprograms::new(folders)))))
+    Ok(Some(Arc::new(Subprograms::new(folders))))
 }
 
 /// The settings and their file with its text: `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.

@@ -4,7 +4,10 @@ use std::{
     fs::{self, File},
     io::Read,
     path::{Path, PathBuf},
-    sync::{Arc, OnceLock},
+    sync::{
+        Arc, OnceLock,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 use trunnion_interp::{Files, Loaded, Searched};
 
@@ -36,6 +39,7 @@ impl Folder {
 /// Finds programs in folders, in their order.
 pub struct Subprograms {
     folders: Vec<Folder>,
+    looked: AtomicBool,
 }
 
 impl Subprograms {
@@ -43,7 +47,13 @@ impl Subprograms {
     pub fn new(folders: impl IntoIterator<Item = PathBuf>) -> Self {
         Self {
             folders: folders.into_iter().map(Folder::new).collect(),
+            looked: AtomicBool::new(false),
         }
+    }
+
+    /// Whether a program was looked for.
+    pub fn looked(&self) -> bool {
+        self.looked.load(Ordering::Relaxed)
     }
 }
 
@@ -96,6 +106,7 @@ fn read(path: &Path, folder: &Path) -> Result<Arc<[u8]>, &'static str> {
 
 impl Files for Subprograms {
     fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
+        self.looked.store(true, Ordering::Relaxed);
         let mut searched = Vec::new();
         let stems = stems(name);
         for folder in &self.folders {

@@ -149,7 +149,7 @@ fn random_requests_and_cancels_between_edits_are_all_answered() {
                     let place = position(&text, at);
                     let options = json!({ "tabSize": 2, "insertSpaces": true });
                     let params = json!({ "textDocument": { "uri": uri }, "position": place, "options": options,
-                        "range": { "start": place, "end": place }, "context": { "includeDeclaration": true, "diagnostics": [] } });
+                        "range": { "start": place, "end": place }, "context": { "includeDeclaration": true, "diagnostics": [], "triggerKind": 1, "isRetrigger": false } });
                     let method = format!("textDocument/{}", ASKED[random.below(ASKED.len())]);
                     let id = client.send_request(&method, params);
                     if kind == 1 {

@@ -4,6 +4,7 @@ mod canon;
 mod cli;
 mod differential;
 mod fuzz_targets;
+mod gate;
 mod generated_docs;
 mod generated_grammar;
 mod generated_pages;

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Builds what can be built on this computer into a folder (default: target/release-files), and lists what cannot, with the reason.
+# PROFILE=dist (default) takes minutes; PROFILE=dev packs a quick build to try this script.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+profile=${PROFILE:-dist}
+out=${1:-target/release-files}
+mkdir -p "$out" && out=$(cd "$out" && pwd)
+version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
+host=$(rustc -vV | sed -n 's/^host: //p')
+rest=()
+
+cargo build --locked --profile "$profile" --bin trunnion
+folder=target/$profile
+[ "$profile" != dev ] || folder=target/debug
+name=trunnion-$version-$host
+rm -rf "$out/$name"
+mkdir -p "$out/$name/completions"
+cp "$folder/trunnion" README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT "$out/$name/"
+"$folder/trunnion" man >"$out/$name/trunnion.1"
+for shell in bash zsh fish powershell elvish; do "$folder/trunnion" completions "$shell" >"$out/$name/completions/trunnion.$shell"; done
+cp -r grammar/schemas "$out/$name/schemas"
+tar -C "$out" -czf "$out/$name.tar.gz" "$name"
+
+if command -v maturin >/dev/null; then
+  (cd python && maturin build --locked --profile "$profile" --out "$out") ||
+    rest+=("Python wheel: maturin failed (see above)")
+else
+  rest+=("Python wheel: maturin is not installed (pip install maturin; then: cd python && maturin build --release)")
+fi
+if command -v npm >/dev/null; then
+  (cd vscode-extension && npm ci --no-audit --no-fund >/dev/null && npm run --silent package >/dev/null) &&
+    cp vscode-extension/*.vsix "$out/" || rest+=("VS Code package: npm failed in vscode-extension")
+else
+  rest+=("VS Code package: npm is not installed")
+fi
+for target in x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu x86_64-apple-darwin aarch64-apple-darwin x86_64-pc-windows-msvc; do
+  [ "$target" = "$host" ] || rest+=("binary for $target: build it on such a computer with this script")
+done
+
+echo "built in $out:"
+(cd "$out" && find . -maxdepth 1 -type f -exec sha256sum {} + | sort -k2)
+echo "not built here:"
+printf '  %s\n' "${rest[@]}"

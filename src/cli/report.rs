@@ -1,0 +1,173 @@
+//! `report`: one self-contained HTML page about programs, for people who do not run commands.
+mod page;
+mod replay;
+mod sheet;
+
+use super::{
+    Done,
+    args::{Global, Report},
+    failure::{Failure, remark},
+    load::{self, Loaded},
+    plot, walk,
+};
+use indicatif::{ProgressBar, ProgressDrawTarget};
+use std::{io::IsTerminal, path::Path};
+use trunnion_check::{Verdict, check};
+use trunnion_files::Outputs;
+use trunnion_machine::Machine;
+use trunnion_plot::{Along, PlotError, axis_plane, deviation, feed, joints, path};
+use trunnion_stats::Tally;
+
+/// Writes the page.
+pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
+    let found = walk::programs(&command.paths)?;
+    found.remark(global.quiet, global.verbose);
+    let mut outputs = Outputs::new();
+    for file in &found.files {
+        outputs.input(file);
+    }
+    let target = outputs.output("-o", &command.output)?;
+    let mut failures: Vec<String> = Vec::new();
+    for failure in &found.failures {
+        failure.print();
+        failures.push(format!("{}: {}", failure.place(), failure.message()));
+    }
+    let bar = if global.quiet || !std::io::stderr().is_terminal() {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::with_draw_target(Some(found.files.len() as u64), ProgressDrawTarget::stderr())
+    };
+    let mut parts = Vec::new();
+    let mut denied = false;
+    for file in &found.files {
+        match part(global, file) {
+            Ok((part, found)) => {
+                denied |= found;
+                parts.push(part);
+            }
+            Err(failure) => {
+                bar.suspend(|| failure.print());
+                failures.push(format!("{}: {}", failure.place(), failure.message()));
+            }
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    target.write(page::page(&parts, &failures).as_bytes(), None)?;
+    remark(
+        global.quiet,
+        &format!(
+            "{}: {}",
+            command.output.display(),
+            super::render::counted(parts.len() as u64, "program")
+        ),
+    );
+    if !failures.is_empty() {
+        return Err(Failure::new("not every file could be checked (see above)"));
+    }
+    Ok(if denied { Done::Found } else { Done::Clean })
+}
+
+/// What the page says about one program.
+struct Part {
+    name: String,
+    verdict: Verdict,
+    /// The line that `check` prints.
+    line: String,
+    /// Name and value: machine, dialect, scope, coverage.
+    facts: Vec<(&'static str, String)>,
+    assumptions: Vec<String>,
+    findings: Vec<page::Shown>,
+    /// Title and SVG, or why there is none.
+    pictures: Vec<(&'static str, Result<String, String>)>,
+    replay: Option<String>,
+    sheet: Vec<sheet::Table>,
+}
+
+fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
+    let loaded = load::load_any(global, file)?;
+    let settings = loaded.resolved.settings();
+    let report = check(&loaded.program, &settings);
+    let deny = global.deny.severity();
+    let verdict = report.verdict(deny);
+    let judged = super::render::Judged {
+        name: &loaded.name,
+        verdict,
+        summary: report.summary,
+        machine: loaded.resolved.machine.as_ref().map(|m| m.id.as_str()),
+        not_read: loaded.not_read(),
+        read_as: None,
+        scope: settings.scope(),
+        coverage: &report.coverage,
+        assumptions: &report.assumptions,
+        accepted: 0,
+    };
+    let line = super::render::verdict_line(&judged, false);
+    let denied = super::check::is_found(&report, deny, global.strict);
+    let readable = loaded.not_read().is_none();
+    let (pictures, replay) = match &loaded.resolved.machine {
+        Some(machine) if readable => drawn(&loaded, machine),
+        _ => (Vec::new(), None),
+    };
+    let mut input = loaded.input();
+    let mut setup = loaded.resolved.setup.clone();
+    setup.limits = setup.limits.of_steps();
+    input.setup = &setup;
+    let sheet = if readable {
+        sheet::tables(&loaded, &Tally::of(input), report.cycle_time_s)
+    } else {
+        Vec::new()
+    };
+    let part = Part {
+        verdict,
+        line,
+        facts: page::facts(&loaded, &report, settings.scope()),
+        findings: page::findings(&loaded, &report),
+        assumptions: report.assumptions,
+        pictures,
+        replay,
+        sheet,
+        name: loaded.name,
+    };
+    Ok((part, denied))
+}
+
+/// The pictures and the replay of a program on a machine.
+#[allow(clippy::type_complexity, reason = "the fields of Part")]
+fn drawn(loaded: &Loaded, machine: &Machine) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
+    let record = plot::gather(loaded, machine, None);
+    let marks = plot::marks(loaded, None);
+    let head = |title: &str| plot::header(title, loaded, machine);
+    let text = |drawn: Result<String, PlotError>| drawn.map_err(|error| error.0);
+    let tolerance = machine.tolerances.tip_mm;
+    let mut pictures = vec![
+        ("Path", text(path(&head("Path of the tool tip"), &record, tolerance))),
+        (
+            "Joints",
+            text(joints(
+                &head("Joints of the machine"),
+                machine,
+                &record,
+                &marks,
+                Along::Way,
+            )),
+        ),
+    ];
+    if machine.rotary.len() == 2 {
+        let plane = axis_plane(
+            &head("Tool axis seen along the pole"),
+            machine,
+            &record,
+            &marks,
+            None,
+            None,
+        );
+        pictures.push(("Axis plane", text(plane)));
+    }
+    pictures.push((
+        "Deviation",
+        text(deviation(&head("Deviation of the tool tip"), &record, tolerance)),
+    ));
+    pictures.push(("Feed", text(feed(&head("Feed of the tool tip"), &record))));
+    (pictures, replay::data(loaded, machine, &record, &marks))
+}

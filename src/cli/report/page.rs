@@ -1,0 +1,288 @@
+//! The page: everything in one file, nothing loaded from elsewhere. Text of programs is escaped at one place, [`escape`].
+use super::{Part, replay::line_text};
+use crate::cli::{failure::shown, load::Loaded, short};
+use std::fmt::Write;
+use trunnion_check::{Diagnostic, Report, Scope, Verdict};
+use trunnion_syntax::LineIndex;
+
+/// Findings of one program that are listed with their lines; more are counted.
+const MOST: usize = 300;
+
+/// A finding as the page shows it.
+pub(super) struct Shown {
+    weight: &'static str,
+    rule: &'static str,
+    line: u32,
+    column: u32,
+    message: String,
+    more: Vec<String>,
+    text: String,
+}
+
+/// The findings, the worst first where there are many.
+pub(super) fn findings(loaded: &Loaded, report: &Report) -> Vec<Shown> {
+    let source = loaded.program.source();
+    let lines = LineIndex::new(source);
+    let shown = |d: &Diagnostic| {
+        let (line, column) = lines.line_column(source, d.range.start);
+        Shown {
+            weight: short::weight(d),
+            rule: d.rule,
+            line,
+            column,
+            message: format!("{}{}", d.message, short::repeats(loaded, &lines, d)),
+            more: d.notes.iter().chain(&d.help).cloned().collect(),
+            text: line_text(source, &lines, line),
+        }
+    };
+    let mut all: Vec<Shown> = short::worst(report, MOST).into_iter().map(shown).collect();
+    let left = report.diagnostics.len() - all.len();
+    if left > 0
+        && let Some(last) = all.last_mut()
+    {
+        last.more.push(format!(
+            "{left} more findings are not shown; `trunnion check --limit 0` lists them all"
+        ));
+    }
+    all
+}
+
+/// Machine, dialect and coverage.
+pub(super) fn facts(loaded: &Loaded, report: &Report, scope: Scope) -> Vec<(&'static str, String)> {
+    let resolved = &loaded.resolved;
+    let c = &report.coverage;
+    let mut facts = vec![
+        (
+            "Machine",
+            resolved
+                .machine
+                .as_ref()
+                .map_or("none".to_owned(), |m| format!("{} ({})", m.name, m.id)),
+        ),
+        (
+            "Dialect",
+            format!(
+                "{} ({})",
+                loaded.dialect_name().unwrap_or("none"),
+                resolved.dialect_reason
+            ),
+        ),
+        ("Judged", scope.name().to_owned()),
+        ("Blocks run", format!("{} of {}", c.blocks_run, c.blocks)),
+        (
+            "Motions with a known path",
+            format!("{} of {}", c.motions_known, c.motions),
+        ),
+    ];
+    let lines = LineIndex::new(loaded.program.source());
+    let line = |block| {
+        lines
+            .line_column(loaded.program.source(), loaded.program.block(block).range().start)
+            .0
+    };
+    for part in &c.not_run {
+        let text = format!(
+            "lines {} to {}: {}",
+            line(part.first),
+            line(part.last),
+            part.reason.name()
+        );
+        facts.push(("Not run", text));
+    }
+    if let Some(end) = &c.given_up {
+        facts.push(("Given up", format!("line {}: {}", line(end.block), end.reason)));
+    }
+    facts
+}
+
+/// The whole page.
+pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
+    let title = match parts {
+        [one] => format!("{} {}", word(one.verdict), one.name),
+        many => format!("{} programs", many.len()),
+    };
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n\
+         <header><h1>{}</h1><p>Report of trunnion {}. Distances in mm, angles in degrees.</p></header>\n",
+        escape(&title),
+        include_str!("page.css"),
+        escape(&title),
+        env!("CARGO_PKG_VERSION"),
+    );
+    if parts.len() != 1 || !failures.is_empty() {
+        overview(&mut out, parts, failures);
+    }
+    for (at, part) in parts.iter().enumerate() {
+        program(&mut out, at, part);
+    }
+    let _ = writeln!(
+        out,
+        "<script>\n{}</script>\n</body>\n</html>",
+        include_str!("replay.js")
+    );
+    out
+}
+
+fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
+    let count = |verdict| parts.iter().filter(|part| part.verdict == verdict).count();
+    let _ = writeln!(
+        out,
+        "<section><h2>Overview</h2><p>{} pass, {} fail, {} unknown, {} not checked</p><table><tr><th>verdict</th><th>program</th></tr>",
+        count(Verdict::Pass),
+        count(Verdict::Fail),
+        count(Verdict::Unknown),
+        failures.len()
+    );
+    for (at, part) in parts.iter().enumerate() {
+        let verdict = part.verdict.name();
+        let _ = writeln!(
+            out,
+            "<tr><td class=\"{verdict}\">{}</td><td><a href=\"#p{at}\">{}</a></td></tr>",
+            word(part.verdict),
+            escape(&part.name)
+        );
+    }
+    for failure in failures {
+        let _ = writeln!(
+            out,
+            "<tr><td class=\"fail\">NOT CHECKED</td><td>{}</td></tr>",
+            escape(failure)
+        );
+    }
+    out.push_str("</table></section>\n");
+}
+
+fn program(out: &mut String, at: usize, part: &Part) {
+    let verdict = part.verdict.name();
+    let _ = writeln!(
+        out,
+        "<article id=\"p{at}\"><h2><span class=\"badge {verdict}\">{}</span> {}</h2>\n<p class=\"line\">{}</p>",
+        word(part.verdict),
+        escape(&part.name),
+        escape(&part.line)
+    );
+    out.push_str("<section><h3>Coverage</h3><table>");
+    for (name, value) in &part.facts {
+        let _ = writeln!(out, "<tr><th scope=\"row\">{name}</th><td>{}</td></tr>", escape(value));
+    }
+    out.push_str("</table>");
+    if part.assumptions.is_empty() {
+        out.push_str("<p>Nothing is assumed.</p>");
+    } else {
+        out.push_str("<h4>Assumptions</h4><ul>");
+        for text in &part.assumptions {
+            let _ = write!(out, "<li>{}</li>", escape(text));
+        }
+        out.push_str("</ul>");
+    }
+    let _ = writeln!(out, "</section>\n<section><h3>Findings ({})</h3>", part.findings.len());
+    if part.findings.is_empty() {
+        out.push_str("<p>None.</p>");
+    }
+    for found in &part.findings {
+        let _ = write!(
+            out,
+            "<div class=\"finding {0}\"><p><b class=\"{0}\">{0}</b> <code>{1}</code> line {2}, column {3}: {4}</p>\n\
+             <pre><i>{2}</i>{5}</pre>",
+            found.weight,
+            found.rule,
+            found.line,
+            found.column,
+            escape(&found.message),
+            escape(&found.text)
+        );
+        for text in &found.more {
+            let _ = write!(out, "<p class=\"more\">{}</p>", escape(text));
+        }
+        out.push_str("</div>\n");
+    }
+    out.push_str("</section>\n");
+    if let Some(data) = &part.replay {
+        replay(out, data);
+    }
+    if !part.pictures.is_empty() {
+        out.push_str("<section class=\"pictures\"><h3>Pictures</h3>\n");
+        for (title, picture) in &part.pictures {
+            let _ = match picture {
+                Ok(svg) => writeln!(out, "<figure><figcaption>{title}</figcaption>{svg}</figure>"),
+                Err(why) => writeln!(out, "<p>{title}: {}</p>", escape(why)),
+            };
+        }
+        out.push_str("</section>\n");
+    }
+    if !part.sheet.is_empty() {
+        out.push_str("<section class=\"sheet\"><h3>Set-up sheet</h3>\n");
+    }
+    for table in part.sheet.iter().filter(|table| !table.rows.is_empty()) {
+        let _ = write!(out, "<h4>{}</h4><table><tr>", table.title);
+        for cell in &table.head {
+            let _ = write!(out, "<th>{cell}</th>");
+        }
+        out.push_str("</tr>\n");
+        for row in &table.rows {
+            out.push_str("<tr>");
+            for cell in row {
+                let _ = write!(out, "<td>{}</td>", escape(cell));
+            }
+            out.push_str("</tr>\n");
+        }
+        out.push_str("</table>\n");
+    }
+    if !part.sheet.is_empty() {
+        out.push_str("</section>\n");
+    }
+    out.push_str("</article>\n");
+}
+
+fn replay(out: &mut String, data: &str) {
+    let _ = writeln!(
+        out,
+        "<section class=\"replay\"><h3>Replay</h3>\n<canvas width=\"1100\" height=\"560\" tabindex=\"0\" aria-label=\"The path of the tool tip in \
+         space\"></canvas>\n<div class=\"controls\"><button type=\"button\" data-do=\"play\">Play</button>\
+         <input type=\"range\" min=\"0\" max=\"1000\" value=\"0\" aria-label=\"position in the program\">\
+         <button type=\"button\" data-do=\"iso\">Iso</button><button type=\"button\" data-do=\"front\">Front</button>\
+         <button type=\"button\" data-do=\"right\">Right</button><button type=\"button\" data-do=\"top\">Top</button></div>\n\
+         <p class=\"state\"></p><pre class=\"now\"></pre>\n\
+         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Red squares: findings about axes. Drag to turn, scroll to zoom, shift and drag to move.</p>\n\
+         <script type=\"application/json\">{data}</script></section>"
+    );
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "PASS",
+        Verdict::Fail => "FAIL",
+        Verdict::Unknown => "UNKNOWN",
+    }
+}
+
+/// Text of a program, a name or a message as HTML: nothing in it is markup, control characters are shown.
+fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in shown(text).chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_markup() {
+        assert_eq!(
+            escape("<img src=x onerror='a'>&\x1b"),
+            "&lt;img src=x onerror=&#39;a&#39;&gt;&amp;\\x1b"
+        );
+    }
+}

@@ -1,0 +1,47 @@
+//! `schema`: the JSON Schemas of what commands print and of files that people write.
+use super::{Done, args::Schema, failure::Failure, out::Out};
+use clap::ValueEnum;
+use std::io::Write;
+
+/// What has a schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchemaName {
+    /// `check --format json`.
+    Check,
+    /// `trace --format json`.
+    Trace,
+    /// `fix --format json`.
+    Fix,
+    /// `stats --format json`.
+    Stats,
+    /// The file of `fix --certificate`.
+    Certificate,
+    /// The file of `check --write-baseline`.
+    Baseline,
+    /// A machine file (TOML).
+    Machine,
+    /// trunnion.toml.
+    Settings,
+}
+
+impl SchemaName {
+    fn text(self) -> &'static str {
+        match self {
+            Self::Check => include_str!("../../grammar/schemas/check.json"),
+            Self::Trace => include_str!("../../grammar/schemas/trace.json"),
+            Self::Fix => include_str!("../../grammar/schemas/fix.json"),
+            Self::Stats => include_str!("../../grammar/schemas/stats.json"),
+            Self::Certificate => include_str!("../../grammar/schemas/certificate.json"),
+            Self::Baseline => include_str!("../../grammar/schemas/baseline.json"),
+            Self::Machine => include_str!("../../grammar/schemas/machine.json"),
+            Self::Settings => include_str!("../../grammar/schemas/settings.json"),
+        }
+    }
+}
+
+/// Prints one.
+pub(super) fn run(command: &Schema) -> Result<Done, Failure> {
+    let mut out = Out::standard();
+    out.write_all(command.name.text().as_bytes())?;
+    Ok(Done::Clean)
+}

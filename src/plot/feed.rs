@@ -1,0 +1,86 @@
+//! Programmed feed and the highest feed that the axes reach, along the path.
+use crate::canvas::{BLUE, Entry, Header, PlotError, Swatch, VERMILION, sheet};
+use crate::grid::{Frame, Panel};
+use crate::record::{Block, Record};
+use crate::scale::{decade, range};
+
+/// Draws it, on a logarithmic scale where the limit is far below what is programmed.
+///
+/// # Errors
+/// Neither feed is known in any feed block.
+pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
+    let cuts: Vec<&Block> = record.blocks.iter().filter(|block| !block.rapid).collect();
+    let values = || {
+        cuts.iter()
+            .flat_map(|block| block.feed)
+            .flatten()
+            .filter(|feed| *feed > 0.0)
+    };
+    let (least, most) = values().fold((f64::INFINITY, 0.0_f64), |(low, high), feed| {
+        (low.min(feed), high.max(feed))
+    });
+    if most <= 0.0 {
+        return Err(PlotError(
+            "nothing to draw: the feed of every feed block is unknown".into(),
+        ));
+    }
+    // a limit far above what is programmed is of no interest
+    let programmed = cuts.iter().filter_map(|block| block.feed[0]).fold(0.0, f64::max);
+    let top = if programmed > 0.0 { 3.0 * programmed } else { most };
+    let least = least.min(top);
+    let decades = top > 20.0 * least;
+    let value = |feed: f64| if decades { decade(feed.max(1e-3)) } else { feed };
+    let upwards = if decades {
+        [decade(least) - 0.2, decade(top) + 0.1]
+    } else {
+        [0.0, top]
+    };
+    // the cuts alone: a rapid to a far tool change would leave no room for them
+    let across = range(
+        cuts.iter().flat_map(|block| record.of(block)).map(|sample| sample.way),
+        1e-3,
+    );
+    let across = [across[0].max(0.0), across[1]];
+    let low = cuts
+        .iter()
+        .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
+        .count();
+    let legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
+        (Swatch::Dashed(VERMILION), "programmed feed".into()),
+        (Swatch::Dot(VERMILION), format!("{low} blocks do not reach it")),
+    ];
+    sheet(header, &legend, |body| {
+        let frame = Frame {
+            x: across,
+            y: upwards,
+            x_name: Some("travel of the tool tip / mm"),
+            y_name: if decades {
+                "feed of the tip / mm/min (log)"
+            } else {
+                "feed of the tip / mm/min"
+            },
+            labels: [
+                10,
+                if decades {
+                    (upwards[1] - upwards[0]).ceil() as usize + 1
+                } else {
+                    8
+                },
+            ],
+            decades,
+            right: 0.0,
+        };
+        let panel = Panel::new(body, &frame)?;
+        let stairs = |which: usize| {
+            cuts.iter().flat_map(move |block| {
+                let samples = record.of(block);
+                let way = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+                let at = block.feed[which].map_or(f64::NAN, |feed| value(feed.min(top)).max(upwards[0]));
+                way.map(|way| (way, at))
+            })
+        };
+        panel.line(stairs(1), BLUE, 1.6)?;
+        panel.dashed(stairs(0), VERMILION, 1.8)
+    })
+}

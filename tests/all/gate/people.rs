@@ -1,0 +1,177 @@
+//! `init`, `completions`, `man` and `report`.
+use super::{folder, on_mikron};
+use crate::cli::tools::{FLIP, status, str, text, trunnion, trunnion_in, write};
+use std::{fs, path::Path, process::Command};
+use tempfile::TempDir;
+
+#[test]
+fn init_writes_settings_that_check_reads() {
+    let folder = TempDir::new().expect("a folder");
+    write(&folder, "a.nc", super::GOOD);
+    let output = trunnion(&["init", str(folder.path()), "--machine", "mill-3axis"]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let settings = fs::read_to_string(folder.path().join("trunnion.toml")).expect("written");
+    assert!(settings.contains("machine = \"mill-3axis\""), "{settings}");
+    let checked = trunnion_in(folder.path(), &["check", "a.nc"]);
+    assert!(
+        text(&checked.stderr).contains("on mill-3axis"),
+        "{}",
+        text(&checked.stderr)
+    );
+    // everything that is commented out is valid, too
+    let all: String = settings
+        .lines()
+        .map(|line| match line.strip_prefix("# ") {
+            Some(rest) if rest.contains(" = ") || rest.starts_with('[') => format!("{rest}\n"),
+            _ => format!("{line}\n"),
+        })
+        .filter(|line| !line.starts_with("dialect = \"fanuc-30i\"   #"))
+        .collect();
+    write(&folder, "trunnion.toml", &all);
+    let checked = trunnion_in(folder.path(), &["check", "a.nc"]);
+    assert_ne!(status(&checked), 2, "{}\n{all}", text(&checked.stderr));
+    let again = trunnion(&["init", str(folder.path())]);
+    assert_eq!(status(&again), 2);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("trunnion.toml")).expect("there"),
+        all
+    );
+}
+
+#[test]
+fn completions_and_the_manual_page_name_every_command() {
+    let man = trunnion(&["man"]);
+    assert_eq!(status(&man), 0);
+    let man = text(&man.stdout);
+    for command in ["CHECK", "REPORT", "FIX", "SCHEMA"] {
+        assert!(man.contains(&format!("TRUNNION {command}")), "{command}");
+    }
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let output = trunnion(&["completions", shell]);
+        assert_eq!(status(&output), 0);
+        assert!(text(&output.stdout).contains("write-baseline"), "{shell}");
+    }
+    let bash = trunnion(&["completions", "bash"]);
+    let folder = TempDir::new().expect("a folder");
+    let file = write(&folder, "trunnion.bash", &text(&bash.stdout));
+    if let Ok(output) = Command::new("bash").args(["-n", str(&file)]).output() {
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
+}
+
+fn page(folder: &Path, arguments: &[&str]) -> (String, i32) {
+    let mut all = vec!["report"];
+    all.extend(arguments);
+    all.extend(["-o", "page.html"]);
+    let output = trunnion_in(folder, &all);
+    let page = fs::read_to_string(folder.join("page.html")).unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
+    (page, status(&output))
+}
+
+#[test]
+fn a_report_holds_everything_in_one_page() {
+    let folder = TempDir::new().expect("a folder");
+    let file = super::flip(&folder);
+    let (page, status) = page(folder.path(), &on_mikron(&file));
+    assert_eq!(status, 1);
+    for text in [
+        "FAIL",
+        "pole-flip",
+        "Coverage",
+        "Nothing is assumed",
+        "Set-up sheet",
+        "Joints",
+        "Axis plane",
+        "Deviation",
+        "Feed",
+        "Replay",
+        "C52.595",
+        "ball",
+        "10 mm",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    assert_eq!(page.matches("<svg").count(), 5);
+    // nothing is loaded from elsewhere: the only addresses are names of XML
+    let addresses: Vec<&str> = page
+        .split("http")
+        .skip(1)
+        .map(|rest| &rest[..rest.len().min(24)])
+        .collect();
+    let foreign: Vec<_> = addresses
+        .iter()
+        .filter(|rest| rest.starts_with("://") || rest.starts_with("s://"))
+        .filter(|rest| !rest.starts_with("://www.w3.org/"))
+        .collect();
+    assert!(foreign.is_empty(), "{foreign:?}");
+    assert!(page.contains("default-src 'none'"));
+}
+
+#[test]
+fn a_report_of_a_folder_lists_its_programs() {
+    let folder = folder();
+    let (page, status) = page(folder.path(), &["."]);
+    assert_eq!(status, 1);
+    assert!(page.contains("1 pass, 1 fail, 0 unknown, 0 not checked"));
+    assert!(page.contains("href=\"#p1\""));
+}
+
+#[test]
+fn hostile_names_and_comments_stay_text() {
+    let folder = TempDir::new().expect("a folder");
+    let program = FLIP
+        .replace(
+            "M5\n",
+            "(</pre></script><script>alert(1)</script><img src=x onerror=alert(2)>)\nM5\n",
+        )
+        .replace("G1 X-28.38197", "(<b>&amp;</script>) G1 X-28.38197")
+        .replace("C52.595", "C52.595 (</script><script>alert(3)</script>)");
+    write(&folder, "a<img src=x>&'\"b.nc", &program);
+    let (page, _) = page(
+        folder.path(),
+        &[
+            "a<img src=x>&'\"b.nc",
+            "--machine",
+            "mikron-ucp710",
+            "--dialect",
+            "fanuc-30i",
+        ],
+    );
+    assert_eq!(page.matches("<script").count(), 2, "the data and the replay");
+    assert!(!page.contains("<img") && !page.contains("<b>&amp;"));
+    assert!(page.contains("a&lt;img src=x&gt;&amp;&#39;&quot;b.nc"));
+}
+
+/// Waits for a text to stand in a file so many times.
+fn wait_for(file: &Path, text: &str, times: usize) {
+    for _ in 0..1200 {
+        if fs::read_to_string(file).is_ok_and(|all| all.matches(text).count() >= times) {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    panic!("{text} does not stand {times} times in {:?}", fs::read_to_string(file));
+}
+
+#[test]
+fn watching_checks_again_when_a_program_changes() {
+    let folder = folder();
+    let log = folder.path().join("watch.log");
+    let written = fs::File::create(&log).expect("created");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
+        .args(["check", "bad.nc", "--watch"])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(written)
+        .spawn()
+        .expect("runs");
+    wait_for(&log, "watching", 1);
+    write(&folder, "bad.nc", super::GOOD);
+    wait_for(&log, "watching", 2);
+    child.kill().expect("ended");
+    child.wait().expect("ended");
+    let said = fs::read_to_string(&log).expect("read");
+    assert!(said.contains("FAIL bad.nc") && said.contains("PASS bad.nc"), "{said}");
+    // its own log is in the folder and is no reason to check again
+    assert_eq!(said.matches("watching").count(), 2, "{said}");
+}

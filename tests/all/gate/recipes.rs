@@ -1,0 +1,117 @@
+//! The recipes for CI run here as they stand in the repository: they fail on a bad program and pass with the baseline.
+use super::folder;
+use crate::cli::tools::text;
+use std::{fs, path::Path, process::Command};
+use tempfile::TempDir;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A `PATH` on which `trunnion` is the one that was built.
+fn path() -> std::ffi::OsString {
+    let built = Path::new(env!("CARGO_BIN_EXE_trunnion")).parent().expect("a folder");
+    let mut all = vec![built.to_owned()];
+    all.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    std::env::join_paths(all).expect("a path")
+}
+
+/// Runs a shell script in a folder; its status and what it said.
+fn shell(folder: &TempDir, script: &str, variables: &[(&str, &str)]) -> (i32, String) {
+    let mut command = Command::new("bash");
+    command
+        .args(["-euo", "pipefail", "-c", script])
+        .current_dir(folder.path())
+        .env("PATH", path());
+    let output = command.envs(variables.iter().copied()).output().expect("bash runs");
+    (
+        output.status.code().expect("not killed"),
+        text(&output.stdout) + &text(&output.stderr),
+    )
+}
+
+/// The script under `run: |` of the step with a name.
+fn step(yaml: &str, name: &str) -> String {
+    let after = yaml
+        .split(&format!("- name: {name}"))
+        .nth(1)
+        .unwrap_or_else(|| panic!("no step {name}"));
+    let body = after.split("run: |\n").nth(1).expect("a script");
+    let indent = body.len() - body.trim_start().len();
+    let lines = body
+        .lines()
+        .take_while(|line| line.trim().is_empty() || line.len() - line.trim_start().len() >= indent);
+    lines
+        .map(|line| line.get(indent..).unwrap_or_default())
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+#[test]
+fn the_github_action_fails_on_a_bad_program_and_passes_with_the_baseline() {
+    let yaml = fs::read_to_string(root().join("action.yml")).expect("read");
+    let script = step(&yaml, "Check the programs");
+    let folder = folder();
+    let variables = |baseline: &'static str| {
+        [
+            ("PATHS", "."),
+            ("ARGUMENTS", ""),
+            ("BASELINE", baseline),
+            ("SARIF", "trunnion.sarif"),
+            ("GITHUB_STEP_SUMMARY", "summary.md"),
+        ]
+    };
+    let (status, said) = shell(&folder, &script, &variables(""));
+    assert_eq!(status, 1, "{said}");
+    assert!(said.contains("::error file=./bad.nc"), "{said}");
+    assert!(folder.path().join("trunnion.sarif").is_file());
+    assert!(
+        fs::read_to_string(folder.path().join("summary.md"))
+            .expect("written")
+            .contains("FAIL")
+    );
+    shell(&folder, "trunnion check . --write-baseline known.json", &[]);
+    let (status, said) = shell(&folder, &script, &variables("known.json"));
+    assert_eq!(status, 0, "{said}");
+}
+
+#[test]
+fn the_pre_commit_hook_fails_on_a_bad_program_and_passes_with_the_baseline() {
+    let yaml = fs::read_to_string(root().join(".pre-commit-hooks.yaml")).expect("read");
+    let entry = yaml
+        .lines()
+        .find_map(|line| line.trim().strip_prefix("entry: "))
+        .expect("an entry");
+    let types: Vec<&str> = yaml
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("files: "))
+        .collect();
+    assert_eq!(types.len(), yaml.matches("- id: ").count());
+    let folder = folder();
+    // pre-commit adds the names of the files
+    let (status, said) = shell(&folder, &format!("{entry} bad.nc good.nc"), &[]);
+    assert_eq!(status, 1, "{said}");
+    assert_eq!(shell(&folder, &format!("{entry} good.nc"), &[]).0, 0);
+    shell(&folder, "trunnion check . --write-baseline known.json", &[]);
+    let (status, said) = shell(&folder, &format!("{entry} --baseline known.json bad.nc good.nc"), &[]);
+    assert_eq!(status, 0, "{said}");
+}
+
+#[test]
+fn the_hook_after_posting_reports_what_it_found() {
+    let hook = root().join("integrations/freecad/trunnion_check.py");
+    let folder = folder();
+    let run = |name: &str, arguments: &str| {
+        shell(
+            &folder,
+            &format!("python3 '{}' {name} {arguments}", hook.display()),
+            &[],
+        )
+    };
+    let (status, said) = run("bad.nc", "");
+    assert_eq!(status, 1, "{said}");
+    assert!(said.contains("missing-feed"), "{said}");
+    assert_eq!(run("good.nc", "").0, 0);
+    shell(&folder, "trunnion check . --write-baseline known.json", &[]);
+    assert_eq!(run("bad.nc", "--baseline known.json").0, 0);
+}

@@ -1,0 +1,198 @@
+//! The published schemas hold for what commands print and for the files of the repository, and refuse what is wrong.
+use super::{check, flip, folder, on_mikron};
+use crate::cli::tools::{json, status, str, text, trunnion};
+use serde_json::{Value, json};
+use std::{collections::BTreeSet, fs, path::Path};
+use tempfile::TempDir;
+
+const NAMES: [&str; 8] = [
+    "check",
+    "trace",
+    "fix",
+    "stats",
+    "certificate",
+    "baseline",
+    "machine",
+    "settings",
+];
+
+fn schema(name: &str) -> Value {
+    let output = trunnion(&["schema", name]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    json(&output)
+}
+
+/// What a document has wrong; the schema itself is checked, too.
+fn wrong(name: &str, document: &Value) -> Option<String> {
+    let (mut schemas, mut compiler) = (boon::Schemas::new(), boon::Compiler::new());
+    compiler.add_resource("schema.json", schema(name)).expect("added");
+    let index = compiler
+        .compile("schema.json", &mut schemas)
+        .unwrap_or_else(|error| panic!("{name}: {error:#}"));
+    let wrong = schemas.validate(document, index).err();
+    wrong.map(|error| format!("{error:#}"))
+}
+
+#[track_caller]
+fn holds(name: &str, document: &Value) {
+    assert_eq!(wrong(name, document), None, "{name}");
+}
+
+#[test]
+fn all_are_schemas() {
+    for name in NAMES {
+        assert!(wrong(name, &json!(5)).is_some(), "{name}");
+    }
+}
+
+#[test]
+fn outputs_obey_them() {
+    let folder = folder();
+    holds(
+        "check",
+        &json(&check(
+            &folder,
+            &[".", "missing.nc", "--format", "json", "--statistics"],
+        )),
+    );
+    check(&folder, &[".", "--write-baseline", "known.json"]);
+    let known = fs::read(folder.path().join("known.json")).expect("written");
+    holds("baseline", &serde_json::from_slice(&known).expect("JSON"));
+    holds(
+        "check",
+        &json(&check(&folder, &[".", "--format", "json", "--baseline", "known.json"])),
+    );
+
+    let folder = TempDir::new().expect("a folder");
+    let file = flip(&folder);
+    let run = |command: &str, more: &[&str]| {
+        let mut arguments = vec![command];
+        arguments.extend(on_mikron(&file));
+        arguments.extend(["--format", "json"]);
+        arguments.extend(more);
+        json(&trunnion(&arguments))
+    };
+    holds("check", &run("check", &[]));
+    holds("trace", &run("trace", &[]));
+    holds("stats", &run("stats", &[]));
+    let certificate = folder.path().join("proof.json");
+    let fixed = folder.path().join("fixed.nc");
+    let more = [
+        "--rewrite",
+        "smooth-pole",
+        "--tolerance-deg",
+        "0.08",
+        "-o",
+        str(&fixed),
+        "--certificate",
+        str(&certificate),
+    ];
+    holds("fix", &run("fix", &more));
+    holds(
+        "certificate",
+        &serde_json::from_slice(&fs::read(&certificate).expect("written")).expect("JSON"),
+    );
+}
+
+fn toml_files(folder: &str) -> Vec<std::path::PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let files = fs::read_dir(root)
+        .expect("a folder")
+        .flatten()
+        .map(|entry| entry.path());
+    files
+        .filter(|path| path.extension().is_some_and(|own| own == "toml"))
+        .collect()
+}
+
+fn toml(path: &Path) -> Value {
+    let table: toml::Value = toml::from_str(&fs::read_to_string(path).expect("read")).expect("TOML");
+    serde_json::to_value(table).expect("JSON")
+}
+
+#[test]
+fn machine_and_settings_files_obey_them() {
+    let machines = toml_files("samples/machines");
+    assert!(machines.len() > 20);
+    for path in machines {
+        holds("machine", &toml(&path));
+    }
+    for path in toml_files("samples") {
+        holds("settings", &toml(&path));
+    }
+    holds(
+        "settings",
+        &toml(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/trunnion.toml")),
+    );
+}
+
+#[test]
+fn what_is_wrong_is_refused() {
+    let refuses = |name: &str, document: &Value| wrong(name, document).is_some();
+    assert!(refuses("settings", &json!({ "machin": "mill-3axis" })));
+    assert!(refuses(
+        "settings",
+        &json!({ "tool": [{ "number": 1, "diametre": 3.0 }] })
+    ));
+    assert!(refuses(
+        "machine",
+        &json!({ "schema": "ncmachine/1", "axis": [{ "letter": 5 }] })
+    ));
+    let folder = folder();
+    let mut document = json(&check(&folder, &[".", "--format", "json"]));
+    document["files"][0]["verdict"] = json!("maybe");
+    assert!(refuses("check", &document));
+}
+
+/// Names of the fields of all structs of a source, as serde reads them.
+fn fields(source: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut inside = false;
+    let mut renamed = None;
+    for line in source.lines() {
+        if line.contains("struct ") && line.ends_with('{') {
+            inside = !line.starts_with(' ');
+        } else if line.starts_with('}') {
+            inside = false;
+        } else if inside {
+            let text = line.trim().trim_start_matches("pub(crate) ").trim_start_matches("pub ");
+            if let Some((_, rest)) = text.split_once("rename = \"") {
+                renamed = rest.split('"').next().map(str::to_owned);
+            } else if let Some((name, _)) = text.split_once(": ")
+                && !text.starts_with(['/', '#'])
+            {
+                found.insert(renamed.take().unwrap_or_else(|| name.to_owned()));
+            }
+        }
+    }
+    found
+}
+
+fn keys(schema: &Value, found: &mut BTreeSet<String>) {
+    if let Some(properties) = schema["properties"].as_object() {
+        found.extend(properties.keys().cloned());
+    }
+    let inner = schema.as_object().into_iter().flat_map(serde_json::Map::values);
+    let inner = inner.chain(schema.as_array().into_iter().flatten());
+    inner.for_each(|value| keys(value, found));
+}
+
+/// A key that a file may have and its schema does not know would be marked as wrong in editors.
+#[test]
+fn the_schemas_of_files_know_all_keys() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (name, sources) in [
+        ("machine", ["src/machine/file/raw.rs", "src/machine/file/obstacle.rs"]),
+        (
+            "certificate",
+            ["src/certify/certificate.rs", "src/certify/certificate.rs"],
+        ),
+    ] {
+        let mut known = BTreeSet::new();
+        keys(&schema(name), &mut known);
+        let read = |path: &str| fs::read_to_string(root.join(path)).expect("read");
+        let wanted: BTreeSet<String> = sources.iter().flat_map(|path| fields(&read(path))).collect();
+        let missing: Vec<_> = wanted.difference(&known).collect();
+        assert!(wanted.len() > 20 && missing.is_empty(), "{name}: {missing:?}");
+    }
+}

@@ -3,10 +3,17 @@
 //! Notification handlers contain no `.await`: tower-lsp polls handlers in wire order, so nothing yields before the event
 //! is in the inbox and edits cannot overtake each other.
 use crate::{
-    backplot::{Backplot, BackplotParams},
+    backplot::{self, Backplot, BackplotParams},
+    call_hierarchy,
+    capabilities::capabilities,
+    code_action,
+    coloured::Coloured,
     event::Event,
-    outbox,
+    hover, navigate, outbox,
     owner::Owner,
+    position::Encoding,
+    snapshot::{Need, Snapshot},
+    structure, to_proto, writing,
 };
 use std::sync::{
     Arc,
@@ -17,11 +24,20 @@ use tower_lsp::{
     Client, LanguageServer,
     jsonrpc::{Error, Result},
     lsp_types::{
-        CodeActionKind, CodeActionOptions, CodeActionParams, CodeActionProviderCapability, CodeActionResponse,
-        DidChangeConfigurationParams, DidChangeTextDocumentParams, DidChangeWatchedFilesParams,
-        DidCloseTextDocumentParams, DidOpenTextDocumentParams, Hover, HoverParams, HoverProviderCapability,
-        InitializeParams, InitializeResult, PositionEncodingKind, ServerCapabilities, ServerInfo,
-        TextDocumentSyncCapability, TextDocumentSyncKind, TextDocumentSyncOptions,
+        CallHierarchyIncomingCall, CallHierarchyIncomingCallsParams, CallHierarchyItem, CallHierarchyOutgoingCall,
+        CallHierarchyOutgoingCallsParams, CallHierarchyPrepareParams, CodeActionParams, CodeActionResponse, CodeLens,
+        CodeLensParams, CompletionParams, CompletionResponse, DidChangeConfigurationParams,
+        DidChangeTextDocumentParams, DidChangeWatchedFilesParams, DidCloseTextDocumentParams,
+        DidOpenTextDocumentParams, DocumentDiagnosticParams, DocumentDiagnosticReport, DocumentDiagnosticReportResult,
+        DocumentFormattingParams, DocumentHighlight, DocumentHighlightParams, DocumentLink, DocumentLinkParams,
+        DocumentOnTypeFormattingParams, DocumentRangeFormattingParams, DocumentSymbolParams, DocumentSymbolResponse,
+        FoldingRange, FoldingRangeParams, FullDocumentDiagnosticReport, GotoDefinitionParams, GotoDefinitionResponse,
+        Hover, HoverParams, InitializeParams, InitializeResult, InlayHint, InlayHintParams, Location,
+        PositionEncodingKind, PrepareRenameResponse, ReferenceParams, RelatedFullDocumentDiagnosticReport,
+        RenameParams, SelectionRange, SelectionRangeParams, SemanticTokens, SemanticTokensDeltaParams,
+        SemanticTokensFullDeltaResult, SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
+        SemanticTokensResult, ServerInfo, SignatureHelp, SignatureHelpParams, SymbolInformation,
+        TextDocumentPositionParams, TextEdit, Url, WorkspaceEdit, WorkspaceSymbolParams,
     },
 };
 
@@ -29,6 +45,7 @@ use tower_lsp::{
 pub(crate) struct Backend {
     inbox: mpsc::UnboundedSender<Event>,
     shutdown: Arc<AtomicBool>,
+    coloured: Coloured,
 }
 
 impl Backend {
@@ -39,7 +56,12 @@ impl Backend {
         tokio::spawn(outbox::run(client, outgoing));
         let owner = Owner::new(inbox.clone(), messages, tokio::runtime::Handle::current());
         std::thread::spawn(move || owner.run(events));
-        Self { inbox, shutdown }
+        let coloured = Coloured::default();
+        Self {
+            inbox,
+            shutdown,
+            coloured,
+        }
     }
 
     /// The owner lives as long as the process; when it is gone there is no one to notify.
@@ -47,10 +69,54 @@ impl Backend {
         let _ = self.inbox.send(event);
     }
 
-    async fn ask<T>(&self, event: impl FnOnce(oneshot::Sender<Result<T>>) -> Event) -> Result<T> {
+    /// Answers from a snapshot on a worker. A cancelled request drops this future, and its work is not begun.
+    async fn ask<T: Send + 'static>(
+        &self,
+        uri: &Url,
+        need: Need,
+        work: impl FnOnce(&Snapshot) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
         let (sender, answer) = oneshot::channel();
-        self.post(event(sender));
+        let work = move |snapshot: Option<Snapshot>| {
+            if !sender.is_closed() {
+                let _ =
+                    sender.send(snapshot.map_or_else(|| Err(Error::content_modified()), |snapshot| work(&snapshot)));
+            }
+        };
+        self.post(Event::Ask {
+            uri: uri.clone(),
+            need,
+            work: Box::new(work),
+        });
         answer.await.unwrap_or_else(|_| Err(Error::content_modified()))
+    }
+
+    /// The same for an answer that is always there.
+    async fn show<T: Send + 'static>(
+        &self,
+        uri: &Url,
+        need: Need,
+        work: impl FnOnce(&Snapshot) -> T + Send + 'static,
+    ) -> Result<T> {
+        self.ask(uri, need, move |snapshot| Ok(work(snapshot))).await
+    }
+}
+
+impl Backend {
+    /// For the file of a call hierarchy, which need not be open: then one that is open beside it has the same folder.
+    async fn near<T: Send + 'static>(
+        &self,
+        uri: &Url,
+        work: impl FnOnce(&Snapshot) -> T + Send + 'static,
+    ) -> Result<Option<T>> {
+        let (sender, answer) = oneshot::channel();
+        let uri = uri.clone();
+        self.post(Event::AskAll(Box::new(move |folder, encoding| {
+            if !sender.is_closed() {
+                let _ = sender.send(Snapshot::of_file(&uri, folder, encoding).map(|snapshot| work(&snapshot)));
+            }
+        })));
+        answer.await.map_err(|_| Error::internal_error())
     }
 }
 
@@ -58,7 +124,9 @@ impl Backend {
 impl Backend {
     /// `trunnion/backplot`.
     pub(crate) async fn backplot(&self, params: BackplotParams) -> Result<Backplot> {
-        self.ask(|answer| Event::Backplot(params, answer)).await
+        let uri = params.text_document.uri.clone();
+        self.ask(&uri, Need::Analysed, move |snapshot| backplot::backplot(snapshot, &params))
+            .await
     }
 }
 
@@ -73,26 +141,13 @@ pub(crate) fn wants_utf8(params: &InitializeParams) -> bool {
 impl LanguageServer for Backend {
     async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
         let encoding = if wants_utf8(&params) {
-            PositionEncodingKind::UTF8
+            Encoding::Utf8
         } else {
-            PositionEncodingKind::UTF16
+            Encoding::Utf16
         };
         self.post(Event::Initialize(Box::new(params)));
         Ok(InitializeResult {
-            capabilities: ServerCapabilities {
-                position_encoding: Some(encoding),
-                text_document_sync: Some(TextDocumentSyncCapability::Options(TextDocumentSyncOptions {
-                    open_close: Some(true),
-                    change: Some(TextDocumentSyncKind::INCREMENTAL),
-                    ..TextDocumentSyncOptions::default()
-                })),
-                hover_provider: Some(HoverProviderCapability::Simple(true)),
-                code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
-                    code_action_kinds: Some(vec![CodeActionKind::QUICKFIX]),
-                    ..CodeActionOptions::default()
-                })),
-                ..ServerCapabilities::default()
-            },
+            capabilities: capabilities(encoding),
             server_info: Some(ServerInfo {
                 name: "trunnion".into(),
                 version: Some(env!("CARGO_PKG_VERSION").into()),
@@ -124,6 +179,7 @@ impl LanguageServer for Backend {
     }
 
     async fn did_close(&self, params: DidCloseTextDocumentParams) {
+        self.coloured.forget(&params.text_document.uri);
         self.post(Event::Close {
             uri: params.text_document.uri,
         });
@@ -138,10 +194,199 @@ impl LanguageServer for Backend {
     }
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
-        self.ask(|answer| Event::Hover(params, answer)).await
+        let at = params.text_document_position_params;
+        let work = move |snapshot: &Snapshot| hover::at(snapshot, at.position);
+        self.show(&at.text_document.uri, Need::Analysed, work).await
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
-        self.ask(|answer| Event::CodeAction(Box::new(params), answer)).await
+        let uri = params.text_document.uri.clone();
+        let work = move |snapshot: &Snapshot| {
+            let analysed = snapshot.analysed.as_ref()?;
+            code_action::code_actions(analysed, &params, snapshot.encoding)
+        };
+        self.show(&uri, Need::Analysed, work).await
+    }
+
+    async fn diagnostic(&self, params: DocumentDiagnosticParams) -> Result<DocumentDiagnosticReportResult> {
+        let work = |snapshot: &Snapshot| {
+            let items = match &snapshot.analysed {
+                Some(analysed) => to_proto::diagnostics(analysed, snapshot.encoding),
+                None => to_proto::of_toml(&snapshot.parsed, snapshot.encoding),
+            };
+            let full = FullDocumentDiagnosticReport { result_id: None, items };
+            DocumentDiagnosticReportResult::Report(DocumentDiagnosticReport::Full(
+                RelatedFullDocumentDiagnosticReport {
+                    related_documents: None,
+                    full_document_diagnostic_report: full,
+                },
+            ))
+        };
+        self.show(&params.text_document.uri, Need::Analysed, work).await
+    }
+
+    async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
+        let at = params.text_document_position;
+        let work =
+            move |snapshot: &Snapshot| Some(CompletionResponse::Array(writing::completion(snapshot, at.position)));
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
+        let at = params.text_document_position_params;
+        let work = move |snapshot: &Snapshot| writing::signature_help(snapshot, at.position);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn goto_definition(&self, params: GotoDefinitionParams) -> Result<Option<GotoDefinitionResponse>> {
+        let at = params.text_document_position_params;
+        let work =
+            move |snapshot: &Snapshot| navigate::definition(snapshot, at.position).map(GotoDefinitionResponse::Array);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
+        let (at, declaration) = (params.text_document_position, params.context.include_declaration);
+        let work = move |snapshot: &Snapshot| navigate::references(snapshot, at.position, declaration);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn document_highlight(&self, params: DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>> {
+        let at = params.text_document_position_params;
+        let work = move |snapshot: &Snapshot| navigate::highlights(snapshot, at.position);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn prepare_rename(&self, at: TextDocumentPositionParams) -> Result<Option<PrepareRenameResponse>> {
+        let work = move |snapshot: &Snapshot| navigate::prepare(snapshot, at.position);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let at = params.text_document_position;
+        let work = move |snapshot: &Snapshot| navigate::renamed(snapshot, at.position, &params.new_name);
+        self.ask(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn document_symbol(&self, params: DocumentSymbolParams) -> Result<Option<DocumentSymbolResponse>> {
+        let work = |snapshot: &Snapshot| Some(DocumentSymbolResponse::Nested(structure::document_symbols(snapshot)));
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn symbol(&self, params: WorkspaceSymbolParams) -> Result<Option<Vec<SymbolInformation>>> {
+        let (sender, answer) = oneshot::channel();
+        self.post(Event::AskAll(Box::new(move |folder, encoding| {
+            if !sender.is_closed() {
+                let _ = sender.send(structure::workspace_symbols(&folder, &params.query, encoding));
+            }
+        })));
+        answer.await.map(Some).map_err(|_| Error::internal_error())
+    }
+
+    async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
+        let work = |snapshot: &Snapshot| Some(structure::folding(snapshot));
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn selection_range(&self, params: SelectionRangeParams) -> Result<Option<Vec<SelectionRange>>> {
+        let positions = params.positions;
+        let work = move |snapshot: &Snapshot| Some(structure::selection(snapshot, &positions));
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn semantic_tokens_full(&self, params: SemanticTokensParams) -> Result<Option<SemanticTokensResult>> {
+        let (uri, coloured) = (params.text_document.uri.clone(), self.coloured.clone());
+        let work = move |snapshot: &Snapshot| {
+            let data = writing::colours(snapshot, None);
+            Some(SemanticTokensResult::Tokens(coloured.whole(&uri, data)))
+        };
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn semantic_tokens_full_delta(
+        &self,
+        params: SemanticTokensDeltaParams,
+    ) -> Result<Option<SemanticTokensFullDeltaResult>> {
+        let (uri, coloured) = (params.text_document.uri.clone(), self.coloured.clone());
+        let work = move |snapshot: &Snapshot| {
+            let data = writing::colours(snapshot, None);
+            Some(coloured.since(&uri, &params.previous_result_id, data))
+        };
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn semantic_tokens_range(
+        &self,
+        params: SemanticTokensRangeParams,
+    ) -> Result<Option<SemanticTokensRangeResult>> {
+        let range = params.range;
+        let work = move |snapshot: &Snapshot| {
+            let data = writing::colours(snapshot, Some(range));
+            Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
+                result_id: None,
+                data,
+            }))
+        };
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
+        let range = params.range;
+        let work = move |snapshot: &Snapshot| Some(writing::inlay_hints(snapshot, range));
+        self.show(&params.text_document.uri, Need::Analysed, work).await
+    }
+
+    async fn code_lens(&self, params: CodeLensParams) -> Result<Option<Vec<CodeLens>>> {
+        let work = |snapshot: &Snapshot| Some(structure::lenses(snapshot));
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let work = |snapshot: &Snapshot| writing::formatting(snapshot, None);
+        self.ask(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn range_formatting(&self, params: DocumentRangeFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let range = params.range;
+        let work = move |snapshot: &Snapshot| writing::formatting(snapshot, Some(range));
+        self.ask(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn on_type_formatting(&self, params: DocumentOnTypeFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let at = params.text_document_position;
+        let work = move |snapshot: &Snapshot| writing::on_type(snapshot, at.position);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn document_link(&self, params: DocumentLinkParams) -> Result<Option<Vec<DocumentLink>>> {
+        let work = |snapshot: &Snapshot| Some(structure::links(snapshot));
+        self.show(&params.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn prepare_call_hierarchy(
+        &self,
+        params: CallHierarchyPrepareParams,
+    ) -> Result<Option<Vec<CallHierarchyItem>>> {
+        let at = params.text_document_position_params;
+        let work = move |snapshot: &Snapshot| call_hierarchy::prepare(snapshot, at.position);
+        self.show(&at.text_document.uri, Need::Parsed, work).await
+    }
+
+    async fn incoming_calls(
+        &self,
+        params: CallHierarchyIncomingCallsParams,
+    ) -> Result<Option<Vec<CallHierarchyIncomingCall>>> {
+        let (uri, of) = (params.item.uri.clone(), params.item);
+        self.near(&uri, move |snapshot| call_hierarchy::incoming(snapshot, &of))
+            .await
+    }
+
+    async fn outgoing_calls(
+        &self,
+        params: CallHierarchyOutgoingCallsParams,
+    ) -> Result<Option<Vec<CallHierarchyOutgoingCall>>> {
+        let (uri, of) = (params.item.uri.clone(), params.item);
+        self.near(&uri, move |snapshot| call_hierarchy::outgoing(snapshot, &of))
+            .await
     }
 }

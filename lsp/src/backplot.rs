@@ -1,13 +1,13 @@
 //! `trunnion/backplot`: the path of a program in three dimensions, for a viewer. The numbers go into a file that the client names
 //! (docs/scene.md), what describes them into the answer: a path of a million points is no JSON.
-use crate::analysis::Judged;
+use crate::{analysis::Source, snapshot::Snapshot};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use tower_lsp::{
     jsonrpc::{Error, ErrorCode, Result},
     lsp_types::{TextDocumentIdentifier, Url},
 };
-use trunnion_check::{Severity, Status};
+use trunnion_check::{Report, Severity, Status};
 use trunnion_files::Outputs;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Fault, FaultKind, Interpreter, ModalState, Motion, Sink, Tool};
@@ -92,27 +92,27 @@ struct ToolSketch {
     length: Option<f64>,
 }
 
-/// Records the path of the document, or of another text, and writes it. `cancelled` is polled now and then.
-pub(crate) fn backplot(
-    judged: &Judged,
-    uri: &Url,
-    params: &BackplotParams,
-    cancelled: &dyn Fn() -> bool,
-) -> Result<Backplot> {
+/// Records the path of the document, or of another text, and writes it.
+pub(crate) fn backplot(snapshot: &Snapshot, params: &BackplotParams) -> Result<Backplot> {
+    let (source, session) = snapshot
+        .analysed
+        .as_ref()
+        .and_then(|analysed| analysed.judged())
+        .ok_or_else(|| Error::invalid_params("no path: the settings of the program cannot be used; see its findings"))?;
     let own;
     let program = match &params.text {
-        None => &judged.program,
+        None => &source.program,
         Some(text) => {
-            own = trunnion_syntax::parse(text.as_bytes().to_vec(), judged.resolved.dialect.lex);
+            own = trunnion_syntax::parse(text.as_bytes().to_vec(), source.resolved.dialect.lex);
             &own
         }
     };
-    let machine = judged.resolved.machine.as_ref();
+    let machine = source.resolved.machine.as_ref();
     let index = LineIndex::new(program.source());
-    let (run, tool) = record(judged, program, &index, cancelled).ok_or_else(Error::request_cancelled)?;
+    let (run, tool) = record(source, program, &index);
     let scene = run.tracer.finish();
     let levels = if params.text.is_none() {
-        levels(judged, &index)
+        levels(&session.report, &source.program, &index)
     } else {
         Vec::new()
     };
@@ -121,7 +121,7 @@ pub(crate) fn backplot(
     let (low, high) = scene.extent().unwrap_or((Vec3::zeros(), Vec3::zeros()));
     let origin = (low + high) * 0.5;
     let bytes = encode(&vertices, machine, &origin, level);
-    write(uri, params, &bytes).map_err(refused)?;
+    write(&snapshot.parsed.uri, params, &bytes).map_err(refused)?;
     let Scene {
         vertices: all, unknown, ..
     } = scene;
@@ -157,12 +157,11 @@ fn refused(error: trunnion_files::FileError) -> Error {
 
 /// Runs a program with the settings of a document.
 fn record<'a>(
-    judged: &'a Judged,
+    source: &'a Source,
     program: &'a Program,
     index: &'a LineIndex,
-    cancelled: &dyn Fn() -> bool,
-) -> Option<(Run<'a>, Option<ToolSketch>)> {
-    let resolved = &judged.resolved;
+) -> (Run<'a>, Option<ToolSketch>) {
+    let resolved = &source.resolved;
     let machine = resolved.machine.as_ref();
     let mut run = Run {
         program,
@@ -172,20 +171,14 @@ fn record<'a>(
         given_up: None,
     };
     let mut interpreter = Interpreter::new(resolved.dialect, &resolved.setup);
-    let mut blocks = 0_u32;
-    while interpreter.advance(program, &mut run).is_some() {
-        blocks = blocks.wrapping_add(1);
-        if blocks.is_multiple_of(1024) && cancelled() {
-            return None;
-        }
-    }
+    while interpreter.advance(program, &mut run).is_some() {}
     let number = interpreter.state().tool.number();
     let tool = interpreter.tool().map(|tool: Tool| ToolSketch {
         number,
         diameter: tool.diameter_mm,
         length: tool.length_mm,
     });
-    Some((run, tool))
+    (run, tool)
 }
 
 struct Run<'a> {
@@ -223,11 +216,10 @@ impl Sink for Run<'_> {
 }
 
 /// What was found, by line from 1: 1 info or unknown, 2 warning, 3 error.
-fn levels(judged: &Judged, index: &LineIndex) -> Vec<u8> {
-    let source = judged.program.source();
-    let line = |at: u32| index.line_column(source, at).0 as usize;
+fn levels(report: &Report, program: &Program, index: &LineIndex) -> Vec<u8> {
+    let line = |at: u32| index.line_column(program.source(), at).0 as usize;
     let mut levels: Vec<u8> = Vec::new();
-    for found in judged.session.report.findings() {
+    for found in report.findings() {
         let level = match (found.status, found.severity) {
             (Status::Unknown, _) | (_, Severity::Info) => 1,
             (_, Severity::Warning) => 2,

@@ -19,7 +19,7 @@ pub(crate) fn code_actions(
     params: &CodeActionParams,
     encoding: Encoding,
 ) -> Option<Vec<CodeActionOrCommand>> {
-    let Ok(judged) = &analysed.outcome else {
+    let Some((_, session)) = analysed.judged() else {
         return Some(Vec::new());
     };
     let wanted = params
@@ -30,10 +30,19 @@ pub(crate) fn code_actions(
     if !wanted {
         return Some(Vec::new());
     }
-    let start = offset(&analysed.text, &analysed.starts, params.range.start, encoding) as u32;
-    let end = offset(&analysed.text, &analysed.starts, params.range.end, encoding) as u32;
-    let touched: Vec<_> = judged
-        .session
+    let start = offset(
+        &analysed.parsed.text,
+        &analysed.parsed.starts,
+        params.range.start,
+        encoding,
+    ) as u32;
+    let end = offset(
+        &analysed.parsed.text,
+        &analysed.parsed.starts,
+        params.range.end,
+        encoding,
+    ) as u32;
+    let touched: Vec<_> = session
         .report
         .diagnostics
         .iter()
@@ -51,7 +60,7 @@ pub(crate) fn code_actions(
 /// The text that a finding takes for likely, in place of what is there.
 fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Encoding) -> Option<CodeAction> {
     let replacement = found.replacement.as_ref()?;
-    let place = range(&analysed.text, &analysed.starts, found.range, encoding);
+    let place = range(&analysed.parsed.text, &analysed.parsed.starts, found.range, encoding);
     let same = |d: &Diagnostic| {
         d.range == place && matches!(&d.code, Some(NumberOrString::String(code)) if code == found.rule)
     };
@@ -65,19 +74,22 @@ fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Enc
                 .filter(same)
                 .collect(),
         ),
-        edit: Some(WorkspaceEdit::new(HashMap::from([(analysed.uri.clone(), vec![edit])]))),
+        edit: Some(WorkspaceEdit::new(HashMap::from([(
+            analysed.parsed.uri.clone(),
+            vec![edit],
+        )]))),
         ..CodeAction::default()
     })
 }
 
 /// The rewrite for the whole program, and for the places that touch the asked range alone where it changes others too; or why it is refused.
 fn actions(analysed: &Analysed, rewrite: &Rewrite, asked: (u32, u32), encoding: Encoding) -> Vec<CodeAction> {
-    let Ok(judged) = &analysed.outcome else {
+    let Some((source, _)) = analysed.judged() else {
         return Vec::new();
     };
-    let program = &judged.program;
-    let settings = judged.resolved.settings();
-    let options = Options::of(&judged.resolved.fix);
+    let program = &source.program;
+    let settings = source.resolved.settings();
+    let options = Options::of(&source.resolved.fix);
     let whole = attempt(rewrite, program, &settings, &options);
     let base = CodeAction {
         title: rewrite.name.into(),
@@ -88,14 +100,14 @@ fn actions(analysed: &Analysed, rewrite: &Rewrite, asked: (u32, u32), encoding: 
     let offer = |proved: &Proved, title: String| {
         let edits = proved.edits.iter().map(|edit| {
             TextEdit::new(
-                range(&analysed.text, &analysed.starts, edit.range, encoding),
+                range(&analysed.parsed.text, &analysed.parsed.starts, edit.range, encoding),
                 edit.new_text.clone(),
             )
         });
         CodeAction {
             title,
             edit: Some(WorkspaceEdit::new(HashMap::from([(
-                analysed.uri.clone(),
+                analysed.parsed.uri.clone(),
                 edits.collect(),
             )]))),
             is_preferred: Some(true),

@@ -1,15 +1,14 @@
 //! What reaches the owner of the state.
-use crate::analysis::Analysed;
-use crate::backplot::{Backplot, BackplotParams};
-use std::sync::Arc;
-use tokio::sync::oneshot;
-use tower_lsp::{
-    jsonrpc::Result,
-    lsp_types::{
-        CodeActionOrCommand, CodeActionParams, Hover, HoverParams, InitializeParams, TextDocumentContentChangeEvent,
-        Url,
-    },
+use crate::{
+    analysis::{Analysed, Parsed},
+    snapshot::{Need, Snapshot},
 };
+use std::sync::Arc;
+use tower_lsp::lsp_types::{InitializeParams, TextDocumentContentChangeEvent, Url};
+use trunnion_check::Diagnostic;
+
+/// A request: it runs on a worker, with the snapshot, or with none if the document changed before it could be answered.
+pub(crate) type Work = Box<dyn FnOnce(Option<Snapshot>) + Send>;
 
 /// One event. Edits and requests share one inbox, so that a request sees exactly the edits sent before it.
 pub(crate) enum Event {
@@ -31,15 +30,14 @@ pub(crate) enum Event {
     FilesChanged,
     /// The pause after an edit is over.
     Due { uri: Url, version: i32 },
+    /// A version is parsed.
+    Parsed(Arc<Parsed>),
+    /// What the text alone says is found; the rules of the machine follow.
+    Cheap(Arc<Parsed>, Vec<Diagnostic>),
     /// An analysis is done.
     Analysed(Arc<Analysed>),
-    /// A hover.
-    Hover(HoverParams, oneshot::Sender<Result<Option<Hover>>>),
-    /// Quick fixes.
-    CodeAction(
-        Box<CodeActionParams>,
-        oneshot::Sender<Result<Option<Vec<CodeActionOrCommand>>>>,
-    ),
-    /// The path for a viewer.
-    Backplot(BackplotParams, oneshot::Sender<Result<Backplot>>),
+    /// A request about a document.
+    Ask { uri: Url, need: Need, work: Work },
+    /// A request about the workspace.
+    AskAll(Box<dyn FnOnce(crate::folder::Folder, crate::position::Encoding) + Send>),
 }

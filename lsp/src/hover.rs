@@ -1,24 +1,44 @@
 //! Hover: the code under the cursor, what is in effect, and what the machine does in the block.
 use crate::{
-    analysis::{Analysed, Judged},
+    analysis::{Analysed, Source},
     names,
     position::{Encoding, offset, range},
+    snapshot::Snapshot,
 };
 use std::fmt::Write;
 use tower_lsp::lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
-use trunnion_check::BlockInfo;
+use trunnion_check::{BlockInfo, Session};
 use trunnion_dialect::{Code, Dialect};
+use trunnion_ide::toml_at;
 use trunnion_interp::{FeedMode, ModalState};
 use trunnion_machine::{AxisKind, Machine, Row};
 use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 
-/// The hover at a position; `None` where there is nothing to show.
-pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding) -> Option<Hover> {
-    let judged = analysed.outcome.as_ref().ok()?;
-    let at = offset(&analysed.text, &analysed.starts, position, encoding) as u32;
-    let id = judged.program.block_at(at)?;
-    let block = judged.program.block(id);
-    if judged.program.source()[block.range().as_usize()]
+/// The hover of a program, or of a settings or machine file.
+pub(crate) fn at(snapshot: &Snapshot, position: Position) -> Option<Hover> {
+    if let Some(file) = snapshot.parsed.toml {
+        let (value, place) = toml_at(file, &snapshot.parsed.text, snapshot.offset(position) as usize)?;
+        return Some(Hover {
+            contents: HoverContents::Markup(MarkupContent {
+                kind: MarkupKind::Markdown,
+                value,
+            }),
+            range: Some(snapshot.range(TextRange::new(place.start as u32, place.end as u32))),
+        });
+    }
+    hover(snapshot.analysed.as_ref()?, position, snapshot.encoding)
+}
+
+/// The hover at a position; `None` where there is nothing to show. What one looks for stands first: what the machine does in the block, then
+/// the findings, one line each, then the code and what is in effect.
+fn hover(analysed: &Analysed, position: Position, encoding: Encoding) -> Option<Hover> {
+    let (source, session) = analysed.judged()?;
+    let parsed = &analysed.parsed;
+    let at = offset(&parsed.text, &parsed.starts, position, encoding) as u32;
+    let program = &source.program;
+    let id = program.block_at(at)?;
+    let block = program.block(id);
+    if program.source()[block.range().as_usize()]
         .iter()
         .all(u8::is_ascii_whitespace)
     {
@@ -26,63 +46,58 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
     }
     let mut text = String::new();
     let mut shown = block.range();
-    if let Some((code, word)) = code_at(judged, &block, at) {
-        let _ = writeln!(text, "{}\n\n---\n", code.hover());
-        shown = word;
-    }
-    for rule in rules_at(judged, at) {
-        text.push_str(&rule);
-        text.push_str("\n---\n\n");
-    }
-    let info = judged
-        .session
-        .describe(&judged.program, &judged.resolved.settings(), id);
-    if let Some((said, word)) = names::at(&judged.program, &block, at, &info) {
-        let _ = writeln!(text, "{said}\n\n---\n");
-        shown = word;
-    }
+    let info = session.describe(program, &source.resolved.settings(), id);
     if !info.runs {
         text.push_str("This block does not run: the program ends before it, or every path skips it.\n\n");
     }
+    motion(&mut text, &info, source.resolved.machine.as_ref());
+    findings(&mut text, session, at);
+    if let Some((code, word)) = code_at(source, &block, at) {
+        let _ = writeln!(text, "{}\n", code.hover());
+        shown = word;
+    }
+    if let Some((said, word)) = names::at(program, &block, at, &info) {
+        let _ = writeln!(text, "{said}\n");
+        shown = word;
+    }
     modal(&mut text, &info.after);
-    motion(&mut text, &info, judged.resolved.machine.as_ref());
     Some(Hover {
         contents: HoverContents::Markup(MarkupContent {
             kind: MarkupKind::Markdown,
             value: text,
         }),
-        range: Some(range(&analysed.text, &analysed.starts, shown, encoding)),
+        range: Some(range(&parsed.text, &parsed.starts, shown, encoding)),
     })
 }
 
-/// The first part of the pages of the rules whose findings touch the cursor: what the rule finds, and why that matters.
-fn rules_at(judged: &Judged, at: u32) -> Vec<String> {
+/// The findings that touch the cursor, one line each, with the command that explains the rule.
+fn findings(text: &mut String, session: &Session, at: u32) {
     let mut names: Vec<&str> = Vec::new();
-    for found in judged.session.report.findings().filter(|d| d.range.touches(at)) {
+    for found in session.report.findings().filter(|d| d.range.touches(at)) {
         if !names.contains(&found.rule) {
             names.push(found.rule);
+            let _ = writeln!(
+                text,
+                "* **{}** {} (`trunnion explain {0}`)",
+                found.rule,
+                found.message.replace('\n', " ")
+            );
         }
     }
-    let page = |name: &str| {
-        let docs = trunnion_check::rule(name)?.docs;
-        let end = docs.find("# Example").unwrap_or(docs.len());
-        let opening = docs[..end].trim_end().replace("# Why\n", "");
-        Some(format!(
-            "**{name}** {opening}\n\n`trunnion explain {name}` prints the whole page.\n"
-        ))
-    };
-    names.into_iter().filter_map(page).collect()
+    if !names.is_empty() {
+        text.push('\n');
+    }
 }
 
 /// The code the cursor is on.
-fn code_at<'a>(judged: &'a Judged, block: &Block<'_>, at: u32) -> Option<(&'a Code, TextRange)> {
-    let dialect = judged.resolved.dialect;
+fn code_at<'a>(source: &'a Source, block: &Block<'_>, at: u32) -> Option<(&'a Code, TextRange)> {
+    let dialect = source.resolved.dialect;
     if let Some(record) = block.record() {
         let on = record.major.touches(at);
         return on
             .then(|| {
                 dialect
-                    .name(&judged.program.text(record.major))
+                    .name(&source.program.text(record.major))
                     .map(|code| (code, record.major))
             })
             .flatten();
@@ -90,7 +105,7 @@ fn code_at<'a>(judged: &'a Judged, block: &Block<'_>, at: u32) -> Option<(&'a Co
     block.items().find_map(|item| match item {
         Item::Word(word) if word.range.touches(at) => code_of(dialect, &word).map(|code| (code, word.range)),
         Item::Call(call) if call.name.touches(at) => dialect
-            .name(&judged.program.text(call.name))
+            .name(&source.program.text(call.name))
             .map(|code| (code, call.name)),
         _ => None,
     })

@@ -1,50 +1,59 @@
 //! The single owner of all state: one thread, one inbox, events in order.
 use crate::{
-    analysis::{Analysed, Judged, analyse},
+    analysis::{Analysed, Parsed, analyse, parse},
     backend::wants_utf8,
-    backplot, code_action,
+    cheap,
     document::Document,
-    event::Event,
-    hover,
-    outbox::{Message, Status},
+    event::{Event, Work},
+    folder::Folder,
+    outbox::Message,
     position::Encoding,
-    settings, to_proto,
+    settings::{self, Shown},
+    snapshot::{Need, Snapshot},
+    status::status,
+    to_proto,
 };
 use std::{
     collections::BTreeMap,
-    sync::{Arc, atomic::Ordering},
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicI32, Ordering},
+    },
 };
 use tokio::{
     runtime::Handle,
     sync::{mpsc, oneshot},
 };
-use tower_lsp::{
-    jsonrpc::{Error, Result},
-    lsp_types::{Position, TextDocumentPositionParams, Url},
-};
-use trunnion_check::{Severity, Verdict};
-use trunnion_workspace::Overrides;
+use tower_lsp::lsp_types::{InitializeParams, Url};
 
-/// A request that waits for the analysis of its document's version.
+/// The check of a program with more blocks is shown as work in progress.
+const LONG: usize = 20_000;
+
+/// A request that waits for its document's version.
 struct Waiting {
     uri: Url,
     version: i32,
-    answer: Box<dyn FnOnce(Option<Arc<Analysed>>) + Send>,
+    need: Need,
+    work: Work,
 }
 
-/// The state.
 pub(crate) struct Owner {
     inbox: mpsc::UnboundedSender<Event>,
     outbox: mpsc::UnboundedSender<Message>,
     runtime: Handle,
     documents: BTreeMap<Url, Document>,
     waiting: Vec<Waiting>,
-    overrides: Overrides,
+    folder: Folder,
     encoding: Encoding,
+    shown: Shown,
+    /// The client shows work in progress; hints and lenses can be asked for again.
+    progress: bool,
+    refresh: bool,
+    works: i32,
 }
 
 impl Owner {
-    /// With nothing open.
     pub(crate) fn new(
         inbox: mpsc::UnboundedSender<Event>,
         outbox: mpsc::UnboundedSender<Message>,
@@ -56,8 +65,12 @@ impl Owner {
             runtime,
             documents: BTreeMap::new(),
             waiting: Vec::new(),
-            overrides: Overrides::default(),
+            folder: Folder::default(),
             encoding: Encoding::Utf16,
+            shown: Shown::default(),
+            progress: false,
+            refresh: false,
+            works: 0,
         }
     }
 
@@ -70,60 +83,58 @@ impl Owner {
 
     fn handle(&mut self, event: Event) {
         match event {
-            Event::Initialize(params) => {
-                if wants_utf8(&params) {
-                    self.encoding = Encoding::Utf8;
-                }
-                if let Some(options) = &params.initialization_options {
-                    self.overrides = settings::overrides(options);
-                }
-            }
+            Event::Initialize(params) => self.initialize(&params),
             Event::Open { uri, version, text } => {
                 self.documents.insert(uri.clone(), Document::open(text, version));
-                self.start_analysis(&uri);
+                self.start_parsing(&uri);
             }
             Event::Change { uri, version, changes } => self.change(&uri, version, changes),
             Event::Close { uri } => self.close(&uri),
             Event::Configure(value) => {
-                self.overrides = settings::overrides(&value);
-                self.analyse_all();
+                self.folder.overrides = settings::overrides(&value);
+                self.shown = settings::shown(&value);
+                self.read_all();
             }
-            Event::FilesChanged => self.analyse_all(),
+            Event::FilesChanged => self.read_all(),
             Event::Due { uri, version } => {
-                if self.documents.get(&uri).is_some_and(|d| d.version == version) {
+                if let Some(document) = self.documents.get_mut(&uri).filter(|d| d.version == version) {
+                    document.due = true;
                     self.start_analysis(&uri);
                 }
             }
+            Event::Parsed(parsed) => self.take_parsed(&parsed),
+            Event::Cheap(parsed, found) => self.take_cheap(&parsed, found),
             Event::Analysed(analysed) => self.take(&analysed),
-            Event::Hover(params, answer) => {
-                let at = params.text_document_position_params;
-                let encoding = self.encoding;
-                let position = at.position;
-                self.ask(&at, answer, move |a| Ok(hover::hover(a, position, encoding)));
-            }
-            Event::CodeAction(params, answer) => {
-                let at = TextDocumentPositionParams::new(params.text_document.clone(), params.range.start);
-                let encoding = self.encoding;
-                self.ask(&at, answer, move |a| {
-                    Ok(code_action::code_actions(a, &params, encoding))
-                });
-            }
-            Event::Backplot(params, answer) => {
-                let at = TextDocumentPositionParams::new(params.text_document.clone(), Position::default());
-                let newest = self
-                    .documents
-                    .get(&at.text_document.uri)
-                    .map(|d| (d.version, Arc::clone(&d.newest)));
-                self.ask(&at, answer, move |a| match &a.outcome {
-                    Err(error) => Err(Error::invalid_params(error.to_string())),
-                    Ok(judged) => backplot::backplot(judged, &a.uri, &params, &|| {
-                        newest
-                            .as_ref()
-                            .is_none_or(|(version, newest)| newest.load(Ordering::SeqCst) != *version)
-                    }),
-                });
+            Event::Ask { uri, need, work } => self.ask(uri, need, work),
+            Event::AskAll(work) => {
+                let (folder, encoding) = (self.folder(), self.encoding);
+                self.runtime.spawn_blocking(move || work(folder, encoding));
             }
         }
+    }
+
+    fn initialize(&mut self, params: &InitializeParams) {
+        if wants_utf8(params) {
+            self.encoding = Encoding::Utf8;
+        }
+        if let Some(options) = &params.initialization_options {
+            self.folder.overrides = settings::overrides(options);
+            self.shown = settings::shown(options);
+        }
+        let window = params.capabilities.window.as_ref();
+        self.progress = window.and_then(|window| window.work_done_progress).unwrap_or(false);
+        let workspace = params.capabilities.workspace.as_ref();
+        self.refresh = workspace
+            .and_then(|workspace| workspace.inlay_hint.as_ref())
+            .and_then(|hint| hint.refresh_support)
+            .unwrap_or(false);
+        let folders = params.workspace_folders.iter().flatten().map(|folder| &folder.uri);
+        let paths = folders
+            .chain(params.root_uri.iter())
+            .filter_map(|uri| uri.to_file_path().ok());
+        let mut roots: Vec<PathBuf> = paths.collect();
+        roots.dedup();
+        self.folder.roots = Arc::new(roots);
     }
 
     fn change(&mut self, uri: &Url, version: i32, changes: Vec<tower_lsp::lsp_types::TextDocumentContentChangeEvent>) {
@@ -131,11 +142,13 @@ impl Owner {
             return;
         };
         document.change(version, changes, self.encoding);
-        let (pause, inbox, uri) = (document.pause(), self.inbox.clone(), uri.clone());
-        self.drop_stale(&uri, version);
+        (document.due, document.started) = (false, false);
+        let (pause, inbox, due) = (document.pause(), self.inbox.clone(), uri.clone());
+        self.drop_stale(uri, version);
+        self.start_parsing(uri);
         self.runtime.spawn(async move {
             tokio::time::sleep(pause).await;
-            let _ = inbox.send(Event::Due { uri, version });
+            let _ = inbox.send(Event::Due { uri: due, version });
         });
     }
 
@@ -147,28 +160,76 @@ impl Owner {
         }
     }
 
-    fn analyse_all(&mut self) {
+    /// Everything anew: settings, machines or other files are different.
+    fn read_all(&mut self) {
+        self.folder.forget();
         let uris: Vec<Url> = self.documents.keys().cloned().collect();
         for uri in uris {
             if let Some(document) = self.documents.get_mut(&uri) {
                 // A run with the old settings must not be taken as the answer for the new ones.
-                document.analysed = None;
+                (document.parsed, document.analysed, document.due) = (None, None, true);
+                document.started = false;
+                document.since.clear();
                 document.newest.store(i32::MIN, Ordering::SeqCst);
-                document.newest = Arc::new(std::sync::atomic::AtomicI32::new(document.version));
+                document.newest = Arc::new(AtomicI32::new(document.version));
             }
-            self.start_analysis(&uri);
+            self.start_parsing(&uri);
         }
+    }
+
+    fn start_parsing(&mut self, uri: &Url) {
+        let Some(document) = self.documents.get_mut(uri) else {
+            return;
+        };
+        let (uri, version, text) = (uri.clone(), document.version, Arc::clone(&document.text));
+        let (newest, overrides) = (Arc::clone(&document.newest), self.folder.overrides.clone());
+        let inbox = self.inbox.clone();
+        self.runtime.spawn_blocking(move || {
+            let cancelled = || newest.load(Ordering::SeqCst) != version;
+            if cancelled() {
+                return;
+            }
+            let parsed = Arc::new(parse(uri, version, text, &overrides));
+            if cancelled() {
+                return;
+            }
+            let _ = inbox.send(Event::Parsed(Arc::clone(&parsed)));
+            if let Some(found) = cheap::findings(&parsed, &cancelled)
+                && !cancelled()
+            {
+                let _ = inbox.send(Event::Cheap(parsed, found));
+            }
+        });
     }
 
     fn start_analysis(&mut self, uri: &Url) {
         let Some(document) = self.documents.get_mut(uri) else {
             return;
         };
-        let (uri, version, text) = (uri.clone(), document.version, Arc::clone(&document.text));
-        let (newest, overrides, inbox) = (Arc::clone(&document.newest), self.overrides.clone(), self.inbox.clone());
+        let Some(parsed) = document
+            .parsed
+            .clone()
+            .filter(|_| document.due && !document.started && document.is_parsed())
+        else {
+            return;
+        };
+        document.started = true;
+        let long = parsed
+            .outcome
+            .as_ref()
+            .is_ok_and(|source| source.program.block_count() > LONG);
+        if self.progress && long && document.progress.is_none() {
+            let (running, done) = oneshot::channel();
+            document.progress = Some(running);
+            self.works += 1;
+            let _ = self
+                .outbox
+                .send(Message::Progress(self.works, "Checking the program".to_owned(), done));
+        }
+        let (newest, inbox, version) = (Arc::clone(&document.newest), self.inbox.clone(), document.version);
         self.runtime.spawn_blocking(move || {
             let cancelled = || newest.load(Ordering::SeqCst) != version;
-            if let Some(analysed) = analyse(uri, version, text, &overrides, &cancelled)
+            if let Some(analysed) = analyse(parsed, &cancelled)
                 && !cancelled()
             {
                 let _ = inbox.send(Event::Analysed(Arc::new(analysed)));
@@ -176,56 +237,150 @@ impl Owner {
         });
     }
 
-    /// Takes an analysis, publishes it, and answers the requests that waited for it.
-    fn take(&mut self, analysed: &Arc<Analysed>) {
-        let Some(document) = self.documents.get_mut(&analysed.uri) else {
+    /// Takes a parsed version, answers the requests that waited for it, and goes on to its analysis. The rules that need no machine wait
+    /// for no pause.
+    fn take_parsed(&mut self, parsed: &Arc<Parsed>) {
+        let Some(document) = self.documents.get_mut(&parsed.uri) else {
             return;
         };
-        if document.version != analysed.version {
+        let current = document.version == parsed.version && document.newest.load(Ordering::SeqCst) == parsed.version;
+        if !current || document.is_parsed() {
+            return;
+        }
+        document.parsed = Some(Arc::clone(parsed));
+        if parsed.toml.is_some() {
+            let found = to_proto::of_toml(parsed, self.encoding);
+            if self.shown.push {
+                let message = Message::Diagnostics(parsed.uri.clone(), found, Some(parsed.version));
+                let _ = self.outbox.send(message);
+            }
+            self.answer(&parsed.uri.clone());
+            return;
+        }
+        if parsed
+            .outcome
+            .as_ref()
+            .map_or(true, |source| source.resolved.machine.is_none())
+        {
+            document.due = true;
+        }
+        let uri = parsed.uri.clone();
+        self.answer(&uri);
+        self.start_analysis(&uri);
+    }
+
+    /// Publishes what the text alone says, with the other findings where they stand now.
+    fn take_cheap(&mut self, parsed: &Arc<Parsed>, mut found: Vec<trunnion_check::Diagnostic>) {
+        let Some(document) = self.documents.get(&parsed.uri) else {
+            return;
+        };
+        if document.version != parsed.version || document.is_fresh() || !self.shown.push {
+            return;
+        }
+        let before = document.analysed.as_ref().and_then(|analysed| analysed.judged());
+        let others = before
+            .map(|(_, session)| session.report.diagnostics.as_slice())
+            .unwrap_or_default();
+        found.extend(
+            others
+                .iter()
+                .filter(|one| !cheap::is_cheap(one))
+                .filter_map(|one| document.moved(one)),
+        );
+        found.sort_by_key(|one| one.range);
+        let list = to_proto::of(parsed, &found, self.encoding);
+        let _ = self
+            .outbox
+            .send(Message::Diagnostics(parsed.uri.clone(), list, Some(parsed.version)));
+    }
+
+    /// Takes an analysis, publishes it, and answers the requests that waited for it.
+    fn take(&mut self, analysed: &Arc<Analysed>) {
+        let parsed = &analysed.parsed;
+        let Some(document) = self.documents.get_mut(&parsed.uri) else {
+            return;
+        };
+        if !document.parsed.as_ref().is_some_and(|known| Arc::ptr_eq(known, parsed)) || !document.is_parsed() {
             return;
         }
         document.last_run = analysed.took;
         document.analysed = Some(Arc::clone(analysed));
-        let diagnostics = to_proto::diagnostics(analysed, self.encoding);
-        let message = Message::Diagnostics(analysed.uri.clone(), diagnostics, Some(analysed.version));
-        let _ = self.outbox.send(message);
+        document.since.clear();
+        document.progress = None;
+        if self.shown.push {
+            let diagnostics = to_proto::diagnostics(analysed, self.encoding);
+            let message = Message::Diagnostics(parsed.uri.clone(), diagnostics, Some(parsed.version));
+            let _ = self.outbox.send(message);
+        }
         let _ = self.outbox.send(Message::Status(Box::new(status(analysed))));
-        let (ready, rest) = std::mem::take(&mut self.waiting)
-            .into_iter()
-            .partition(|w: &Waiting| w.uri == analysed.uri && w.version == analysed.version);
-        self.waiting = rest;
-        for waiting in ready {
-            (waiting.answer)(Some(Arc::clone(analysed)));
+        if self.refresh {
+            let _ = self.outbox.send(Message::Refresh);
+        }
+        self.answer(&parsed.uri.clone());
+    }
+
+    fn folder(&self) -> Folder {
+        let parsed = |(uri, document): (&Url, &Document)| Some((uri.clone(), document.parsed.clone()?));
+        Folder {
+            open: Arc::new(self.documents.iter().filter_map(parsed).collect()),
+            ..self.folder.clone()
         }
     }
 
-    /// Answers a request from the analysis of the document's version, now or when it is there.
-    fn ask<T: Send + 'static>(
-        &mut self,
-        at: &TextDocumentPositionParams,
-        answer: oneshot::Sender<Result<T>>,
-        work: impl FnOnce(&Analysed) -> Result<T> + Send + 'static,
-    ) {
-        let uri = &at.text_document.uri;
-        let runtime = self.runtime.clone();
-        let reply = move |analysed: Option<Arc<Analysed>>| match analysed {
-            // Answering may take time: not on the owner's thread. A closed channel means the client cancelled.
-            Some(analysed) => drop(runtime.spawn_blocking(move || {
-                if !answer.is_closed() {
-                    let _ = answer.send(work(&analysed));
-                }
-            })),
-            None => drop(answer.send(Err(Error::content_modified()))),
+    /// What a request may see now, if that is enough for it.
+    fn snapshot(&self, uri: &Url, need: Need) -> Option<Snapshot> {
+        let document = self.documents.get(uri)?;
+        let parsed = document.parsed.clone().filter(|_| document.is_parsed())?;
+        let analysed = document.analysed.clone().filter(|_| document.is_fresh());
+        if need == Need::Analysed && analysed.is_none() && parsed.toml.is_none() {
+            return None;
+        }
+        Some(Snapshot {
+            parsed,
+            analysed,
+            encoding: self.encoding,
+            shown: self.shown,
+            folder: self.folder(),
+        })
+    }
+
+    /// Answers a request from the document's version, now or when it is there. Answering may take time: not on the owner's thread.
+    fn ask(&mut self, uri: Url, need: Need, work: Work) {
+        let Some(document) = self.documents.get(&uri) else {
+            return work(None);
         };
-        match self.documents.get(uri) {
-            None => reply(None),
-            Some(document) if document.is_fresh() => reply(document.analysed.clone()),
-            Some(document) => {
+        let version = document.version;
+        match self.snapshot(&uri, need) {
+            Some(snapshot) => drop(self.runtime.spawn_blocking(move || work(Some(snapshot)))),
+            None => {
                 let waiting = Waiting {
                     uri: uri.clone(),
-                    version: document.version,
-                    answer: Box::new(reply),
+                    version,
+                    need,
+                    work,
                 };
+                self.waiting.push(waiting);
+                self.hurry(&uri, need);
+            }
+        }
+    }
+
+    /// Who asks for what the analysis finds does not wait for the pause.
+    fn hurry(&mut self, uri: &Url, need: Need) {
+        if need == Need::Analysed {
+            if let Some(document) = self.documents.get_mut(uri) {
+                document.due = true;
+            }
+            self.start_analysis(uri);
+        }
+    }
+
+    /// Answers the requests about a document that now have what they need.
+    fn answer(&mut self, uri: &Url) {
+        for waiting in std::mem::take(&mut self.waiting) {
+            if waiting.uri == *uri {
+                self.ask(waiting.uri, waiting.need, waiting.work);
+            } else {
                 self.waiting.push(waiting);
             }
         }
@@ -238,41 +393,7 @@ impl Owner {
             .partition(|w: &Waiting| w.uri == *uri && w.version != newest);
         self.waiting = rest;
         for waiting in stale {
-            (waiting.answer)(None);
+            (waiting.work)(None);
         }
-    }
-}
-
-fn status(analysed: &Analysed) -> Status {
-    let uri = analysed.uri.clone();
-    match &analysed.outcome {
-        Ok(Judged { resolved, session, .. }) => {
-            let summary = &session.report.summary;
-            let verdict = match session.report.verdict(Severity::Error) {
-                Verdict::Pass => "pass",
-                Verdict::Fail => "fail",
-                Verdict::Unknown => "unknown",
-            };
-            Status {
-                uri,
-                machine: resolved.machine.as_ref().map(|m| m.id.clone()),
-                dialect: Some(resolved.dialect.name.clone()),
-                reason: resolved.dialect_reason.clone(),
-                verdict: verdict.into(),
-                errors: summary.errors,
-                warnings: summary.warnings,
-                unknown: summary.unknown,
-            }
-        }
-        Err(error) => Status {
-            uri,
-            machine: None,
-            dialect: None,
-            reason: error.to_string(),
-            verdict: "unknown".into(),
-            errors: 1,
-            warnings: 0,
-            unknown: 0,
-        },
     }
 }

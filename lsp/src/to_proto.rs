@@ -1,6 +1,6 @@
 //! Our plain data to lsp-types.
 use crate::{
-    analysis::Analysed,
+    analysis::{Analysed, Parsed},
     position::{Encoding, range},
 };
 use std::fmt::Write;
@@ -18,15 +18,19 @@ const MOST_LED: usize = 50;
 
 /// The findings of an analysis; a settings error is one finding at the start of the document.
 pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagnostic> {
-    let judged = match &analysed.outcome {
-        Ok(judged) => judged,
-        Err(error) => {
-            let text = format!("{error}; nothing is checked until this is corrected");
-            return vec![plain("settings", DiagnosticSeverity::ERROR, text)];
-        }
+    if let Err(error) = &analysed.parsed.outcome {
+        let text = format!("{error}; nothing is checked until this is corrected");
+        return vec![plain("settings", DiagnosticSeverity::ERROR, text)];
+    }
+    let Some((_, session)) = analysed.judged() else {
+        return Vec::new();
     };
-    let all = &judged.session.report.diagnostics;
-    let mut out: Vec<Diagnostic> = all.iter().take(MOST).map(|d| one(analysed, d, encoding)).collect();
+    of(&analysed.parsed, &session.report.diagnostics, encoding)
+}
+
+/// Findings of a parsed version.
+pub(crate) fn of(parsed: &Parsed, all: &[trunnion_check::Diagnostic], encoding: Encoding) -> Vec<Diagnostic> {
+    let mut out: Vec<Diagnostic> = all.iter().take(MOST).map(|d| one(parsed, d, encoding)).collect();
     if let Some(more @ 1..) = all.len().checked_sub(MOST) {
         let text = format!(
             "{more} more findings are not shown here; `trunnion check` lists all {}",
@@ -48,8 +52,21 @@ fn plain(code: &str, severity: DiagnosticSeverity, message: String) -> Diagnosti
     }
 }
 
-fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) -> Diagnostic {
-    let place = |bytes: TextRange| range(&analysed.text, &analysed.starts, bytes, encoding);
+/// What is wrong with a settings or machine file.
+pub(crate) fn of_toml(parsed: &Parsed, encoding: Encoding) -> Vec<Diagnostic> {
+    let Some((message, place)) = parsed.toml.and_then(|file| file.problem(&parsed.text)) else {
+        return Vec::new();
+    };
+    let bytes = place.map_or(TextRange::default(), |place| {
+        TextRange::new(place.start as u32, place.end as u32)
+    });
+    let mut found = plain("settings", DiagnosticSeverity::ERROR, message);
+    found.range = range(&parsed.text, &parsed.starts, bytes, encoding);
+    vec![found]
+}
+
+fn one(parsed: &Parsed, d: &trunnion_check::Diagnostic, encoding: Encoding) -> Diagnostic {
+    let place = |bytes: TextRange| range(&parsed.text, &parsed.starts, bytes, encoding);
     let mut message = d.message.clone();
     if d.status == Status::Unknown {
         message.insert_str(0, "Not decided: ");
@@ -68,7 +85,7 @@ fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) 
         message.push_str(more);
     }
     let near = |bytes, message| DiagnosticRelatedInformation {
-        location: Location::new(analysed.uri.clone(), place(bytes)),
+        location: Location::new(parsed.uri.clone(), place(bytes)),
         message,
     };
     let places = d.related.iter().map(|(bytes, text)| near(*bytes, text.clone()));

@@ -274,7 +274,7 @@ impl<'a> Settings<'a> {
     }
 
     /// At the start of a program, as the machine declares its codes. Without a machine, axes that the program never names stand still.
-    pub(crate) fn interpreter(&self) -> Interpreter<'static> {
+    pub fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         let unnamed_stand = self.machine.is_none();
         let same = codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand;

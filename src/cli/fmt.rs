@@ -13,9 +13,9 @@ use std::{
     io::Write,
     path::{Path, PathBuf},
 };
-use trunnion_check::config::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 use trunnion_files::Seen;
-use trunnion_layout::{Case, Layout, Numbers, Refusal, Renumbered, Spacing, Style, Zeros};
+use trunnion_ide::style;
+use trunnion_layout::{Layout, Numbers, Refusal, Renumbered};
 use trunnion_syntax::{LineIndex, Program, TextRange};
 
 /// `fmt`
@@ -263,28 +263,4 @@ fn finish(global: &Global, command: &Fmt, outcome: &Outcome) -> Result<Option<bo
         load::replace(&outcome.path, outcome.seen.as_ref(), &outcome.before, &outcome.after)?;
     }
     Ok((!outcome.refused).then_some(changed))
-}
-
-/// The style of `[format]`; missing keys have the default.
-fn style(settings: &FormatSettings) -> Style {
-    let default = Style::default();
-    Style {
-        case: settings.case.map_or(default.case, |case| match case {
-            FormatCase::Upper => Case::Upper,
-            FormatCase::Lower => Case::Lower,
-            FormatCase::Keep => Case::Keep,
-        }),
-        spacing: settings.spacing.map_or(default.spacing, |spacing| match spacing {
-            FormatSpacing::One => Spacing::One,
-            FormatSpacing::Packed => Spacing::Packed,
-        }),
-        zeros: settings.leading_zeros.map_or(default.zeros, |zeros| match zeros {
-            FormatZeros::Keep => Zeros::Keep,
-            FormatZeros::Drop => Zeros::Drop,
-            FormatZeros::Two => Zeros::Two,
-        }),
-        comment_column: settings.comment_column.or(default.comment_column),
-        indent: settings.indent.unwrap_or(default.indent),
-        blank_lines: settings.blank_lines.unwrap_or(default.blank_lines),
-    }
 }

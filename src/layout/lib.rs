@@ -16,7 +16,9 @@ mod text;
 mod words;
 
 pub use attempt::{Layout, Refusal, layout};
-pub use references::Obstacle;
-pub use renumber::{Numbers, Renumbered, renumber};
+pub use nesting::depths;
+pub use proof::first_difference;
+pub use references::{Call, Obstacle};
+pub use renumber::{BlockReference, BlockReferences, Numbers, Renumbered, block_references, renumber};
 pub use style::{Case, Spacing, Style, Zeros};
 pub use trunnion_same::Difference;

@@ -36,6 +36,12 @@ pub(crate) struct Nesting {
     open: Vec<(Kind, Box<[u8]>)>,
 }
 
+/// How deeply each block is nested: lines that open or close a body are as deep as the lines around it.
+pub fn depths(program: &Program) -> Vec<u8> {
+    let mut nesting = Nesting::default();
+    program.blocks().map(|block| nesting.depth(&block) as u8).collect()
+}
+
 impl Nesting {
     /// The depth of a block; what it opens applies from the next one.
     pub(crate) fn depth(&mut self, block: &Block<'_>) -> usize {

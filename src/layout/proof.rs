@@ -8,7 +8,7 @@ use trunnion_syntax::Program;
 const MOST_REPEATED: u64 = 1_000_000;
 
 /// The first difference between two runs; `None` where there is none. `renumbered`: block numbers, and texts that name them, may differ.
-pub(crate) fn first_difference(
+pub fn first_difference(
     before: &Program,
     after: &Program,
     dialect: &Dialect,

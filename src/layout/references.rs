@@ -16,6 +16,17 @@ pub(crate) struct Reference {
     pub(crate) of_caller: bool,
 }
 
+/// A program that is called by its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// The block that calls it.
+    pub block: BlockId,
+    /// Its number; -1 where that is not whole.
+    pub number: i64,
+    /// Bytes of the word that names it.
+    pub range: TextRange,
+}
+
 /// Why block numbers cannot be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
@@ -30,8 +41,8 @@ pub struct Obstacle {
 pub(crate) struct Found {
     pub(crate) references: Vec<Reference>,
     pub(crate) obstacles: Vec<Obstacle>,
-    /// Programs that are called by number, with the place.
-    pub(crate) calls: Vec<(BlockId, i64, TextRange)>,
+    /// Programs that are called by number.
+    pub(crate) calls: Vec<Call>,
 }
 
 /// Reads one block.
@@ -142,7 +153,11 @@ impl Reader<'_, '_> {
             && let Value::Number(number) = p.value
         {
             let number = number.to_integer().unwrap_or(-1);
-            self.found.calls.push((self.block.id(), number, p.range));
+            self.found.calls.push(Call {
+                block: self.block.id(),
+                number,
+                range: p.range,
+            });
         }
     }
 

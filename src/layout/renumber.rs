@@ -1,7 +1,7 @@
 //! New block numbers, with every jump, return and contour that names one changed too. Refused where a target is not known for
 //! certain. Proved by running both texts, and by checking that each reference points to the same block as before.
 use crate::proof::first_difference;
-use crate::references::{Found, Obstacle, Reference, begins_program, own_number, read};
+use crate::references::{Call, Found, Obstacle, Reference, begins_program, own_number, read};
 use std::collections::BTreeMap;
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
@@ -41,6 +41,47 @@ pub enum Renumbered {
     Refused(Obstacle),
     /// The run of the new text differs.
     Differs(Difference),
+}
+
+/// A place that names a block by its number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockReference {
+    /// Bytes of the number.
+    pub digits: TextRange,
+    /// The number.
+    pub number: i64,
+    /// The block with it, and the bytes of its digits there; `None` where it is not certain which one is meant.
+    pub target: Option<(BlockId, TextRange)>,
+}
+
+/// Everything in a file that names blocks and programs by number.
+#[derive(Clone, Debug, Default)]
+pub struct BlockReferences {
+    /// Jumps, returns, contours.
+    pub references: Vec<BlockReference>,
+    /// What keeps block numbers from being changed.
+    pub obstacles: Vec<Obstacle>,
+    /// Programs that are called by number.
+    pub calls: Vec<Call>,
+}
+
+/// Reads everything that names blocks and programs by number.
+pub fn block_references(program: &Program, dialect: &Dialect) -> BlockReferences {
+    let survey = Survey::new(program, dialect);
+    let one = |reference: &Reference| {
+        let target = survey.target(program, reference).ok();
+        BlockReference {
+            digits: reference.digits,
+            number: reference.number,
+            target: target.and_then(|block| Some((block, own_number(&program.block(block))?.0))),
+        }
+    };
+    let references = survey.found.references.iter().map(one).collect();
+    BlockReferences {
+        references,
+        obstacles: survey.found.obstacles,
+        calls: survey.found.calls,
+    }
 }
 
 /// One program of the file.
@@ -182,7 +223,7 @@ impl Survey {
             read(&block, dialect, &mut survey.found);
             let part = &mut survey.parts[at];
             part.calls
-                .extend(survey.found.calls[calls..].iter().map(|(_, number, _)| *number));
+                .extend(survey.found.calls[calls..].iter().map(|call| call.number));
             if let Some((_, Some(number))) = own_number(&block) {
                 part.blocks.entry(number).or_default().push(block.id());
             }
@@ -258,7 +299,7 @@ impl Survey {
             .found
             .calls
             .iter()
-            .map(|call| call.1)
+            .map(|call| call.number)
             .filter(|number| !inside(number))
             .collect();
         outside.sort_unstable();

@@ -28,6 +28,15 @@ impl Client {
     }
 
     pub(crate) fn start_with(options: &Value, encodings: &Value) -> Self {
+        Self::start_as(options, encodings, &Value::Null)
+    }
+
+    /// With a folder.
+    pub(crate) fn start_in(options: &Value, root: &str) -> Self {
+        Self::start_as(options, &json!(["utf-16"]), &json!(root))
+    }
+
+    fn start_as(options: &Value, encodings: &Value, root: &Value) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
             .arg("lsp")
             .stdin(Stdio::piped())
@@ -56,7 +65,7 @@ impl Client {
             last_status: None,
         };
         let capabilities = json!({ "general": { "positionEncodings": encodings } });
-        let params = json!({ "processId": null, "rootUri": null, "capabilities": capabilities,
+        let params = json!({ "processId": null, "rootUri": root, "capabilities": capabilities,
                              "initializationOptions": options });
         let answer = client.request("initialize", params);
         assert_eq!(
@@ -122,7 +131,13 @@ impl Client {
         match (message["method"].as_str(), message["id"].as_i64()) {
             (Some("textDocument/publishDiagnostics"), _) => {
                 // Its status follows; an older one says nothing about it.
-                self.last_status = None;
+                if self
+                    .last_status
+                    .as_ref()
+                    .is_some_and(|s| s["uri"] == message["params"]["uri"])
+                {
+                    self.last_status = None;
+                }
                 self.published.push(message["params"].clone());
             }
             (Some("trunnion/status"), _) => self.last_status = Some(message["params"].clone()),
@@ -142,21 +157,38 @@ impl Client {
         }
     }
 
-    /// The findings of a version of a document (older versions are passed over).
+    /// All findings of a version of a document. What the text alone says may be published before; the status follows the last ones.
     pub(crate) fn diagnostics(&mut self, uri: &str, version: i64) -> Vec<Value> {
+        loop {
+            let done = self
+                .last_status
+                .as_ref()
+                .is_some_and(|s| s["uri"] == uri && s["version"] == version);
+            let at = self
+                .published
+                .iter()
+                .rposition(|p| p["uri"] == uri && p["version"] == version);
+            if let (true, Some(at)) = (done, at) {
+                let found = self.published[at]["diagnostics"].as_array().expect("a list").clone();
+                self.published.drain(..=at);
+                return found;
+            }
+            self.pump();
+        }
+    }
+
+    /// The next findings published of a version of a document, whether they are all or not.
+    pub(crate) fn first_diagnostics(&mut self, uri: &str, version: i64) -> Vec<Value> {
         loop {
             let at = self
                 .published
                 .iter()
                 .position(|p| p["uri"] == uri && p["version"] == version);
             if let Some(at) = at {
-                let found = self.published[at]["diagnostics"].as_array().expect("a list").clone();
-                self.published.drain(..=at);
-                // The status follows its diagnostics.
-                while self.last_status.as_ref().is_none_or(|s| s["uri"] != uri) {
-                    self.pump();
-                }
-                return found;
+                return self.published.remove(at)["diagnostics"]
+                    .as_array()
+                    .expect("a list")
+                    .clone();
             }
             self.pump();
         }

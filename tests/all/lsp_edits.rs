@@ -1,6 +1,6 @@
 //! The language server under many edits and on large nests: its findings are those of another server that is shown
 //! the same text, and its memory stays within bounds. `TRUNNION_EDITS=10000` is the long form.
-use crate::lsp_client::Client;
+use crate::lsp_client::{Client, position};
 use crate::random::Random;
 use serde_json::json;
 
@@ -96,6 +96,79 @@ fn random_edits_leave_the_findings_of_a_cold_run() {
                 cold.finish();
             }
         }
+        client.finish();
+    }
+}
+
+/// Requests about one place; what they answer does not matter here.
+const ASKED: [&str; 16] = [
+    "hover",
+    "completion",
+    "definition",
+    "references",
+    "documentHighlight",
+    "prepareRename",
+    "signatureHelp",
+    "documentSymbol",
+    "foldingRange",
+    "codeLens",
+    "semanticTokens/full",
+    "documentLink",
+    "inlayHint",
+    "codeAction",
+    "diagnostic",
+    "formatting",
+];
+
+/// A request was cancelled, is about a version that is no longer there, or could not be done.
+const FAILURES: [i64; 3] = [-32800, -32801, -32803];
+
+#[test]
+fn random_requests_and_cancels_between_edits_are_all_answered() {
+    let all = edits() / PROGRAMS.len();
+    for (number, (name, program)) in PROGRAMS.iter().enumerate() {
+        let mut client = Client::start(&json!({}));
+        let mut random = Random(20_261_124 + number as u64);
+        let uri = format!("untitled:/{name}");
+        let mut text = (*program).to_owned();
+        client.open(&uri, &text);
+        let (mut version, mut asked) = (1, Vec::new());
+        for _ in 0..all {
+            let mut at = random.below(text.len() + 1);
+            while !text.is_char_boundary(at) {
+                at -= 1;
+            }
+            match random.below(4) {
+                0 => {
+                    let new = SCRAPS[random.below(SCRAPS.len())];
+                    version += 1;
+                    client.edit(&uri, version, &text, at..at, new);
+                    text.insert_str(at, new);
+                }
+                kind => {
+                    let place = position(&text, at);
+                    let options = json!({ "tabSize": 2, "insertSpaces": true });
+                    let params = json!({ "textDocument": { "uri": uri }, "position": place, "options": options,
+                        "range": { "start": place, "end": place }, "context": { "includeDeclaration": true, "diagnostics": [], "triggerKind": 1, "isRetrigger": false } });
+                    let method = format!("textDocument/{}", ASKED[random.below(ASKED.len())]);
+                    let id = client.send_request(&method, params);
+                    if kind == 1 {
+                        client.notify("$/cancelRequest", json!({ "id": id }));
+                    }
+                    asked.push((id, method));
+                }
+            }
+        }
+        for (id, method) in asked {
+            let answer = client.answer(id);
+            let code = answer["error"]["code"].as_i64();
+            assert!(code.is_none_or(|code| FAILURES.contains(&code)), "{method}: {answer}");
+        }
+        let found = client.diagnostics(&uri, version);
+        let mut cold = Client::start(&json!({}));
+        cold.open(&uri, &text);
+        assert_eq!(found, cold.diagnostics(&uri, 1), "{name}:\n{text}");
+        cold.finish();
         client.finish();
     }
 }

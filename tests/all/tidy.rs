@@ -30,6 +30,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-layout", 6),
     ("trunnion-plot", 6),
     ("trunnion-scene", 6),
+    ("trunnion-ide", 7),
     ("trunnion-files", 6),
     ("trunnion-rewrite", 7),
     ("trunnion-convert", 7),
@@ -57,6 +58,17 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     (
         "trunnion-convert",
         &["tokio", "clap", "miette", "tower-lsp", "trunnion-files"],
+    ),
+    (
+        "trunnion-ide",
+        &[
+            "tokio",
+            "clap",
+            "miette",
+            "tower-lsp",
+            "trunnion-files",
+            "trunnion-certify",
+        ],
     ),
     ("trunnion-lsp", &["clap", "miette"]),
 ];

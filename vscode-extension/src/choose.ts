@@ -1,4 +1,5 @@
-// The two questions the extension asks: which machine, which dialect. The answers become settings.
+// The two questions the extension asks: which machine, which dialect. The machine is written into the folder's trunnion.toml, where the
+// command line finds it too; the dialect becomes a setting.
 import { execFile } from 'node:child_process';
 import { relative } from 'node:path';
 import { promisify } from 'node:util';
@@ -13,21 +14,73 @@ const FILE = '\u0000file';
 
 /** Asks for the machine: those `trunnion machine list` knows, a file, or none. */
 export async function chooseMachine(program: string): Promise<void> {
-  const current = vscode.workspace.getConfiguration('trunnion').get<string>('machine', '');
+  const current = vscode.workspace.getConfiguration('trunnion').get<string>('machine', '') || ((await written()) ?? '');
   const choices: Choice[] = [
     ...(await machines(program)),
     { label: '$(file) From a machine file...', value: FILE },
-    { label: '$(circle-slash) No machine', description: 'use the machine in trunnion.toml, if any', value: '' },
+    { label: '$(circle-slash) No machine', description: 'nothing that needs a machine is checked', value: '' },
   ];
   const picked = await ask(choices, current, 'The machine that runs the program');
   if (picked === FILE) {
     const files = await vscode.window.showOpenDialog({ title: 'Machine file', filters: { 'Machine file': ['toml'] } });
     const path = files?.[0]?.fsPath;
     const inside = path !== undefined && firstFolder() !== undefined ? relative(firstFolder() ?? '', path) : path;
-    await save('machine', inside === undefined || inside.startsWith('..') ? path : inside);
+    await use(inside === undefined || inside.startsWith('..') ? path : inside);
   } else {
-    await save('machine', picked);
+    await use(picked);
   }
+}
+
+/** The folder's trunnion.toml, if a folder is open. */
+function settingsFile(): vscode.Uri | undefined {
+  const folder = firstFolder();
+  return folder === undefined ? undefined : vscode.Uri.joinPath(vscode.Uri.file(folder), 'trunnion.toml');
+}
+
+async function read(file: vscode.Uri): Promise<string | undefined> {
+  const open = vscode.workspace.textDocuments.find((document) => document.uri.toString() === file.toString());
+  if (open) {
+    return open.getText();
+  }
+  return vscode.workspace.fs.readFile(file).then((bytes) => new TextDecoder().decode(bytes), () => undefined);
+}
+
+/** The line of the top table that names the machine. */
+const MACHINE_LINE = /^[ \t]*machine[ \t]*=[ \t]*(?:"([^"\n]*)"|'([^'\n]*)')[^\n]*\r?\n?/m;
+
+/** The text before the first table: only there `machine` is a key of its own. */
+function top(text: string): string {
+  const table = /^[ \t]*\[/m.exec(text);
+  return table ? text.slice(0, table.index) : text;
+}
+
+async function written(): Promise<string | undefined> {
+  const file = settingsFile();
+  const text = file && (await read(file));
+  const found = text === undefined ? null : MACHINE_LINE.exec(top(text));
+  return found?.[1] ?? found?.[2];
+}
+
+/** Text of trunnion.toml with that machine; everything else stays as it is. */
+export function withMachine(text: string, machine: string): string {
+  const line = machine === '' ? '' : `machine = ${JSON.stringify(machine)}\n`;
+  const head = top(text);
+  const old = MACHINE_LINE.exec(head);
+  return old ? text.slice(0, old.index) + line + text.slice(old.index + old[0].length) : line + text;
+}
+
+/** Writes the machine into the folder's trunnion.toml and clears the setting that would override it; without a folder, into the setting. */
+async function use(machine: string | undefined): Promise<void> {
+  const file = settingsFile();
+  if (machine === undefined || file === undefined) {
+    return save('machine', machine);
+  }
+  const text = (await read(file)) ?? '';
+  const changed = withMachine(text, machine);
+  if (changed !== text) {
+    await vscode.workspace.fs.writeFile(file, new TextEncoder().encode(changed));
+  }
+  await vscode.workspace.getConfiguration('trunnion').update('machine', undefined, vscode.ConfigurationTarget.Workspace);
 }
 
 /** Asks for the dialect, among those the setting may take. */

@@ -47,6 +47,11 @@ export async function activate(context: vscode.ExtensionContext): Promise<Api> {
     vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
     vscode.commands.registerCommand('trunnion.showBackplot', () => backplot.open()),
     vscode.commands.registerCommand('trunnion.compareBackplot', () => backplot.compare()),
+    // what a lens does: it shows the block with which the operation begins
+    vscode.commands.registerCommand('trunnion.showOperation', async (uri: string, line: number) => {
+      const start = new vscode.Position(line, 0);
+      await vscode.window.showTextDocument(vscode.Uri.parse(uri), { selection: new vscode.Range(start, start) });
+    }),
     vscode.commands.registerCommand('trunnion.checkFile', withProgram(checkActiveFile)),
     vscode.tasks.registerTaskProvider('trunnion', taskProvider(() => {
       const found = findProgram(context);
@@ -84,8 +89,19 @@ async function start({ context, status, output, configs, backplot }: Surrounding
     'Trunnion',
     { command: found.program, args: ['lsp'], transport: TransportKind.stdio, options: folder ? { cwd: folder } : {} },
     {
-      documentSelector: LANGUAGES.flatMap((language) => ['file', 'untitled'].map((scheme) => ({ language, scheme }))),
-      initializationOptions: { machine: settings.get('machine'), dialect: settings.get('dialect'), tool: settings.get('tool') },
+      documentSelector: [
+        ...LANGUAGES.flatMap((language) => ['file', 'untitled'].map((scheme) => ({ language, scheme }))),
+        { scheme: 'file', pattern: '**/trunnion.toml' },
+      ],
+      initializationOptions: {
+        machine: settings.get('machine'),
+        dialect: settings.get('dialect'),
+        tool: settings.get('tool'),
+        hints: settings.get('hints'),
+        codeLens: settings.get('codeLens'),
+      },
+      // the server sends the findings of each version by itself; asked for too, each would be shown twice
+      middleware: { provideDiagnostics: () => undefined },
       synchronize: { configurationSection: 'trunnion', fileEvents: configs },
       outputChannel: output,
       revealOutputChannelOn: RevealOutputChannelOn.Never,

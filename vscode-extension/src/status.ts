@@ -12,6 +12,12 @@ export interface Status {
   errors: number;
   warnings: number;
   unknown: number;
+  version: number;
+  /** Blocks with content, and those that were run. */
+  blocks: number;
+  blocks_run: number;
+  /** Lowest and highest time of the program, s. */
+  cycle_time_s: [number, number] | null;
 }
 
 const ICONS = { pass: '$(pass)', fail: '$(error)', unknown: '$(question)' } as const;
@@ -22,7 +28,7 @@ export class StatusItem implements vscode.Disposable {
   private problem: string | undefined;
 
   constructor() {
-    this.item.name = 'Trunnion: machine and dialect';
+    this.item.name = 'Trunnion: machine, dialect, verdict, coverage';
     this.item.command = 'trunnion.chooseMachine';
   }
 
@@ -54,7 +60,8 @@ export class StatusItem implements vscode.Disposable {
     const machine = status ? status.machine : settings.get<string>('machine', '');
     const dialect = status ? status.dialect : settings.get<string>('dialect', '');
     const icon = this.problem !== undefined ? '$(warning)' : status ? ICONS[status.verdict] : '$(circle-outline)';
-    this.item.text = `${icon} ${machine || 'no machine'}${dialect ? ` · ${dialect}` : ''}`;
+    const parts = [machine || 'no machine', dialect, status?.verdict, status && coverage(status)];
+    this.item.text = `${icon} ${parts.filter(Boolean).join(' · ')}`;
     this.item.tooltip = this.problem ?? tooltip(status);
     this.item.show();
   }
@@ -64,10 +71,27 @@ export class StatusItem implements vscode.Disposable {
   }
 }
 
+/** Which part of the program was run; nothing to say where it is all of it. */
+function coverage({ blocks, blocks_run }: Status): string {
+  return blocks_run < blocks ? `${Math.floor((100 * blocks_run) / blocks)} % run` : '';
+}
+
+function time([low, high]: [number, number]): string {
+  const words = (seconds: number) => (seconds < 60 ? `${seconds.toFixed(1)} s` : `${Math.floor(seconds / 60)} min ${Math.floor(seconds % 60)} s`);
+  return low === high ? words(low) : `${words(low)} to ${words(high)}`;
+}
+
 function tooltip(status: Status | undefined): string {
   if (!status) {
     return 'Trunnion: not checked yet. Click to choose the machine.';
   }
   const counts = `${status.errors} errors, ${status.warnings} warnings, ${status.unknown} unknown`;
-  return `Verdict: ${status.verdict} (${counts})\n${status.reason}\nClick to choose the machine.`;
+  const lines = [
+    `Verdict: ${status.verdict} (${counts})`,
+    `${status.blocks_run} of ${status.blocks} blocks run`,
+    ...(status.cycle_time_s ? [`Time: ${time(status.cycle_time_s)}`] : []),
+    status.reason,
+    'Click to choose the machine.',
+  ];
+  return lines.join('\n');
 }

@@ -30,6 +30,11 @@ test('no file extension belongs to two languages', () => {
   assert.deepEqual([...new Set(all)], all);
 });
 
+test('each thing that is shown in addition can be switched off', () => {
+  const { properties } = contributes.configuration;
+  for (const name of ['hints.values', 'hints.modal', 'codeLens']) assert.equal(properties[`trunnion.${name}`].type, 'boolean', name);
+});
+
 test('every file the manifest names exists', () => {
   const named = [manifest.icon, ...contributes.grammars.map((grammar) => grammar.path), ...contributes.languages.map((language) => language.configuration)];
   for (const path of named) assert.ok(existsSync(here(path)), path);

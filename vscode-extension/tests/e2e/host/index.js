@@ -87,6 +87,22 @@ const tests = {
     }
     await until('the flip of the original', () => flips(document.uri).length > 0);
   },
+  async 'the outline, definitions, completion and colours come from the server'() {
+    const content = '(trunnion: dialect fanuc-30i)\nO1\nT1 M6 (DRILL)\n#100=1\nG1 X#100 F100.\nGOTO20\nN20 M30\n';
+    const { uri } = await vscode.workspace.openTextDocument({ language: 'gcode', content });
+    const ask = (command, ...rest) => vscode.commands.executeCommand(command, uri, ...rest);
+    const names = (list) => list.flatMap((one) => [one.name, ...names(one.children ?? [])]);
+    const outline = await until('outline', async () => names((await ask('vscode.executeDocumentSymbolProvider')) ?? []));
+    assert.deepEqual(outline, ['O1', 'T1', 'N20']);
+    const [target] = await ask('vscode.executeDefinitionProvider', new vscode.Position(5, 5));
+    assert.equal(target.range.start.line, 6);
+    const edit = await ask('vscode.executeDocumentRenameProvider', new vscode.Position(3, 2), '101');
+    assert.equal(edit.get(uri).length, 2);
+    const { items } = await ask('vscode.executeCompletionItemProvider', new vscode.Position(4, 2));
+    assert.ok(items.some((item) => item.label === 'G1'));
+    const tokens = await ask('vscode.provideDocumentRangeSemanticTokens', new vscode.Range(0, 0, 5, 0));
+    assert.ok(tokens.data.length > 0);
+  },
   async 'words end where the next address begins'() {
     const document = await vscode.workspace.openTextDocument({ language: 'gcode', content: 'N10G1X10Y-2.5 #<_a b>=#101' });
     const words = [1, 4, 6, 10, 16, 24].map((at) => document.getText(document.getWordRangeAtPosition(new vscode.Position(0, at))));

@@ -1,0 +1,47 @@
+//! The state of a document for a status bar.
+use crate::{analysis::Analysed, outbox::Status};
+use trunnion_check::{Severity, Verdict};
+
+/// Verdict, machine, dialect, coverage and time of an analysis.
+pub(crate) fn status(analysed: &Analysed) -> Status {
+    let parsed = &analysed.parsed;
+    let (uri, version) = (parsed.uri.clone(), parsed.version);
+    match (&parsed.outcome, &analysed.session) {
+        (Ok(source), Some(session)) => {
+            let report = &session.report;
+            let verdict = match report.verdict(Severity::Error) {
+                Verdict::Pass => "pass",
+                Verdict::Fail => "fail",
+                Verdict::Unknown => "unknown",
+            };
+            Status {
+                uri,
+                machine: source.resolved.machine.as_ref().map(|m| m.id.clone()),
+                dialect: Some(source.resolved.dialect.name.clone()),
+                reason: source.resolved.dialect_reason.clone(),
+                verdict: verdict.into(),
+                errors: report.summary.errors,
+                warnings: report.summary.warnings,
+                unknown: report.summary.unknown,
+                version,
+                blocks: report.coverage.blocks,
+                blocks_run: report.coverage.blocks_run,
+                cycle_time_s: report.cycle_time_s,
+            }
+        }
+        (outcome, _) => Status {
+            uri,
+            machine: None,
+            dialect: None,
+            reason: outcome.as_ref().err().map(ToString::to_string).unwrap_or_default(),
+            verdict: "unknown".into(),
+            errors: 1,
+            warnings: 0,
+            unknown: 0,
+            version,
+            blocks: 0,
+            blocks_run: 0,
+            cycle_time_s: None,
+        },
+    }
+}

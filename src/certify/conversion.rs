@@ -8,6 +8,7 @@ mod ask_apt;
 mod ask_code;
 mod ask_iso;
 mod axis;
+mod certificate;
 mod claim;
 mod effects;
 mod known;
@@ -20,6 +21,9 @@ mod words;
 
 pub use crate::curve::{great_circle, joint_bend};
 pub use ask::{Ask, Asked, Coolant, Own, Why, asked_in};
+pub use certificate::{
+    CONVERSION_SCHEMA, Conversion, ConversionCertificate, Meaning, OwnCode, Parts, Side, Told, certify_conversion,
+};
 pub use claim::{ConversionClaim, ConversionProof, Part};
 pub use effects::Terms;
 pub use known::Known;

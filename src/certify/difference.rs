@@ -20,7 +20,8 @@ pub(crate) fn first_difference(given: &Certificate, fresh: &Certificate) -> Opti
     Some(found.unwrap_or_else(|| "the certificate differs from the proof".into()))
 }
 
-fn differ(given: &Value, fresh: &Value, path: &str) -> Option<String> {
+/// The first place in which two values differ, with both.
+pub(crate) fn differ(given: &Value, fresh: &Value, path: &str) -> Option<String> {
     match (given, fresh) {
         (Value::Object(a), Value::Object(b)) => a.iter().find_map(|(key, value)| {
             let path = if path.is_empty() {

@@ -2,13 +2,13 @@
 //! only findings and one modal state are kept.
 use crate::apart;
 use crate::both;
-use crate::coverage;
 use crate::event;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
 use crate::unreadable::is_utf16;
 use crate::view::Overview;
 use crate::{Report, Settings};
+use crate::{coverage, unread};
 use core::ops::ControlFlow;
 use trunnion_dialect::Foreign;
 use trunnion_interp::{Interpreter, directives};
@@ -99,6 +99,7 @@ fn with_both(
     event::group(program, &mut report);
     report.coverage.complete(program, settings.dialect);
     coverage::tell(program, settings, &mut report);
+    unread::weigh(program, &mut report);
     Some(report)
 }
 
@@ -251,26 +252,22 @@ mod tests {
     #[test]
     fn cycle_time_counts_from_the_first_known_position() {
         let text = "G0 X0 Y0 Z0\nG1 X100 F600\nM30\n";
-        assert_eq!(
-            report(text, &[]).cycle_time_s,
-            None,
-            "mill-3axis declares no accelerations"
-        );
-        let mut machine = trunnion_machine::builtin("mill-3axis")
-            .expect("mill-3axis is built in")
-            .clone();
-        for axis in &mut machine.axes {
-            axis.max_acceleration = Some(1000.0);
-        }
-        let settings = Settings {
-            machine: Some(&machine),
-            ..settings(&[])
+        let mut machine = trunnion_machine::builtin("mill-3axis").expect("embedded").clone();
+        let mut time = |acceleration, jerk| {
+            for axis in &mut machine.axes {
+                (axis.max_acceleration, axis.extra.max_jerk) = (acceleration, jerk);
+            }
+            let settings = Settings {
+                machine: Some(&machine),
+                ..settings(&[])
+            };
+            check(&parse(text.as_bytes().to_vec(), settings.dialect.lex), &settings).cycle_time_s
         };
-        let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
-        let [low, high] = check(&program, &settings).cycle_time_s.expect("all is known");
-        assert!((low - 10.0).abs() < 1e-9, "{low}");
-        // 10 mm/s in 10 ms, twice, half of it lost
-        assert!((high - 10.01).abs() < 1e-9, "{high}");
+        assert_eq!(time(None, None), None);
+        let [low, high] = time(Some(1000.0), Some(10_000.0)).expect("known");
+        // at 10 mm/s; half of 10 ms is lost at each end, or with the jerk half of 2 sqrt(v/j)
+        assert!((low - 10.01).abs() < 1e-9, "{low}");
+        assert!((high - 10.0 - 2.0 * 0.001_f64.sqrt()).abs() < 1e-9, "{high}");
     }
 
     #[test]

@@ -5,10 +5,11 @@ mod fix;
 mod format;
 #[cfg(test)]
 mod message_tests;
+mod nose;
 mod tool;
 mod variables;
 
-pub use fix::{FixCost, FixPoint, FixSettings};
+pub use fix::{FixCost, FixPoint, FixSettings, FixSource};
 pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
 

@@ -4,11 +4,11 @@ use crate::coverage::Tally;
 use crate::cuts::{Cuts, report_still};
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
+use crate::pace::Pace;
 use crate::report::Summary;
 use crate::sink::{Active, Reporter, active};
 use crate::start::Start;
 use crate::suppress::Suppressions;
-use crate::time::CycleTime;
 use crate::told::text_rule_reported;
 use crate::trail::{Trail, axes_chord};
 use crate::view::{InForce, LegView, MotionView, Overview};
@@ -45,7 +45,7 @@ pub(crate) struct Pass<'a> {
     /// Sign of the last posture off the pole.
     posture: i8,
     trail: Trail,
-    time: CycleTime,
+    pace: Option<Pace<'a>>,
     summary: Summary,
     visited: Visited,
     /// The block that ran last.
@@ -94,7 +94,9 @@ impl<'a> Pass<'a> {
             leg: None,
             posture: 0,
             trail: Trail::default(),
-            time: CycleTime::default(),
+            pace: settings
+                .judged_machine()
+                .map(|machine| Pace::new(machine, settings.dialect)),
             summary: Summary::default(),
             visited: Visited::new(program.block_count()),
             last_ran: None,
@@ -182,21 +184,18 @@ impl<'a> Pass<'a> {
         self.trail.add(machine, leg, chord);
         let possible = possible_of_leg(&looker.look(leg, self.posture, &self.trail, chord));
         let awake = self.legs.awake(possible);
-        // for most blocks no rule has anything to look at
-        if !awake.is_empty() || self.time.is_known() || cfg!(debug_assertions) {
-            let view = LegView::new((machine, self.dialect), leg, self.posture, &self.trail);
-            let (block, number) = (leg.motion.block, self.summary.motions);
-            for rule in awake {
-                self.reporter.enter(rule, Some(block), number);
-                rule.wake.read_leg(&view, &mut self.reporter);
-                self.reporter.leave();
-            }
-            self.legs
-                .assert_silent(&mut self.reporter, (block, number), |wake, out| {
-                    wake.read_leg(&view, out);
-                });
-            self.time.add(&view);
+        let view = LegView::new((machine, self.dialect), leg, self.posture, &self.trail);
+        let (block, number) = (leg.motion.block, self.summary.motions);
+        for rule in awake {
+            self.reporter.enter(rule, Some(block), number);
+            rule.wake.read_leg(&view, &mut self.reporter);
+            self.reporter.leave();
         }
+        self.legs
+            .assert_silent(&mut self.reporter, (block, number), |wake, out| {
+                wake.read_leg(&view, out);
+            });
+        self.pace.iter_mut().for_each(|pace| pace.add(&view));
         match &leg.end {
             Ok(end) if end.branch != 0 => self.posture = end.branch,
             Ok(_) => {}
@@ -218,7 +217,7 @@ impl<'a> Pass<'a> {
 
     /// What was found; `interpreter` is at its end and knows the call chains.
     pub(crate) fn finish(mut self, interpreter: &Interpreter<'_>) -> Report {
-        let cycle_time_s = self.follower.as_ref().and_then(|_| self.time.interval());
+        let cycle_time_s = self.pace.as_mut().and_then(Pace::finish);
         let was_checked = |name: &str| self.was_checked(name);
         let ending = Ending {
             unused: self.suppressions.unused(&was_checked),
@@ -241,6 +240,9 @@ impl<'a> Pass<'a> {
         if let Some(follower) = &self.follower {
             reporter.word_worst(follower.machine(), &self.legs.rules);
         }
+        self.pace
+            .iter()
+            .for_each(|pace| pace.report(&self.legs.rules, &mut reporter));
         if let Some(datum) = &self.datum {
             for overrun in datum.overruns() {
                 reporter.origin(false, overrun.chain);

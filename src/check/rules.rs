@@ -6,6 +6,7 @@ mod apt_unknown_record;
 mod apt_vector_missing;
 mod arc_centre_missing;
 mod arc_radius_mismatch;
+mod axis_acceleration;
 mod axis_limit;
 mod axis_overspeed;
 mod bad_expression;
@@ -18,8 +19,10 @@ mod broken_directive;
 mod broken_structure;
 mod canned_cycle;
 mod clamped_axis_moves;
+mod corner_error;
 mod cutter_compensation;
 mod decimal_comma;
+mod dwell_mark;
 mod empty_program;
 mod endless_loop;
 mod excess_linear_travel;
@@ -27,6 +30,8 @@ mod excess_rapid_travel;
 mod excess_rotary_travel;
 mod fast_pole;
 mod feed_drop;
+mod feed_mode;
+mod feed_oscillation;
 mod machine_not_used;
 mod machine_unset;
 mod missing_axis;
@@ -54,6 +59,7 @@ mod program_alarm;
 mod rapid_through_obstacle;
 mod rejected_block;
 mod repeated_word;
+mod short_block_time;
 mod spindle_off_cut;
 mod spindle_unset;
 mod swept_deviation;
@@ -62,6 +68,7 @@ mod tcp_state;
 mod tilted_plane_misaligned;
 mod tool_length_unset;
 mod tool_vector_not_unit;
+mod unbracketed_comparison;
 mod unclosed_comment;
 mod undefined_variable;
 mod units_unset;
@@ -100,6 +107,7 @@ static RULES: &[&Rule] = table![
     apt_vector_missing,
     arc_centre_missing,
     arc_radius_mismatch,
+    axis_acceleration,
     axis_limit,
     axis_overspeed,
     bad_expression,
@@ -112,8 +120,10 @@ static RULES: &[&Rule] = table![
     broken_structure,
     canned_cycle,
     clamped_axis_moves,
+    corner_error,
     cutter_compensation,
     decimal_comma,
+    dwell_mark,
     empty_program,
     endless_loop,
     excess_linear_travel,
@@ -121,6 +131,8 @@ static RULES: &[&Rule] = table![
     excess_rotary_travel,
     fast_pole,
     feed_drop,
+    feed_mode,
+    feed_oscillation,
     machine_not_used,
     machine_unset,
     missing_axis,
@@ -148,6 +160,7 @@ static RULES: &[&Rule] = table![
     rapid_through_obstacle,
     rejected_block,
     repeated_word,
+    short_block_time,
     spindle_off_cut,
     spindle_unset,
     swept_deviation,
@@ -156,6 +169,7 @@ static RULES: &[&Rule] = table![
     tilted_plane_misaligned,
     tool_length_unset,
     tool_vector_not_unit,
+    unbracketed_comparison,
     unclosed_comment,
     undefined_variable,
     units_unset,

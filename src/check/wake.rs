@@ -9,10 +9,12 @@ use crate::facts::{
 };
 use crate::finding::Draft;
 use crate::look::Look;
+use crate::pace::{PaceKind, Place as PacePlace};
 use crate::sink::Reporter;
 use crate::view::{LegView, MotionView, Overview};
 use trunnion_dialect::Foreign;
 use trunnion_interp::{Fault, FaultKind, Refusal};
+use trunnion_machine::Machine;
 use trunnion_syntax::{SyntaxError, TextRange};
 
 /// What is known when the run has come to its end.
@@ -49,6 +51,8 @@ macro_rules! wakes {
             Open(fn(&Open, &mut Reporter<'_>)),
             /// On a machine: each axis that leaves its travel wherever an undeclared zero is, at the end.
             Overrun(fn(&Overrun, &mut Reporter<'_>)),
+            /// On a machine: each place of this kind at which the planned speed tells something, at the end.
+            Pace(PaceKind, fn(&PacePlace, &Machine, &mut Reporter<'_>)),
             /// Each stretch of feed motions in which the spindle does not turn, at the end.
             Still(fn(&StillCuts, &mut Reporter<'_>)),
             /// What is known at the end, once.
@@ -68,7 +72,7 @@ macro_rules! wakes {
                     Self::Unreadable(_) | Self::Foreign(_) | Self::Text(_) | Self::End(_) => "text",
                     Self::Program(_) | Self::Port(_) | Self::Coverage(_) => "program",
                     Self::Fault(_) | Self::Refused(..) | Self::Still(_) $(| Self::$motion(_))* => "motion",
-                    Self::Open(_) | Self::Overrun(_) => "machine",
+                    Self::Open(_) | Self::Overrun(_) | Self::Pace(..) => "machine",
                     $(Self::$leg(_))|* => "machine",
                 }
             }

@@ -7,7 +7,9 @@ pub(crate) use check::{Check, CheckFormat};
 pub(crate) use fix::Fix;
 pub(crate) use people::{Completions, Init, Report, Schema};
 
-use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
+use super::{
+    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, servo::Servo, stats::Stats, surface::Surface,
+};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
@@ -163,6 +165,8 @@ pub(crate) enum Command {
     Plot(Plot),
     /// Measure how far the real tool path deviates from a required surface.
     Surface(Surface),
+    /// Say how far the servo loops cut a corner of a program: closed form, simulated, with and without a corner controller.
+    Servo(Servo),
     /// Write test pieces with known answers, as cutter locations or programs, correct or with a deliberate fault.
     Sample(Box<Sample>),
     /// Print the tokens or the tree of a program.
@@ -226,9 +230,12 @@ pub(crate) struct Certify {
     /// What is claimed: that all is the same, or the geometry of the tool path alone.
     #[arg(long, value_enum, default_value = "all")]
     pub(crate) claim: ClaimOf,
-    /// The certificate to re-check; without it the same tool path is proved or refuted.
+    /// The certificate to re-check, of `fix` or of `convert`; without it the same tool path is proved or refuted.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) certificate: Option<PathBuf>,
+    /// For a certificate of `convert`: the machine that AFTER is for. Default: --machine.
+    #[arg(long, value_name = "NAME|FILE", requires = "certificate")]
+    pub(crate) to_machine: Option<String>,
     /// Without a certificate: how far the tip may be off, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.001)]
     pub(crate) tolerance_mm: f64,

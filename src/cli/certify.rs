@@ -8,15 +8,24 @@ use super::{
 };
 use crate::cli::out::Out;
 use std::fmt::Write;
+use trunnion_certify::conversion::{Conversion, ConversionCertificate};
 use trunnion_certify::{Certificate, Chain, Claim, Outcome, certify_with_libraries};
 use trunnion_machine::Machine;
 use trunnion_same::{Difference, Verdict};
+use trunnion_workspace::find_machine;
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.before)?;
-    let machine = loaded.machine_or_fail("certify")?;
     let (after, _) = load::read_program(global, &command.after)?;
+    if let Some(file) = &command.certificate {
+        let text = trunnion_files::read_text(file)?;
+        if ConversionCertificate::is_one(&text) {
+            let certificate = ConversionCertificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
+            return conversion(command, &certificate, &loaded, &after);
+        }
+    }
+    let machine = loaded.machine_or_fail("certify")?;
     let second = if load::is_stdin(&command.after) {
         None
     } else {
@@ -78,6 +87,45 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         Out::standard().text(&format!("{line}\n"));
     }
     Ok(done)
+}
+
+/// Checks the certificate of a conversion again.
+fn conversion(
+    command: &Certify,
+    certificate: &ConversionCertificate,
+    loaded: &load::Loaded,
+    after: &[u8],
+) -> Result<Done, Failure> {
+    let found = command
+        .to_machine
+        .as_ref()
+        .map(|name| find_machine(name, None))
+        .transpose()?;
+    let machine = loaded.resolved.machine.as_ref();
+    let name = &certificate.after.dialect.name;
+    let Some(dialect) = trunnion_dialect::builtin(name) else {
+        let hint = trunnion_check::or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+        return Err(Failure::new(format!(
+            "the certificate names an unknown dialect `{name}`{hint}"
+        )));
+    };
+    // CL data are for no machine
+    let target = found.as_ref().map(|found| &found.machine).or(machine);
+    let target = target.filter(|_| certificate.after.machine.is_some());
+    let outcome = certificate.recheck(&Conversion {
+        texts: [loaded.program.source(), after],
+        dialects: [loaded.resolved.dialect, dialect],
+        machines: [machine, target],
+        setup: &loaded.resolved.setup,
+    });
+    let mut out = Out::standard();
+    match outcome {
+        Ok(fresh) => {
+            out.text(&format!("PROVED {}\n", fresh.summary()));
+            Ok(Done::Clean)
+        }
+        Err(outcome) => Ok(say(command, &[], outcome, |_, _| None)),
+    }
 }
 
 /// Prints the verdict. `shared`: how far two programs agree that are not proved the same, where that is asked.

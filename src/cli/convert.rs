@@ -8,7 +8,8 @@ use super::{
 use clap::ValueEnum;
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use trunnion_certify::conversion::Assume;
+use trunnion_certify::Outcome;
+use trunnion_certify::conversion::{Assume, Conversion, certify_conversion};
 use trunnion_convert::{
     BUILTIN_POSTS, Converted, Options, OrientationWords, Post, Source, Target, Units, builtin_post, convert, load_post,
 };
@@ -71,6 +72,9 @@ pub(crate) struct Convert {
     /// Write the program to this file. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Write the certificate (JSON) to this file: `certify BEFORE AFTER --certificate FILE.json` checks it again.
+    #[arg(long, value_name = "FILE.json", conflicts_with = "insert_is_remark")]
+    certificate: Option<PathBuf>,
     /// Print the program as text, or one JSON document with program and proof.
     #[arg(long, value_enum, default_value = "text")]
     format: ListFormat,
@@ -106,6 +110,11 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| outputs.output("-o", path))
         .transpose()?;
+    let certificate = command
+        .certificate
+        .as_ref()
+        .map(|path| outputs.output("--certificate", path))
+        .transpose()?;
     let source_machine = loaded.resolved.machine.as_ref();
     let target_machine = match &command.to_machine {
         Some(name) => Some(find_machine(name, None)?.machine),
@@ -140,11 +149,19 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
             return Ok(Done::Found);
         }
     };
+    let certified = certificate
+        .is_some()
+        .then(|| certified(&loaded, target_machine.as_ref(), &converted))
+        .transpose()?;
     let text = match command.format {
         ListFormat::Text => converted.text.clone(),
         ListFormat::Json => document(&loaded, target_machine.as_ref(), &converted),
     };
     load::put(output.as_ref(), text.as_bytes())?;
+    // after the program: a certificate next to an old program names the digest that does not fit
+    if let (Some(target), Some(json)) = (&certificate, certified) {
+        target.write(json.as_bytes(), None)?;
+    }
     for line in summary(&loaded.name, &converted) {
         remark(global.quiet, &line);
     }
@@ -152,6 +169,25 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         remark(global.quiet, &format!("{}: {line}", loaded.name));
     }
     Ok(Done::Clean)
+}
+
+/// The certificate: both texts are read again, and the proof is made again without the converter.
+fn certified(loaded: &Loaded, target: Option<&Machine>, converted: &Converted) -> Result<String, Failure> {
+    let is_apt = converted.dialect.lex.format == trunnion_syntax::Format::Apt;
+    let conversion = Conversion {
+        texts: [loaded.program.source(), converted.text.as_bytes()],
+        dialects: [loaded.resolved.dialect, converted.dialect],
+        // CL data are for no machine
+        machines: [loaded.resolved.machine.as_ref(), target.filter(|_| !is_apt)],
+        setup: &loaded.resolved.setup,
+    };
+    certify_conversion(&conversion, &converted.told, &converted.claim)
+        .map(|certificate| certificate.to_json())
+        .map_err(|outcome| match outcome {
+            Outcome::Refuted(witness) => Failure::new(format!("the conversion is not certified: {witness}")),
+            Outcome::Unknown(gap) => Failure::new(format!("the conversion is not certified: {gap}")),
+            Outcome::Proved(_) => Failure::new("the conversion is not certified"),
+        })
 }
 
 fn options(command: &Convert) -> Result<Options, Failure> {

@@ -8,6 +8,7 @@ use super::{
     load::{self, Loaded},
 };
 use crate::cli::out::Out;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use report::{Outcome, Step};
 use similar::TextDiff;
 use std::{io::IsTerminal, path::PathBuf};
@@ -205,7 +206,9 @@ fn apply_all(
         steps: Vec::new(),
     };
     let mut program = loaded.program.clone();
+    let bar = progress(global.quiet, chosen.len());
     for rewrite in chosen {
+        bar.set_message(rewrite.name);
         let index = LineIndex::new(program.source());
         let line = |at: u32| index.line_column(program.source(), at).0;
         let touches = |place: &Place| {
@@ -218,7 +221,7 @@ fn apply_all(
                 .is_none_or(|(first, last)| line(ends.0) <= last && first <= line(ends.1))
         };
         let attempt = attempt_at(rewrite, &program, &settings, options, touches);
-        say(global.quiet, &loaded.name, rewrite.name, &attempt);
+        bar.suspend(|| say(global.quiet, &loaded.name, rewrite.name, &attempt));
         let mut gained = Vec::new();
         if let (Some(proved), Some(machine)) = (&attempt.proved, settings.machine) {
             let after = parse(proved.after.clone(), loaded.resolved.dialect.lex);
@@ -234,8 +237,23 @@ fn apply_all(
             attempt,
             gains: gained,
         });
+        bar.inc(1);
     }
+    bar.finish_and_clear();
     outcome
+}
+
+/// Which rewrite is at work, on a terminal.
+fn progress(quiet: bool, rewrites: usize) -> ProgressBar {
+    if quiet || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::with_draw_target(Some(rewrites as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {pos}/{len} rewrites, {elapsed}: {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    bar
 }
 
 /// What became of a rewrite, for people.

@@ -21,6 +21,7 @@ mod render;
 mod report;
 mod sample;
 mod schema;
+mod servo;
 mod shell;
 mod short;
 mod stats;
@@ -59,6 +60,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Machine(command) => machine::run(global, command),
         Command::Plot(command) => plot::run(global, command),
         Command::Surface(command) => surface::run(global, command),
+        Command::Servo(command) => servo::run(global, command),
         Command::Sample(command) => sample::run(global, command),
         Command::Report(command) => report::run(global, command),
         Command::Init(command) => init::run(global, command),

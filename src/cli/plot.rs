@@ -7,11 +7,15 @@ use super::{
     args::Global,
     failure::{Failure, remark, shown},
     load::{self, Loaded},
+    servo::{ServoOptions, corner},
 };
 use std::path::{Path, PathBuf};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Machine, Space, ToolBody};
-use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, feed, joints, path, route};
+use trunnion_plot::{
+    Along, Header, PlotError, Record, ServoSpot, axis_plane, deviation, feed, joints, path, route,
+    servo as servo_picture,
+};
 use trunnion_syntax::LineIndex;
 
 pub(super) use gather::{gather, marks};
@@ -39,6 +43,11 @@ pub(crate) struct Plot {
     /// Draw only the blocks of these lines, for example 100-250.
     #[arg(long, value_name = "FROM-TO")]
     lines: Option<String>,
+    /// servo: the corner at the start of the motion in this line.
+    #[arg(long, value_name = "LINE")]
+    at: Option<u32>,
+    #[command(flatten)]
+    servo: ServoOptions,
 }
 
 /// Kinds of pictures.
@@ -56,6 +65,8 @@ enum Kind {
     Path,
     /// Rapid motions past the declared obstacles, seen from above.
     Route,
+    /// A corner as the servo loops run it: reference, path, errors; needs --at LINE.
+    Servo,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -85,6 +96,11 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| outputs.output("-o", path))
         .transpose()?;
+    if command.kind == Kind::Servo {
+        let text = draw_servo(command, &loaded, machine)?;
+        load::put(output.as_ref(), text.as_bytes())?;
+        return Ok(Done::Clean);
+    }
     let record = gather(&loaded, machine, lines);
     if record.unknown > 0 {
         let count = record.unknown;
@@ -169,8 +185,32 @@ fn draw(
             )?
         }
         Kind::Feed => feed(&head("Feed of the tool tip"), record)?,
-        Kind::Path => path(&head("Path of the tool tip"), record, tolerance)?,
+        Kind::Path | Kind::Servo => path(&head("Path of the tool tip"), record, tolerance)?,
     })
+}
+
+/// The corner at the start of a line, as the servo loops run it.
+fn draw_servo(command: &Plot, loaded: &Loaded, machine: &Machine) -> Result<String, Failure> {
+    let line = command
+        .at
+        .ok_or_else(|| Failure::new("plot --kind servo needs the line that starts at the corner: add --at LINE"))?;
+    let cornered = corner(loaded, machine, line, &command.servo)?;
+    let (along, across) = cornered.found.corner.plane();
+    let flat = |v: &trunnion_geometry::Vec3| [v.dot(&along), v.dot(&across)];
+    let spots: Vec<ServoSpot> = cornered
+        .response
+        .spots
+        .iter()
+        .map(|spot| ServoSpot {
+            time: spot.time,
+            reference: flat(&spot.reference),
+            position: flat(&spot.position),
+            exact: spot.distance * 1e3,
+            radial: spot.radial * 1e3,
+        })
+        .collect();
+    let title = format!("Corner at line {line} as the servo loops run it");
+    servo_picture(&header(&title, loaded, machine), &spots).map_err(|error| Failure::file(&command.file, error))
 }
 
 /// The space of the obstacles at the first rapid motion of the program from a known position.

@@ -1,5 +1,6 @@
 //! `stats`: what a program is made of: blocks, motions, tools, distances, times, extents.
 mod show;
+mod time;
 
 use super::{Done, args::Global, args::ListFormat, failure::Failure, load, walk};
 use crate::cli::out::{Indented, Out};
@@ -7,7 +8,7 @@ use std::{
     io::{self, Write},
     path::{Path, PathBuf},
 };
-use trunnion_check::check;
+use time::Times;
 use trunnion_stats::Tally;
 
 /// `stats`
@@ -16,6 +17,9 @@ pub(crate) struct Stats {
     /// Files and directories; `-` reads standard input.
     #[arg(required = true)]
     paths: Vec<PathBuf>,
+    /// Also say how long each tool and operation takes, where the feed is not reached, and why.
+    #[arg(long)]
+    time: bool,
     #[arg(long, value_enum, default_value = "text")]
     format: ListFormat,
 }
@@ -34,7 +38,7 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
         write!(out, "{{\n  \"files\": [")?;
     }
     for path in &found.files {
-        let (loaded, tally, time) = match count(global, path) {
+        let (loaded, tally) = match count(global, path) {
             Ok(counted) => counted,
             Err(failure) => {
                 failure.print();
@@ -42,15 +46,28 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
                 continue;
             }
         };
+        let times = loaded
+            .resolved
+            .machine
+            .as_ref()
+            .map(|machine| Times::of(&loaded, machine));
+        let interval = times.as_ref().and_then(Times::interval);
+        let asked = times.as_ref().filter(|_| command.time);
         if json {
             write!(out, "{}\n    ", if written > 0 { "," } else { "" })?;
             let mut file = Indented::new(&mut out, "    ");
-            serde_json::to_writer_pretty(&mut file, &show::json(&loaded, &tally, time)).map_err(io::Error::from)?;
+            let shown = show::json(&loaded, &tally, interval, asked.map(Times::json));
+            serde_json::to_writer_pretty(&mut file, &shown).map_err(io::Error::from)?;
         } else {
             if written > 0 {
                 writeln!(out)?;
             }
-            out.text(&show::text(&loaded, &tally, time));
+            out.text(&show::text(&loaded, &tally, interval));
+            if let Some(times) = asked {
+                out.text(&times.text());
+            } else if command.time {
+                out.text("  planned       unknown without --machine\n");
+            }
         }
         written += 1;
     }
@@ -69,11 +86,9 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
     Ok(Done::Clean)
 }
 
-/// Runs one program and counts; and its cycle time, s, where it is on a machine.
-fn count(global: &Global, path: &Path) -> Result<(load::Loaded, Tally, Option<[f64; 2]>), Failure> {
+/// Runs one program and counts.
+fn count(global: &Global, path: &Path) -> Result<(load::Loaded, Tally), Failure> {
     let loaded = load::load_for_steps(global, path)?;
     let tally = Tally::of(loaded.input());
-    let machine = loaded.resolved.machine.is_some();
-    let time = machine.then(|| check(&loaded.program, &loaded.resolved.settings()).cycle_time_s);
-    Ok((loaded, tally, time.flatten()))
+    Ok((loaded, tally))
 }

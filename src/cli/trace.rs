@@ -6,9 +6,11 @@ use super::{
     load::{self, Loaded},
 };
 use serde_json::{Map, Value, json};
+use std::collections::VecDeque;
 use std::io::{BufWriter, Write};
-use trunnion_interp::{Fault, ModalState, Motion, Sink};
-use trunnion_machine::{Follower, Machine, Row, row};
+use trunnion_interp::{Fault, ModalState};
+use trunnion_machine::{Leg, Machine, Row, row};
+use trunnion_planner::{Listener, Timed, time};
 use trunnion_syntax::{BlockId, LineIndex};
 
 const COLUMNS: [&str; 17] = [
@@ -31,6 +33,9 @@ const COLUMNS: [&str; 17] = [
     "limiting_axis",
 ];
 
+/// The last columns: planned time, highest feed and what holds it back.
+const PLANNED: [&str; 3] = ["time_s", "reached_feed_mm_min", "limited_by"];
+
 /// Runs `trace`.
 pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
     let loaded = load::load_for_steps(global, &command.file)?;
@@ -44,16 +49,17 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         loaded: &loaded,
         lines: &lines,
         machine,
-        follower: Follower::new(machine),
+        waiting: VecDeque::new(),
         writer: Rows::new(command.format, out, machine)?,
         error: None,
         faults: 0,
         given_up: None,
     };
-    trunnion_interp::run(
+    time(
         &loaded.program,
         loaded.resolved.dialect,
         &loaded.resolved.setup,
+        machine,
         &mut tracer,
     );
     if let Some(failure) = tracer.error {
@@ -82,7 +88,8 @@ struct Tracer<'a, W: Write> {
     loaded: &'a Loaded,
     lines: &'a LineIndex,
     machine: &'a Machine,
-    follower: Follower<'a>,
+    /// Rows whose time is not known yet: those since the last stop.
+    waiting: VecDeque<(u32, String, Row)>,
     writer: Rows<W>,
     error: Option<Failure>,
     faults: usize,
@@ -90,14 +97,21 @@ struct Tracer<'a, W: Write> {
     given_up: Option<String>,
 }
 
-impl<W: Write> Sink for Tracer<'_, W> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
-        let leg = self.follower.follow(motion);
-        if self.error.is_some() {
+impl<W: Write> Listener for Tracer<'_, W> {
+    fn leg(&mut self, leg: &Leg, _: &ModalState, _: u32) {
+        if self.error.is_none() {
+            let (line, block) = place(self.loaded, self.lines, leg.motion.block);
+            self.waiting.push_back((line, block, row(self.machine, leg)));
+        }
+    }
+    fn timed(&mut self, timed: &Timed, wait: bool) {
+        if wait || self.error.is_some() {
             return;
         }
-        let (line, block) = place(self.loaded, self.lines, motion.block);
-        if let Err(failure) = self.writer.write(line, &block, &row(self.machine, &leg)) {
+        let Some((line, block, row)) = self.waiting.pop_front() else {
+            return;
+        };
+        if let Err(failure) = self.writer.write(line, &block, &row, &planned(self.machine, timed)) {
             self.error = Some(failure);
         }
     }
@@ -105,6 +119,22 @@ impl<W: Write> Sink for Tracer<'_, W> {
         self.given_up = self.given_up.take().or_else(|| load::not_followed(self.loaded, &fault));
         self.faults += 1;
     }
+}
+
+/// Planned time, highest feed, what holds it back.
+fn planned(machine: &Machine, timed: &Timed) -> [Value; 3] {
+    let known = timed.seconds[1].filter(|_| !timed.from_nowhere);
+    let number = |value: Option<f64>| value.map_or(Value::Null, |value| json!(tidy(value)));
+    let moves = timed.length > 0.0 && known.is_some();
+    [
+        number(known),
+        number(timed.reached.filter(|_| moves)),
+        if moves {
+            json!(timed.limited_by(machine))
+        } else {
+            Value::Null
+        },
+    ]
 }
 
 fn place(loaded: &Loaded, lines: &LineIndex, id: BlockId) -> (u32, String) {
@@ -141,7 +171,8 @@ impl<W: Write> Rows<W> {
             .map(|&axis| format!("other_{}", char::from(machine.axes[axis].letter.to_ascii_lowercase())));
         let open = core::iter::once("open_posture".to_owned()).chain(others);
         let columns = COLUMNS.iter().map(|&name| name.to_owned());
-        let names: Vec<String> = columns.chain(joints).chain(open).collect();
+        let planned = PLANNED.iter().map(|&name| name.to_owned());
+        let names: Vec<String> = columns.chain(joints).chain(open).chain(planned).collect();
         match format {
             TraceFormat::Csv => {
                 let mut writer = csv::Writer::from_writer(out);
@@ -163,14 +194,15 @@ impl<W: Write> Rows<W> {
         }
     }
 
-    fn write(&mut self, line: u32, block: &str, row: &Row) -> Result<(), Failure> {
+    fn write(&mut self, line: u32, block: &str, row: &Row, planned: &[Value; 3]) -> Result<(), Failure> {
         let mut cells = cells(line, block, row);
-        let others = self.names().saturating_sub(cells.len() + 1);
+        let others = self.names().saturating_sub(cells.len() + 1 + PLANNED.len());
         cells.push(row.open.map_or(Value::Null, |(why, _)| json!(why)));
         cells.extend((0..others).map(|index| {
             let other = row.open.and_then(|(_, q)| q.get(index).copied());
             other.map_or(Value::Null, |value| json!(tidy(value)))
         }));
+        cells.extend(planned.iter().cloned());
         match self {
             Self::Csv { writer, .. } => writer.write_record(cells.iter().map(text)).map_err(csv_failure),
             Self::Json { out, names, first } => {

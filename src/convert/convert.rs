@@ -9,7 +9,7 @@ use crate::{Options, Refused, Target};
 use std::cell::OnceCell;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
-    Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Why, converted_on, read,
+    Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on, read,
 };
 use trunnion_dialect::Dialect;
 use trunnion_interp::{AllClampCodes, Fault, FaultKind};
@@ -42,6 +42,8 @@ pub struct Converted {
     /// Axes with a clamp whose codes are not written, because the machine names none or the control has no word for them. A remark at
     /// the start of the text says so too.
     pub clamps: Vec<char>,
+    /// What a certificate of it needs: with this the proof can be made again without the converter.
+    pub told: Told,
 }
 
 /// Converts a program and proves it.
@@ -93,7 +95,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         text: written, moved, ..
     } = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm);
-    let (proof, turned, travel) = prove(
+    let (proof, turned, travel, told) = prove(
         source,
         (&reading, machine),
         &setting,
@@ -127,6 +129,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         beyond,
         travel_undecided,
         clamps: setting.clamps_left(),
+        told,
     })
 }
 
@@ -244,7 +247,7 @@ fn prove(
     (text, moved): (&str, &[u32]),
     outs: &[Out],
     (claim, dropped): (&ConversionClaim, &[String]),
-) -> Result<(ConversionProof, Vec<usize>, Travel), Refused> {
+) -> Result<(ConversionProof, Vec<usize>, Travel, Told), Refused> {
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let mut setup = source.setup.clone();
@@ -284,7 +287,14 @@ fn prove(
     })?;
     let turned = control_swaps(&after, &parts, machine, setting.vectors);
     let travel = travel(&after, &parts, machine);
-    Ok((proof, turned, travel))
+    let told = Told {
+        read_on_machine: machine.is_some(),
+        assume: source.assume,
+        dropped: dropped.to_vec(),
+        own_codes: meanings,
+        parts,
+    };
+    Ok((proof, turned, travel, told))
 }
 
 /// Original motions in whose cut a control that reads vectors turns to the other posture, as rule branch-swap measures it, or in which

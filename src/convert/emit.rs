@@ -57,13 +57,15 @@ pub(crate) fn declaration(count: u32, tool: Option<&Tool>) -> String {
     let mm = |value: f64| number(value, 6, false);
     let mut text = String::new();
     let Some(tool) = tool else { return format!("T{count}") };
-    match (tool.shape, tool.diameter_mm) {
-        (Some(shape), Some(diameter)) => {
-            let (name, radius) = match shape {
-                ToolShape::Ball => ("ball", None),
-                ToolShape::Flat => ("flat", None),
-                ToolShape::Bull(radius) => ("bull", Some(radius)),
-            };
+    let named = tool.shape.and_then(|shape| match shape {
+        ToolShape::Ball => Some(("ball", None)),
+        ToolShape::Flat => Some(("flat", None)),
+        ToolShape::Bull(radius) => Some(("bull", Some(radius))),
+        // comments have no word for a nose
+        ToolShape::Turning(_) => None,
+    });
+    match (named, tool.diameter_mm) {
+        (Some((name, radius)), Some(diameter)) => {
             let _ = write!(text, " {name} diameter {}", mm(diameter));
             if let Some(radius) = radius {
                 let _ = write!(text, " radius {}", mm(radius));

@@ -129,7 +129,7 @@ impl<'a> AptWriter<'a> {
                 Some(ToolShape::Ball) => Some(diameter / 2.0),
                 Some(ToolShape::Bull(radius)) => Some(*radius),
                 Some(ToolShape::Flat) => Some(0.0),
-                None => None,
+                Some(ToolShape::Turning(_)) | None => None,
             };
             if let Some(corner) = corner {
                 self.record(&format!("CUTTER/{},{}", self.length(*diameter), self.length(corner)));

@@ -64,10 +64,27 @@ fn distance_within(most: usize, to: &[char], from: &str, row: &mut Vec<usize>) -
 
 /// The end of a sentence about an unknown name: ``; did you mean `name`?`` if one is near, else `other`.
 pub fn did_you_mean(wanted: &str, known: &[&str], other: &str) -> String {
-    match nearest(wanted, known.iter().copied()) {
-        Some(name) => format!("; did you mean `{name}`?"),
+    let names = match nearest(wanted, known.iter().copied()) {
+        Some(name) => vec![name],
+        None => family(wanted, known),
+    };
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
         None => other.to_owned(),
+        Some((last, [])) => format!("; did you mean {last}?"),
+        Some((last, before)) => format!("; did you mean {} or {last}?", before.join(", ")),
     }
+}
+
+/// The names whose first part (up to `-`) is near: `haas` begins `haas-ngc` and `haas-lathe`. None where they are too many to choose from.
+fn family<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
+    const MOST: usize = 4;
+    let head = |name: &'a str| name.split_once('-').map(|(head, _)| head);
+    let Some(near) = nearest(wanted, known.iter().filter_map(|name| head(name))) else {
+        return Vec::new();
+    };
+    let names: Vec<&str> = known.iter().copied().filter(|name| head(name) == Some(near)).collect();
+    if names.len() > MOST { Vec::new() } else { names }
 }
 
 /// [`did_you_mean`] with the list of all names where none is near; `what`: what they are, in the plural.
@@ -91,6 +108,14 @@ mod tests {
             assert_eq!(near(wanted), Some("mikron-ucp710"), "{wanted}");
         }
         assert_eq!(near("mill-5axis"), Some("mill-3axis"));
+    }
+
+    #[test]
+    fn the_first_part_finds_its_family() {
+        let mean = |wanted| did_you_mean(wanted, MACHINES, "");
+        assert_eq!(mean("mikron"), "; did you mean `mikron-ucp710`?");
+        assert_eq!(mean("mil"), "; did you mean `mill-3axis` or `mill-4axis-a`?");
+        assert_eq!(mean("maho"), "");
     }
 
     #[test]

@@ -3,7 +3,7 @@ use crate::nearest::{did_you_mean, or_known};
 use core::ops::Range;
 
 /// Keys whose numbers are lengths.
-const LENGTHS: [&str; 5] = ["tip", "diameter", "corner_radius", "length", "clearance"];
+const LENGTHS: [&str; 6] = ["tip", "diameter", "corner_radius", "length", "clearance", "nose_radius"];
 
 /// The message of the reader of TOML, with the key that it is about. `span`: the bytes of the text where it is.
 pub fn plain_toml(text: &str, message: &str, span: Option<Range<usize>>) -> String {

@@ -84,6 +84,10 @@ impl<'d> Iso<'d> {
             hole_call: codes.iter().position(|found| found.code.action == Action::HoleCall),
             ..BlockCodes::default()
         };
+        let goes_on = codes.iter().any(|found| found.code.action == Action::TiltedPlane);
+        if self.memory.frames.pending.is_some() && !goes_on && (!codes.is_empty() || words.axes.any()) {
+            self.plane_broken_off(report);
+        }
         let mut rest = &*codes;
         while let Some((found, after)) = rest
             .split_first()
@@ -110,7 +114,8 @@ impl<'d> Iso<'d> {
         if self.core.dialect.quirks.offset_compensation && self.core.state.compensation == 0 {
             self.cutter_number_ahead(words);
         }
-        self.core.state.zero.lose(self.core.unknown.any());
+        let lost = self.core.unknown.any() || self.memory.frames.pending.is_some();
+        self.core.state.zero.lose(lost);
         block
     }
 

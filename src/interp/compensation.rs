@@ -5,6 +5,7 @@
 //! motion of the contour ends beside its own end. Source: Fanuc Series 30i operator's manual, details of cutter compensation.
 mod corner;
 mod element;
+mod nose;
 mod select;
 
 use crate::core::Report;
@@ -51,6 +52,8 @@ pub(crate) struct Compensation {
     pub(crate) side: f64,
     /// mm.
     pub(crate) radius: f64,
+    /// From the centre of the tool to the point that motions move, Z and X on a lathe, mm.
+    tip: Point,
     /// D in effect.
     pub(crate) d: Option<u32>,
     /// The coordinates are mirrored, so that left and right change places.
@@ -91,7 +94,7 @@ fn link(pending: &PendingMotion, element: &Element, from: Point, link: Link) -> 
     element.put(&mut motion.start, from);
     element.put(&mut motion.end, to);
     motion.kind = match (motion.kind, link.about) {
-        (_, Some((corner, sign))) => MotionKind::Arc(element.corner_arc(&motion.end, corner, from, to, sign)),
+        (_, Some((corner, sign))) => MotionKind::Arc(Some(element.corner_arc(&motion.end, corner, from, to, sign))),
         (MotionKind::Rapid, None) => MotionKind::Rapid,
         _ => MotionKind::Linear,
     };
@@ -224,12 +227,16 @@ impl Iso<'_> {
             pending.map(|pending| (pending, join)).ok_or(Trouble::Interference)
         });
         match joined {
-            Ok((ready, join)) => {
+            Ok((mut ready, join)) => {
+                let tip = self.memory.compensation.tip;
+                let starts = !held.leads;
+                held.element.shift(&mut ready.0, tip, [starts, true]);
                 let unsure = self.memory.compensation.between.len() > 1;
-                self.release(ready, &held.element, join.end, unsure, report);
+                self.release(ready, &held.element, element::add(join.end, tip, 1.0), unsure, report);
                 let mut from = join.end;
                 for next in join.links {
-                    let pending = link(&held.pending, &held.element, from, next);
+                    let mut pending = link(&held.pending, &held.element, from, next);
+                    held.element.shift(&mut pending.0, tip, [true, true]);
                     self.memory.compensation.ready.push(pending);
                     from = next.to;
                 }
@@ -287,15 +294,21 @@ impl Iso<'_> {
             held.element.beside_end(offset)
         };
         let fits = held.leads || held.element.keeps_direction(offset, held.from, end);
-        if let Some(pending) = moved(&held.pending, &held.element, held.from, end).filter(|_| fits) {
-            self.release(pending, &held.element, end, false, report);
+        let mut at = end;
+        if let Some(mut pending) = moved(&held.pending, &held.element, held.from, end).filter(|_| fits) {
+            if !held.leads {
+                let tip = self.memory.compensation.tip;
+                held.element.shift(&mut pending.0, tip, [true, true]);
+                at = element::add(end, tip, 1.0);
+            }
+            self.release(pending, &held.element, at, false, report);
         } else {
             let (text, alarm) = Trouble::Interference.words();
             self.reject(text, alarm, report);
             let pending = held.pending.clone();
             self.release(pending, &held.element, held.element.end, false, report);
         }
-        Some(end)
+        Some(at)
     }
 
     /// The first motion in the plane after G40 leaves the contour.
@@ -351,5 +364,7 @@ impl Iso<'_> {
 
 /// Linear axes of the plane are known at both ends.
 fn known(motion: &Motion) -> bool {
-    motion.start.known & motion.end.known & XYZ == XYZ
+    let known = motion.start.known & motion.end.known & XYZ;
+    // a lathe moves in its plane alone: Y need not be known, as long as it stays
+    known == XYZ || motion.radii && known == 0b101 && (motion.start.known | motion.end.known) & XYZ == known
 }

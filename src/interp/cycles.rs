@@ -2,6 +2,7 @@
 mod called;
 mod contour;
 mod data;
+mod deep;
 mod groove;
 mod hole;
 mod levels;
@@ -11,6 +12,7 @@ mod pattern;
 mod pocket;
 mod repeat;
 mod rough;
+mod row;
 mod steps;
 mod thread;
 

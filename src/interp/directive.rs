@@ -32,12 +32,17 @@ pub enum Directive {
     },
     /// `turned DEG`: a rewrite has turned the tool axes of this chain of motions by up to so much, deg.
     Turned(f64),
+    /// `obstacle KEYS`: the keys of an `[[obstacle]]` of `trunnion.toml` in one line, not read here.
+    Obstacle(String),
     /// Begins with `trunnion:` but cannot be read; the text says what is wrong.
     Broken(String),
 }
 
 /// The word that a directive begins with.
 const MARK: &[u8] = b"trunnion:";
+
+/// The key of an obstacle.
+const OBSTACLE: &[u8] = b"obstacle";
 
 /// All directives of a program with the range of their comment.
 pub fn directives(program: &Program) -> Vec<(TextRange, Directive)> {
@@ -66,6 +71,20 @@ pub fn directives(program: &Program) -> Vec<(TextRange, Directive)> {
     found
 }
 
+/// Whether a comment may declare an obstacle: a cheap look at the bytes.
+pub fn may_declare_obstacles(source: &[u8]) -> bool {
+    memchr::memchr_iter(b':', source).any(|at| {
+        let marked = source[..=at]
+            .last_chunk::<9>()
+            .is_some_and(|text| text.eq_ignore_ascii_case(MARK));
+        let rest = source[at + 1..].trim_ascii_start();
+        marked
+            && rest
+                .get(..OBSTACLE.len())
+                .is_some_and(|word| word.eq_ignore_ascii_case(OBSTACLE))
+    })
+}
+
 /// What the text of a comment says about turned tool axes, deg.
 pub fn turned_deg(comment: &str) -> Option<f64> {
     match parse(after_mark(comment)?) {
@@ -89,12 +108,13 @@ fn after_mark(text: &str) -> Option<&str> {
 fn parse(text: &str) -> Directive {
     let key = text.split_whitespace().next().unwrap_or_default().to_ascii_lowercase();
     let parsed = match key.as_str() {
+        "obstacle" => return Directive::Obstacle(text[OBSTACLE.len()..].trim().to_owned()),
         "tool" => all_consuming(tool).parse(text).map(|(_, tool)| tool),
         "allow" => all_consuming(allow).parse(text).map(|(_, allow)| allow),
         "turned" => all_consuming(turned).parse(text).map(|(_, turned)| turned),
         "dialect" | "machine" => all_consuming(mode).parse(text).map(|(_, mode)| mode),
         _ => {
-            let known = "tool, allow, turned, dialect and machine";
+            let known = "tool, obstacle, allow, turned, dialect and machine";
             return Directive::Broken(format!("`{key}` is not a directive; the directives are {known}"));
         }
     };

@@ -80,7 +80,7 @@ impl Iso<'_> {
         }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
-            motion.in_machine_coordinates();
+            motion.in_machine_coordinates(words.axes.given | words.axes.unread);
         }
         motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
         if self.memory.tcp_used {

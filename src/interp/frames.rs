@@ -1,13 +1,17 @@
 //! Coordinates that the program shifts, rotates, scales, mirrors or gives as radius and angle. Shifts are part of the zero point; the
 //! rest is a [`Shape`] between the words and the work coordinates in which motions are expressed.
+#[cfg(test)]
+mod agree_tests;
 mod data_entry;
 mod linear;
+mod points;
 mod polar;
 mod programmable;
 mod reference;
 mod shape;
 mod shift;
 mod swivel;
+mod swivel_call;
 mod tilt;
 mod turn;
 
@@ -40,6 +44,8 @@ pub(crate) struct Frames {
     pub(crate) polar: Option<Polar>,
     /// The tilted working plane in whose coordinates everything is expressed until motions are emitted.
     pub(crate) tilt: Option<Tilted>,
+    /// A tilted plane of which some points or vectors are still to come.
+    pub(crate) pending: Option<points::Pending>,
     /// The position in the coordinates of the words, while a shape is active; valid as long as the work position is `synced`.
     programmed: Position,
     synced: Position,

@@ -8,6 +8,7 @@ pub(crate) mod formula;
 pub(crate) mod gantry;
 pub(crate) mod obstacle;
 pub(crate) mod places;
+pub(crate) mod planning;
 pub(crate) mod raw;
 pub(crate) mod spec;
 pub(crate) mod text;

@@ -24,8 +24,8 @@ pub use follow::row::{Row, row};
 pub use follow::stance::{Leg, NoStance, Open, OpenCause, Stance};
 pub use import::{Imported, import_freecad, import_linuxcnc};
 pub use kinematics::chain::{
-    Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,
-    RapidPath, Side, Tolerances, Wrap,
+    Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, Planning,
+    PoleAction, RapidPath, Side, Tolerances, Wrap,
 };
 pub use kinematics::constants::{Constants, LinearAxis, RotaryAxis};
 pub use kinematics::forward::{Pose, forward, tool_axis_at};

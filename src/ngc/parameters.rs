@@ -234,6 +234,7 @@ impl<'a> Values<'a> {
     /// Whether a code, ten times its number, is one of the machine's own.
     pub(crate) fn owns(&self, letter: u8, tenths: u32) -> bool {
         self.setup.own_codes.binary_search(&(letter, tenths)).is_ok()
+            || self.setup.any_ini && letter == b'M' && (2000..=9990).contains(&tenths)
     }
     /// Axis letters that the control refuses: bit per letter from A.
     #[inline]

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_vocabulary::{Files, Limits};
 
+/// The control can drive this many spindles (LinuxCNC documentation, `[TRAJ]SPINDLES`).
+const MOST_SPINDLES: usize = 8;
+
 /// What is known at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
@@ -97,6 +100,8 @@ pub struct Setup {
     pub own_motions: Arc<[u32]>,
     /// The tool table may lack tools that the machine has: any number exists, with offset and diameter zero.
     pub any_tool: bool,
+    /// The INI file is not known: each of the eight spindles that a machine may have exists, and M codes above 199 are its own (remaps).
+    pub any_ini: bool,
     /// Lines that begin with `/` are skipped (the switch of the panel).
     pub block_delete: bool,
     /// Decimals of numbers in messages after those that the control writes: 0 except for a closer look.
@@ -117,6 +122,7 @@ impl Default for Setup {
             own_codes: Arc::from([]),
             own_motions: Arc::from([]),
             any_tool: false,
+            any_ini: false,
             block_delete: false,
             more_decimals: 0,
         }
@@ -128,7 +134,12 @@ impl Setup {
     pub fn spindles(&self) -> usize {
         self.ini
             .whole("TRAJ", "SPINDLES")
-            .map_or(1, |count| count.clamp(1, 8) as usize)
+            .map_or(1, |count| count.clamp(1, MOST_SPINDLES as i64) as usize)
+    }
+    /// Whether a spindle exists; the first is 0.
+    pub fn has_spindle(&self, number: i32) -> bool {
+        let count = if self.any_ini { MOST_SPINDLES } else { self.spindles() };
+        usize::try_from(number).is_ok_and(|number| number < count)
     }
     /// What M19 adds to its angle, degrees: `[RS274NGC]ORIENT_OFFSET`.
     pub fn orient_offset(&self) -> f64 {

@@ -12,6 +12,7 @@ mod path;
 mod record;
 mod route;
 mod scale;
+mod servo;
 mod thin;
 
 pub use axis_plane::axis_plane;
@@ -23,3 +24,4 @@ pub use joints::{Along, joints};
 pub use path::path;
 pub use record::{Block, Mark, Record, Recorder, Sample};
 pub use route::route;
+pub use servo::{ServoSpot, servo};

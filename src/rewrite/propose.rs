@@ -2,7 +2,7 @@
 use trunnion_certify::Claim;
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
-use trunnion_check::config::{FixCost, FixPoint, FixSettings};
+use trunnion_check::config::{FixCost, FixPoint, FixSettings, FixSource};
 use trunnion_check::{Diagnostic, Settings};
 use trunnion_syntax::{BlockId, Program, TextEdit};
 
@@ -67,7 +67,11 @@ impl Options {
                 FixPoint::Tip => ProgrammedPoint::Tip,
                 FixPoint::Centre => ProgrammedPoint::Centre,
             }),
-            ..defaults
+            source: settings.source.map_or(defaults.source, |source| match source {
+                FixSource::Points => RefitSource::Points,
+                FixSource::Chords => RefitSource::Chords,
+            }),
+            feed_mm_min: settings.feed_mm_min.unwrap_or(defaults.feed_mm_min),
         }
     }
 }

@@ -169,6 +169,15 @@ impl Undeclared {
         set_here: false,
     };
 
+    /// What of it concerns some axes, bits as in [`Position::known`]; a tool length concerns Z.
+    pub fn of_axes(self, axes: u16) -> Self {
+        const Z: u16 = 1 << 2;
+        Self {
+            zero: self.zero & axes,
+            length: self.length && axes & Z != 0,
+            ..self
+        }
+    }
     /// Whether anything is undeclared.
     #[inline]
     pub fn any(self) -> bool {
@@ -274,10 +283,11 @@ impl Motion {
             effects: 0,
         }
     }
-    /// Its words are machine coordinates: no offset, no length and no tool centre point control applies.
-    pub fn in_machine_coordinates(&mut self) {
+    /// Its words are machine coordinates: no offset, no length and no tool centre point control applies. `moved`: the axes that it names, bits
+    /// as in [`Position::known`]; the others stand where earlier words have brought them, and still depend on what was undeclared there.
+    pub fn in_machine_coordinates(&mut self, moved: u16) {
         (self.machine_coordinates, self.tcp) = (true, false);
-        self.undeclared = Undeclared::NOTHING;
+        self.undeclared = self.undeclared.of_axes(self.start.known & !moved);
     }
     /// Whether it is a feed motion (line or arc).
     pub fn is_feed(&self) -> bool {

@@ -11,6 +11,18 @@ pub enum ToolShape {
     Flat,
     /// Corner radius in mm.
     Bull(f64),
+    /// A tool of a lathe: its nose.
+    Turning(Nose),
+}
+
+/// The nose of a turning tool. Programs move the corner of the square around it (the imaginary tip) where no compensation is active.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nose {
+    /// mm.
+    pub radius_mm: f64,
+    /// Where that corner is, seen from the centre of the nose, 0 to 9: 1 at +Z +X, 2 at -Z +X, 3 at -Z -X, 4 at +Z -X, 5 at +Z, 6 at +X,
+    /// 7 at -Z, 8 at -X, 0 and 9 at the centre (Fanuc Series 30i operator's manual, direction of the imaginary tool nose).
+    pub tip: u8,
 }
 
 /// A tool.
@@ -178,6 +190,8 @@ pub struct ControlData {
     pub further_axes: Vec<u8>,
     /// The axis that a machine with two linear axes lacks, an index into [`crate::AXIS_LETTERS`]: it is always at 0.
     pub absent_axis: Option<u8>,
+    /// A machine is known, and with it the letters of its axes.
+    pub axes_declared: bool,
     /// The machine has rotary axes; `false` also where no machine is known.
     pub has_rotary: bool,
     /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the

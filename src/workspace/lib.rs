@@ -6,6 +6,7 @@
 mod error;
 mod listing;
 mod machine;
+mod obstacles;
 mod resolve;
 mod subprograms;
 mod table;

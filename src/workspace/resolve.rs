@@ -1,5 +1,5 @@
 //! Which settings, machine and dialect a program is checked with, and why.
-use crate::{FoundMachine, LoadError, Subprograms, find_machine, machine::machine_of_comment};
+use crate::{FoundMachine, LoadError, Subprograms, find_machine, machine::machine_of_comment, obstacles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FixSettings, FormatSettings, parse_tool_flag};
@@ -144,7 +144,10 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             return Err(LoadError::new(format!("--assume {name}: this cannot be assumed{hint}")));
         }
     }
-    let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
+    let mut machine = machine.map(|machine| config.machine_with_tolerances(&machine));
+    if detected.foreign.is_none() {
+        obstacles::declare(path, source, detected.dialect, machine.as_mut())?;
+    }
     Ok(Resolved {
         dialect: detected.dialect,
         dialect_reason: detected.reason,

@@ -19,6 +19,7 @@ mod mutated_formats;
 mod mutated_programs;
 mod mutations;
 mod once_wrong;
+mod planted;
 mod random;
 mod real_files;
 mod rewrites;

@@ -141,6 +141,10 @@ fn guide_vanes_flip_where_the_paper_prints_it() {
             "axis-overspeed",
             "feed-drop",
             "excess-linear-travel",
+            // the planned speed follows from the same event
+            "axis-acceleration",
+            "feed-oscillation",
+            "dwell-mark",
         ];
         assert!(
             all.iter()

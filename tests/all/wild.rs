@@ -80,7 +80,6 @@ fn passes_unseen(file: &Value) -> bool {
 const EXPLAINED: &str = "\
 the errors:
   hobby: jsdc-laser.gcode moves at feed with the laser off (M5) between its paths; script_brush_v1583_*.nc call O93 and O94, which are not there
-  linuxcnc: metric_air_scribe.ngc uses spindle 1, and a machine has one spindle unless its INI says otherwise
 ";
 
 /// Main programs under `--scope motion --assume work-offset,tool-length`: how many pass.
@@ -154,6 +153,38 @@ fn tips(table: &[Vec<String>], faulty: &BTreeSet<String>, folder: &Path) -> Stri
         assert!(known.per_cent() >= least, "{out}");
     }
     out
+}
+
+/// Findings that neither help nor name what is wrong and what to do after a colon, as refusals of LinuxCNC do.
+fn without_advice<'f>(files: impl Iterator<Item = &'f Value>) -> Vec<String> {
+    let mut found = Vec::new();
+    for file in files {
+        for finding in file["diagnostics"].as_array().expect("findings") {
+            let message = finding["message"].as_str().unwrap_or_default();
+            if finding["help"].is_null() && !message.contains(": ") {
+                found.push(format!("{}: {}: {message}", file["path"], finding["rule"]));
+            }
+        }
+    }
+    found
+}
+
+/// The report on a file of each control, as people see it, fits on a screen of 50 lines and says at its end what was checked.
+fn one_screen(table: &[Vec<String>], folder: &Path) {
+    let mut seen = BTreeSet::new();
+    for row in table.iter().filter(|row| seen.insert(&row[1])) {
+        let output = trunnion(&["check", "--format", "pretty", str(&folder.join(&row[0]))]);
+        let report = [output.stdout, output.stderr]
+            .map(|part| String::from_utf8_lossy(&part).into_owned())
+            .concat();
+        assert!(report.lines().count() <= 50, "{}:\n{report}", row[0]);
+        let last = report.lines().last().unwrap_or_default();
+        let verdict = ["PASS", "FAIL", "UNKNOWN"]
+            .iter()
+            .any(|verdict| last.starts_with(verdict));
+        assert!(verdict, "{}: {last}", row[0]);
+    }
+    assert!(seen.len() >= 10, "{seen:?}");
 }
 
 /// A row for each control with the errors of each rule below it; how many files there are, and of how many the control was recognised.
@@ -232,6 +263,12 @@ fn every_control_is_recognised_and_nothing_passes_unseen() {
             }
         }
     }
+    assert_eq!(
+        without_advice(found.values()),
+        [] as [String; 0],
+        "findings that do not say what to do"
+    );
+    one_screen(&table, &folder);
     let on_machine = checked(&paths, &["--machine", "mill-3axis"]);
     unseen.extend(
         on_machine

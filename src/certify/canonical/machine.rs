@@ -5,7 +5,7 @@ use trunnion_machine::{
     ObstacleKind, Obstacles, PostureWords, Tolerances,
 };
 
-// The rest is prose, or the axes in a form made for speed, or bodies, which no proof looks at.
+// The rest is prose, or the axes in a form made for speed, or bodies, or how the control plans speeds, which no proof looks at.
 record! {
     Machine {
         id = 1, axes = 2, tool_axis = 3, gauge_point = 4, home = 5, control = 6, tolerances = 7, gantries = 8,
@@ -50,6 +50,8 @@ record! {
         feed = 8, corner_model = 9, block_time = 10, tcp_codes = 11, posture_words = 12, units = 13,
         reference_points = 14, peck_clearance_mm = 15, chip_break_retract_mm = 16, roughing_escape = 17, thread_pull_out = 18,
         roughing_retract_mm = 19, thread_least_cut_mm = 20, thread_finish_mm = 21, tool_change = 22, power_on = 23,
+    } without {
+        planning,
     }
 }
 

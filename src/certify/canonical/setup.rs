@@ -41,7 +41,7 @@ record! {
         tool_change = 20, power_on = 21,
     } without {
         // of the machine, which is encoded as a whole
-        has_rotary,
+        has_rotary, axes_declared,
     }
 }
 
@@ -64,6 +64,10 @@ impl Encode for ToolShape {
             Self::Flat => out.variant(2, |_| {}),
             Self::Bull(corner_mm) => out.variant(3, |fields| {
                 fields.field(1, corner_mm);
+            }),
+            Self::Turning(nose) => out.variant(4, |fields| {
+                fields.field(1, &nose.radius_mm);
+                fields.field(2, &u32::from(nose.tip));
             }),
         }
     }

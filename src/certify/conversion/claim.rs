@@ -1,7 +1,9 @@
 //! What is claimed of a conversion, and what was found.
+use serde::{Deserialize, Serialize};
 
 /// Which motions of the two programs belong together; in order, as the converter says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Part {
     /// The next motion of the original is made by this many motions of the output, each an equal share of it.
     Moves(u32),
@@ -15,7 +17,8 @@ pub enum Part {
 }
 
 /// What is claimed of the program after. Lengths mm, angles deg, feeds mm/min.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ConversionClaim {
     /// At the ends of motions the tip is where it was within this.
     pub end_mm: f64,
@@ -32,7 +35,8 @@ pub struct ConversionClaim {
 }
 
 /// What was proved, with the worst numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ConversionProof {
     /// Motions before.
     pub motions_before: u64,

@@ -137,12 +137,15 @@ impl<'a> Graph<'a> {
     }
 
     /// By how much rotary steps (their sum, rad) exceed those of the cheapest move in the posture of `from`: what the machine's measure of a
-    /// posture swap is. Endless where that posture does not reach the station: a swap is then forced, and never chosen in a cut.
+    /// posture swap is. Endless where that posture does not reach the station, or only by more than half a turn: a swap is then forced, and never chosen in a cut.
     fn excess(&self, station: usize, from: &State, steps: [f64; 2]) -> f64 {
         let sum = |steps: [f64; 2]| steps[0].abs() + steps[1].abs();
         let same = self.states_of(station).map(|index| &self.states[index]);
         let same = same.filter(|state| state.sign == from.sign);
-        let cheapest = same.map(|state| sum(self.steps(from, state))).min_by(f64::total_cmp);
+        // a step of more than half a turn is no alternative in a cut
+        let moves = same.map(|state| self.steps(from, state));
+        let moves = moves.filter(|steps| steps.iter().all(|step| step.abs() <= PI + ROUNDING));
+        let cheapest = moves.map(sum).min_by(f64::total_cmp);
         cheapest.map_or(f64::INFINITY, |cheapest| sum(steps) - cheapest)
     }
 

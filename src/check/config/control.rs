@@ -122,6 +122,7 @@ impl FileControl {
             clamp_codes: trunnion_interp::AllClampCodes::default(),
             further_axes: Vec::new(),
             absent_axis: None,
+            axes_declared: false,
             has_rotary: false,
             length_along: None,
             reference_points,

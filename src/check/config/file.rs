@@ -1,5 +1,5 @@
 //! The text of `trunnion.toml`: every unknown key, unknown name and value out of range is an error with its place.
-use super::{Config, ConfigError, RuleLevel, TOLERANCES, tool};
+use super::{Config, ConfigError, RuleLevel, TOLERANCES, nose, tool};
 use crate::{Severity, did_you_mean, or_known};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -58,13 +58,15 @@ struct FileLimits {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct FileTool {
+pub(super) struct FileTool {
     number: Spanned<u32>,
-    shape: Option<Spanned<String>>,
+    pub(super) shape: Option<Spanned<String>>,
     diameter: Option<Spanned<f64>>,
-    corner_radius: Option<Spanned<f64>>,
+    pub(super) corner_radius: Option<Spanned<f64>>,
     length: Option<Spanned<f64>>,
     holder: Option<Spanned<toml::Value>>,
+    pub(super) nose_radius: Option<Spanned<f64>>,
+    pub(super) tip_direction: Option<Spanned<u8>>,
 }
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
@@ -162,7 +164,7 @@ fn folders(named: Vec<Spanned<String>>) -> Result<Vec<(String, core::ops::Range<
     named.into_iter().map(place).collect()
 }
 
-fn at<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {
+pub(super) fn at<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {
     ConfigError {
         message: message.into(),
         span: Some(place.span()),
@@ -248,8 +250,10 @@ fn declared_tool(entry: &Spanned<FileTool>) -> Result<Tool, ConfigError> {
         }
     }
     let (diameter, corner) = (value(&tool.diameter), value(&tool.corner_radius));
+    let nose = nose::nose(tool)?;
     let shape =
         match (&tool.shape, &tool.corner_radius) {
+            _ if nose.is_some() => nose,
             (Some(name), _) => Some(tool::shape(name.get_ref(), diameter, corner).map_err(
                 |(part, message)| match (part, &tool.diameter, &tool.corner_radius) {
                     (tool::Part::Diameter, Some(diameter), _) => at(diameter, message),

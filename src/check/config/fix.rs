@@ -24,6 +24,16 @@ pub enum FixPoint {
     Centre,
 }
 
+/// What a refitted path must be near.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum FixSource {
+    /// The ends of the lines.
+    Points,
+    /// The lines.
+    Chords,
+}
+
 /// What the file says; what it does not say is the rewrite's own default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FixSettings {
@@ -35,6 +45,10 @@ pub struct FixSettings {
     pub cost: Option<FixCost>,
     /// `point`: of `smooth-pole`.
     pub point: Option<FixPoint>,
+    /// `source`: of `fit-arcs`.
+    pub source: Option<FixSource>,
+    /// `feed_mm_min`: of `adapt-feed`, mm/min.
+    pub feed_mm_min: Option<f64>,
 }
 
 /// The table as it is written.
@@ -45,6 +59,8 @@ pub(super) struct FileFix {
     tolerance_deg: Option<Spanned<f64>>,
     cost: Option<FixCost>,
     point: Option<FixPoint>,
+    source: Option<FixSource>,
+    feed_mm_min: Option<Spanned<f64>>,
 }
 
 impl FileFix {
@@ -61,23 +77,27 @@ impl FileFix {
             tolerance_deg: positive("tolerance_deg", self.tolerance_deg)?,
             cost: self.cost,
             point: self.point,
+            source: self.source,
+            feed_mm_min: positive("feed_mm_min", self.feed_mm_min)?,
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{FixCost, FixPoint, FixSettings};
+    use super::{FixCost, FixPoint, FixSettings, FixSource};
     use crate::config::Config;
 
     #[test]
     fn every_key_is_read() {
-        let text = "[fix]\ntolerance_mm = 0.002\ntolerance_deg = 0.2\ncost = \"time\"\npoint = \"centre\"\n";
+        let text = "[fix]\ntolerance_mm = 0.002\ntolerance_deg = 0.2\ncost = \"time\"\npoint = \"centre\"\nsource = \"points\"\nfeed_mm_min = 3000\n";
         let wanted = FixSettings {
             tolerance_mm: Some(0.002),
             tolerance_deg: Some(0.2),
             cost: Some(FixCost::Time),
             point: Some(FixPoint::Centre),
+            source: Some(FixSource::Points),
+            feed_mm_min: Some(3000.0),
         };
         assert_eq!(Config::parse(text).expect("a whole table").fix, wanted);
         assert_eq!(Config::parse("").expect("an empty file").fix, FixSettings::default());
@@ -90,6 +110,9 @@ mod tests {
             "tolerance_deg = -1.0",
             "point = \"middle\"",
             "points = \"tip\"",
+            "source = \"lines\"",
+            "feed_mm_min = 0",
+            "feed_mm_min = inf",
         ] {
             Config::parse(&format!("[fix]\n{text}\n")).expect_err(text);
         }

@@ -2,7 +2,7 @@
 use trunnion_interp::{Tool, ToolShape};
 
 /// Names of tool shapes, for messages.
-pub(super) const SHAPES: &str = "ball, flat or bull";
+pub(super) const SHAPES: &str = "ball, flat, bull or turning";
 
 /// Reads `shape:diameter[:corner radius]`, lengths in mm, for the tool in use: `ball:10`, `bull:16:2`.
 pub fn parse_tool_flag(text: &str) -> Result<Tool, String> {
@@ -55,6 +55,10 @@ pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> R
         ("ball" | "flat", Some(_)) => Err((
             Part::CornerRadius,
             format!("a {name} tool takes no corner radius; for a tool with a corner radius write `bull`"),
+        )),
+        ("turning", _) => Err((
+            Part::Shape,
+            "a turning tool is declared in trunnion.toml: `shape = \"turning\"`, `nose_radius = 0.8`, `tip_direction = 3`".to_owned(),
         )),
         ("bull", None) => Err((Part::Shape, "a bull tool needs a corner radius".to_owned())),
         ("bull", Some(radius)) => {

@@ -218,6 +218,37 @@ mod tests {
         assert_eq!(report.diagnostics[0].related.len(), 1);
     }
 
+    /// Z stands where it was in G54, which nobody declared, while X alone goes to its machine position.
+    #[test]
+    fn an_axis_that_stands_is_not_in_machine_coordinates() {
+        for (fence, head) in [
+            (
+                "gcode haas-lathe lathe-2axis undeclared",
+                "G21 G18 G99 G40\nT0101\nG0 G54 X40. Z2.\n",
+            ),
+            (
+                "gcode fanuc-30i mill-3axis undeclared",
+                "G21 G17 G90 G54\nG0 X40. Z2000.\n",
+            ),
+            (
+                "gcode linuxcnc mill-3axis undeclared",
+                "G21 G17 G90 G54\nG0 X40 Z2000\n",
+            ),
+        ] {
+            let text = format!("{head}G53 G0 X0\nM30\n");
+            let report = crate::fixture::Fixture::parse(fence, &text).check().unwrap();
+            let fails = |found: &&crate::Diagnostic| found.rule == "axis-limit" && found.status == Status::Fail;
+            assert_eq!(
+                report.diagnostics.iter().find(fails).map(|found| &found.message),
+                None,
+                "{fence}"
+            );
+            let text = format!("{head}G53 G0 X90000.\nM30\n");
+            let report = crate::fixture::Fixture::parse(fence, &text).check().unwrap();
+            assert_eq!(report.diagnostics.iter().filter(fails).count(), 1, "{fence}");
+        }
+    }
+
     #[test]
     fn a_way_over_the_pole_that_is_not_known_is_no_pass() {
         let text = "TRAORI\nORIVECT\nG0 X0 Y0 Z200 A-25 C0\nG0 X10 A60 C0\nG0 X20 A61\nM30\n";

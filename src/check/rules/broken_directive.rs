@@ -41,7 +41,12 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
                 out.report(*range, what.clone())
                     .help("write `allow RULE because REASON`, `tool NUMBER SHAPE diameter MM`, `dialect NAME` or `machine NAME`");
             }
-            Directive::Allow { .. } | Directive::Tool(_) | Directive::Turned(_) | Directive::Mode { .. } => {}
+            // what is wrong with an obstacle is said where the program is opened
+            Directive::Allow { .. }
+            | Directive::Tool(_)
+            | Directive::Turned(_)
+            | Directive::Obstacle(_)
+            | Directive::Mode { .. } => {}
         }
     }
 }

@@ -33,6 +33,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotDecided { what } = &fault.kind {
         out.report(fault.range, format!("where the program continues depends on {what}"))
             .note("what runs after it was not checked")
+            .help("declare the value if it is known ([variables] in trunnion.toml), or check the program that sets it or calls this one")
             .unknown();
     }
 }

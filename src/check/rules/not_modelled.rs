@@ -38,18 +38,39 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         return;
     }
     if let FaultKind::NotModelled { what } = &fault.kind {
+        let (what, remedy) = divided(what);
         let near = out.near_code(what);
         let hint = near
             .as_ref()
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
         // an editor can only replace what the place holds
         let meant = near.filter(|_| out.text(fault.range) == *what);
-        out.report(fault.range, format!("not modelled: {}{hint}", short(what)))
+        let draft = out.report(fault.range, format!("not modelled: {}{hint}", short(what)))
             .replace_with_some(meant)
             .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
             .unknown()
             .merge(Merge::once(hash(what)));
+        draft.help(remedy.unwrap_or_else(|| BY_HAND.to_owned()));
     }
+}
+
+/// What to do where no setting helps.
+const BY_HAND: &str = "look through what depends on it by hand, or try it on the machine without a part";
+
+/// What is not modelled, and what to declare so that it is: `a cycle (declare [control] key)` says both.
+fn divided(what: &str) -> (&str, Option<String>) {
+    let Some(at) = what.find("declare [control]") else {
+        return (what, None);
+    };
+    let (before, remedy) = what.split_at(at);
+    let in_brackets = before.ends_with('(');
+    let remedy = if in_brackets {
+        remedy.strip_suffix(')').unwrap_or(remedy)
+    } else {
+        remedy
+    };
+    let remedy = format!("{remedy}, in trunnion.toml or in the machine file");
+    (before.trim_end_matches([' ', ':', '(', ',']), Some(remedy))
 }
 
 /// A cause may quote the program: its first 100 characters, in one line.
@@ -64,7 +85,26 @@ fn short(what: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::divided;
     use crate::Severity;
+
+    #[test]
+    fn what_to_declare_is_the_help() {
+        let remedy = |key: &str| {
+            Some(format!(
+                "declare [control] {key}, in trunnion.toml or in the machine file"
+            ))
+        };
+        assert_eq!(
+            divided("G87: the direction (declare [control] bore_shift)"),
+            ("G87: the direction", remedy("bore_shift"))
+        );
+        assert_eq!(
+            divided("G71: one block: declare [control] roughing_retract (setting 73)"),
+            ("G71: one block", remedy("roughing_retract (setting 73)"))
+        );
+        assert_eq!(divided("INSERT"), ("INSERT", None));
+    }
 
     #[test]
     fn one_cause_is_told_once_with_its_count() {

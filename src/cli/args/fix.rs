@@ -22,13 +22,15 @@ pub(crate) struct Fix {
     /// switch-angles: what the postures of the whole program are chosen by. Default: `cost` of [fix] in trunnion.toml, else travel.
     #[arg(long, value_enum)]
     pub(crate) cost: Option<crate::cli::fix::CostOf>,
-    /// fit-arcs: what the new path must be near, the lines as they are programmed or only their ends. Default: chords.
+    /// fit-arcs: what the new path must be near, the lines as they are programmed or only their ends. Default: `source` of [fix] in trunnion.toml, else
+    /// chords.
     #[arg(long, value_enum)]
     pub(crate) source: Option<crate::cli::fix::SourceOf>,
     /// smooth-pole: which point of a ball the programmed X Y Z are. Default: `point` of [fix] in trunnion.toml, else its tip.
     #[arg(long, value_enum)]
     pub(crate) point: Option<crate::cli::fix::PointOf>,
-    /// adapt-feed: make cuts that are slower than this as fast as the axes allow, up to this, in mm/min. Plunges too: see --lines.
+    /// adapt-feed: make cuts that are slower than this as fast as the axes allow, up to this, in mm/min. Plunges too: see --lines. Default:
+    /// `feed_mm_min` of [fix] in trunnion.toml, else none is made faster.
     #[arg(long, value_name = "MM_MIN")]
     pub(crate) feed: Option<f64>,
     /// On standard output: a unified diff, or what became of every place and what is gained (JSON).

@@ -38,7 +38,9 @@ fn of(source: &[u8], d: &Diagnostic) -> String {
     let mut led: Vec<&str> = d.also.iter().map(|led| led.rule).collect();
     led.sort_unstable();
     led.dedup();
-    led.iter().for_each(|rule| add(rule.as_bytes()));
+    for rule in led {
+        add(rule.as_bytes());
+    }
     let mut text = String::with_capacity(34);
     for byte in &hash.finalize()[..16] {
         let _ = write!(text, "{byte:02x}");

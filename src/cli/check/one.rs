@@ -116,7 +116,9 @@ impl Job<'_> {
             self.format.word(),
             if self.global.color.on() { "color" } else { "plain" },
         ];
-        words.iter().for_each(|word| key.add(word.as_bytes()));
+        for word in words {
+            key.add(word.as_bytes());
+        }
         key.add(path.as_os_str().as_encoded_bytes());
         key.add(std::fs::canonicalize(path).ok()?.as_os_str().as_encoded_bytes());
         key.add(&opened.source);
@@ -130,7 +132,9 @@ impl Job<'_> {
             &resolved.dialect_reason,
             &resolved.machine_reason,
         ];
-        reasons.iter().for_each(|text| key.add(text.as_bytes()));
+        for text in reasons {
+            key.add(text.as_bytes());
+        }
         if let Some(baseline) = self.baseline {
             key.add(baseline.bytes());
         }

@@ -23,7 +23,8 @@ pub(super) fn data(loaded: &Loaded, machine: &Machine, record: &Record, marks: &
         for (at, sample) in samples.iter().enumerate() {
             // ends of blocks stay, unless there are too many blocks
             let end = at == 0 || at == last;
-            if !at.is_multiple_of(every) && !(end && record.blocks.len() * 2 < MOST) {
+            let kept = at.is_multiple_of(every) || end && record.blocks.len() * 2 < MOST;
+            if !kept {
                 continue;
             }
             let time = if sample.time.is_finite() { sample.time } else { -1.0 };

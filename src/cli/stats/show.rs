@@ -273,7 +273,12 @@ impl Serialize for Calls<'_> {
 }
 
 /// See [`File`].
-pub(super) fn json<'t>(loaded: &Loaded, tally: &'t Tally, cycle_time_s: Option<[f64; 2]>) -> File<'t> {
+pub(super) fn json<'t>(
+    loaded: &Loaded,
+    tally: &'t Tally,
+    cycle_time_s: Option<[f64; 2]>,
+    time: Option<Value>,
+) -> File<'t> {
     let resolved = &loaded.resolved;
     let unit = |rotary: bool| if rotary { "deg" } else { "mm" };
     let mut extents = Map::new();
@@ -297,7 +302,7 @@ pub(super) fn json<'t>(loaded: &Loaded, tally: &'t Tally, cycle_time_s: Option<[
     let tools = tally.tools.iter().map(|(tool, used)| {
         json!({ "tool": tool, "line": used.line, "motions": used.motions, "feed_length_mm": tidy(used.feed_mm) })
     });
-    let fields = json!({
+    let mut fields = json!({
         "path": loaded.name,
         "dialect": resolved.dialect.name,
         "dialect_reason": resolved.dialect_reason,
@@ -324,6 +329,9 @@ pub(super) fn json<'t>(loaded: &Loaded, tally: &'t Tally, cycle_time_s: Option<[
         "not_modelled": tally.not_modelled,
         "not_followed": tally.stop.as_ref().map(|(line, why)| json!({ "line": line, "why": why })),
     });
+    if let (Some(time), Some(object)) = (time, fields.as_object_mut()) {
+        object.insert("time".to_owned(), time);
+    }
     let calls = &tally.calls;
     File { fields, calls }
 }

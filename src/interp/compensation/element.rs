@@ -113,6 +113,28 @@ impl Element {
         position.set(self.axes[0], point[0]);
         position.set(self.axes[1], point[1]);
     }
+    /// Moves the start, the end or both of a motion that runs in the plane; an arc moves as a whole.
+    pub(super) fn shift(&self, motion: &mut Motion, by: Point, [start, end]: [bool; 2]) {
+        if by == [0.0; 2] {
+            return;
+        }
+        for (position, moves) in [(&mut motion.start, start), (&mut motion.end, end)] {
+            if moves
+                && let Some(point) = self.axes[..2]
+                    .iter()
+                    .map(|&axis| position.get(axis))
+                    .collect::<Option<Vec<_>>>()
+            {
+                self.put(position, add([point[0], point[1]], by, 1.0));
+            }
+        }
+        if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
+            for place in [&mut arc.start, &mut arc.end, &mut arc.centre] {
+                place[self.axes[0]] += by[0];
+                place[self.axes[1]] += by[1];
+            }
+        }
+    }
     pub(super) fn forget(&self, position: &mut Position) {
         position.forget(self.axes[0]);
         position.forget(self.axes[1]);
@@ -162,8 +184,9 @@ impl Element {
         Some(circle.sweep - between(self.start, from) + between(self.end, to))
     }
     /// An arc in the element's plane from a position, about a corner.
-    pub(super) fn corner_arc(&self, at: &Position, corner: Point, from: Point, to: Point, sign: f64) -> Option<Arc> {
-        let mut place = at.xyz()?;
+    pub(super) fn corner_arc(&self, at: &Position, corner: Point, from: Point, to: Point, sign: f64) -> Arc {
+        // Y of a lathe may be unknown, and does not move
+        let mut place = Vec3::from_fn(|axis, _| at.get(axis).unwrap_or(0.0));
         let mut put = |point: Point| {
             place[self.axes[0]] = point[0];
             place[self.axes[1]] = point[1];
@@ -171,7 +194,7 @@ impl Element {
         };
         let mut normal = Vec3::zeros();
         normal[self.axes[2]] = 1.0;
-        Some(Arc {
+        Arc {
             start: put(from),
             end: put(to),
             centre: put(corner),
@@ -179,7 +202,7 @@ impl Element {
             sweep: sweep(corner, from, to, sign),
             radius_start: distance(corner, from),
             radius_end: distance(corner, to),
-        })
+        }
     }
     /// Whether the compensated motion runs in the programmed direction.
     pub(super) fn keeps_direction(&self, offset: f64, from: Point, to: Point) -> bool {

@@ -12,9 +12,16 @@ impl<'d> Iso<'d> {
         let before = self.core.state.compensation;
         self.core.state.compensation = side;
         let plane = self.core.dialect.quirks.offset_compensation && matches!(found.code.id.as_str(), "G41" | "G42");
+        if !plane && let Some(nose) = self.nose(found) {
+            return self.compensate_nose(nose, [before, side], report);
+        }
         if !plane {
             if !std::mem::replace(&mut self.core.compensation_reported, true) {
-                let what = "cutter radius compensation: the programmed path is used instead".to_owned();
+                let what = if self.core.dialect.quirks.diameter {
+                    super::nose::UNDECLARED.to_owned()
+                } else {
+                    "cutter radius compensation: the programmed path is used instead".to_owned()
+                };
                 report.fault(found.range, FaultKind::NotModelled { what });
             }
             return;
@@ -41,6 +48,7 @@ impl<'d> Iso<'d> {
                 let compensation = &mut self.memory.compensation;
                 compensation.stage = Stage::Start;
                 (compensation.side, compensation.radius) = (sign * radius.signum(), radius.abs());
+                compensation.tip = [0.0; 2];
             }
             None => {
                 self.memory.compensation.stage = Stage::Off;

@@ -45,7 +45,7 @@ enum Sort {
     Drill,
     /// CYCLE83: in steps.
     Deep,
-    /// CYCLE84: rigid tap.
+    /// CYCLE84: rigid tap; CYCLE840: with a compensating chuck.
     Tap,
     /// CYCLE85: feed of its own in and out.
     Ream,
@@ -101,11 +101,11 @@ impl HoleCall {
             said,
         })
     }
-    fn number(&self, place: usize) -> Given {
+    pub(super) fn number(&self, place: usize) -> Given {
         self.numbers.get(place).copied().unwrap_or(Given::Nothing)
     }
     /// Levels of retraction, beginning of the feed and bottom in program units. `None`: one is not known, or they make no hole.
-    fn levels(&self) -> Option<[f64; 3]> {
+    pub(super) fn levels(&self) -> Option<[f64; 3]> {
         let Given::Number(retract) = self.number(0) else {
             return None;
         };
@@ -138,6 +138,9 @@ impl Iso<'_> {
         if let Some(found) = block.hole_call.and_then(|at| codes.get(at)) {
             let text = report.program.text(found.range);
             let numbers = self.call_numbers(&text);
+            if !block.modal_call && self.hole_row(found, &numbers, words, report) {
+                return;
+            }
             let said = crate::written::call_argument(&found.code.id, &crate::written::resolved(self, &text));
             let call = HoleCall::new(&found.code.id, numbers, said).filter(|_| !words.axes.any());
             let Some(call) = call else {
@@ -185,7 +188,7 @@ impl Iso<'_> {
     }
 
     /// Runs a cycle at the present position.
-    fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
+    pub(super) fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
             // _AXN 3 is the third geometry axis, as 0 is: Z
@@ -308,6 +311,10 @@ impl Iso<'_> {
     }
 
     fn in_hole(&mut self, call: &HoleCall, plan: &Plan, report: &mut Report<'_>) {
+        if call.sort == Sort::Deep && call.modes == Modes::None && self.deep_steps(call, plan, report) {
+            self.down(plan, MotionKind::Rapid, plan.back, report);
+            return;
+        }
         let steps = match call.sort {
             Sort::Deep => true,
             Sort::Tap => call.number(15).or_zero() != Some(0.0),
@@ -372,7 +379,7 @@ impl Iso<'_> {
     }
 
     /// DTB: seconds; turns of the spindle where it is negative.
-    fn wait_at_bottom(&mut self, given: Given, report: &Report<'_>) {
+    pub(super) fn wait_at_bottom(&mut self, given: Given, report: &Report<'_>) {
         let seconds = match given {
             Given::Nothing => return,
             Given::Number(seconds) if seconds >= 0.0 => Some(seconds),

@@ -106,7 +106,7 @@ impl Iso<'_> {
             let mut motion = self
                 .core
                 .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
-            motion.in_machine_coordinates();
+            motion.in_machine_coordinates(named);
             self.to_machine(&mut end, -1.0);
             self.core.state.position = end;
             self.memory.out.push(motion);

@@ -1,4 +1,5 @@
 //! Codes of tilted working planes: G68.2, G68.4, G53.1, G53.6 of a Fanuc; CYCLE800 of a Sinumerik.
+use super::swivel_call::{SwivelCall, deselects};
 use super::{Tilted, XYZ};
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
@@ -21,7 +22,7 @@ impl<'d> Iso<'d> {
 
     /// Positions are expressed in the coordinates of another plane from here on. The machine stays where it is; rotary axes that were set by
     /// a vector are not known.
-    fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
+    pub(super) fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
             let what = "a tilted plane starts or ends under cutter compensation".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
@@ -63,6 +64,10 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let adds = found.code.id == "G68.4";
+        if let (false, Some(kind @ (2 | 3))) = (adds, words.letter(b'P').index()) {
+            self.plane_part((kind == 3, found), words, block, report);
+            return;
+        }
         let turns = self.plane_turns(words, report);
         let clear = words.axes.unread == 0
             && !self.core.state.coordinates.incremental()
@@ -166,6 +171,22 @@ impl<'d> Iso<'d> {
         self.swivel(swivel, posture, report);
     }
 
+    /// The swivelled plane ends; where the call may move the axes, none of them is known after it.
+    fn end_swivel(&mut self, moves: bool, found: &Found<'d>, report: &mut Report<'_>) {
+        self.end_tilt(report);
+        let ended = self.core.unknown.end(found.code);
+        self.core.forget_if(ended);
+        self.core.state.zero.lose(self.core.unknown.any());
+        if moves {
+            let what = "CYCLE800: the way on which it retracts and turns back when it ends".to_owned();
+            report.fault(found.range, FaultKind::NotModelled { what });
+            let mut motion = self.unknown_motion(&Words::default(), report);
+            self.core.forget_position();
+            motion.end = self.core.state.position;
+            self.memory.out.push(motion);
+        }
+    }
+
     /// Turns the rotary axes onto the plane's normal.
     fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &Report<'_>) {
         let start = self.core.state.position;
@@ -192,17 +213,19 @@ impl<'d> Iso<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        if !found.with_arguments {
-            self.end_tilt(report);
-            self.frame_change(found, words, block, report);
+        let text = report.program.text(found.range).into_owned();
+        let value = |text: &str| self.memory.own.value(text);
+        if let Some(retracts) = deselects(&text, found.with_arguments, value) {
+            block.takes_coordinates = true;
+            self.end_swivel(retracts, found, report);
             return;
         }
-        let text = report.program.text(found.range).into_owned();
         let outer = self.memory.frames.tilt;
         // whether a shift by TRANS ends with it, or is inside it, is not modelled
         let shifted = self.memory.frames.local != [0.0; 9];
         let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy() && !shifted;
-        let Some(call) = SwivelCall::read(&text).filter(|call| plain && (!call.adds || outer.is_some())) else {
+        let read = SwivelCall::read(&text, value);
+        let Some(call) = read.filter(|call| plain && (!call.adds || outer.is_some())) else {
             self.end_tilt(report);
             self.frame_change(found, words, block, report);
             return;
@@ -229,110 +252,5 @@ impl<'d> Iso<'d> {
         };
         self.core.state.zero.lose(self.core.unknown.any());
         self.swivel(swivel, posture, report);
-    }
-}
-
-/// The arguments of a call of CYCLE800.
-#[derive(Clone, Debug, PartialEq)]
-struct SwivelCall {
-    retracts: bool,
-    adds: bool,
-    holds_tip: bool,
-    before: [f64; 3],
-    /// Axis and degrees.
-    turns: [(usize, f64); 3],
-    behind: [f64; 3],
-    direction: i32,
-}
-
-impl SwivelCall {
-    /// `None` for what is not modelled: a mode other than axis by axis, the end of a data record, values that are not
-    /// numbers.
-    fn read(text: &str) -> Option<Self> {
-        let inside = text.split_once('(')?.1.trim_end().strip_suffix(')')?;
-        let values: Vec<&str> = inside.split(',').map(str::trim).collect();
-        let number = |at: usize| match values.get(at).copied().unwrap_or_default() {
-            "" => Some(0.0),
-            value => value.parse::<f64>().ok().filter(|value| value.is_finite()),
-        };
-        let whole = |at: usize| {
-            number(at)
-                .filter(|value| value.fract() == 0.0 && value.abs() < 1e9)
-                .map(|v| v as i64)
-        };
-        let three = |at: usize| Some([number(at)?, number(at + 1)?, number(at + 2)?]);
-        if values.len() > 16
-            || values
-                .get(1)
-                .is_some_and(|record| record.trim_matches('"').trim() == "0")
-        {
-            return None;
-        }
-        let (state, mode) = (whole(2)?, whole(3)?);
-        // units: new or added; tens: the tip is held; hundreds and thousands belong to turning tools
-        let (adds, holds, others) = (state % 10, state / 10 % 10, state / 100 % 100);
-        if !(0..=1).contains(&adds) || !(0..=1).contains(&holds) || others != 0 {
-            return None;
-        }
-        let angles = three(7)?;
-        let axes = order(mode).or_else(|| (angles == [0.0; 3] && (0..=255).contains(&mode)).then_some([0, 1, 2]))?;
-        Some(Self {
-            retracts: whole(0)? != 0,
-            adds: adds == 1,
-            holds_tip: holds == 1,
-            before: three(4)?,
-            turns: [0, 1, 2].map(|index| (axes[index], angles[index])),
-            behind: three(10)?,
-            direction: i32::try_from(whole(13)?)
-                .ok()
-                .filter(|direction| (-1..=1).contains(direction))?,
-        })
-    }
-}
-
-/// The axes of a mode that turns axis by axis, two bits each from the lowest: 1 X, 2 Y, 3 Z, each once (57 is X Y Z, 27 Z Y X).
-fn order(mode: i64) -> Option<[usize; 3]> {
-    let axis = |shift: u32| usize::try_from((mode >> shift) & 3).ok()?.checked_sub(1);
-    let axes = [axis(0)?, axis(2)?, axis(4)?];
-    let all = axes.iter().fold(0, |mask, axis| mask | 1 << axis) == 0b111;
-    ((0..64).contains(&mode) && all).then_some(axes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn modes_name_the_order_of_axes() {
-        for (mode, axes) in [
-            (57, [0, 1, 2]),
-            (45, [0, 2, 1]),
-            (54, [1, 0, 2]),
-            (30, [1, 2, 0]),
-            (39, [2, 0, 1]),
-            (27, [2, 1, 0]),
-        ] {
-            assert_eq!(order(mode), Some(axes), "{mode}");
-        }
-        for mode in [0, 21, 58, 64 + 57, 192, -7] {
-            assert_eq!(order(mode), None, "{mode}");
-        }
-    }
-
-    #[test]
-    fn calls_are_read_or_not_modelled() {
-        let call = SwivelCall::read("CYCLE800(2,\"TISCH\",200001,54,35,-24,0,7,0,0,0,0,0,1,,1)").expect("modelled");
-        assert!(call.adds && call.retracts && !call.holds_tip);
-        assert_eq!((call.before, call.direction), ([35.0, -24.0, 0.0], 1));
-        assert_eq!(call.turns, [(1, 7.0), (0, 0.0), (2, 0.0)]);
-        for text in [
-            "CYCLE800(2,\"0\",200000,57,0,0,0,0,0,0,0,0,0,1,,1)",
-            "CYCLE800(0,\"\",0,192,0,0,0,10,20,0)",
-            "CYCLE800(0,\"\",0,57,R1,0,0,10,20,0)",
-            "CYCLE800(0,\"\",200,57,0,0,0,10,20,0)",
-            "CYCLE800(0,\"\",0,57,0,0,0,10,20,0,0,0,0,2)",
-        ] {
-            assert_eq!(SwivelCall::read(text), None, "{text}");
-        }
     }
 }

@@ -13,6 +13,9 @@ use trunnion_syntax::{BlockId, Program, TextRange};
 /// X Y Z U V W.
 pub(super) const LINEAR_AXES: [usize; 6] = [0, 1, 2, 6, 7, 8];
 
+/// U V W.
+const FURTHER_AXES: u16 = 0b111 << 6;
+
 /// Chords stay within this of a spline, mm.
 const SPLINE_TOLERANCE_MM: f64 = 0.001;
 
@@ -62,6 +65,24 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn not_modelled(&mut self, at: At, codes: core::ops::RangeInclusive<i64>, what: String) {
         let range = self.code_range(at, b'G', |code| codes.contains(&code));
         self.fault(at, range, FaultKind::NotModelled { what });
+    }
+
+    /// Reports once that a program without a machine names U, V or W, which not every machine has.
+    #[inline]
+    fn further_axes(&mut self, at: At, state: &State) {
+        if state.named_axes & FURTHER_AXES != 0 && !self.core.setup.control.axes_declared {
+            self.further_axes_undeclared(at, state);
+        }
+    }
+
+    #[cold]
+    fn further_axes_undeclared(&mut self, at: At, state: &State) {
+        if std::mem::replace(&mut self.calls.further_said, true) {
+            return;
+        }
+        let letter = ['U', 'V', 'W'][(state.named_axes >> 6).trailing_zeros().min(2) as usize];
+        let what = format!("axis {letter}: without a machine file it is not known whether the machine has it");
+        self.fault(at, TextRange::default(), FaultKind::NotModelled { what });
     }
 
     /// Reports compensation that begins with a radius of zero, because the tool is not declared.
@@ -119,6 +140,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
         }
         self.calls.machine = machine;
+        self.further_axes(at, state);
         let core = &mut *self.core;
         core.state.position = end;
         core.chain = self.calls.places.chain(at);
@@ -146,7 +168,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             zero: shift.zero,
             tool_length_mm: shift.length,
             undeclared: if state.machine_frame {
-                crate::Undeclared::NOTHING
+                modal.undeclared().of_axes(start.known & !state.named_axes)
             } else {
                 modal.undeclared()
             },
@@ -290,6 +312,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     #[inline]
     fn straight_motion(&mut self, rapid: bool, end: &Pose, at: At, state: &State) {
+        self.further_axes(at, state);
         let only = state.motion_only && !self.calls.is_hidden();
         if !only {
             self.calls.steady = None;

@@ -43,6 +43,8 @@ pub(super) struct CallState {
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).
     pub(super) machine_frame: bool,
+    /// It was reported that nothing declares the axes U V W.
+    pub(super) further_said: bool,
     /// The line that set `#<_value>` to something unknown.
     pub(super) returned: Option<Vec<crate::Argument>>,
     /// The kinematics were switched, and it is not known to which: X Y Z say nothing about the machine.

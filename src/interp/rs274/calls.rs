@@ -185,8 +185,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::Spindle(0, turn) => {
                 self.core.state.spindle.switch(turn != SpindleTurn::Stop);
             }
-            // which spindle holds the tool is not known
-            Canon::Spindle(_, turn) if turn != SpindleTurn::Stop => self.core.state.spindle.may_start(),
+            Canon::Spindle(spindle, turn) if turn != SpindleTurn::Stop => self.further_spindle(spindle, at),
             Canon::SpindleSpeed(0, speed) => {
                 let spindle = &mut self.core.state.spindle;
                 let speed = Some(speed).filter(|speed| speed.is_finite());
@@ -310,6 +309,16 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         (0..offset.len())
             .filter(|axis| !given(*axis))
             .fold(0, |mask, axis| mask | 1 << axis)
+    }
+
+    /// Another spindle than the first starts: which one holds the tool is not known, nor whether the machine has it.
+    fn further_spindle(&mut self, spindle: i32, at: At) {
+        self.core.state.spindle.may_start();
+        let what = format!(
+            "spindle ${spindle}: the INI file says how many spindles there are ([TRAJ]SPINDLES), and it is not known here"
+        );
+        let range = self.code_range(at, b'M', |code| [30, 40].contains(&code));
+        self.fault(at, range, FaultKind::NotModelled { what });
     }
 
     /// The program has no end: reported at its last line that is not blank.

@@ -91,7 +91,11 @@ pub(super) fn at_start(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> C
     let tools = setup.tools.iter().chain(declared).filter(|tool| tool.number != 0);
     let mut ini = Ini::default();
     let further = setup.control.further_axes.iter().map(|letter| char::from(*letter));
-    let coordinates = "XYZABC".chars().chain(further).collect();
+    let coordinates = if setup.control.axes_declared {
+        "XYZABC".chars().chain(further).collect()
+    } else {
+        "XYZABCUVW".to_owned()
+    };
     ini.values
         .insert(("TRAJ".to_owned(), "COORDINATES".to_owned()), coordinates);
     CallState {
@@ -101,6 +105,7 @@ pub(super) fn at_start(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> C
         own_codes: own.into(),
         own_motions: motions.into(),
         any_tool: true,
+        any_ini: true,
         user_codes: true,
         block_delete: setup.control.block_delete == Some(true),
         tools: ToolTable {

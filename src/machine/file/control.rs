@@ -1,9 +1,10 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
+use crate::file::planning::{corner_model, planning};
 use crate::file::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
 use crate::file::text::number;
-use crate::file::validate::{Fault, finite, non_negative, positive};
+use crate::file::validate::{Fault, finite, non_negative};
 use crate::follow::requests::posture_words;
-use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
+use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, Planning, PoleAction, PostureRule, RapidPath};
 use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
@@ -70,6 +71,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
         tool_change: tool_change(raw, axes)?,
         power_on: raw.power_on.as_deref().map(power_on).transpose()?,
+        planning: Planning::default(),
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
@@ -95,18 +97,12 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         control.branch.passing_type = passing_type(pole.passing_type.as_ref())?;
     }
     if let Some(corner) = &raw.corner {
-        let models = ["axis-jump", "grbl", "klipper", "linuxcnc-g64", "exact-stop", "servo"];
-        control.corner_model = one_of("model", corner.model.as_ref(), &models)?;
-        for (letter, jump) in &corner.dv {
-            known_axis(letter, axes)?;
-            positive("dv", Some(jump))?;
-        }
+        control.corner_model = corner_model(corner)?;
     }
     if let Some(planner) = &raw.planner {
-        positive("lookahead", planner.lookahead.as_ref())?;
-        non_negative("filter_time", planner.filter_time.as_ref())?;
         control.block_time = non_negative("block_time", planner.block_time.as_ref())?;
     }
+    control.planning = planning(raw, axes)?;
     Ok(control)
 }
 
@@ -163,7 +159,7 @@ fn tcp_codes(raw: &RawTcpCodes) -> Result<TcpCodes, Fault> {
 }
 
 /// The word, which must be one of the known ones.
-fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<String>, Fault> {
+pub(crate) fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<String>, Fault> {
     let Some(word) = word else { return Ok(None) };
     if known.contains(&word.get_ref().as_str()) {
         return Ok(Some(word.get_ref().clone()));
@@ -229,7 +225,7 @@ fn is_g_code(code: &str) -> bool {
     })
 }
 
-fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {
+pub(crate) fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {
     if axes.iter().any(|axis| word.get_ref().as_bytes() == [axis.letter]) {
         return Ok(());
     }

@@ -89,6 +89,11 @@ tail | [control];;peck_clearance = -1 | -1 | negative
 tail | [control];;tcp_codes = { on = ["428"] } | "428" | is not a code
 tail | [control];;tcp_codes = { on = ["M428"], off = ["M428"] } | "M428" | both on and off
 tail | [control];;planner = { block_time = -1 } | -1 | negative
+tail | [control];;planner = { lookahead = 1.5 } | 1.5 | whole
+tail | [control];;planner = { m_times = { S3 = 1 } } | S3 | not an M code
+tail | [control];;corner = { model = "grbl" } | "grbl" | needs `deviation`
+tail | [control];;corner = { model = "axis-jump", dv = { Q = 1 } } | Q | not an axis
+tail | [control];;servo = { bandwidth = 0 } | 0 | greater than zero
 tail | [tolerances];;tip = -0.1 | -0.1 | greater than zero
 tail | [tolerances];;feed_drop = 2 | 2 | at most 1
 tail | [tolerances];;tipp = 1 | tipp | unknown key

@@ -73,6 +73,25 @@ impl RawObstacle {
     }
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OneObstacle {
+    obstacle: Spanned<RawObstacle>,
+}
+
+impl Obstacle {
+    /// Reads the keys of an `[[obstacle]]` that stand in one line: `name = "clamp", box = [[0, 0, 0], [40, 20, 30]]`. `known`: obstacles declared before.
+    /// Whether a machine has its axis is not known here.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn from_line(keys: &str, known: &[Self]) -> Result<Self, String> {
+        let one: OneObstacle =
+            toml::from_str(&format!("obstacle = {{ {keys} }}")).map_err(|error| error.message().to_owned())?;
+        obstacle(&one.obstacle, known).map_err(|fault| fault.message)
+    }
+}
+
 fn fault<T>(place: &Spanned<T>, message: impl Into<String>) -> Fault {
     Fault {
         message: message.into(),

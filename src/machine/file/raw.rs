@@ -177,6 +177,7 @@ pub(crate) struct RawControl {
     pub(crate) feed: Option<Word>,
     pub(crate) corner: Option<RawCorner>,
     pub(crate) planner: Option<RawPlanner>,
+    pub(crate) servo: Option<RawServo>,
     pub(crate) tcp_codes: Option<RawTcpCodes>,
     #[serde(default)]
     pub(crate) posture_words: RawPostureWords,
@@ -269,6 +270,9 @@ pub(crate) struct RawCorner {
     pub(crate) model: Option<Word>,
     #[serde(default)]
     pub(crate) dv: BTreeMap<Word, Number>,
+    pub(crate) deviation: Option<Number>,
+    pub(crate) speed: Option<Number>,
+    pub(crate) tolerance: Option<Number>,
 }
 
 #[derive(Deserialize)]
@@ -277,6 +281,16 @@ pub(crate) struct RawPlanner {
     pub(crate) lookahead: Option<Number>,
     pub(crate) block_time: Option<Number>,
     pub(crate) filter_time: Option<Number>,
+    pub(crate) tool_change_time: Option<Number>,
+    #[serde(default)]
+    pub(crate) m_times: BTreeMap<Word, Number>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawServo {
+    pub(crate) bandwidth: Option<Number>,
+    pub(crate) sample_time: Option<Number>,
 }
 
 #[derive(Deserialize, Default)]

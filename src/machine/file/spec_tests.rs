@@ -64,7 +64,8 @@ branch = { rule = "fanuc", order = ["move1", "move2", "abs1", "abs2"], range = {
 pole = { cone = 2.0, action = "through", passing_type = 1 }
 rapid = "dogleg"
 corner = { model = "axis-jump", dv = { X = 5, C = 1 } }
-planner = { lookahead = 150, block_time = 0.002, filter_time = 0.004 }
+planner = { lookahead = 150, block_time = 0.002, filter_time = 0.004, tool_change_time = 6, m_times = { M3 = 2.5 } }
+servo = { bandwidth = 60, sample_time = 0.001 }
 units = "inch"
 tcp_codes = { on = ["M428"], off = ["M429"] }
 [tolerances]
@@ -179,6 +180,21 @@ fn every_key_is_read() {
     assert_eq!(machine.control.rapid, RapidPath::Dogleg);
     assert!(machine.control.tcp_great_circle && machine.control.tcp_declared);
     assert_eq!(machine.control.corner_model.as_deref(), Some("axis-jump"));
+    let planning = &machine.control.planning;
+    let jump = |letter: u8| planning.corner_jump[machine.joint(letter).expect("an axis")];
+    assert_eq!((jump(b'X'), jump(b'C'), jump(b'Y')), (Some(5.0), Some(rad(1.0)), None));
+    assert_eq!(
+        (planning.lookahead, planning.filter_time, machine.control.block_time),
+        (Some(150), Some(0.004), Some(0.002))
+    );
+    assert_eq!(
+        (planning.tool_change_time, &planning.m_times[..]),
+        (Some(6.0), &[(3, 2.5)][..])
+    );
+    assert_eq!(
+        (planning.servo_bandwidth_hz, planning.servo_sample),
+        (Some(60.0), Some(0.001))
+    );
     assert_eq!(machine.control.units, Some(trunnion_interp::LengthUnit::Inch));
     let codes = machine.control.tcp_codes.as_ref().expect("declared");
     assert_eq!(
@@ -215,8 +231,10 @@ fn every_key_is_read() {
 fn what_is_not_used_is_said() {
     let machine = load("everything", EVERYTHING).expect("valid");
     for (start, count) in [
-        ("[control] corner: ", 1),
-        ("[control] planner: ", 1),
+        ("uncertainty of", 1),
+        ("[[body]]", 1),
+        ("[control] corner: ", 0),
+        ("[control] planner: ", 0),
         ("clamp on A", 0),
         ("cable on C", 0),
         ("[control] branch", 0),

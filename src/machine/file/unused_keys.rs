@@ -1,5 +1,5 @@
 //! What a machine file may declare although nothing uses it yet: read, checked and listed.
-use crate::file::raw::{RawAxis, RawControl, RawMachine};
+use crate::file::raw::{RawAxis, RawMachine};
 
 /// One sentence for each declaration that no formula and no rule uses.
 pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
@@ -7,7 +7,6 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
     for axis in raw.axis.get_ref() {
         of_axis(axis.get_ref(), &mut out);
     }
-    of_control(&raw.control, &mut out);
     if !raw.body.is_empty() {
         out.push("[[body]]: clearance between bodies is not checked".to_owned());
     }
@@ -48,29 +47,8 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
             "uncertainty of {letter}: `machine show` and pivot-uncertainty show its effect on the tip; all other bounds are for the axis as declared"
         ),
     );
-    let dynamics = &axis.dynamics;
-    let smooth = [
-        ("jmax", dynamics.jmax.is_some()),
-        ("kv", dynamics.kv.is_some()),
-        ("kff", dynamics.kff.is_some()),
-    ];
-    for (name, set) in smooth {
-        say(
-            set,
-            format!("{name} of {letter}: jerk and position-loop lag are not considered"),
-        );
-    }
     say(
         axis.resolution.is_some(),
         format!("resolution of {letter}: axis positions are not rounded to it"),
     );
-}
-
-fn of_control(control: &RawControl, out: &mut Vec<String>) {
-    if control.corner.is_some() {
-        out.push("[control] corner: the speed at corners is not considered".to_owned());
-    }
-    if control.planner.is_some() {
-        out.push("[control] planner: block time, look-ahead and filters are not considered".to_owned());
-    }
 }

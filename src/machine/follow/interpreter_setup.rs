@@ -10,6 +10,7 @@ impl Machine {
         control.tcp_codes = machine.and_then(|machine| machine.control.tcp_codes.clone());
         control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();
         control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
+        control.axes_declared = machine.is_some();
         control.length_along = machine.and_then(Self::length_along);
         control.absent_axis = machine.and_then(Self::absent_axis);
         control.has_rotary =

@@ -211,6 +211,34 @@ pub struct Control {
     pub tool_change: Option<trunnion_interp::Position>,
     /// G codes in effect at power-on; those of other groups are not declared.
     pub power_on: Option<Vec<String>>,
+    /// How the control plans speeds, and what its servo loops are like.
+    pub planning: Planning,
+}
+
+/// How a control plans speeds, and its servo loops. Nothing here changes where the tool goes in the stated model; it changes how long it takes and
+/// how far a corner is cut. `None`: not declared.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Planning {
+    /// axis-jump: speed by which each axis may change at once, by joint, mm/s or rad/s.
+    pub corner_jump: [Option<f64>; MAX_AXES],
+    /// grbl: junction deviation, mm.
+    pub corner_deviation: Option<f64>,
+    /// klipper: speed at a square corner, mm/s.
+    pub corner_speed: Option<f64>,
+    /// servo, linuxcnc-g64: distance by which a corner may be cut, mm.
+    pub corner_tolerance: Option<f64>,
+    /// Blocks that the control looks ahead.
+    pub lookahead: Option<u32>,
+    /// Length of the filter after the interpolator, s.
+    pub filter_time: Option<f64>,
+    /// Time of a tool change, s.
+    pub tool_change_time: Option<f64>,
+    /// Times of M codes by their numbers, s.
+    pub m_times: Vec<(u16, f64)>,
+    /// Bandwidth of the velocity loop of the axes, Hz.
+    pub servo_bandwidth_hz: Option<f64>,
+    /// Time between two samples of the position loop, s.
+    pub servo_sample: Option<f64>,
 }
 
 /// Thresholds of the rules.

@@ -1,6 +1,7 @@
 //! Where the joints and the tool are inside a block: the real path between two blocks, for pictures and for surfaces.
 use crate::kinematics::forward::Turn;
 use crate::path::joint_path::{JointPath, Track};
+use crate::path::rotary_path::RotaryPath;
 use crate::{Joints, Leg, Machine, Pose, forward};
 use trunnion_geometry::Vec3;
 
@@ -48,6 +49,28 @@ impl<'a> BlockPath<'a> {
             tip: tip - self.zero,
             axis,
         }
+    }
+
+    /// Rates of the joints after the share `t` of the block (held to 0..=1), mm or rad per block.
+    pub fn rates(&self, t: f64) -> Joints {
+        let course = &self.course;
+        let t = t.clamp(0.0, 1.0);
+        let mut rates = course.end.joints;
+        for (rate, from) in rates.iter_mut().zip(&course.start.joints) {
+            *rate -= from;
+        }
+        let constants = course.constants();
+        if matches!(course.spin, RotaryPath::GreatCircle(_)) {
+            let turns = course.rates(t, &course.turns(t));
+            for (rotary, turn) in constants.rotary().iter().zip(turns) {
+                rates[rotary.joint] = rotary.sign * turn;
+            }
+        }
+        let solved = course.moment(t).rates;
+        for (&index, rate) in constants.solved.iter().zip(solved.iter()) {
+            rates[constants.linear[index].joint] = *rate;
+        }
+        rates
     }
 
     /// Upper bound of the second derivative of the tip path, mm per block squared: between two moments that lie the share h apart the tip

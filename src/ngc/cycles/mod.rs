@@ -51,9 +51,10 @@ impl Work<'_> {
         let Some(number) = self.block.spindle else {
             return Ok(());
         };
-        let count = self.engine.setup.spindles();
-        let spindle = usize::try_from(number).ok().filter(|&number| number < count);
-        self.engine.state.chosen_spindle = spindle.ok_or_else(|| self.refuse(problem))?;
+        if !self.engine.setup.has_spindle(number) {
+            return Err(self.refuse(problem));
+        }
+        self.engine.state.chosen_spindle = number.unsigned_abs() as usize;
         Ok(())
     }
     /// The spindle whose state matters, and its direction: 0, 1, -1.

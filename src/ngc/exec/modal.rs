@@ -227,11 +227,11 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
 
 /// The spindle that a mode names: the first if it names none. Threads and feed per revolution follow it from then on.
 fn choose_spindle(engine: &mut Engine, block: &Block, problem: &'static Problem) -> Result<usize, Error> {
-    let spindle = match block.spindle.map(usize::try_from) {
-        None => 0,
-        Some(Ok(number)) if number < engine.setup.spindles() => number,
-        Some(_) => return Err(Error::new(problem, block.range)),
-    };
+    let number = block.spindle.unwrap_or(0);
+    if !engine.setup.has_spindle(number) {
+        return Err(Error::new(problem, block.range));
+    }
+    let spindle = number.unsigned_abs() as usize;
     engine.state.chosen_spindle = spindle;
     Ok(spindle)
 }

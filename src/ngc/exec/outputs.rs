@@ -120,7 +120,7 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     let spindles = engine.setup.spindles() as i32;
     // M51 takes one spindle, but not the first, and without $ all of them
     let chosen = block.spindle.filter(|_| block.m[9] == 51);
-    if chosen.is_some_and(|spindle| !(1..spindles).contains(&spindle)) {
+    if chosen.is_some_and(|spindle| spindle == 0 || !engine.setup.has_spindle(spindle)) {
         return Err(Error::new(&problems::SPINDLE_RANGE_M51, block.range));
     }
     let code = block.m[9];

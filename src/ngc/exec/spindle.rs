@@ -9,7 +9,7 @@ fn chosen(engine: &Engine, block: &Block, problem: &'static Problem) -> Result<R
     match block.spindle {
         None => Ok(0..1),
         Some(-1) => Ok(0..count),
-        Some(number) if (0..count as i32).contains(&number) => Ok(number as usize..number as usize + 1),
+        Some(number) if engine.setup.has_spindle(number) => Ok(number as usize..number as usize + 1),
         Some(number) => {
             // S alone does it in one line
             let text = format!("{}\nnum_spindles ={count}. $={number}\n", problem.message);
@@ -82,8 +82,7 @@ fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Re
     let mode = block.word(b'P').unwrap_or(0.0).round();
     // it cannot turn all of them at once (-1)
     let number = block.spindle.unwrap_or(0);
-    let exists = usize::try_from(number).is_ok_and(|spindle| spindle < engine.setup.spindles());
-    if !exists {
+    if !engine.setup.has_spindle(number) {
         return Err(Error::new(&problems::SPINDLE_RANGE_M19, block.range));
     }
     // the control takes all of them as stopped, whichever it turns

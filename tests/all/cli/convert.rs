@@ -244,3 +244,90 @@ fn a_post_of_ones_own_is_read_and_its_mistakes_are_placed() {
         "{message}"
     );
 }
+
+/// The certificate of a conversion is checked without the converter: by both texts, both machines and all that it says.
+#[test]
+fn a_conversion_is_certified() {
+    let folder = TempDir::new().expect("works");
+    let [cl, after, proof] = ["piece.apt", "piece.nc", "proof.json"].map(|name| folder.path().join(name));
+    fs::copy(sample("apt/small-piece.apt"), &cl).expect("copied");
+    for (before, to, machines) in [
+        (&cl, "sinumerik-840d", ["mikron-ucp710", "mikron-ucp710"]),
+        (&cl, "fanuc-30i", ["mikron-ucp710", "ferrari-bc"]),
+        (&after, "apt", ["ferrari-bc", "ferrari-bc"]),
+    ] {
+        let last = folder.path().join(format!("{to}.out"));
+        let machine = ["--machine", machines[0], "--to-machine", machines[1]];
+        let made = trunnion(
+            &[
+                &[
+                    "convert",
+                    str(before),
+                    "--to",
+                    to,
+                    "-o",
+                    str(&last),
+                    "--certificate",
+                    str(&proof),
+                ],
+                &machine[..],
+            ]
+            .concat(),
+        );
+        assert_eq!(status(&made), 0, "{to}: {}", text(&made.stderr));
+        let again = |file: &Path, proof: &Path, machine: &[&str]| {
+            let output = trunnion(
+                &[
+                    &["certify", str(before), str(file), "--certificate", str(proof)],
+                    machine,
+                ]
+                .concat(),
+            );
+            (status(&output), text(&output.stdout))
+        };
+        let (code, said) = again(&last, &proof, &machine);
+        assert!(
+            code == 0 && said.starts_with(&format!("PROVED the same motions in {to} as in ")),
+            "{to}: {said}"
+        );
+        // another text
+        let program = fs::read_to_string(&last).expect("readable");
+        let other = folder.path().join("other.out");
+        fs::write(&other, program.replacen("0.5", "0.4", 1) + "\n").expect("written");
+        let (code, said) = again(&other, &proof, &machine);
+        assert!(
+            code == 1 && said.starts_with("REFUTED") && said.contains("after.text"),
+            "{to}: {said}"
+        );
+        // another machine
+        let (code, said) = again(
+            &last,
+            &proof,
+            &["--machine", "fork-head-ca", "--to-machine", "fork-head-ca"],
+        );
+        assert!(code == 1 && said.contains("machine"), "{to}: {said}");
+        // every number and every term of it
+        let certificate = fs::read_to_string(&proof).expect("readable");
+        let value: serde_json::Value = serde_json::from_str(&certificate).expect("JSON");
+        let changed = folder.path().join("changed.json");
+        for (pointer, new) in [
+            ("/claim/path_mm", serde_json::json!(1.0)),
+            ("/proof/end_mm", serde_json::json!(0.0)),
+            ("/assumes_tcp", serde_json::json!(true)),
+            ("/parts/0/times", serde_json::json!(4_000_000_000_u32)),
+            ("/tool_version", serde_json::json!("9")),
+        ] {
+            let mut value = value.clone();
+            *value.pointer_mut(pointer).expect("a field") = new;
+            fs::write(&changed, value.to_string()).expect("written");
+            let (code, said) = again(&last, &changed, &machine);
+            assert!(
+                code == 1 && said.starts_with("REFUTED") && said.contains("seal"),
+                "{to} {pointer}: {said}"
+            );
+        }
+        if to == "fanuc-30i" {
+            fs::copy(&last, &after).expect("copied");
+        }
+    }
+}

@@ -69,7 +69,9 @@ fn trace_plot_and_stats_have_the_path_and_the_time() {
     let csv = text(&trunnion_in(folder.path(), &["trace", "a.nc"]).stdout);
     let mut rows = csv.lines();
     let names: Vec<&str> = rows.next().expect("a head").split(',').collect();
-    assert!(names.ends_with(&["joint_x", "joint_z", "open_posture"]), "{names:?}");
+    let planned = ["time_s", "reached_feed_mm_min", "limited_by"];
+    let last = [&["joint_x", "joint_z", "open_posture"], &planned[..]].concat();
+    assert!(names.ends_with(&last), "{names:?}");
     let duration = names.iter().position(|name| *name == "duration_s").expect("a column");
     for row in rows.skip(1) {
         let cells: Vec<&str> = row.split(',').collect();

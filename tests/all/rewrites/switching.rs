@@ -3,7 +3,7 @@ use super::strategy_2::{ROWS, certified, refused, run, settings, sinumerik};
 use crate::random::Random;
 use std::fmt::Write;
 use trunnion::certify::postures::PostureCost;
-use trunnion::certify::{Claim, Outcome, certify, recheck};
+use trunnion::certify::{Certificate, Claim, Outcome, certify, recheck};
 use trunnion::check::{Assume, Settings};
 use trunnion::geometry::rad;
 use trunnion::interp::Setup;
@@ -71,6 +71,24 @@ fn the_first_winding_is_chosen_for_what_comes() {
         (costs.before - 464.0).abs() < 1e-6 && (costs.after - 120.0).abs() < 1e-6,
         "{costs:?}"
     );
+}
+
+/// Where the same posture would need more than half a turn, a cut does not change the posture instead: the pole is not inside it.
+#[test]
+fn no_posture_is_changed_in_a_cut_for_want_of_turns() {
+    let machine = mikron((-20.0, 60.0), Some((-500.0, 400.0)));
+    let rows: [Row; 6] = [
+        (40.045, 247.152, false),
+        (-12.39, -317.368, false),
+        (-15.629, -350.0, true),
+        (-17.124, -313.442, true),
+        (19.831, 40.199, false),
+        (22.613, -0.279, true),
+    ];
+    let (_, certificate) = certified(switch(&text_of(&rows), &on(&machine), PostureCost::Travel));
+    let costs = certificate.postures.expect("a proof about postures");
+    // found by a program that shares nothing with this one
+    assert!((costs.after - 311.536_215).abs() < 1e-5, "{costs:?}");
 }
 
 /// Words that the next block leaves out must still say what they said.
@@ -257,6 +275,29 @@ fn by_hand(rows: &[Row], a_travel: (f64, f64), c_travel: (f64, f64)) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// The certificate holds, and no longer once one of its labels is lower: a cheaper course would be claimed.
+fn checked_again(certificate: &Certificate, before: &str, after: &[u8], machine: &Machine) {
+    let dialect = trunnion::dialect::builtin("sinumerik-840d").expect("built in");
+    let again = |certificate: &Certificate| {
+        recheck(
+            certificate,
+            before.as_bytes(),
+            after,
+            dialect,
+            machine,
+            &Setup::default(),
+        )
+    };
+    assert!(matches!(again(certificate), Outcome::Proved(_)), "{before}");
+    let mut forged = certificate.clone();
+    let Claim::LeastPostures { labels, .. } = &mut forged.claim else {
+        panic!("{:?}", certificate.claim)
+    };
+    let label = labels.iter_mut().rev().flatten().next().expect("a label");
+    *label = label.saturating_sub(1_000_000);
+    assert!(matches!(again(&forged), Outcome::Refuted(_)), "{before}");
+}
+
 #[test]
 fn no_sequence_of_postures_is_cheaper() {
     let mut random = Random(2026);
@@ -282,8 +323,9 @@ fn no_sequence_of_postures_is_cheaper() {
                 kept += 1;
                 assert!((as_written - least).abs() < 1e-6, "{text}\n{as_written} {least}");
             }
-            Ok(Some(Proved { certificate, .. })) => {
+            Ok(Some(Proved { certificate, after, .. })) => {
                 better += 1;
+                checked_again(&certificate, &text, &after, &machine);
                 let costs = certificate.postures.expect("a proof about postures");
                 assert!((costs.before - as_written).abs() < 1e-6, "{text}");
                 assert!((costs.after - least).abs() < 1e-6, "{text}\n{} {least}", costs.after);

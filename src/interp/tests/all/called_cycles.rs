@@ -87,7 +87,13 @@ fn the_other_cycles_are_what_the_manual_says() {
 #[test]
 fn what_a_cycle_does_not_tell_is_unknown() {
     for (text, told) in [
-        ("CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0)", "the steps in the hole"),
+        ("CYCLE83(10,0,3,-20,,,,2,0,0,1,0)", "the steps in the hole"),
+        ("CYCLE83(10,0,3,-20,,-5,5,2,0,0,1,2)", "the steps in the hole"),
+        ("CYCLE83(10,0,3,-40,,-5,5,2,0,0,1,1)", "the steps in the hole"),
+        (
+            "CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0,0,0,0,0,0,0,1,12)",
+            "the steps in the hole",
+        ),
         (
             "CYCLE84(10,0,3,-20,,0,3,0,1.5,0,300,300,0,1,0,1,2,1)",
             "the steps in the hole",
@@ -106,7 +112,7 @@ fn what_a_cycle_does_not_tell_is_unknown() {
     }
     // the position after a hole in steps is known
     assert_eq!(
-        cycle("CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0)"),
+        cycle("CYCLE83(10,0,3,-20,,,,2,0,0,1,0)"),
         ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]
     );
     assert_eq!(cycle("CYCLE81(10,0,3,R7)\nX5"), ["U -", "R X5"]);
@@ -174,4 +180,94 @@ fn variables_are_followed_until_the_flow_is_lost() {
         assert!(got.len() == 1 && got[0].contains("NotDecided"), "{flow}: {got:?}");
         assert_eq!(lines("sinumerik-840d", &source), ["R X0 Y0"]);
     }
+}
+
+#[test]
+fn cycle83_breaks_the_chip_or_leaves_the_hole() {
+    // 5, then 2 less: 3; the rest is below the amount
+    assert_eq!(
+        cycle("CYCLE83(10,0,3,-9,,-5,,2,0,0,0.5,0)"),
+        [
+            "R X0 Y0 Z3",
+            "L X0 Y0 Z-5 F50",
+            "R X0 Y0 Z-4",
+            "L X0 Y0 Z-7 F100",
+            "R X0 Y0 Z-6",
+            "L X0 Y0 Z-9 F100",
+            "R X0 Y0 Z10"
+        ]
+    );
+    // out to the level above the surface, and back to 0.6 mm above the last depth; dwells DTB, DTS, DTD
+    assert_eq!(
+        cycle("CYCLE83(10,0,3,-9,,,5,-1,0.5,0.2,1,1,0,2,0,0.7)"),
+        [
+            "R X0 Y0 Z3",
+            "L X0 Y0 Z-5 F100",
+            "D0.5 X0 Y0 Z-5",
+            "R X0 Y0 Z3",
+            "D0.2 X0 Y0 Z3",
+            "R X0 Y0 Z-4.4",
+            "L X0 Y0 Z-9 F100",
+            "D0.7 X0 Y0 Z-9",
+            "R X0 Y0 Z10"
+        ]
+    );
+    // _DIS1 and _VRT
+    assert!(cycle("CYCLE83(10,0,3,-40,,,20,0,0,0,1,1,0,0,0,0,2)").contains(&"R X0 Y0 Z-18".to_owned()));
+    assert!(cycle("CYCLE83(10,0,3,-9,,,5,0,0,0,1,0,0,0,1.5)").contains(&"R X0 Y0 Z-3.5".to_owned()));
+}
+
+#[test]
+fn rows_of_holes_run_the_cycle_of_mcall() {
+    let line = cycle("MCALL CYCLE81(10,0,3,-5)\nHOLES1(0,0,30,0,10,2)\nMCALL");
+    assert_eq!(
+        line,
+        [
+            "R X0 Y0 Z3",
+            "L X0 Y0 Z-5 F100",
+            "R X0 Y0 Z10",
+            "R X8.660254 Y5 Z10",
+            "R X8.660254 Y5 Z3",
+            "L X8.660254 Y5 Z-5 F100",
+            "R X8.660254 Y5 Z10"
+        ]
+    );
+    let places = |text: &str| -> Vec<String> {
+        cycle(&format!("MCALL CYCLE81(60,0,3,-5)\n{text}\nMCALL"))
+            .into_iter()
+            .filter(|line| line.starts_with('L'))
+            .collect()
+    };
+    assert_eq!(
+        places("HOLES2(0,0,10,90,0,4)"),
+        [
+            "L X0 Y10 Z-5 F100",
+            "L X-10 Y0 Z-5 F100",
+            "L X0 Y-10 Z-5 F100",
+            "L X10 Y0 Z-5 F100"
+        ]
+    );
+    assert_eq!(
+        places("CYCLE801(1,1,0,10,5,2,2)"),
+        [
+            "L X1 Y1 Z-5 F100",
+            "L X1 Y6 Z-5 F100",
+            "L X11 Y6 Z-5 F100",
+            "L X11 Y1 Z-5 F100"
+        ]
+    );
+    // which end of the row comes first is not agreed
+    for text in [
+        "X50\nHOLES1(10,0,0,0,10,3)",
+        "CYCLE801(1,1,0,5,5,2,2)",
+        "HOLES1(R77,0,0,0,10,3)",
+    ] {
+        let got = faults("sinumerik-840d", &format!("{HEAD}MCALL CYCLE81(10,0,3,-5)\n{text}\n"));
+        assert!(
+            got.iter().any(|fault| fault.contains("NotModelled")),
+            "{text}: {got:?}"
+        );
+    }
+    let got = faults("sinumerik-840d", &format!("{HEAD}HOLES2(0,0,10,0,120,4)\n"));
+    assert!(got.iter().any(|fault| fault.contains("61106")), "{got:?}");
 }

@@ -75,6 +75,21 @@ fn broken_directives() {
 }
 
 #[test]
+fn obstacles_are_read_elsewhere() {
+    let keys = "name = \"clamp\", box = [[0, 0, 0], [4, 2, 3]]";
+    for (dialect, text) in [
+        ("fanuc-30i", format!("G1 X1 (trunnion: obstacle {keys})\n")),
+        ("sinumerik-840d", format!(";TRUNNION:OBSTACLE {keys}\n")),
+    ] {
+        assert!(trunnion_interp::may_declare_obstacles(text.as_bytes()));
+        assert_eq!(read(dialect, &text), [Directive::Obstacle(keys.to_owned())]);
+    }
+    assert!(!trunnion_interp::may_declare_obstacles(
+        b"(trunnion: tool 1 ball diameter 10)\n(obstacle)"
+    ));
+}
+
+#[test]
 fn turned_tool_axes() {
     assert_eq!(
         read("iso-6983", "X1 (trunnion: turned 0.1)\n"),

@@ -25,6 +25,7 @@ mod macro_flow;
 mod macro_programs;
 mod macro_values;
 mod motions;
+mod nose;
 mod one_block;
 mod orientation;
 mod own_codes;

@@ -303,3 +303,58 @@ fn a_part_for_two_controls_has_the_same_motions() {
         }
     }
 }
+
+#[test]
+fn three_points_and_two_vectors_give_the_plane_of_the_euler_angles() {
+    let euler = "G68.2 X10. Y20. Z30. I0. J90. K0.\nG53.1\nG0 X25. Y15. Z25.\n";
+    let points = "G68.2 P2 Q1 X10. Y20. Z30.\nG68.2 P2 Q2 X20. Y20. Z30.\nG68.2 P2 Q3 X10. Y20. Z40.\nG53.1\nG0 X25. Y15. Z25.\n";
+    let vectors = "G68.2 P3 Q1 X10. Y20. Z30. I1. J0. K0.\nG68.2 P3 Q2 I0. J-2. K0.\nG53.1\nG0 X25. Y15. Z25.\n";
+    let last = |text: &str| *motions("fanuc-30i", text).last().expect("a motion");
+    let wanted = last(euler);
+    for text in [points, vectors] {
+        assert_eq!(faults("fanuc-30i", text), Vec::<String>::new(), "{text}");
+        let found = last(text);
+        near(found.end.xyz(), wanted.end.xyz().expect("known").into());
+        near(found.tilt.normal, wanted.tilt.normal.expect("tilted").into());
+    }
+    // R turns about the new Z: x of the plane is then the old y of it
+    let turned = "G68.2 P3 Q1 X0. Y0. Z0. I1. J0. K0.\nG68.2 P3 Q2 I0. J0. K1. R90.\nG53.1\nG0 X1. Y0. Z0.\n";
+    near(last(turned).end.xyz(), [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_plane_that_is_not_complete_or_has_a_shift_in_q0_is_unknown() {
+    for text in [
+        "G68.2 P2 Q1 X0. Y0. Z0.\nG68.2 P2 Q2 X1. Y0. Z0.\nG53.1\nG0 X1. Y1. Z1.\n",
+        "G68.2 P2 Q1 X0. Y0. Z0.\nX1. Y1. Z1.\n",
+        "G68.2 P2 Q0 X1. Y0. Z0.\nG0 X1. Y1. Z1.\n",
+        "G68.2 P2 Q1 X0. Y0. Z0.\nG68.2 P2 Q2 X1. Y0. Z0.\nG68.2 P2 Q3 X2. Y0. Z0.\nG0 X1. Y1. Z1.\n",
+        "G68.2 P3 Q1 X0. Y0. Z0. I1. J0. K0.\nG68.2 P3 Q2 I1. J0. K1.\nG0 X1. Y1. Z1.\n",
+        "G68.2 P3 Q2 I0. J0. K1.\nG0 X1. Y1. Z1.\n",
+    ] {
+        let got = faults("fanuc-30i", text);
+        assert!(got.iter().any(|fault| fault.contains("G68.2")), "{text}: {got:?}");
+        let last = *motions("fanuc-30i", text).last().expect("a motion");
+        assert_eq!(last.end.xyz(), None, "{text}");
+    }
+}
+
+#[test]
+fn cycle800_ends_with_empty_brackets_or_with_the_record_0() {
+    let start = "G17 G90\nCYCLE800(0,\"T\",0,57,1,2,3,0,90,0,0,0,0,-1)\nG0 X10 Y0 Z5\n";
+    for end in ["CYCLE800", "CYCLE800()", "CYCLE800(0,\"0\",0,57,0,0,0,0,0,0,0,0,0,0)"] {
+        let text = format!("{start}{end}\nG0 X10 Y20 Z5\n");
+        assert_eq!(faults("sinumerik-840d", &text), Vec::<String>::new(), "{end}");
+        let last = *motions("sinumerik-840d", &text).last().expect("a motion");
+        near(last.end.xyz(), [10.0, 20.0, 5.0]);
+        assert_eq!(last.tilt.normal, None, "{end}");
+    }
+    let moved = format!("{start}CYCLE800(2,\"0\",0,57,0,0,0,0,0,0,0,0,0,1)\nG0 X10 Y20\n");
+    let got = faults("sinumerik-840d", &moved);
+    assert!(
+        got.iter().any(|fault| fault.contains("retracts and turns back")),
+        "{got:?}"
+    );
+    let last = *motions("sinumerik-840d", &moved).last().expect("a motion");
+    assert_eq!((last.end.get(0), last.end.get(2)), (Some(10.0), None));
+}

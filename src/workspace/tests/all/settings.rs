@@ -92,3 +92,57 @@ fn a_table_of_ones_own_is_the_dialect() {
     };
     assert!(error.place.contains("shop.toml:3"), "{error}");
 }
+
+/// Obstacles in comments have the keys of `[[obstacle]]`, and come after those of the settings.
+#[test]
+fn comments_declare_obstacles() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write(
+        folder.path(),
+        "trunnion.toml",
+        "machine = \"mikron-ucp710\"\ndialect = \"fanuc-30i\"\n[[obstacle]]\nname = \"vice\"\nbox = [[0, 0, 0], [1, 1, 1]]\n",
+    );
+    let file = folder.path().join("main.nc");
+    let with = |comment: &str| {
+        resolve(
+            Some(&file),
+            format!("%\n{comment}\nM30\n").as_bytes(),
+            &Overrides::default(),
+        )
+    };
+    let resolved = with(
+        "(TRUNNION: obstacle name = \"clamp\", polygon = [[0, 0], [9, 0], [0, 9]], z = [0, 5], axis = \"C\")\n\
+         (trunnion:obstacle cylinder = { centre = [1, 2], radius = 3, z = [4, 5] })",
+    )
+    .expect("resolved");
+    let machine = resolved.machine.expect("named");
+    let names: Vec<&str> = machine.obstacles.0.iter().map(|one| one.name.as_str()).collect();
+    assert_eq!(names, ["vice", "clamp", "obstacle 3"]);
+    assert_eq!(machine.obstacles.0[1].axis, Some(b'C'));
+    assert_eq!((machine.obstacles.0[2].bottom, machine.obstacles.0[2].top), (4.0, 5.0));
+    for (wrong, why) in [
+        ("name = \"vice\", box = [[0, 0, 0], [1, 1, 1]]", "declared twice"),
+        ("box = [[0, 0, 0], [1, -1, 1]]", "each minimum below its maximum"),
+        ("box = [[0, 0, 0], [1, 1, 1]], height = 3", "unknown field"),
+        ("axis = \"W\", box = [[0, 0, 0], [1, 1, 1]]", "has no axis W"),
+        ("box = [[0, 0, 0], [1, 1", ""),
+        ("", "one shape"),
+        ("box = [[0, 0, 0], [1, 1, 1]] }, obstacle = { part = true", ""),
+    ] {
+        let Err(error) = with(&format!("G1 X1 (trunnion: obstacle {wrong})")) else {
+            panic!("{wrong} is read")
+        };
+        assert!(error.place.ends_with("main.nc:2:7"), "{error}");
+        assert!(
+            error.message.contains(why) && error.message.contains("[[obstacle]]"),
+            "{error}"
+        );
+    }
+    // other comments and other words stay what they are
+    assert_eq!(
+        with("(obstacle: box)\n(an obstacle)")
+            .map(|found| found.machine.expect("named").obstacles.0.len())
+            .expect("read"),
+        1
+    );
+}

@@ -1,0 +1,148 @@
+//! The arguments of CYCLE800.
+use crate::own::arguments;
+
+/// The arguments of a call of CYCLE800.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SwivelCall {
+    pub(super) retracts: bool,
+    pub(super) adds: bool,
+    pub(super) holds_tip: bool,
+    pub(super) before: [f64; 3],
+    /// Axis and degrees.
+    pub(super) turns: [(usize, f64); 3],
+    pub(super) behind: [f64; 3],
+    pub(super) direction: i32,
+}
+
+impl SwivelCall {
+    /// `None` for what is not modelled: a mode other than axis by axis, values that are not known.
+    pub(super) fn read(text: &str, own: impl Fn(&str) -> Option<f64>) -> Option<Self> {
+        let values = arguments(inside(text)?);
+        let number = |at: usize| match values.get(at).copied().unwrap_or_default() {
+            "" => Some(0.0),
+            value => number(value, &own),
+        };
+        let whole = |at: usize| {
+            number(at)
+                .filter(|value| value.fract() == 0.0 && value.abs() < 1e9)
+                .map(|v| v as i64)
+        };
+        let three = |at: usize| Some([number(at)?, number(at + 1)?, number(at + 2)?]);
+        if values.len() > 16 {
+            return None;
+        }
+        let (state, mode) = (whole(2)?, whole(3)?);
+        // units: new or added; tens: the tip is held; hundreds and thousands belong to turning tools
+        let (adds, holds, others) = (state % 10, state / 10 % 10, state / 100 % 100);
+        if !(0..=1).contains(&adds) || !(0..=1).contains(&holds) || others != 0 {
+            return None;
+        }
+        let angles = three(7)?;
+        let axes = order(mode).or_else(|| (angles == [0.0; 3] && (0..=255).contains(&mode)).then_some([0, 1, 2]))?;
+        Some(Self {
+            retracts: whole(0)? != 0,
+            adds: adds == 1,
+            holds_tip: holds == 1,
+            before: three(4)?,
+            turns: [0, 1, 2].map(|index| (axes[index], angles[index])),
+            behind: three(10)?,
+            direction: i32::try_from(whole(13)?)
+                .ok()
+                .filter(|direction| (-1..=1).contains(direction))?,
+        })
+    }
+}
+
+/// What is between the brackets of a call.
+fn inside(text: &str) -> Option<&str> {
+    text.split_once('(')?.1.trim_end().strip_suffix(')')
+}
+
+/// An argument: a number, or an expression of the program's variables.
+fn number(text: &str, own: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+    let written = text.parse::<f64>().ok();
+    written.or_else(|| own(text)).filter(|value| value.is_finite())
+}
+
+/// Whether a call ends the swivelled plane: it stands alone, its brackets are empty, or its data record is "0" (Sinumerik 840D sl
+/// Programming Manual, Cycles). `Some(true)`: it may retract or turn the axes first.
+pub(super) fn deselects(text: &str, with_arguments: bool, own: impl Fn(&str) -> Option<f64>) -> Option<bool> {
+    if !with_arguments {
+        return Some(false);
+    }
+    let values = arguments(inside(text)?);
+    if values.iter().all(|value| value.is_empty()) {
+        return Some(false);
+    }
+    let is_none = values.get(1)?.trim_matches('"').trim() == "0";
+    let still = |at: usize| match values.get(at).copied().unwrap_or_default() {
+        "" => true,
+        value => number(value, &own) == Some(0.0),
+    };
+    is_none.then(|| !(still(0) && still(13)))
+}
+
+/// The axes of a mode that turns axis by axis, two bits each from the lowest: 1 X, 2 Y, 3 Z, each once (57 is X Y Z, 27 Z Y X).
+fn order(mode: i64) -> Option<[usize; 3]> {
+    let axis = |shift: u32| usize::try_from((mode >> shift) & 3).ok()?.checked_sub(1);
+    let axes = [axis(0)?, axis(2)?, axis(4)?];
+    let all = axes.iter().fold(0, |mask, axis| mask | 1 << axis) == 0b111;
+    ((0..64).contains(&mode) && all).then_some(axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_name_the_order_of_axes() {
+        for (mode, axes) in [
+            (57, [0, 1, 2]),
+            (45, [0, 2, 1]),
+            (54, [1, 0, 2]),
+            (30, [1, 2, 0]),
+            (39, [2, 0, 1]),
+            (27, [2, 1, 0]),
+        ] {
+            assert_eq!(order(mode), Some(axes), "{mode}");
+        }
+        for mode in [0, 21, 58, 64 + 57, 192, -7] {
+            assert_eq!(order(mode), None, "{mode}");
+        }
+    }
+
+    #[test]
+    fn calls_are_read_or_not_modelled() {
+        let own = |text: &str| (text == "R2").then_some(15.0);
+        let call =
+            SwivelCall::read("CYCLE800(2,\"TISCH\",200001,54,35,-24,0,7,0,0,0,0,0,1,,1)", own).expect("modelled");
+        assert!(call.adds && call.retracts && !call.holds_tip);
+        assert_eq!((call.before, call.direction), ([35.0, -24.0, 0.0], 1));
+        assert_eq!(call.turns, [(1, 7.0), (0, 0.0), (2, 0.0)]);
+        let expression = SwivelCall::read("CYCLE800(0,\"\",0,57,0,0,0,R2,0,0)", own).expect("modelled");
+        assert_eq!(expression.turns[0], (0, 15.0));
+        for text in [
+            "CYCLE800(0,\"\",0,192,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",0,57,R1,0,0,10,20,0)",
+            "CYCLE800(0,\"\",200,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",0,57,0,0,0,10,20,0,0,0,0,2)",
+        ] {
+            assert_eq!(SwivelCall::read(text, own), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_empty_call_and_the_record_0_end_the_plane() {
+        let own = |_: &str| None;
+        for (text, with_arguments, ends) in [
+            ("CYCLE800", false, Some(false)),
+            ("CYCLE800()", true, Some(false)),
+            ("CYCLE800(0,\"0\",200000,57,0,0,0,0,0,0,0,0,0,0,0)", true, Some(false)),
+            ("CYCLE800(2,\"0\",200000,57,0,0,0,0,0,0,0,0,0,1,,1)", true, Some(true)),
+            ("CYCLE800(R1,\"0\")", true, Some(true)),
+            ("CYCLE800(2,\"TISCH\",200000,57)", true, None),
+        ] {
+            assert_eq!(deselects(text, with_arguments, own), ends, "{text}");
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The time of a whole program: legs, what it says about corners, tool changes and M codes, in the order in which they run.
+use crate::{PathControl, Planner, Timed};
+use trunnion_dialect::Dialect;
+use trunnion_interp::{Argument, Effect, Fault, Interpreter, ModalState, Motion, Placed, Setup, Sink, Value};
+use trunnion_machine::{Follower, Leg, Machine};
+use trunnion_syntax::{BlockId, Program};
+
+/// What a clock tells, in the order of the run.
+pub trait Listener {
+    /// A leg, before its time is known. Its number is that of [`Timed::motion`].
+    fn leg(&mut self, leg: &Leg, state: &ModalState, motion: u32);
+    /// The time of a leg, or of a wait (a tool change, an M code: [`Timed::motion`] is then the number of the leg after it and `wait` is set).
+    fn timed(&mut self, timed: &Timed, wait: bool);
+    /// A fault of the run.
+    fn fault(&mut self, fault: Fault) {
+        let _ = fault;
+    }
+}
+
+/// Runs a program on a machine and tells the time of each motion. The effects of the program are watched: path control, M codes.
+pub fn time(program: &Program, dialect: &Dialect, setup: &Setup, machine: &Machine, listener: &mut impl Listener) {
+    let mut interpreter = Interpreter::new(dialect, setup);
+    interpreter.watch_effects();
+    let mut clock = Clock {
+        follower: Follower::new(machine),
+        planner: Planner::new(machine, dialect.advice.rotary_feed),
+        modes: Modes::new(machine),
+        tool: None,
+        motions: 0,
+        listener,
+    };
+    while let Some(block) = interpreter.advance(program, &mut clock) {
+        clock.block_done(block, &interpreter);
+    }
+    let Clock {
+        mut planner, listener, ..
+    } = clock;
+    planner.finish(&mut |timed| listener.timed(&timed, false));
+}
+
+struct Clock<'m, 'l, L> {
+    follower: Follower<'m>,
+    planner: Planner<'m>,
+    modes: Modes,
+    tool: Option<u32>,
+    motions: u32,
+    listener: &'l mut L,
+}
+
+impl<L: Listener> Sink for Clock<'_, '_, L> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        if motion.tool.is_some() && motion.tool != self.tool {
+            self.tool = motion.tool;
+            let change = self.follower.machine().control.planning.tool_change_time;
+            self.wait(motion.block, change);
+        }
+        let leg = self.follower.follow(motion);
+        self.listener.leg(&leg, state, self.motions);
+        self.motions += 1;
+        let control = self.modes.next();
+        let listener = &mut *self.listener;
+        self.planner
+            .leg(&leg, control, &mut |timed| listener.timed(&timed, false));
+    }
+    fn fault(&mut self, fault: Fault) {
+        self.listener.fault(fault);
+    }
+    fn effect(&mut self, placed: Placed) {
+        if let Some(seconds) = self.modes.take(&placed.effect, self.follower.machine()) {
+            self.wait(placed.block, Some(seconds));
+        }
+    }
+}
+
+impl<L: Listener> Clock<'_, '_, L> {
+    fn wait(&mut self, block: BlockId, seconds: Option<f64>) {
+        if seconds.is_none_or(|seconds| seconds <= 0.0) {
+            return;
+        }
+        // what comes out first belongs to motions before
+        let listener = &mut *self.listener;
+        self.planner.finish(&mut |timed| listener.timed(&timed, false));
+        self.planner
+            .wait(block, seconds, &mut |timed| listener.timed(&timed, true));
+    }
+}
+
+/// What the program says about corners.
+struct Modes {
+    linuxcnc: bool,
+    now: PathControl,
+    /// That of the motion before.
+    before: PathControl,
+    /// An exact stop at the end of one block (G9).
+    once: bool,
+}
+
+impl Modes {
+    fn new(machine: &Machine) -> Self {
+        Self {
+            linuxcnc: machine.control.family == "linuxcnc",
+            now: PathControl::ByMachine,
+            before: PathControl::ByMachine,
+            once: false,
+        }
+    }
+
+    /// The mode at the corner between the last motion and the next one: that of the last one.
+    fn next(&mut self) -> PathControl {
+        let now = if core::mem::take(&mut self.once) {
+            PathControl::ExactStop
+        } else {
+            self.now
+        };
+        core::mem::replace(&mut self.before, now)
+    }
+
+    /// Reads an effect; the time of its M codes, s.
+    fn take(&mut self, effect: &Effect, machine: &Machine) -> Option<f64> {
+        let arguments = match effect {
+            Effect::Set { key, to } => {
+                if key == "path-control" {
+                    self.now = self.mode(to);
+                }
+                to
+            }
+            Effect::Event(arguments) | Effect::Unmodelled(arguments) => arguments,
+            Effect::Store(_) | Effect::End(_) => return None,
+        };
+        let mut seconds = None;
+        for argument in arguments {
+            let code = argument.to_string();
+            if code == "G9" || code == "G09" {
+                self.once = true;
+            }
+            let number = code.strip_prefix('M').and_then(|number| number.parse::<u16>().ok());
+            let times = &machine.control.planning.m_times;
+            if let Some((_, time)) = number.and_then(|number| times.iter().find(|(code, _)| *code == number)) {
+                seconds = Some(seconds.unwrap_or(0.0) + time);
+            }
+        }
+        seconds
+    }
+
+    fn mode(&self, to: &[Argument]) -> PathControl {
+        let code = to.first().map(ToString::to_string).unwrap_or_default();
+        match (code.as_str(), self.linuxcnc) {
+            ("G61", true) => PathControl::ExactPath,
+            ("G61.1", true) | ("G60" | "G61", false) => PathControl::ExactStop,
+            ("G64", true) => PathControl::Blend(to.iter().find(|word| word.name == "P").and_then(
+                |word| match word.value {
+                    Value::Number(tolerance) if tolerance > 0.0 => Some(tolerance),
+                    _ => None,
+                },
+            )),
+            _ => PathControl::ByMachine,
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Floor 5: how long the machine takes. Limits of the axes along each motion, a look-ahead planner over them, and times as an interval from optimistic
+//! to planned. Units: mm, rad, s. Formulas: docs/kinematics.md#time.
+//!
+//! It knows no rules and no sentences.
+mod clock;
+mod corner;
+#[cfg(test)]
+mod limits_tests;
+mod path;
+mod piece;
+mod pieces;
+mod planner;
+mod run;
+mod timed;
+
+pub use clock::{Listener, time};
+pub use corner::PathControl;
+pub use path::{Ramp, s_curve, trapezoid};
+pub use piece::{Bounds, Limit, Piece};
+pub use planner::Planner;
+pub use run::{Planned, Run};
+pub use timed::Timed;

@@ -1,0 +1,299 @@
+//! From a leg of the machine to pieces of path with constant limits.
+use crate::{Bounds, Limit, Piece};
+use trunnion_geometry::math::hypot;
+use trunnion_geometry::{arc::Arc, deg};
+use trunnion_interp::{Feed, MotionKind};
+use trunnion_machine::{BlockPath, Joints, Leg, Machine, leads_tip};
+
+/// A leg as the planner takes it.
+pub(crate) struct Course {
+    /// Joints per mm at its start and end.
+    pub(crate) tangents: [Joints; 2],
+    /// mm, or deg where only rotary axes turn.
+    pub(crate) length: f64,
+    pub(crate) turns_only: bool,
+    /// F, mm/s; infinite in rapid.
+    pub(crate) feed: f64,
+    /// Every axis that moves declares its acceleration.
+    pub(crate) complete: bool,
+    /// The lowest acceleration along the path, mm/s^2.
+    pub(crate) acceleration: f64,
+    /// Where bends hold the feed clearly below F and below what the speeds of the axes allow: that speed, mm/s, and the joint.
+    pub(crate) bend: Option<(f64, u8)>,
+    /// Where the time for a block sets a lower one, mm/s.
+    pub(crate) block_time: Option<f64>,
+}
+
+/// What a leg becomes.
+pub(crate) enum Taken {
+    /// Its pieces were added.
+    Course(Box<Course>),
+    /// Nothing moves.
+    Still,
+    /// Not known.
+    Unknown,
+}
+
+/// Turn of the rotary axes per piece, rad.
+const TURN: f64 = 0.035;
+/// Most pieces of one leg.
+const MOST: f64 = 24.0;
+/// What a rate between two samples may exceed them by.
+const BETWEEN: f64 = 1.02;
+/// The share of the acceleration that bends take: the rest is left along the path. On a circle both are at right angles.
+const BEND: f64 = 0.5;
+const ROUND: f64 = 0.866_025_403_784_438_6;
+
+/// Adds the pieces of a leg.
+pub(crate) fn take(machine: &Machine, leg: &Leg, motion: u32, pieces: &mut Vec<Piece>) -> Taken {
+    let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+        return Taken::Unknown;
+    };
+    let turned = deg(hypot(leg.rotary_change[0], leg.rotary_change[1]));
+    let turns_only = leg.length <= 0.0;
+    let length = if turns_only { turned } else { leg.length };
+    let mut change = end.joints;
+    for (change, from) in change.iter_mut().zip(&start.joints) {
+        *change -= from;
+    }
+    if !matches!(leg.motion.kind, MotionKind::Arc(_)) && change.iter().all(|way| way.abs() < 1e-12) {
+        return Taken::Still;
+    }
+    if !(length > 0.0 && length.is_finite()) {
+        return Taken::Unknown;
+    }
+    let Some(feed) = feed(leg, length) else {
+        return Taken::Unknown;
+    };
+    let first = pieces.len();
+    let straight = !leads_tip(&leg.motion) || leg.rotary_change == [0.0; 2];
+    let mut course = Course {
+        tangents: [change.map(|way| way / length); 2],
+        length,
+        turns_only,
+        feed,
+        complete: true,
+        acceleration: f64::INFINITY,
+        bend: None,
+        block_time: None,
+    };
+    let done = match &leg.motion.kind {
+        MotionKind::Arc(Some(arc)) if leg.rotary_change == [0.0; 2] => {
+            round(machine, leg, arc, motion, &mut course, pieces)
+        }
+        MotionKind::Rapid | MotionKind::Linear if straight => {
+            let rates = course.tangents[0];
+            push(machine, &mut course, motion, (length, &rates, &[0.0; _], BEND), pieces)
+        }
+        MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(Some(_)) => {
+            sampled(machine, leg, motion, &mut course, pieces)
+        }
+        _ => None,
+    };
+    if done.is_none() {
+        pieces.truncate(first);
+        return Taken::Unknown;
+    }
+    if let (Some(seconds), true) = (
+        machine.control.block_time.filter(|seconds| *seconds > 0.0),
+        feed.is_finite(),
+    ) {
+        let most = length / seconds;
+        course.block_time = (most < feed).then_some(most);
+        for piece in &mut pieces[first..] {
+            if most < piece.planned.cap {
+                (piece.planned.cap, piece.planned.by) = (most, Limit::BlockTime);
+            }
+        }
+    }
+    Taken::Course(Box::new(course))
+}
+
+/// F in mm/s along a path of this length; infinite in rapid.
+fn feed(leg: &Leg, length: f64) -> Option<f64> {
+    let per_minute = match leg.motion.feed {
+        Feed::Rapid => return Some(f64::INFINITY),
+        Feed::PerMinute(feed) => feed,
+        Feed::PerRevolution(feed) => feed * leg.motion.mean_rpm()?,
+        Feed::InverseTime(per_minute) => per_minute * length,
+        Feed::Unknown => return None,
+    };
+    let feed = per_minute / 60.0;
+    (feed > 0.0 && feed.is_finite()).then_some(feed)
+}
+
+/// Adds a piece: its length, the highest rates of the joints per mm, their highest second derivatives per mm^2, and the share that bends take.
+/// `None` where a rapid has no limit, or something is not a number.
+#[expect(clippy::too_many_lines, reason = "one limit after the other")]
+fn push(
+    machine: &Machine,
+    course: &mut Course,
+    motion: u32,
+    (length, rates, bends, share): (f64, &Joints, &Joints, f64),
+    pieces: &mut Vec<Piece>,
+) -> Option<()> {
+    let (mut cap, mut by) = (course.feed, Limit::Feed);
+    let (mut free_cap, mut free_by) = (cap, by);
+    let (mut acceleration, mut jerk, mut jerk_time, mut slowest) = (f64::INFINITY, f64::INFINITY, 0.0_f64, 0);
+    let mut limited = course.feed.is_finite();
+    let (mut speed_cap, mut bend_cap) = (course.feed, (f64::INFINITY, 0));
+    for (joint, axis) in machine.axes.iter().enumerate() {
+        let (rate, bend, number) = (rates[joint], bends[joint], joint as u8);
+        if !(rate.is_finite() && bend.is_finite()) {
+            return None;
+        }
+        let rate = rate.abs();
+        if rate <= 1e-12 && bend <= 1e-12 {
+            continue;
+        }
+        match axis.max_speed {
+            Some(speed) if rate > 0.0 => {
+                limited = true;
+                speed_cap = speed_cap.min(speed / rate);
+                if speed / rate < cap {
+                    (cap, by) = (speed / rate, Limit::Speed(number));
+                }
+                if speed / rate < free_cap {
+                    (free_cap, free_by) = (speed / rate, Limit::Speed(number));
+                }
+            }
+            None if course.feed.is_infinite() => return None,
+            Some(_) | None => {}
+        }
+        let Some(most) = axis.max_acceleration else {
+            course.complete = false;
+            continue;
+        };
+        if bend > 0.0 {
+            let (shared, whole) = ((share * most / bend).sqrt(), (most / bend).sqrt());
+            if shared < cap {
+                (cap, by) = (shared, Limit::Bend(number));
+            }
+            if whole < free_cap {
+                (free_cap, free_by) = (whole, Limit::Bend(number));
+            }
+            if whole < bend_cap.0 {
+                bend_cap = (whole, number);
+            }
+        }
+        if rate > 0.0 && most / rate < acceleration {
+            (acceleration, slowest) = (most / rate, number);
+        }
+        if let Some(most_jerk) = axis.extra.max_jerk {
+            jerk_time = jerk_time.max(most / most_jerk);
+            if rate > 0.0 {
+                jerk = jerk.min(most_jerk / rate);
+            }
+        }
+    }
+    if !limited || cap <= 0.0 || cap.is_nan() {
+        return None;
+    }
+    // what axes cannot run anyway is not held back by a bend
+    if bend_cap.0 < 0.7 * speed_cap && course.bend.is_none_or(|(least, _)| bend_cap.0 < least) {
+        course.bend = Some(bend_cap);
+    }
+    // what bends leave along the path
+    let mut along = acceleration;
+    for (joint, axis) in machine.axes.iter().enumerate() {
+        if let (Some(most), true) = (axis.max_acceleration, bends[joint] > 0.0) {
+            let used = bends[joint] * cap * cap;
+            let left = if share == ROUND {
+                (most * most - used * used).max(0.0).sqrt()
+            } else {
+                most - used
+            };
+            if rates[joint].abs() > 1e-12 {
+                along = along.min(left.max(0.25 * most) / rates[joint].abs());
+            }
+        }
+    }
+    course.acceleration = course.acceleration.min(along);
+    pieces.push(Piece {
+        length,
+        optimistic: Bounds {
+            cap: free_cap,
+            by: free_by,
+            acceleration,
+        },
+        planned: Bounds {
+            cap,
+            by,
+            acceleration: along,
+        },
+        jerk,
+        slowest,
+        jerk_time,
+        entry: [f64::INFINITY; 2],
+        feed: course.feed,
+        motion,
+    });
+    Some(())
+}
+
+/// An arc without rotary motion: one piece. Along the tangent and at right angles to it the joints need a together, sqrt(at^2 + an^2) per axis.
+fn round(
+    machine: &Machine,
+    leg: &Leg,
+    arc: &Arc,
+    motion: u32,
+    course: &mut Course,
+    pieces: &mut Vec<Piece>,
+) -> Option<()> {
+    let path = BlockPath::new(machine, leg)?;
+    course.tangents = [0.0, 1.0].map(|t| path.rates(t).map(|rate| rate / course.length));
+    let (mut rates, mut bends) = ([0.0; _], [0.0; _]);
+    // the longest way round and the sharpest bend per mm, of helix and spiral too
+    let radius = arc.radius_start.min(arc.radius_end);
+    let flat = arc.sweep.abs() * arc.radius_start.max(arc.radius_end) / course.length;
+    let bend = arc.sweep * arc.sweep * radius.max(1e-9) / (course.length * course.length);
+    let turned = leads_tip(&leg.motion);
+    for (letter, joint) in machine.joint_of_letter.iter().enumerate().take(3) {
+        let Some(joint) = joint.map(usize::from) else { continue };
+        // with the table turned, any axis may take any part
+        let across = if turned {
+            1.0
+        } else {
+            (1.0 - arc.normal[letter] * arc.normal[letter]).max(0.0).sqrt()
+        };
+        let up = if turned { 1.0 } else { arc.normal[letter].abs() };
+        let rise = (arc.height() / course.length).abs();
+        rates[joint] = hypot(flat.min(1.0) * across, rise * up);
+        bends[joint] = if across > 1e-9 { bend * across } else { 0.0 };
+    }
+    push(machine, course, motion, (course.length, &rates, &bends, ROUND), pieces)
+}
+
+/// A leg on which the rates of the joints change.
+fn sampled(machine: &Machine, leg: &Leg, motion: u32, course: &mut Course, pieces: &mut Vec<Piece>) -> Option<()> {
+    let path = BlockPath::new(machine, leg)?;
+    let turn = leg.rotary_change[0].max(leg.rotary_change[1]);
+    let swept = match &leg.motion.kind {
+        MotionKind::Arc(Some(arc)) => arc.sweep.abs() * 0.25,
+        _ => 0.0,
+    };
+    let count = (turn / TURN).max(swept / TURN).ceil().clamp(1.0, MOST);
+    let length = course.length;
+    let at = |t: f64| path.rates(t).map(|rate| rate / length);
+    let mut before = at(0.0);
+    course.tangents[0] = before;
+    for index in 0..count as u32 {
+        let from = f64::from(index) / count;
+        let (middle, after) = (at(from + 0.5 / count), at(from + 1.0 / count));
+        let (mut rates, mut bends): (Joints, Joints) = ([0.0; _], [0.0; _]);
+        let samples = before.iter().zip(&middle).zip(&after);
+        for ((rate, bend), ((a, m), b)) in rates.iter_mut().zip(&mut bends).zip(samples) {
+            let change = (m - a).abs().max((b - m).abs());
+            *rate = a.abs().max(m.abs()).max(b.abs()) + (BETWEEN - 1.0) * change;
+            *bend = if change > 1e-9 * *rate {
+                BETWEEN * change * 2.0 * count / length
+            } else {
+                0.0
+            };
+        }
+        push(machine, course, motion, (length / count, &rates, &bends, BEND), pieces)?;
+        before = after;
+    }
+    course.tangents[1] = before;
+    Some(())
+}

@@ -1,0 +1,300 @@
+//! The planner: legs in, times out, in order.
+use crate::corner::{Side, speed};
+use crate::pieces::{Course, Taken, take};
+use crate::{Limit, PathControl, Planned, Run, Timed, s_curve};
+use trunnion_dialect::RotaryFeed;
+use trunnion_interp::{ChainId, Feed, MotionKind};
+use trunnion_machine::{Leg, Machine, RapidPath, feed_is_ambiguous};
+use trunnion_syntax::BlockId;
+
+/// Plans a run of a program, leg by leg. Memory: what lies between two stops.
+pub struct Planner<'m> {
+    machine: &'m Machine,
+    rotary_feed: RotaryFeed,
+    run: Run,
+    /// Motions since the last stop, in order, and how many pieces each has.
+    open: Vec<(Timed, u32, bool)>,
+    /// The last motion with a path since the last stop.
+    last: Option<Box<Course>>,
+    motions: u32,
+    /// For tests: every run with its plan.
+    #[cfg(test)]
+    pub(crate) seen: Vec<(Run, Planned)>,
+}
+
+/// Share of F below which a block is slow, and below which it crawls.
+const SLOW: f64 = 0.8;
+const CRAWL: f64 = 0.05;
+
+impl<'m> Planner<'m> {
+    /// For a machine; `rotary_feed`: what F means on this control where rotary axes move.
+    pub fn new(machine: &'m Machine, rotary_feed: RotaryFeed) -> Self {
+        let planning = &machine.control.planning;
+        Self {
+            machine,
+            rotary_feed,
+            run: Run {
+                pieces: Vec::new(),
+                lookahead: planning.lookahead,
+                filter: planning.filter_time.unwrap_or(0.0),
+            },
+            open: Vec::new(),
+            last: None,
+            motions: 0,
+            #[cfg(test)]
+            seen: Vec::new(),
+        }
+    }
+
+    /// The next leg, and what the program says about the corner at its start. Times of earlier legs may come out.
+    pub fn leg(&mut self, leg: &Leg, control: PathControl, out: &mut impl FnMut(Timed)) {
+        let timed = self.open(leg);
+        match leg.motion.kind {
+            MotionKind::Dwell(seconds) => {
+                return self.emit_alone(
+                    Timed {
+                        limit: Limit::Wait,
+                        ..timed
+                    },
+                    [seconds; 2],
+                    out,
+                );
+            }
+            _ if leg.start.is_none() && leg.end.is_ok() && !matches!(leg.motion.kind, MotionKind::Unknown) => {
+                return self.emit_alone(
+                    Timed {
+                        from_nowhere: true,
+                        ..timed
+                    },
+                    [Some(0.0); 2],
+                    out,
+                );
+            }
+            _ if feed_is_ambiguous(self.machine, self.rotary_feed, leg) => {
+                return self.emit_alone(timed, [None; 2], out);
+            }
+            _ => {}
+        }
+        if leg.motion.feed == Feed::Rapid && self.machine.control.rapid != RapidPath::Synchronous {
+            let time = self.dogleg(leg);
+            return self.emit_alone(
+                time.1.map_or(timed, |reached| Timed {
+                    reached: Some(reached),
+                    ..timed
+                }),
+                time.0,
+                out,
+            );
+        }
+        let first = self.run.pieces.len();
+        let course = match take(self.machine, leg, timed.motion, &mut self.run.pieces) {
+            Taken::Course(course) => course,
+            Taken::Still => {
+                self.open.push((
+                    Timed {
+                        seconds: [Some(0.0); 2],
+                        ..timed
+                    },
+                    0,
+                    true,
+                ));
+                return;
+            }
+            Taken::Unknown => return self.emit_alone(timed, [None; 2], out),
+        };
+        let entry = self.entry(&course, control);
+        let count = (self.run.pieces.len() - first) as u32;
+        if entry == [0.0; 2] {
+            // a stop: what came before is complete
+            let own = self.run.pieces.split_off(first);
+            self.flush(out);
+            self.run.pieces = own;
+        } else if let Some(piece) = self.run.pieces.get_mut(first) {
+            piece.entry = entry;
+        }
+        let minute = |speed: f64| speed.is_finite().then_some(speed * 60.0);
+        let timed = Timed {
+            length: course.length,
+            turns_only: course.turns_only,
+            feed: minute(course.feed),
+            block_time_feed: course.block_time.and_then(minute),
+            bend_feed: course.bend.map(|(speed, joint)| (speed * 60.0, joint)),
+            ..timed
+        };
+        self.open.push((timed, count, course.complete));
+        self.last = Some(course);
+    }
+
+    /// The machine stands still for a time: a tool change, an M code. Counts as a motion of its own.
+    pub fn wait(&mut self, block: BlockId, seconds: Option<f64>, out: &mut impl FnMut(Timed)) {
+        let timed = Timed {
+            limit: Limit::Wait,
+            ..Timed::at(block, ChainId::MAIN, self.motions)
+        };
+        self.emit_alone(timed, [seconds; 2], out);
+    }
+
+    /// The end: the machine stops.
+    pub fn finish(&mut self, out: &mut impl FnMut(Timed)) {
+        self.flush(out);
+    }
+
+    /// A motion of which nothing is known yet.
+    fn open(&mut self, leg: &Leg) -> Timed {
+        let motion = &leg.motion;
+        let timed = Timed {
+            engaged: motion.is_feed() && motion.spindle_on == Some(true),
+            ..Timed::at(motion.block, motion.chain, self.motions)
+        };
+        self.motions += 1;
+        timed
+    }
+
+    /// Highest speed at the start of a course.
+    fn entry(&self, course: &Course, control: PathControl) -> [f64; 2] {
+        let Some(last) = &self.last else { return [0.0; 2] };
+        if last.turns_only != course.turns_only {
+            return [0.0; 2];
+        }
+        let before = Side {
+            tangent: &last.tangents[1],
+            length: last.length,
+        };
+        let after = Side {
+            tangent: &course.tangents[0],
+            length: course.length,
+        };
+        speed(
+            self.machine,
+            control,
+            [&before, &after],
+            last.acceleration.min(course.acceleration),
+        )
+    }
+
+    /// A rapid in which each axis runs at its own speed, from stop to stop: optimistic and planned time, s, and the speed of the tip, mm/min.
+    fn dogleg(&self, leg: &Leg) -> ([Option<f64>; 2], Option<f64>) {
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            return ([None; 2], None);
+        };
+        let (mut optimistic, mut planned, mut known) = (0.0_f64, 0.0_f64, true);
+        for (joint, axis) in self.machine.axes.iter().enumerate() {
+            let way = (end.joints[joint] - start.joints[joint]).abs();
+            if way < 1e-12 {
+                continue;
+            }
+            let Some(speed) = axis.max_speed else {
+                return ([None; 2], None);
+            };
+            let acceleration = axis.max_acceleration.unwrap_or(f64::INFINITY);
+            known &= axis.max_acceleration.is_some();
+            optimistic = optimistic.max(s_curve(way, speed, acceleration, f64::INFINITY).0);
+            planned = planned.max(s_curve(way, speed, acceleration, axis.extra.max_jerk.unwrap_or(f64::INFINITY)).0);
+        }
+        let planned = if planned > 0.0 { planned + self.run.filter } else { 0.0 };
+        let reached = (optimistic > 0.0).then(|| leg.length / optimistic * 60.0);
+        ([Some(optimistic), known.then_some(planned)], reached)
+    }
+
+    /// A motion from stop to stop.
+    fn emit_alone(&mut self, timed: Timed, seconds: [Option<f64>; 2], out: &mut impl FnMut(Timed)) {
+        self.flush(out);
+        let stop = Some(0.0);
+        out(Timed {
+            seconds,
+            lowest: stop,
+            leaves: stop,
+            ..timed
+        });
+    }
+
+    fn flush(&mut self, out: &mut impl FnMut(Timed)) {
+        self.last = None;
+        let planned = self.run.plan();
+        #[cfg(test)]
+        self.seen.push((self.run.clone(), planned.clone()));
+        let mut next = 0;
+        for (timed, count, complete) in self.open.drain(..) {
+            let end = next + count as usize;
+            out(if count == 0 {
+                timed
+            } else {
+                finished(timed, &self.run, &planned, next..end, complete)
+            });
+            next = end;
+        }
+        self.run.pieces.clear();
+    }
+}
+
+impl Timed {
+    /// A motion of which nothing is known yet.
+    pub fn at(block: BlockId, chain: ChainId, motion: u32) -> Self {
+        Self {
+            block,
+            chain,
+            motion,
+            seconds: [None; 2],
+            from_nowhere: false,
+            length: 0.0,
+            turns_only: false,
+            feed: None,
+            reached: None,
+            lowest: None,
+            leaves: None,
+            limit: Limit::Stop,
+            below: 0.0,
+            crawls: 0.0,
+            block_time_feed: None,
+            bend_feed: None,
+            engaged: false,
+        }
+    }
+}
+
+/// Puts the pieces of a motion together.
+fn finished(timed: Timed, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>, complete: bool) -> Timed {
+    let mut seconds = [0.0; 2];
+    let (mut reached, mut lowest, mut below, mut crawls) = (0.0_f64, f64::INFINITY, 0.0, 0.0);
+    let mut slowest = pieces.start;
+    for index in pieces.clone() {
+        let (ramp, [own, free]) = (&planned.ramps[index], planned.seconds[index]);
+        seconds[0] += free;
+        seconds[1] += own;
+        reached = reached.max(ramp.top);
+        lowest = lowest.min(ramp.ends[0]).min(ramp.ends[1]);
+        let feed = run.pieces[index].feed;
+        if feed.is_finite() {
+            // what smooths the ends is time below F as well
+            let more = own - ramp.seconds();
+            below += ramp.seconds_below(SLOW * feed) + more.max(0.0);
+            crawls += ramp.seconds_below(CRAWL * feed);
+        }
+        if ramp.top < planned.ramps[slowest].top {
+            slowest = index;
+        }
+    }
+    let (piece, ramp) = (&run.pieces[slowest], &planned.ramps[slowest]);
+    let near = |a: f64, b: f64| a >= b * (1.0 - 1e-6);
+    let limit = if near(ramp.top, piece.planned.cap) {
+        piece.planned.by
+    } else if planned.top.is_some() && piece.jerk.is_finite() && ramp.top < piece.planned.acceleration * piece.jerk_time
+    {
+        Limit::Jerk
+    } else if near(ramp.ends[0].min(ramp.ends[1]), ramp.top) && ramp.top > 0.0 {
+        Limit::Corner
+    } else {
+        Limit::Acceleration(piece.slowest)
+    };
+    let last = planned.ramps[pieces.end - 1].ends[1];
+    Timed {
+        seconds: [Some(seconds[0]), complete.then_some(seconds[1])],
+        reached: complete.then_some(reached * 60.0),
+        lowest: complete.then_some(lowest * 60.0),
+        leaves: complete.then_some(last * 60.0),
+        limit,
+        below,
+        crawls,
+        ..timed
+    }
+}

@@ -1,0 +1,4 @@
+//! The planner against closed forms and independent code.
+#![allow(missing_docs)]
+mod closed;
+mod programs;

@@ -1,0 +1,100 @@
+//! A corner as the servo loops run it: reference and path in the plane of the corner, and the errors over time.
+use crate::canvas::{BLUE, GREEN, GREY, Header, PlotError, Swatch, VERMILION, sheet};
+use crate::grid::{Frame, Panel, equal};
+use crate::scale::range;
+use plotters::style::text_anchor::{HPos, VPos};
+use trunnion_geometry::math::hypot;
+
+/// One moment: s, reference and axes in the plane of the corner (mm from it), and the errors by name, um.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ServoSpot {
+    /// s; the reference passes the corner at 0.
+    pub time: f64,
+    /// Reference.
+    pub reference: [f64; 2],
+    /// Axes.
+    pub position: [f64; 2],
+    /// Exact distance from the path, um.
+    pub exact: f64,
+    /// Length of the corner vector, um.
+    pub radial: f64,
+}
+
+/// Draws it.
+///
+/// # Errors
+/// There are no spots with finite values.
+pub fn servo(header: &Header, spots: &[ServoSpot]) -> Result<String, PlotError> {
+    let finite = |spot: &&ServoSpot| spot.position.iter().all(|x| x.abs() < 1e6) && spot.exact.is_finite();
+    let spots: Vec<ServoSpot> = spots.iter().filter(finite).copied().collect();
+    let worst = spots.iter().max_by(|a, b| a.exact.total_cmp(&b.exact));
+    let Some(worst) = worst.copied() else {
+        return Err(PlotError(
+            "nothing to draw: the loop is unstable from the first sample on".into(),
+        ));
+    };
+    // what matters of the path is some times the error about the corner
+    let reach = (60.0 * worst.exact / 1000.0)
+        .max(4.0 * hypot(worst.position[0], worst.position[1]))
+        .max(1e-3);
+    let near: Vec<&ServoSpot> = spots
+        .iter()
+        .filter(|spot| hypot(spot.position[0], spot.position[1]) < reach)
+        .collect();
+    let legend = vec![
+        (Swatch::Line(GREY), "reference".into()),
+        (Swatch::Line(BLUE), "path of the axes".into()),
+        (Swatch::Line(VERMILION), "exact distance".into()),
+        (Swatch::Line(GREEN), "corner vector (radial error)".into()),
+    ];
+    sheet(header, &legend, |body| {
+        let (left, right) = body.split_horizontally(body.dim_in_pixel().0 / 2);
+        let all = near.iter().flat_map(|spot| [spot.position, spot.reference]);
+        let inside: Vec<[f64; 2]> = all.filter(|p| hypot(p[0], p[1]) < 1.2 * reach).collect();
+        let (x, y) = equal(
+            range(inside.iter().map(|p| p[0]), 1e-4),
+            range(inside.iter().map(|p| p[1]), 1e-4),
+            left.dim_in_pixel(),
+            0.0,
+        );
+        let panel = Panel::new(
+            &left,
+            &Frame {
+                x,
+                y,
+                x_name: Some("along the leg in / mm"),
+                y_name: "across / mm",
+                labels: [5, 8],
+                decades: false,
+                right: 0.0,
+            },
+        )?;
+        panel.line(spots.iter().map(|s| (s.reference[0], s.reference[1])), GREY, 1.4)?;
+        panel.line(spots.iter().map(|s| (s.position[0], s.position[1])), BLUE, 1.8)?;
+        panel.ring(worst.position[0], worst.position[1], VERMILION, 6.0)?;
+        let text = format!("{:.2} um", worst.exact);
+        panel.text(
+            (worst.position[0], worst.position[1]),
+            &text,
+            VERMILION,
+            (HPos::Right, VPos::Bottom),
+        )?;
+        let span = near.iter().map(|spot| spot.time * 1e3);
+        let errors = near.iter().flat_map(|spot| [spot.exact, spot.radial]).chain([0.0]);
+        let panel = Panel::new(
+            &right,
+            &Frame {
+                x: range(span, 1e-3),
+                y: range(errors.map(|error| 1.05 * error), 1e-3),
+                x_name: Some("time from the corner / ms"),
+                y_name: "error / um",
+                labels: [6, 8],
+                decades: false,
+                right: 0.0,
+            },
+        )?;
+        panel.line(near.iter().map(|s| (s.time * 1e3, s.radial)), GREEN, 1.4)?;
+        panel.line(near.iter().map(|s| (s.time * 1e3, s.exact)), VERMILION, 1.8)?;
+        Ok(())
+    })
+}

@@ -266,7 +266,7 @@ impl Klartext<'_> {
         }
         let orientation = self.core.held_orientation();
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
-        motion.in_machine_coordinates();
+        motion.in_machine_coordinates(words.given);
         motion.says_way = words.incremental | unread(words);
         self.memory.heading = None;
         self.out.push(motion);

@@ -125,8 +125,10 @@ impl Backend {
     /// `trunnion/backplot`.
     pub(crate) async fn backplot(&self, params: BackplotParams) -> Result<Backplot> {
         let uri = params.text_document.uri.clone();
-        self.ask(&uri, Need::Analysed, move |snapshot| backplot::backplot(snapshot, &params))
-            .await
+        self.ask(&uri, Need::Analysed, move |snapshot| {
+            backplot::backplot(snapshot, &params)
+        })
+        .await
     }
 }
 

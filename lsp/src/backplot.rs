@@ -98,7 +98,9 @@ pub(crate) fn backplot(snapshot: &Snapshot, params: &BackplotParams) -> Result<B
         .analysed
         .as_ref()
         .and_then(|analysed| analysed.judged())
-        .ok_or_else(|| Error::invalid_params("no path: the settings of the program cannot be used; see its findings"))?;
+        .ok_or_else(|| {
+            Error::invalid_params("no path: the settings of the program cannot be used; see its findings")
+        })?;
     let own;
     let program = match &params.text {
         None => &source.program,
@@ -156,11 +158,7 @@ fn refused(error: trunnion_files::FileError) -> Error {
 }
 
 /// Runs a program with the settings of a document.
-fn record<'a>(
-    source: &'a Source,
-    program: &'a Program,
-    index: &'a LineIndex,
-) -> (Run<'a>, Option<ToolSketch>) {
+fn record<'a>(source: &'a Source, program: &'a Program, index: &'a LineIndex) -> (Run<'a>, Option<ToolSketch>) {
     let resolved = &source.resolved;
     let machine = resolved.machine.as_ref();
     let mut run = Run {

@@ -1,7 +1,7 @@
 //! What is in effect before a program sets it: what a control documents, and what is left open.
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use trunnion_dialect::{Action, CodeKind, Dialect};
+use trunnion_dialect::{Action, CodeKind, Dialect, Macros};
 use trunnion_interp::Argument;
 
 /// The settings of a control before a program sets them.
@@ -18,8 +18,7 @@ pub(crate) struct Initial {
 const PATH_CONTROL: &str = "path-control";
 
 impl Initial {
-    /// Sources: Series 30i operator's manual, list of G codes (those marked for power-on), and Haas mill operator's manual, list of G codes
-    /// (those marked as default): G22, G64, G97. Grbl knows no other mode than G61. LinuxCNC, `Interp::init`: overrides on, adaptive feed off.
+    /// Sources: Series 30i operator's manual, list of G codes (those marked for power-on): G22, G64, G97. Grbl knows no other mode than G61. LinuxCNC, `Interp::init`: overrides on, adaptive feed off.
     pub(crate) fn of(dialect: &Dialect) -> Self {
         let mut initial = Self::default();
         let (mut modes, mut limits) = (Vec::new(), false);
@@ -42,12 +41,14 @@ impl Initial {
         }
         initial.set("compensation", "G40");
         initial.set("speed mode", "G97");
-        if dialect.quirks.macro_b() && modes.contains(&"G64") {
+        // other controls may begin in other modes
+        let fanuc = dialect.quirks.macros == Macros::Fanuc;
+        if fanuc && modes.contains(&"G64") {
             initial.set(PATH_CONTROL, "G64");
         } else if let [only] = modes[..] {
             initial.set(PATH_CONTROL, only);
         }
-        if dialect.quirks.macro_b() && limits {
+        if fanuc && limits {
             initial.set("stroke-check", "G22");
         }
         if dialect.quirks.rs274() {
@@ -91,9 +92,8 @@ mod tests {
         let of = |name: &str| Initial::of(trunnion_dialect::builtin(name).expect("built in"));
         let mode = |name: &str| of(name).get("path-control").first().map(|code| code.name.to_string());
         assert_eq!(mode("fanuc-30i").as_deref(), Some("G64"));
-        assert_eq!(mode("haas-ngc").as_deref(), Some("G64"));
         assert_eq!(mode("grbl").as_deref(), Some("G61"));
-        for name in ["sinumerik-840d", "iso-6983", "linuxcnc"] {
+        for name in ["sinumerik-840d", "iso-6983", "linuxcnc", "haas-ngc"] {
             assert!(of(name).is_open("path-control"), "{name}");
         }
         assert!(of("sinumerik-840d").is_open("compressor") && !of("fanuc-30i").is_open("coolant-that-is-none"));

@@ -150,6 +150,9 @@ fn shape_name(shape: ToolShape) -> String {
         ToolShape::Ball => "ball".to_owned(),
         ToolShape::Flat => "flat".to_owned(),
         ToolShape::Bull(radius) => format!("bull, corner radius {} mm", short(radius)),
+        ToolShape::Turning(nose) => {
+            format!("turning, nose radius {} mm, tip {}", short(nose.radius_mm), nose.tip)
+        }
     }
 }
 

@@ -263,10 +263,7 @@ fn rows_of_holes_run_the_cycle_of_mcall() {
         "HOLES1(R77,0,0,0,10,3)",
     ] {
         let got = faults("sinumerik-840d", &format!("{HEAD}MCALL CYCLE81(10,0,3,-5)\n{text}\n"));
-        assert!(
-            got.iter().any(|fault| fault.contains("NotModelled")),
-            "{text}: {got:?}"
-        );
+        assert!(got.iter().any(|fault| fault.contains("NotModelled")), "{text}: {got:?}");
     }
     let got = faults("sinumerik-840d", &format!("{HEAD}HOLES2(0,0,10,0,120,4)\n"));
     assert!(got.iter().any(|fault| fault.contains("61106")), "{got:?}");

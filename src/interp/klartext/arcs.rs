@@ -56,15 +56,12 @@ impl Klartext<'_> {
     pub(crate) fn centre(&mut self, from: Vec3, report: &mut Report<'_>) -> Option<Vec3> {
         let [a, b, _] = self.axes();
         let mut centre = from;
-        match (self.memory.pole[a], self.memory.pole[b]) {
-            (Some(x), Some(y)) => {
-                (centre[a], centre[b]) = (x, y);
-                Some(centre)
-            }
-            _ => {
-                report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
-                None
-            }
+        if let (Some(x), Some(y)) = (self.memory.pole[a], self.memory.pole[b]) {
+            (centre[a], centre[b]) = (x, y);
+            Some(centre)
+        } else {
+            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            None
         }
     }
 
@@ -198,21 +195,18 @@ impl Klartext<'_> {
             None => here.map(|here| here.1),
         };
         self.memory.polar_radius = radius;
-        match (pole, radius, angle) {
-            (Some((x, y)), Some(radius), Some(angle)) => {
-                let (sin, cos) = sin_cos_degrees(angle);
-                end.set(a, x + radius * cos);
-                end.set(b, y + radius * sin);
+        if let (Some((x, y)), Some(radius), Some(angle)) = (pole, radius, angle) {
+            let (sin, cos) = sin_cos_degrees(angle);
+            end.set(a, x + radius * cos);
+            end.set(b, y + radius * sin);
+        } else {
+            if pole.is_none() {
+                report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            } else if words.polar_radius.is_none() && radius.is_none() && here.is_some() {
+                Self::not_modelled("a polar block without PR after a new pole", report);
             }
-            _ => {
-                if pole.is_none() {
-                    report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
-                } else if words.polar_radius.is_none() && radius.is_none() && here.is_some() {
-                    Self::not_modelled("a polar block without PR after a new pole", report);
-                }
-                end.forget(a);
-                end.forget(b);
-            }
+            end.forget(a);
+            end.forget(b);
         }
         match words.polar_angle {
             Some((value, true)) => value,

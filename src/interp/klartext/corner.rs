@@ -55,11 +55,11 @@ impl Klartext<'_> {
                 _ => {}
             }
         }
-        if value != Said::Nothing {
+        if value == Said::Nothing {
+            Self::rejected(Refusal::MissingWord, "RND needs its radius", report);
+        } else {
             let unit = self.core.state.coordinates.unit_mm();
             radius = self.said(value, report).map(|radius| radius.abs() * unit);
-        } else {
-            Self::rejected(Refusal::MissingWord, "RND needs its radius", report);
         }
         if feed {
             self.not_modelled_once("the feed of RND", report);

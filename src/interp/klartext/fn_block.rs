@@ -120,12 +120,11 @@ impl Klartext<'_> {
             return;
         };
         let value = self.fn_value(number, words, report);
-        match value {
-            Some(value) => self.memory.parameters.set(target, value),
-            None => {
-                self.memory.parameters.set(target, None);
-                Self::rejected(Refusal::Expression, format!("FN {number} is incomplete"), report);
-            }
+        if let Some(value) = value {
+            self.memory.parameters.set(target, value)
+        } else {
+            self.memory.parameters.set(target, None);
+            Self::rejected(Refusal::Expression, format!("FN {number} is incomplete"), report);
         }
     }
 

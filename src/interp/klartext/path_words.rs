@@ -207,12 +207,12 @@ impl Klartext<'_> {
             ),
             3..=5,
         ) = (word.value, axis)
+            && number == 117 + u32::from(axis)
+            && self.memory.angles_wait.is_some()
         {
-            if number == 117 + u32::from(axis) && self.memory.angles_wait.is_some() {
-                found.plane_angles |= bit;
-                found.given |= bit;
-                return;
-            }
+            found.plane_angles |= bit;
+            found.given |= bit;
+            return;
         }
         if found.given & bit != 0 {
             report.fault(TextRange::default(), FaultKind::RepeatedWord);

@@ -26,7 +26,7 @@ impl Klartext<'_> {
         };
         let mut numbers = Vec::new();
         let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
-        while let Some(word) = words.next() {
+        for word in words.by_ref() {
             match word.name() {
                 b"MOVE" => swivel = Some(Swivel::TipStays),
                 b"TURN" => swivel = Some(Swivel::AxesStay),

@@ -104,7 +104,7 @@ impl Klartext<'_> {
     fn function_block(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let text = words.rest().to_ascii_uppercase();
         let has = |word: &str| {
-            text.split(|byte| byte.is_ascii_whitespace())
+            text.split(u8::is_ascii_whitespace)
                 .any(|found| found == word.as_bytes())
         };
         if has("RESET") && has("TCPM") {

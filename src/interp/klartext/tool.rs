@@ -85,7 +85,7 @@ impl Klartext<'_> {
             }
         };
         let (mut axis, mut delta, mut feed) = (None, Some(0.0), None);
-        while let Some(word) = words.next() {
+        for word in words.by_ref() {
             match word.name() {
                 b"X" => axis = Some(Plane::Yz),
                 b"Y" => axis = Some(Plane::Zx),

@@ -181,7 +181,7 @@ impl Klartext<'_> {
         let pole = self.memory.pole[a].zip(self.memory.pole[b]);
         let here = pole.and_then(|(x, y)| {
             let (dx, dy) = (from.get(a)? - x, from.get(b)? - y);
-            Some((dx.hypot(dy), atan2(dy, dx).to_degrees()))
+            Some((trunnion_geometry::math::hypot(dx, dy), atan2(dy, dx).to_degrees()))
         });
         let radius: Value = match words.polar_radius {
             Some(value) if words.polar_radius_adds => value.zip(here).map(|(value, here)| here.0 + value * unit),

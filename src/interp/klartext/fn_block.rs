@@ -174,7 +174,7 @@ impl Klartext<'_> {
                     2 => Some(a - b),
                     3 => Some(a * b),
                     4 => (b != 0.0).then(|| a / b),
-                    8 => Some(a.hypot(b)),
+                    8 => Some(trunnion_geometry::math::hypot(a, b)),
                     _ => (a != 0.0 || b != 0.0).then(|| atan2(a, b).to_degrees().rem_euclid(360.0)),
                 }))
             }

@@ -248,10 +248,10 @@ mod tests {
             let by_vectors = vectors(column(0), column(2)).expect("known");
             prop_assert!((turn - by_vectors).norm() < 1e-12);
             let z: Vec3 = turn.column(2).into();
-            let sine = z.x.hypot(z.y);
+            let sine = trunnion_geometry::math::hypot(z.x, z.y);
             if sine > 1e-6 {
-                let nutation = sine.atan2(z.z).to_degrees();
-                let precession = z.x.atan2(-z.y).to_degrees();
+                let nutation = trunnion_geometry::math::atan2(sine, z.z).to_degrees();
+                let precession = trunnion_geometry::math::atan2(z.x, -z.y).to_degrees();
                 let rotation = turn[(2, 0)].atan2(turn[(2, 1)]).to_degrees();
                 let by_euler = euler([Some(precession), Some(nutation), Some(rotation)]).expect("known");
                 prop_assert!((turn - by_euler).norm() < 1e-9, "{turn} {by_euler}");

@@ -42,7 +42,7 @@ impl Klartext<'_> {
         self.memory.polar_radius = None;
     }
 
-    pub(crate) fn turning(&mut self, words: &PathWords, report: &mut Report<'_>) -> Option<Turning> {
+    pub(crate) fn turning(words: &PathWords, report: &mut Report<'_>) -> Option<Turning> {
         match words.clockwise {
             Some(true) => Some(Turning::Clockwise),
             Some(false) => Some(Turning::CounterClockwise),
@@ -74,7 +74,7 @@ impl Klartext<'_> {
     ) -> MotionKind {
         self.memory.was_rapid = false;
         let arc = (|| {
-            let turning = self.turning(words, report)?;
+            let turning = Self::turning(words, report)?;
             let (start, end) = (from.xyz()?, end.xyz()?);
             let centre = self.centre(start, report)?;
             self.checked(
@@ -110,7 +110,7 @@ impl Klartext<'_> {
         };
         let unit = self.core.state.coordinates.unit_mm();
         let arc = (|| {
-            let turning = self.turning(words, report)?;
+            let turning = Self::turning(words, report)?;
             let (start, end, radius) = (from.xyz()?, end.xyz()?, radius? * unit);
             let tolerance = self.core.dialect.arc_limit_mm(radius.abs(), unit != 1.0);
             match Arc::from_radius(start, end, radius, self.plane_normal(), turning, tolerance) {
@@ -225,7 +225,7 @@ impl Klartext<'_> {
     ) -> MotionKind {
         self.memory.was_rapid = false;
         let arc = (|| {
-            let turning = self.turning(words, report)?;
+            let turning = Self::turning(words, report)?;
             let (start, end) = (from.xyz()?, end.xyz()?);
             let centre = self.centre(start, report)?;
             let arc = self.checked(

@@ -31,14 +31,14 @@ impl Klartext<'_> {
         match first.name() {
             b"LBL" => {
                 let Some(key) = self.key(first.value, words, report) else {
-                    return self.undecided("which label is called", report);
+                    return Self::undecided("which label is called", report);
                 };
                 match words.next() {
                     Some(word) if word.is("REP") => match self.said(word.value, report) {
                         Some(times) if (0.0..65536.0).contains(&times) && times.fract() == 0.0 => {
                             Request::Repeat(key, times as u32)
                         }
-                        _ => self.undecided("how often the section runs", report),
+                        _ => Self::undecided("how often the section runs", report),
                     },
                     _ => Request::Call(key),
                 }
@@ -52,7 +52,7 @@ impl Klartext<'_> {
             }
             b"SELECTED" => match self.flow.selected.clone() {
                 Some(name) => Request::Program(name),
-                None => self.undecided("which program is selected", report),
+                None => Self::undecided("which program is selected", report),
             },
             _ => {
                 Self::rejected(Refusal::Syntax, "CALL needs LBL or PGM", report);
@@ -71,7 +71,7 @@ impl Klartext<'_> {
         self.flow.selected = plain.then(|| text.trim_matches('"').to_owned());
     }
 
-    pub(crate) fn undecided(&mut self, what: &str, report: &mut Report<'_>) -> Request {
+    pub(crate) fn undecided(what: &str, report: &mut Report<'_>) -> Request {
         report.fault(TextRange::default(), FaultKind::NotDecided { what: what.to_owned() });
         Request::Stop
     }

@@ -10,10 +10,21 @@ use trunnion_syntax::BlockId;
 /// What needs the next motion.
 #[derive(Clone, Debug)]
 pub(crate) enum Waiting {
-    /// The motion before RND or CHF; the radius in mm once it is known; `None` where the corner is not followed.
-    Corner(Box<Made>, Option<Option<f64>>),
+    /// The motion before RND or CHF; what is known of the corner.
+    Corner(Box<Made>, Corner),
     /// APPR: the first contour element says where the contour goes.
     Approach(Box<Approach>),
+}
+
+/// What is known of a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Corner {
+    /// Its RND or CHF comes.
+    Awaited,
+    /// It is not followed.
+    Unknown,
+    /// RND with this radius, mm.
+    Round(f64),
 }
 
 /// Blocks without words that are passed over to find the next one.
@@ -75,7 +86,9 @@ impl Klartext<'_> {
 
     fn corner(&mut self, radius: Option<f64>, report: &mut Report<'_>) {
         match &mut self.memory.waiting {
-            Some(Waiting::Corner(_, size @ None)) => *size = Some(radius),
+            Some(Waiting::Corner(_, corner @ Corner::Awaited)) => {
+                *corner = radius.map_or(Corner::Unknown, Corner::Round);
+            }
             _ => Self::rejected(Refusal::Other, "no path block stands before the corner", report),
         }
     }
@@ -83,11 +96,12 @@ impl Klartext<'_> {
     /// The motion after one that waits.
     pub(crate) fn join(&mut self, made: Made, report: &mut Report<'_>) {
         match self.memory.waiting.take() {
-            Some(Waiting::Corner(before, Some(radius))) => self.cut(*before, radius, made, report),
-            Some(Waiting::Corner(before, None)) => {
+            Some(Waiting::Corner(before, Corner::Awaited)) => {
                 self.finish_motion(&before);
                 self.hold_or_finish(made, report);
             }
+            Some(Waiting::Corner(before, Corner::Unknown)) => self.cut(*before, None, made, report),
+            Some(Waiting::Corner(before, Corner::Round(radius))) => self.cut(*before, Some(radius), made, report),
             Some(Waiting::Approach(approach)) => {
                 self.finish_approach(&approach, &made, report);
                 self.hold_or_finish(made, report);
@@ -98,7 +112,7 @@ impl Klartext<'_> {
 
     fn hold_or_finish(&mut self, made: Made, report: &Report<'_>) {
         if comes(report) {
-            self.memory.waiting = Some(Waiting::Corner(Box::new(made), None));
+            self.memory.waiting = Some(Waiting::Corner(Box::new(made), Corner::Awaited));
         } else {
             self.finish_motion(&made);
         }

@@ -108,15 +108,15 @@ impl Klartext<'_> {
         let unit = self.core.state.coordinates.unit_mm();
         let mut local = self.memory.frames.local;
         let mut unknown = false;
-        for axis in 0..9 {
+        for (axis, shift) in local.iter_mut().enumerate() {
             let bit = 1 << axis;
             if found.given & bit == 0 {
                 continue;
             }
             let scale = if LINEAR & bit != 0 { unit } else { 1.0 };
             match found.values[axis] {
-                Some(value) if found.incremental & bit != 0 => local[axis] += value * scale,
-                Some(value) => local[axis] = value * scale,
+                Some(value) if found.incremental & bit != 0 => *shift += value * scale,
+                Some(value) => *shift = value * scale,
                 None => unknown = true,
             }
         }
@@ -190,7 +190,7 @@ impl Klartext<'_> {
 
     /// The value of `Qn=` among the words; `None`: it is not there.
     pub(crate) fn parameter_of(&mut self, number: u32, words: &Words<'_>, report: &mut Report<'_>) -> Option<Value> {
-        let mut ahead = *words;
+        let mut ahead = words.clone();
         while let Some(word) = ahead.next() {
             let is = matches!(word.value, Said::Parameter(_, found) if found.number == number);
             if is && word.name().is_empty() && ahead.takes(b'=') {
@@ -304,7 +304,7 @@ impl Klartext<'_> {
         let motion = self
             .core
             .motion_in_frame(kind, [position; 2], orientation, Feed::Unknown, report);
-        self.emit(motion, report);
+        self.emit(&motion, report);
     }
 
     /// Any other cycle waits for its call.

@@ -79,7 +79,7 @@ impl Klartext<'_> {
             .core
             .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
         self.memory.heading = None;
-        self.emit(motion, report);
+        self.emit(&motion, report);
     }
 
     fn cycle_feed(&mut self, feed: CycleFeed, report: &mut Report<'_>) -> Feed {
@@ -267,7 +267,7 @@ impl Klartext<'_> {
         };
         let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         self.memory.heading = None;
-        self.emit(motion, report);
+        self.emit(&motion, report);
     }
 }
 

@@ -24,7 +24,7 @@ impl Klartext<'_> {
         let mut unmodelled = other;
         let mut after = Vec::new();
         if first.is("TOOL") {
-            self.tool_effects(words, block);
+            self.tool_effects(words.clone(), block);
         } else if first.is("STOP") {
             after.push(Effect::Event(vec![Argument::code("M0")]));
         } else if first.is("CYCL") || first.is("CYCLE") {

@@ -121,7 +121,7 @@ impl Klartext<'_> {
         };
         let value = self.fn_value(number, words, report);
         if let Some(value) = value {
-            self.memory.parameters.set(target, value)
+            self.memory.parameters.set(target, value);
         } else {
             self.memory.parameters.set(target, None);
             Self::rejected(Refusal::Expression, format!("FN {number} is incomplete"), report);
@@ -196,7 +196,7 @@ impl Klartext<'_> {
         };
         let relation = words.next();
         if relation.is_some_and(|word| word.is("IS")) {
-            return self.undecided("whether a parameter is defined", report);
+            return Self::undecided("whether a parameter is defined", report);
         }
         let second = match relation.map(|word| word.value) {
             Some(Said::Nothing) => {
@@ -223,12 +223,12 @@ impl Klartext<'_> {
                 11 => a > b,
                 _ => a < b,
             },
-            _ => return self.undecided("the values of a jump", report),
+            _ => return Self::undecided("the values of a jump", report),
         };
         match (holds, key) {
             (false, _) => Request::Next,
             (true, Some(key)) => Request::Jump(key),
-            (true, None) => self.undecided("to which label the program jumps", report),
+            (true, None) => Self::undecided("to which label the program jumps", report),
         }
     }
 }

@@ -36,7 +36,7 @@ impl Klartext<'_> {
             self.codes_before(words, report);
         }
         let rapid = if words.has(140) {
-            // the F behind MB is the block's
+            // the F after MB is the block's
             false
         } else {
             self.take_feed(words.feed, report)
@@ -53,9 +53,7 @@ impl Klartext<'_> {
         } else if moves {
             self.motion(path, words, rapid, report);
         }
-        if words.has(99) {
-            self.run_cycle(report);
-        } else if self.memory.runs_after_each && moves && !words.has(89) {
+        if words.has(99) || self.memory.runs_after_each && moves && !words.has(89) {
             self.run_cycle(report);
         }
         if !words.codes().is_empty() {
@@ -170,7 +168,7 @@ impl Klartext<'_> {
         if self.memory.shortest {
             motion.says_way |= words.given & ROTARY;
         }
-        self.emit(motion, report);
+        self.emit(&motion, report);
     }
 
     /// The orientation from TX TY TZ or rotary words; else it stays.
@@ -210,9 +208,9 @@ impl Klartext<'_> {
     }
 
     /// Gives a motion out, or holds it back for the corner or contour that comes.
-    pub(crate) fn emit(&mut self, motion: Motion, report: &mut Report<'_>) {
+    pub(crate) fn emit(&mut self, motion: &Motion, report: &mut Report<'_>) {
         let made = Made {
-            motion,
+            motion: *motion,
             tilt: self.memory.frames.tilt,
         };
         if self.memory.waiting.is_some() || super::corner::comes(report) {
@@ -290,7 +288,7 @@ impl Klartext<'_> {
     fn back_along_tool(&mut self, words: &PathWords, report: &mut Report<'_>) {
         let start = self.core.state.position;
         let unit = self.core.state.coordinates.unit_mm();
-        let distance = words.back.flatten().flatten().map(|distance| distance * unit);
+        let distance = words.back.map(|distance| distance * unit);
         let rapid = self.take_feed(words.feed, report);
         let stands = (3..6).all(|axis| start.get(axis).is_none_or(|value| value == 0.0));
         let along = match self.core.state.orientation {
@@ -328,7 +326,7 @@ impl Klartext<'_> {
         let orientation = self.core.held_orientation();
         let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         self.memory.heading = None;
-        self.emit(motion, report);
+        self.emit(&motion, report);
     }
 
     /// A motion of which nothing is known.
@@ -341,7 +339,7 @@ impl Klartext<'_> {
             .core
             .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
         self.memory.heading = None;
-        self.emit(motion, report);
+        self.emit(&motion, report);
     }
 
     /// Rotary words that are the angles which PLANE has computed.

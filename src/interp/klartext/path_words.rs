@@ -51,8 +51,8 @@ pub(crate) struct PathWords {
     pub(crate) tool: [Option<Value>; 3],
     pub(crate) length: Option<Value>,
     pub(crate) centre_angle: Option<Value>,
-    /// MB: mm, or `None` for MAX.
-    pub(crate) back: Option<Option<Value>>,
+    /// The distance of MB; none for MAX.
+    pub(crate) back: Value,
     pub(crate) delta: bool,
 }
 
@@ -166,11 +166,7 @@ impl Klartext<'_> {
             b"CCA" => found.centre_angle = Some(self.said(word.value, report)),
             b"MB" => {
                 let most = word.value == Said::Nothing && words.takes_word("MAX");
-                found.back = Some(if most {
-                    None
-                } else {
-                    Some(self.said(word.value, report))
-                });
+                found.back = if most { None } else { self.said(word.value, report) };
                 return true;
             }
             // distances of M120 LA, M118 X Y Z

@@ -252,7 +252,7 @@ mod tests {
             if sine > 1e-6 {
                 let nutation = trunnion_geometry::math::atan2(sine, z.z).to_degrees();
                 let precession = trunnion_geometry::math::atan2(z.x, -z.y).to_degrees();
-                let rotation = turn[(2, 0)].atan2(turn[(2, 1)]).to_degrees();
+                let rotation = trunnion_geometry::math::atan2(turn[(2, 0)], turn[(2, 1)]).to_degrees();
                 let by_euler = euler([Some(precession), Some(nutation), Some(rotation)]).expect("known");
                 prop_assert!((turn - by_euler).norm() < 1e-9, "{turn} {by_euler}");
             }

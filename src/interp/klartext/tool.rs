@@ -61,7 +61,7 @@ impl Klartext<'_> {
     fn tool_call(&mut self, number: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
         let chosen = match number {
             Said::Nothing => {
-                let mut ahead = *words;
+                let mut ahead = words.clone();
                 match ahead.next().map(|word| word.value) {
                     Some(Said::Text(name)) => {
                         *words = ahead;

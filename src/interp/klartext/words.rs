@@ -72,7 +72,7 @@ impl Word<'_> {
 }
 
 /// The words of a text, in order.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Words<'t> {
     pub(crate) text: &'t [u8],
     pub(crate) at: usize,
@@ -96,7 +96,7 @@ impl<'t> Words<'t> {
     }
     /// Takes a byte after blanks, if it is there.
     pub(crate) fn takes(&mut self, byte: u8) -> bool {
-        let mut ahead = *self;
+        let mut ahead = self.clone();
         ahead.blanks();
         if ahead.peek() == Some(byte) {
             self.at = ahead.at + 1;
@@ -106,7 +106,7 @@ impl<'t> Words<'t> {
     }
     /// Takes a word with this name, if it is the next one.
     pub(crate) fn takes_word(&mut self, name: &str) -> bool {
-        let mut ahead = *self;
+        let mut ahead = self.clone();
         if ahead
             .next()
             .is_some_and(|word| word.is(name) && word.value == Said::Nothing)
@@ -255,12 +255,12 @@ impl<'t> Words<'t> {
             word.length = 3;
             self.at += 1;
         }
-        let mut ahead = *self;
+        let mut ahead = self.clone();
         ahead.blanks();
         let gap = ahead.at > self.at;
         let value = ahead.value();
         // behind a blank a sign alone is no value, and neither is a parameter that is assigned: `DRILLING Q200=2`
-        let assigned = matches!(value, Said::Parameter(..)) && { ahead }.takes(b'=');
+        let assigned = matches!(value, Said::Parameter(..)) && ahead.clone().takes(b'=');
         if value != Said::Nothing && !(gap && (assigned || matches!(value, Said::Sign(_)))) {
             word.value = value;
             *self = ahead;

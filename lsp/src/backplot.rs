@@ -123,7 +123,7 @@ pub(crate) fn backplot(snapshot: &Snapshot, params: &BackplotParams) -> Result<B
     let (low, high) = scene.extent().unwrap_or((Vec3::zeros(), Vec3::zeros()));
     let origin = (low + high) * 0.5;
     let bytes = encode(&vertices, machine, &origin, level);
-    write(&snapshot.parsed.uri, params, &bytes).map_err(refused)?;
+    write(&snapshot.parsed.uri, params, &bytes).map_err(|error| refused(&error))?;
     let Scene {
         vertices: all, unknown, ..
     } = scene;
@@ -149,7 +149,7 @@ fn write(uri: &Url, params: &BackplotParams, bytes: &[u8]) -> std::result::Resul
     outputs.output("file", &params.file)?.write(bytes, None)
 }
 
-fn refused(error: trunnion_files::FileError) -> Error {
+fn refused(error: &trunnion_files::FileError) -> Error {
     Error {
         code: ErrorCode::InvalidParams,
         message: format!("the backplot was not written: {error}").into(),

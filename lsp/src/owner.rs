@@ -105,7 +105,7 @@ impl Owner {
             Event::Parsed(parsed) => self.take_parsed(&parsed),
             Event::Cheap(parsed, found) => self.take_cheap(&parsed, found),
             Event::Analysed(analysed) => self.take(&analysed),
-            Event::Ask { uri, need, work } => self.ask(uri, need, work),
+            Event::Ask { uri, need, work } => self.ask(&uri, need, work),
             Event::AskAll(work) => {
                 let (folder, encoding) = (self.folder(), self.encoding);
                 self.runtime.spawn_blocking(move || work(folder, encoding));
@@ -345,23 +345,22 @@ impl Owner {
     }
 
     /// Answers a request from the document's version, now or when it is there. Answering may take time: not on the owner's thread.
-    fn ask(&mut self, uri: Url, need: Need, work: Work) {
-        let Some(document) = self.documents.get(&uri) else {
+    fn ask(&mut self, uri: &Url, need: Need, work: Work) {
+        let Some(document) = self.documents.get(uri) else {
             return work(None);
         };
         let version = document.version;
-        match self.snapshot(&uri, need) {
-            Some(snapshot) => drop(self.runtime.spawn_blocking(move || work(Some(snapshot)))),
-            None => {
-                let waiting = Waiting {
-                    uri: uri.clone(),
-                    version,
-                    need,
-                    work,
-                };
-                self.waiting.push(waiting);
-                self.hurry(&uri, need);
-            }
+        if let Some(snapshot) = self.snapshot(uri, need) {
+            drop(self.runtime.spawn_blocking(move || work(Some(snapshot))));
+        } else {
+            let waiting = Waiting {
+                uri: uri.clone(),
+                version,
+                need,
+                work,
+            };
+            self.waiting.push(waiting);
+            self.hurry(uri, need);
         }
     }
 
@@ -379,7 +378,7 @@ impl Owner {
     fn answer(&mut self, uri: &Url) {
         for waiting in std::mem::take(&mut self.waiting) {
             if waiting.uri == *uri {
-                self.ask(waiting.uri, waiting.need, waiting.work);
+                self.ask(&waiting.uri, waiting.need, waiting.work);
             } else {
                 self.waiting.push(waiting);
             }

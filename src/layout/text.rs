@@ -42,12 +42,12 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             out.extend_from_slice(ending);
         }
         (blank_lines, any) = (0, true);
-        if program.options().format != Format::Iso {
-            apt::write(program, &block, &mut out);
-        } else {
+        if program.options().format == Format::Iso {
             let depth = nesting.depth(&block);
             blocks.write(&block, depth, &mut out);
             percents += u32::from(is_bare_percent(&block));
+        } else {
+            apt::write(program, &block, &mut out);
         }
         let stays = || match program.options().format {
             Format::Apt | Format::Klartext => apt::stays(program, &block),

@@ -168,7 +168,7 @@ corner = { CORNER }
             assert!(
                 (found[1] - wanted).abs() < 1e-3 * wanted && found[0] == found[1],
                 "{found:?}"
-            )
+            );
         };
         near(
             at("model = \"grbl\", deviation = 0.01", 500.0, PathControl::ByMachine),

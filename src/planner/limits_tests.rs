@@ -1,5 +1,6 @@
 //! No limit is broken on random paths: the planned motion is differentiated here, from joint positions at three moments.
 use crate::{PathControl, Planned, Planner, Run};
+use std::fmt::Write;
 use trunnion_dialect::{RotaryFeed, builtin};
 use trunnion_interp::{Fault, ModalState, Motion, Setup, Sink};
 use trunnion_machine::{BlockPath, Follower, Leg, Machine, load};
@@ -40,12 +41,15 @@ fn program(random: &mut Random) -> String {
         if random.between(0.0, 1.0) < 0.2 {
             let (to_x, to_y) = (x + random.between(0.1, size + 0.1), y);
             let reach = 0.5 * (to_x - x);
-            text += &format!("G1 X{x:.4} Y{y:.4} F{feed:.1}\nG2 X{to_x:.4} Y{to_y:.4} I{reach:.4} J0\n");
+            let _ = writeln!(
+                text,
+                "G1 X{x:.4} Y{y:.4} F{feed:.1}\nG2 X{to_x:.4} Y{to_y:.4} I{reach:.4} J0"
+            );
             x = to_x;
         } else {
             a = (a + random.between(-size, size)).clamp(-60.0, 60.0);
             c += random.between(-2.0 * size, 2.0 * size);
-            text += &format!("G1 X{x:.4} Y{y:.4} A{a:.4} C{c:.4} F{feed:.1}\n");
+            let _ = writeln!(text, "G1 X{x:.4} Y{y:.4} A{a:.4} C{c:.4} F{feed:.1}");
         }
     }
     text + "M30\n"

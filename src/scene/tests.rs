@@ -1,5 +1,6 @@
 //! Scenes of whole programs.
 use crate::{Kind, Scene, Tracer, Vertex, encode, thin};
+use std::fmt::Write;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Fault, ModalState, Motion, Setup, Sink};
 use trunnion_machine::{Follower, Machine, builtin};
@@ -145,7 +146,7 @@ fn a_thinned_scene_keeps_ends_and_what_is_asked_for() {
     let mut text = String::from("G21 G90\nG0 X0 Y0 Z0\n");
     for i in 1..=20_000 {
         let (x, y) = (f64::from(i) * 0.01, f64::from(i % 7) * 0.001);
-        text.push_str(&format!("G1 X{x:.3} Y{y:.3} F500\n"));
+        let _ = writeln!(text, "G1 X{x:.3} Y{y:.3} F500");
     }
     text.push_str("M30\n");
     let scene = scene(&text, "linuxcnc", None);
@@ -171,7 +172,7 @@ fn a_thinned_scene_keeps_ends_and_what_is_asked_for() {
 fn many_short_strands_still_fit() {
     let mut text = String::from("G21 G90\n");
     for i in 0..3_000 {
-        text.push_str(&format!("G0 X{i} Y0 Z0\nG1 Z-1 F100\nG28 Z0\n"));
+        let _ = writeln!(text, "G0 X{i} Y0 Z0\nG1 Z-1 F100\nG28 Z0");
     }
     let scene = scene(&text, "fanuc-30i", None);
     let (few, _) = thin(&scene, 200, |_| true);

@@ -172,10 +172,11 @@ impl Undeclared {
     /// What of it concerns some axes, bits as in [`Position::known`]; a tool length concerns Z.
     pub fn of_axes(self, axes: u16) -> Self {
         const Z: u16 = 1 << 2;
+        let zero = self.zero & axes;
         Self {
-            zero: self.zero & axes,
+            zero,
             length: self.length && axes & Z != 0,
-            ..self
+            set_here: self.set_here && zero != 0,
         }
     }
     /// Whether anything is undeclared.

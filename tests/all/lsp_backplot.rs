@@ -1,6 +1,7 @@
 //! `trunnion/backplot`: the path of an open program for a viewer.
 use crate::lsp_client::Client;
 use serde_json::{Value, json};
+use std::fmt::Write;
 use std::path::Path;
 
 fn ask(client: &mut Client, uri: &str, file: &Path, more: &Value) -> Value {
@@ -65,7 +66,7 @@ fn levels_of_detail_another_text_and_no_machine() {
     let file = folder.path().join("path.bin");
     let mut text = String::from("(trunnion: dialect linuxcnc)\nG21 G90 G17 F500 S1000 M3\nG0 X0 Y0 Z0\n");
     for i in 1..=5000 {
-        text.push_str(&format!("G1 X{}.{:02}\n", i / 100, i % 100));
+        let _ = writeln!(text, "G1 X{}.{:02}", i / 100, i % 100);
     }
     text.push_str("M2\n");
     let mut client = Client::start(&json!({}));

@@ -179,22 +179,6 @@ fn every_key_is_read() {
     assert_eq!((machine.gantries[0].letter, machine.gantries[0].leader), (b'V', b'Y'));
     assert_eq!(machine.control.rapid, RapidPath::Dogleg);
     assert!(machine.control.tcp_great_circle && machine.control.tcp_declared);
-    assert_eq!(machine.control.corner_model.as_deref(), Some("axis-jump"));
-    let planning = &machine.control.planning;
-    let jump = |letter: u8| planning.corner_jump[machine.joint(letter).expect("an axis")];
-    assert_eq!((jump(b'X'), jump(b'C'), jump(b'Y')), (Some(5.0), Some(rad(1.0)), None));
-    assert_eq!(
-        (planning.lookahead, planning.filter_time, machine.control.block_time),
-        (Some(150), Some(0.004), Some(0.002))
-    );
-    assert_eq!(
-        (planning.tool_change_time, &planning.m_times[..]),
-        (Some(6.0), &[(3, 2.5)][..])
-    );
-    assert_eq!(
-        (planning.servo_bandwidth_hz, planning.servo_sample),
-        (Some(60.0), Some(0.001))
-    );
     assert_eq!(machine.control.units, Some(trunnion_interp::LengthUnit::Inch));
     let codes = machine.control.tcp_codes.as_ref().expect("declared");
     assert_eq!(
@@ -223,6 +207,27 @@ fn every_key_is_read() {
     assert_eq!(
         machine.joint_of_letter,
         [Some(2), Some(3), Some(4), Some(1), None, Some(0), None, None, None]
+    );
+}
+
+#[test]
+fn every_key_of_the_planner_is_read() {
+    let machine = load("everything", EVERYTHING).expect("valid");
+    assert_eq!(machine.control.corner_model.as_deref(), Some("axis-jump"));
+    let planning = &machine.control.planning;
+    let jump = |letter: u8| planning.corner_jump[machine.joint(letter).expect("an axis")];
+    assert_eq!((jump(b'X'), jump(b'C'), jump(b'Y')), (Some(5.0), Some(rad(1.0)), None));
+    assert_eq!(
+        (planning.lookahead, planning.filter_time, machine.control.block_time),
+        (Some(150), Some(0.004), Some(0.002))
+    );
+    assert_eq!(
+        (planning.tool_change_time, &planning.m_times[..]),
+        (Some(6.0), &[(3, 2.5)][..])
+    );
+    assert_eq!(
+        (planning.servo_bandwidth_hz, planning.servo_sample),
+        (Some(60.0), Some(0.001))
     );
 }
 

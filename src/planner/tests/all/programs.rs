@@ -1,4 +1,5 @@
 //! Whole programs: intervals, stops, doglegs, look-ahead, block time.
+use std::fmt::Write;
 use trunnion_dialect::{RotaryFeed, builtin};
 use trunnion_interp::{Fault, ModalState, Motion, Setup, Sink};
 use trunnion_machine::{Follower, Machine, load};
@@ -70,7 +71,7 @@ fn a_straight_line_in_many_pieces_takes_as_long_as_in_one() {
     let m = machine("corner = { model = \"grbl\", deviation = 0.01 }");
     let mut text = "G21 G90\nG0 X0 Y0 Z0\nG1 F6000\n".to_owned();
     for k in 1..=100 {
-        text += &format!("X{k}\n");
+        let _ = writeln!(text, "X{k}");
     }
     let out = plan(&m, &(text + "M2\n"), PathControl::ByMachine);
     assert!((total(&out)[1] - 1.15).abs() < 1e-9, "{}", total(&out)[1]);
@@ -120,7 +121,7 @@ fn dwells_rapids_and_unknown_motions() {
 fn block_time_and_look_ahead_slow_short_blocks_down() {
     let mut text = "G21 G90\nG0 X0 Y0 Z0\nG1 F6000\n".to_owned();
     for k in 1..=1000 {
-        text += &format!("X{}\n", f64::from(k) * 0.1);
+        let _ = writeln!(text, "X{}", f64::from(k) * 0.1);
     }
     text += "M2\n";
     let free = total(&plan(

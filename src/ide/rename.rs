@@ -123,7 +123,8 @@ pub fn rename(
         && let Some(difference) = first_difference(program, &after, dialect, setup, of.kind == Kind::Block)
     {
         return Err(RenameError(format!(
-            "the program would not do the same: {difference:?}"
+            "the program would not do the same ({}); programs of other files that share the name are not proved together with it",
+            difference.what
         )));
     }
     Ok(edits)

@@ -8,7 +8,8 @@ use trunnion_interp::{AXIS_LETTERS, Motion, MotionKind, Orientation, Position};
 
 /// A motion begins where the one before it ended, and these were compared, unless a statement (FROM of APT) says where the tool is: whether two
 /// begin at one place.
-pub(crate) fn begin_alike(a: &Motion, b: &Motion, claim: &Claim) -> Result<(), Verdict> {
+pub(crate) fn begin_alike(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
+    let (a, b) = (&was.motion, &is.motion);
     let other_frame = a.zero.map(f64::to_bits) != b.zero.map(f64::to_bits) || a.tcp != b.tcp || !same_sort(a, b);
     if a.machine_coordinates || b.machine_coordinates || other_frame || a.kind == MotionKind::Unknown {
         return Ok(());
@@ -28,7 +29,8 @@ pub(crate) fn begin_alike(a: &Motion, b: &Motion, claim: &Claim) -> Result<(), V
     // ends that were compared may be off by the tolerance, and a cut may be off by it too
     let off = |axis: usize| (a.start.values[axis] - b.start.values[axis]).abs() > 2.0 * limit(axis, claim);
     let elsewhere = (0..9).filter(|axis| off(*axis)).fold(0, |all, axis| all | 1 << axis) & both;
-    if let Some((letter, axis)) = letter(elsewhere) {
+    let anew = was.starts_anew || is.starts_anew;
+    if let Some((letter, axis)) = letter(elsewhere).filter(|_| anew) {
         let (from, to) = (a.start.values[axis], b.start.values[axis]);
         let letter = char::from(letter);
         return Err(Verdict::Differs(place(format!(

@@ -231,7 +231,7 @@ fn pair(
                 }
             }
             if claim.cuts {
-                begin_alike(&was.motion, &is.motion, claim)?;
+                begin_alike(was, is, claim)?;
             }
             judge.pair(was, is)?;
         }

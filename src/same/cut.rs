@@ -131,6 +131,7 @@ pub(crate) fn cut(long: &mut Step, short: &Step, claim: &Claim) -> Option<f64> {
         leg.motion = long.motion;
     }
     long.is_part = true;
+    long.starts_anew = false;
     Some(off)
 }
 

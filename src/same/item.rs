@@ -18,6 +18,8 @@ pub struct Step {
     pub process: Arc<Process>,
     /// Since the motion before, nothing can have changed its coordinates: a block that repeats the position does not move.
     pub may_repeat: bool,
+    /// The program states where it starts (FROM of APT): no motion before it ends there.
+    pub starts_anew: bool,
     /// It is a part of a motion of the program, up to a point at which the other program has one.
     pub is_part: bool,
 }

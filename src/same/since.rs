@@ -18,6 +18,18 @@ pub(crate) struct Since {
 }
 
 impl Since {
+    /// Whether a motion starts elsewhere than the one before ended, in the same frame.
+    pub(crate) fn starts_anew(&self, motion: &Motion) -> bool {
+        let Some((last, _)) = &self.last else {
+            return motion.start.known != 0;
+        };
+        let bits = |zero: &[f64; 9]| zero.map(f64::to_bits);
+        let frame = bits(&last.zero) == bits(&motion.zero) && last.tcp == motion.tcp && last.tilt == motion.tilt;
+        let both = last.end.known & motion.start.known;
+        let moved = |axis: usize| last.end.values[axis].to_bits() != motion.start.values[axis].to_bits();
+        frame && (0..9).any(|axis| both & (1 << axis) != 0 && moved(axis))
+    }
+
     /// A motion is made: whether it is in the frame of the motion before, with nothing between that may have changed it.
     pub(crate) fn motion(&mut self, motion: &Motion, held: &Held) -> bool {
         let same = self.last.as_ref().is_some_and(|(last, was)| {
@@ -39,9 +51,14 @@ impl Since {
         let other_frame = |(_, was): &(Motion, Held)| {
             was.work_offset != held.work_offset || was.length_of != held.length_of && !to_new_height
         };
-        // LinuxCNC's motions in machine coordinates depend on nothing undeclared
-        self.strayed |=
-            motion.machine_coordinates || !motion.undeclared.any() || self.last.as_ref().is_some_and(other_frame);
+        // LinuxCNC's motions in machine coordinates depend on no undeclared zero point of the axes that they name
+        let other_zero = |(last, _): &(Motion, Held)| last.undeclared.zero != motion.undeclared.zero;
+        self.strayed |= motion.machine_coordinates
+            || !motion.undeclared.any()
+            || self
+                .last
+                .as_ref()
+                .is_some_and(|last| other_frame(last) || other_zero(last));
         self.last = Some((*motion, held.clone()));
         !std::mem::take(&mut self.disturbed) && same
     }

@@ -307,9 +307,11 @@ impl<'a> Steps<'a> {
         }
         while let Some((motion, leg, held)) = self.run.motions.pop_front() {
             self.effects_before(motion.effects);
+            let starts_anew = self.since.starts_anew(&motion);
             let may_repeat = self.since.motion(&motion, &held);
             self.ready.push_back(Item::Motion(Box::new(Step {
                 may_repeat,
+                starts_anew,
                 motion,
                 leg,
                 held,

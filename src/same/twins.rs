@@ -43,15 +43,14 @@ impl Twins {
         }
     }
 
-    /// Whether runs that both stop before the end of their programs are the same after it, too. A run that a bound ends is not: what comes
-    /// after it was never compared.
+    /// Whether runs that both stop before the end of their programs are the same after it, too. Of two texts that only run alike, a run that a
+    /// bound ends is not: what comes after it was never compared. The same text with the same of everything does the same, wherever it goes.
     pub(crate) fn stopped(&self, before: &Steps<'_>, after: &Steps<'_>) -> Result<bool, Verdict> {
-        let both = before
-            .stop()
-            .filter(|stop| !stop.by_bound && after.stop() == Some(stop));
+        let both = before.stop().filter(|stop| after.stop() == Some(stop));
         let stop = match (self, both) {
             (Self::No, _) | (_, None) => return Ok(false),
             (Self::All, Some(_)) => return Ok(true),
+            (Self::Text, Some(stop)) if stop.by_bound => return Ok(false),
             (Self::Text, Some(stop)) => stop,
         };
         let (old, new) = (before.input(), after.input());

@@ -1,5 +1,5 @@
 //! Borrowed views: blocks, and the items in them.
-use crate::items::comment;
+use crate::comment::comment;
 use crate::{BlockId, Decimal, Format, Items, Program, Record, Sentence, TextRange, TokenId, TokenKind, klartext};
 use core::ops::Range;
 

@@ -5,6 +5,7 @@
 mod apt;
 mod block;
 mod builder;
+mod comment;
 mod digits;
 mod edit;
 mod error;

@@ -12,8 +12,8 @@
 //! N40 G1 X0.5 F3000.
 //! N50 Y0.5
 //! N60 X1.
-//! N70 Y1.
 //! ;   ^^^ feed-oscillation: the feed swings
+//! N70 Y1.
 //! N80 M30
 //! ```
 //!

@@ -257,7 +257,8 @@ fn the_same_tool_path_is_proved_or_refuted_with_a_witness() {
     assert_eq!(witness.line, Some(6));
     // between block ends the tool axis of the original swings wide, so the tolerance that holds at the ends does not hold there
     assert!(matches!(compare(&after, 0.02, 0.08), Outcome::Refuted(_)));
-    assert!(matches!(compare(&after, 0.02, 1.0), Outcome::Proved(_)));
+    let outcome = compare(&after, 0.02, 1.0);
+    assert!(matches!(outcome, Outcome::Proved(_)), "{outcome:?}");
     let shorter = before.replace("N2950", ";N2950");
     assert!(matches!(compare(&shorter, 1.0, 1.0), Outcome::Refuted(_)));
 }

@@ -4,7 +4,7 @@ use crate::error::SyntaxErrorKind;
 use crate::expression::is_function;
 use crate::scan::Scan;
 use crate::sink::{Quiet, Sink};
-use crate::{Address, Comment, Decimal, Format, Item, SyntaxError, TextRange, TokenId, TokenKind, Value, Word};
+use crate::{Address, Decimal, Format, Item, SyntaxError, TextRange, TokenId, TokenKind, Value, Word};
 
 /// How far into a block the reader is: some marks have a meaning only at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

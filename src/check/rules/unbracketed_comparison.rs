@@ -20,7 +20,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: it is told for every such operator that the text has, also where the run does not come.
+//! Sound: it reports every such operator in the text, also in blocks that do not run.
 //!
 //! # Sources
 //! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019): the priority of operators, p. 444.

@@ -147,7 +147,7 @@ fn side(machine: &Machine, joints: [usize; 3], leg: &Leg, known: &(Joints, u16),
     })
 }
 
-/// The change of the linear axes of a straight motion that leaves out axes whose position nobody knows.
+/// The change of the linear axes of a straight motion that leaves out axes whose position is unknown.
 fn change(joints: [usize; 3], leg: &Leg, known: &(Joints, u16)) -> Option<Vec3> {
     if !matches!(leg.motion.kind, MotionKind::Linear | MotionKind::Rapid) || leg.motion.tcp {
         return None;

@@ -1,7 +1,7 @@
 //! The words of a block: a name with its value, as `X+10,5`, `IX-Q5`, `FMAX`, `DR-`, `FQ50`, `"text"`.
 use trunnion_syntax::Decimal;
 
-/// Letters of the longest name that is told apart.
+/// Letters of the longest name that is distinguished.
 const LONGEST: usize = 12;
 
 /// A Q parameter by its kind.

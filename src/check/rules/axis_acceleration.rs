@@ -58,6 +58,5 @@ fn report(place: &Place, machine: &Machine, out: &mut Reporter<'_>) {
             .value(keys[0], place.feed)
             .value(keys[1], place.value)
             .spans(place.count, place.last);
-        draft.fix_feed();
     });
 }

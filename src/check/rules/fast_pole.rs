@@ -101,7 +101,9 @@ mod tests {
     #[test]
     fn a_slow_starter_needs_more_room() {
         let source = trunnion_machine::builtin_source("mikron-ucp710").expect("embedded");
-        let text = source.replacen("vmax = 120", "vmax = 120, amax = 5", 1);
+        let text = source
+            .replacen("amax = 500", "amax = 5", 1)
+            .replacen("C = 500", "C = 5", 1);
         let machine = trunnion_machine::load("slow", &text).expect("valid");
         let program = "TRAORI\nG0 X0 Y0 Z50 A3 C0\nG1 X2 A3 C8 F320\nM30\n";
         let report = check_on(&machine, "sinumerik-840d", program);

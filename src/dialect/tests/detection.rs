@@ -283,10 +283,10 @@ fn program_numbers_of_all_lengths() {
 
 #[test]
 fn names_of_program_files() {
-    for name in ["a.nc", "a.MPF", "b.ngc", "c.apt", "c.ncl.3"] {
+    for name in ["a.nc", "a.MPF", "b.ngc", "c.apt", "c.ncl.3", "a.h"] {
         assert!(is_program_file_name(name), "{name}");
     }
-    for name in ["a.txt", "a.md", "nc", "", ".", "a.toml", "a.h"] {
+    for name in ["a.txt", "a.md", "nc", "", ".", "a.toml", "a.hpp"] {
         assert!(!is_program_file_name(name), "{name}");
     }
     assert!(program_extensions().contains(&"tap"));
@@ -344,6 +344,7 @@ fn programs_of_known_origin() {
             }
             let expected = match (extension.to_str().unwrap(), dialect) {
                 ("mpf" | "spf", _) => "sinumerik-840d",
+                ("h", _) => "heidenhain-klartext",
                 ("apt", "by-name") => "apt",
                 (_, "by-name") => "fanuc-30i",
                 (_, other) => other,

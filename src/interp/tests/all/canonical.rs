@@ -200,6 +200,7 @@ fn a_motion_beside_a_tool_change_starts_nobody_knows_where() {
 fn letters_of_further_axes_are_words_where_the_machine_has_them() {
     let source = "G21 G0 X1 W2\nM2\n";
     let mut setup = Setup::default();
+    setup.control.axes_declared = true;
     let said = |setup: &Setup| {
         let log = run_bytes("linuxcnc", source.as_bytes(), setup).1;
         (
@@ -211,6 +212,9 @@ fn letters_of_further_axes_are_words_where_the_machine_has_them() {
     assert!(said(&setup).1 > 0);
     setup.control.further_axes = vec![b'W'];
     assert_eq!(said(&setup), (Some(2.0), 0));
+    // without a machine it is followed, and it is said that the axis is not known
+    let unknown = Setup::default();
+    assert_eq!(said(&unknown), (Some(2.0), 1));
 }
 
 #[test]

@@ -4,6 +4,7 @@ import { mkdir, readFile, rm } from 'node:fs/promises';
 import { join } from 'node:path';
 import * as vscode from 'vscode';
 import type { LanguageClient } from 'vscode-languageclient/node';
+import { isProgram } from './languages';
 import type { FromPage, Summary, ToPage } from './messages';
 
 /** Points that are drawn first, at once, and then. */
@@ -152,10 +153,6 @@ export class Backplot implements vscode.Disposable {
 }
 
 const name = (document: vscode.TextDocument): string => document.uri.path.split('/').pop() ?? '';
-
-function isProgram(document: vscode.TextDocument): boolean {
-  return ['gcode', 'apt'].includes(document.languageId);
-}
 
 function page(webview: vscode.Webview, script: vscode.Uri, style: vscode.Uri): string {
   const nonce = randomBytes(16).toString('base64url');

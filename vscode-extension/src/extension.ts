@@ -3,11 +3,10 @@ import * as vscode from 'vscode';
 import { LanguageClient, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
 import { Backplot } from './backplot';
 import { chooseDialect, chooseMachine } from './choose';
+import { LANGUAGES } from './languages';
 import { findProgram, firstFolder } from './server';
 import { type Status, StatusItem } from './status';
 import { checkTask, taskProvider } from './tasks';
-
-const LANGUAGES = ['gcode', 'apt'];
 
 let client: LanguageClient | undefined;
 

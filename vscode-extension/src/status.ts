@@ -1,5 +1,6 @@
 // The status bar item: the machine and the dialect of the program in front, and its verdict.
 import * as vscode from 'vscode';
+import { isProgram } from './languages';
 
 /** What the server says after each analysis (`trunnion/status`). */
 export interface Status {
@@ -51,7 +52,7 @@ export class StatusItem implements vscode.Disposable {
 
   show(): void {
     const document = vscode.window.activeTextEditor?.document;
-    if (!document || !['gcode', 'apt'].includes(document.languageId)) {
+    if (!document || !isProgram(document)) {
       this.item.hide();
       return;
     }

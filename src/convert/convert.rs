@@ -69,7 +69,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     // clamps are closed and opened again for the target machine
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
-    let job = job(&reading, source.dialect, options, rewritten)?;
+    let job = job(&reading, source.dialect, options, rewritten, setting.post)?;
     let tolerance_mm = options.tolerance_mm.unwrap_or_else(|| setting.tolerance());
     if !(tolerance_mm.is_finite() && tolerance_mm > 0.0) {
         return Err(Refused::new("the tolerance must be a positive number of millimetres"));

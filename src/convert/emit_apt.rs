@@ -200,6 +200,7 @@ fn plain_record(event: &Event) -> Option<String> {
         Event::SpindleOff => "SPINDL/OFF".to_owned(),
         // only COOLNT/OFF exists
         Event::Coolant(Coolant::ThruOff)
+        | Event::Path(_)
         | Event::Tool(_)
         | Event::SpindleOn(..)
         | Event::WorkOffset(_)

@@ -8,7 +8,7 @@ use crate::number::number;
 use crate::plan::{Mode, Out};
 use crate::setting::Setting;
 use crate::template::fill;
-use crate::{Options, OrientationWords, Post, Refused};
+use crate::{Options, Post, Refused};
 use core::fmt::Write;
 use trunnion_certify::conversion::Reading;
 use trunnion_interp::Setup;
@@ -33,8 +33,10 @@ pub(crate) struct Writer<'a> {
     pub(crate) lines: u32,
     pub(crate) moved: Vec<u32>,
     /// Tool centre point control, or compensation of the tool's length, is on.
-    ready: bool,
-    tool: Option<u32>,
+    pub(crate) ready: bool,
+    /// A length was activated, and not cancelled since.
+    pub(crate) length_set: bool,
+    pub(crate) tool: Option<u32>,
     /// Coolant other than through the spindle is on.
     pub(crate) coolant_outside: bool,
     pub(crate) zero: [f64; 9],
@@ -72,6 +74,7 @@ impl<'a> Writer<'a> {
             lines: 0,
             moved: Vec::new(),
             ready: false,
+            length_set: false,
             tool: None,
             coolant_outside: false,
             zero: [0.0; 9],
@@ -292,6 +295,7 @@ impl<'a> Writer<'a> {
             }
             Event::SpindleOff => self.template("spindle-stop", block, |_| None),
             Event::Coolant(coolant) => self.coolant(*coolant, block),
+            Event::Path(mode) => self.template(crate::events::path_key(*mode), block, |_| None),
             Event::Stop(optional) => {
                 let key = if *optional { "optional-stop" } else { "stop" };
                 self.template(key, block, |_| None)
@@ -301,7 +305,7 @@ impl<'a> Writer<'a> {
                 self.template("auxiliary", block, |name| (name == "number").then(|| code.to_string()))
             }
             Event::WorkOffset(name) => self.work_offset(name, block),
-            Event::Motion(index) => self.motion(&outs[*index], placed.block),
+            Event::Motion(index) => self.motion(&outs[*index], *index, placed.block),
         }
     }
 
@@ -311,50 +315,10 @@ impl<'a> Writer<'a> {
         self.modal.set("mode", mode);
     }
 
-    /// Tool centre point control on, or the tool's length.
-    pub(crate) fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
-        if self.ready {
-            return Ok(());
-        }
-        let vectors = self.options.orientation == OrientationWords::Vectors;
-        let key = match self.mode {
-            Mode::TipRotary(_) => "tcp-words-on",
-            Mode::Tip if vectors => "tcp-vectors-on",
-            Mode::Tip | Mode::Joints(_) => "length-on",
-        };
-        self.ready = true;
-        let tool = self.tool.map(|tool| tool.to_string());
-        // a length is compensated where there is a tool; without one the words are those of the spindle's nose
-        if key != "length-on" || tool.is_some() && self.post.template(key).is_some() {
-            let code = self.post.tcp_code(self.mode.machine(), true);
-            self.template(key, Some(block), |name| match name {
-                "tool" => tool.clone(),
-                "tcp_on" => code.clone(),
-                _ => None,
-            })?;
-        }
-        self.forget_coordinates();
-        self.modal.forget("motion");
-        Ok(())
-    }
-
-    pub(crate) fn not_ready(&mut self) -> Result<(), Refused> {
-        let tcp = match self.mode {
-            Mode::TipRotary(_) => true,
-            Mode::Tip => self.options.orientation == OrientationWords::Vectors,
-            Mode::Joints(_) => false,
-        };
-        if std::mem::take(&mut self.ready) && tcp {
-            let code = self.post.tcp_code(self.mode.machine(), false);
-            self.template("tcp-off", None, |name| code.clone().filter(|_| name == "tcp_off"))?;
-        }
-        Ok(())
-    }
-
-    fn motion(&mut self, out: &Out, block: BlockId) -> Result<(), Refused> {
+    fn motion(&mut self, out: &Out, index: usize, block: BlockId) -> Result<(), Refused> {
         match out {
             Out::Left => Ok(()),
-            Out::Words { known, led } => self.plain_rapid(known, *led, block),
+            Out::Words { known, led, length } => self.plain_rapid(known, (*led, *length), block),
             Out::Dwell(seconds) => {
                 let (s, ms) = (number(*seconds, 3, self.post.point), number(seconds * 1000.0, 0, false));
                 self.template("dwell", Some(block), |name| match name {
@@ -366,7 +330,11 @@ impl<'a> Writer<'a> {
                 Ok(())
             }
             Out::Moves(moves) => {
-                self.get_ready(block)?;
+                if self.waits(index) {
+                    self.length_off(block)?;
+                } else {
+                    self.get_ready(block)?;
+                }
                 for one in moves {
                     self.one(one, block)?;
                 }

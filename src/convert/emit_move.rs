@@ -26,12 +26,22 @@ impl Writer<'_> {
         number(mm / self.options.units.mm(), decimals, self.post.point)
     }
 
-    /// A rapid of which only these words are known; if the tip is not guided, before tool centre point control and tool length are on.
-    pub(crate) fn plain_rapid(&mut self, known: &[(usize, f64)], led: bool, block: BlockId) -> Result<(), Refused> {
+    /// A rapid of which only these words are known, and whether the tip is guided and a tool length is active in it.
+    pub(crate) fn plain_rapid(
+        &mut self,
+        known: &[(usize, f64)],
+        (led, length): (bool, bool),
+        block: BlockId,
+    ) -> Result<(), Refused> {
         if led {
             self.get_ready(block)?;
+        } else if length {
+            self.length_on(block)?;
         } else {
             self.not_ready()?;
+            if known.iter().any(|(axis, _)| *axis == 2) {
+                self.length_off(block)?;
+            }
         }
         let mut words: Vec<String> = self.modal.change("motion", "G0".to_owned()).into_iter().collect();
         let mut turns = 0;

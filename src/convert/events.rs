@@ -1,8 +1,8 @@
 //! Events of a program: what its blocks contain apart from motions, in the order the control runs them.
 use crate::job::{Coolant, Event, Job, Placed};
-use crate::{Options, Refused};
+use crate::{Options, Post, Refused};
 use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why};
-use trunnion_dialect::{Action, Dialect};
+use trunnion_dialect::{Action, Dialect, PathMode};
 use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
 
@@ -21,12 +21,13 @@ pub(crate) struct BlockEvents {
 pub(crate) type Cannot = (TextRange, String);
 
 /// All events of a program.
-/// `clamps`: the codes of clamps, where they are written again.
+/// `clamps`: the codes of clamps, where they are written again. `post`: what the target can say; `None`: APT.
 pub(crate) fn job(
     reading: &Reading,
     dialect: &Dialect,
     options: &Options,
     clamps: Option<&AllClampCodes>,
+    post: Option<&Post>,
 ) -> Result<Job, Refused> {
     let program = &reading.program;
     if let Some(block) = reading.elsewhere {
@@ -36,6 +37,7 @@ pub(crate) fn job(
     }
     let mut teller = EventCollector {
         program,
+        post,
         job: Job {
             name: options.program_name.clone(),
             ..Job::default()
@@ -91,6 +93,7 @@ enum Spindle {
 
 struct EventCollector<'p> {
     program: &'p Program,
+    post: Option<&'p Post>,
     job: Job,
     spindle: Spindle,
     tool: Option<u32>,
@@ -113,6 +116,7 @@ impl EventCollector<'_> {
                 Ask::Coolant(coolant) => before.push(Event::Coolant(*coolant)),
                 Ask::Stop { optional } => after.push(Event::Stop(*optional)),
                 Ask::Auxiliary(number) => before.push(Event::Auxiliary(*number)),
+                Ask::Path { mode, name } => self.path(asked, *mode, name, options, &mut before)?,
                 Ask::Clamp(_) if own_clamps => {}
                 Ask::Clamp(name) => self.own(asked, (name, name), Why::Machine, options)?,
                 Ask::Idle(name) if WRITTEN.contains(&name.as_str()) => {}
@@ -121,6 +125,28 @@ impl EventCollector<'_> {
             }
         }
         Ok((before, after))
+    }
+
+    /// A mode of path control: written where the target has it. A permission to round corners may stay unused; what is demanded may not.
+    fn path(
+        &mut self,
+        asked: &Asked,
+        mode: PathMode,
+        name: &str,
+        options: &Options,
+        before: &mut Vec<Event>,
+    ) -> Result<(), Refused> {
+        let dropped = options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(name));
+        let writes = self.post.is_some_and(|post| post.template(path_key(mode)).is_some());
+        if writes && !dropped {
+            before.push(Event::Path(mode));
+            return Ok(());
+        }
+        if mode == PathMode::Continuous {
+            self.job.leave_out(name, asked.block);
+            return Ok(());
+        }
+        self.own(asked, (name, name), Why::PathControl, options)
     }
 
     fn own(&mut self, asked: &Asked, (name, text): (&str, &str), why: Why, options: &Options) -> Result<(), Refused> {
@@ -232,6 +258,15 @@ pub(crate) fn comment(text: &str) -> Option<Event> {
 
 /// Requests that move nothing and are written, as comments, messages or the title.
 const WRITTEN: &[&str] = &["MSG", "(MSG,...)", "PPRINT", "REMARK", "TITLES", "PARTNO", "DISPLY"];
+
+/// The template that writes a mode of path control.
+pub(crate) fn path_key(mode: PathMode) -> &'static str {
+    match mode {
+        PathMode::ExactStop => "exact-stop",
+        PathMode::ExactPath => "exact-path",
+        PathMode::Continuous => "continuous-path",
+    }
+}
 
 /// What cannot be carried over, in words.
 pub(crate) fn refusal(name: &str, text: &str, why: Why) -> String {

@@ -1,6 +1,7 @@
 //! What a program does, independent of any language: events in order, including motions.
 use std::collections::{BTreeMap, BTreeSet};
 pub(crate) use trunnion_certify::conversion::Coolant;
+use trunnion_dialect::PathMode;
 use trunnion_interp::Tool;
 use trunnion_syntax::BlockId;
 
@@ -18,6 +19,8 @@ pub(crate) enum Event {
     /// It stops.
     SpindleOff,
     Coolant(Coolant),
+    /// What the control does at the end of each block from here on.
+    Path(PathMode),
     /// The program waits for the operator; optional: only where the switch is set.
     Stop(bool),
     /// An M code without meaning to the control itself (APT AUXFUN).

@@ -9,6 +9,7 @@ mod emit;
 mod emit_apt;
 mod emit_code;
 mod emit_coolant;
+mod emit_length;
 mod emit_move;
 mod events;
 mod events_apt;

@@ -62,6 +62,8 @@ pub(crate) enum Out {
         known: Vec<(usize, f64)>,
         /// Tool centre point control is on.
         led: bool,
+        /// A tool length is active.
+        length: bool,
     },
     Dwell(f64),
     Moves(Vec<Move>),

@@ -4,6 +4,7 @@ use crate::Refused;
 use crate::plan::{Mode, Out, Planner};
 use crate::sample::Frame;
 use trunnion_certify::conversion::{Posed, moved_axes, same_words};
+use trunnion_interp::LengthOf;
 
 impl Planner<'_> {
     /// What becomes of a rapid with an unknown end that may be left out.
@@ -24,7 +25,12 @@ impl Planner<'_> {
         // the tip is guided by the same machine, or not at all
         let leads = !led || target.is_some() && matches!(self.mode, Mode::TipRotary(_));
         if !self.apt && !vectors && zero && leads && same_words(self.source, target) {
-            return Ok(Out::Words { known: moved, led });
+            let length = posed.length_of != LengthOf::Nothing;
+            return Ok(Out::Words {
+                known: moved,
+                led,
+                length,
+            });
         }
         // CL data have no points with an unknown coordinate
         if self.apt || !self.merges(index, &moved) {

@@ -306,6 +306,7 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
         group: row.group.map(Spanned::into_inner),
         words: row.words,
         action: row.action,
+        path: row.path,
         doc: row.doc.into_inner(),
         source: own.map_or_else(|| source.to_owned(), |(_, text)| text),
         owner: row.owner,

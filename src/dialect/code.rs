@@ -1,5 +1,5 @@
 //! One code of a dialect and its documentation.
-use crate::{Action, Owner};
+use crate::{Action, Owner, PathMode};
 use core::fmt::Write;
 
 /// Whether a code is a G code, an M code or a name.
@@ -26,6 +26,8 @@ pub struct Code {
     pub words: Vec<String>,
     /// What it does.
     pub action: Action,
+    /// What it demands at the end of a block; `None`: it is no mode of path control, or the sources leave it open.
+    pub path: Option<PathMode>,
     /// One line for people.
     pub doc: String,
     /// Where that is written down.

@@ -116,6 +116,7 @@ pub(crate) struct CodeRow {
     pub(crate) group: Option<Spanned<String>>,
     #[serde(deserialize_with = "crate::action::action")]
     pub(crate) action: Action,
+    pub(crate) path: Option<crate::PathMode>,
     #[serde(default)]
     pub(crate) words: Vec<String>,
     pub(crate) doc: Spanned<String>,

@@ -4,7 +4,7 @@
 use super::{CanonicalV1, Encode};
 use crate::claim::RefitSource;
 use crate::postures::PostureCost;
-use trunnion_dialect::{Action, CodeKind, Owner, Role};
+use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
 use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
@@ -38,6 +38,7 @@ macro_rules! tags {
 tags! { Format { Iso = 1, Apt = 2, Klartext = 3 } }
 tags! { CodeKind { G = 1, M = 2, Name = 3 } }
 tags! { Owner { Control = 1, MachineBuilder = 2 } }
+tags! { PathMode { ExactStop = 1, ExactPath = 2, Continuous = 3 } }
 tags! { AxisKind { Linear = 1, Rotary = 2 } }
 tags! { Side { Table = 1, Head = 2 } }
 tags! { Wrap { Literal = 1, Shortest = 2, ModuloSign = 3 } }

@@ -1,8 +1,9 @@
 //! What two motions that belong together have in common apart from their path: kind, spindle, zero point, tool and its length.
-use super::Posed;
 use super::proof::{Proof, above};
+use super::{Posed, Reading};
 use crate::Outcome;
-use trunnion_interp::MotionKind;
+use trunnion_interp::{LengthOf, MotionKind};
+use trunnion_syntax::Format;
 
 /// Shifts of the zero point that differ by less are the same, mm or deg.
 const SHIFT: f64 = 1e-9;
@@ -11,8 +12,8 @@ const SHIFT: f64 = 1e-9;
 const LENGTH_MM: f64 = 1e-6;
 
 impl Proof<'_> {
-    /// Kind, tool and spindle.
-    pub(super) fn alike(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+    /// Kind, tool and spindle; where the motion moves along the tool, also its length.
+    pub(super) fn alike(&mut self, old: &Posed, new: &Posed, is: usize, moves_z: bool) -> Result<(), Outcome> {
         let fits = match (old.motion.kind, new.motion.kind) {
             (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
             (MotionKind::Rapid, MotionKind::Rapid)
@@ -49,21 +50,43 @@ impl Proof<'_> {
             return self.refute(is, "the tool differs".to_owned());
         }
         self.same_zero(old, new, is)?;
-        // a length that is not active, or that of another number, puts the tip in another position on the machine, whatever X Y Z are
         let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
-        if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
+        if told && moves_z && !matches!(new.motion.kind, MotionKind::Dwell(_)) {
+            self.same_length(old, new, is)?;
+        }
+        Ok(())
+    }
+
+    /// The tool's length. One that is not active, or that of another number, puts the tip in another position on the machine, whatever X Y Z are.
+    fn same_length(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+        if old.motion.machine_coordinates && new.motion.machine_coordinates {
+            return Ok(());
+        }
+        let is_active = |posed: &Posed| posed.length_of != LengthOf::Nothing;
+        let both_active = is_active(old) && is_active(new);
+        // a rapid without a length: its pose says where the tip is, if the length is declared
+        let known = |posed: &Posed, reading: &Reading| {
+            let is_apt = reading.program.options().format == Format::Apt;
+            is_apt || is_active(posed) || posed.leg.is_some() && posed.tool_length.abs() > LENGTH_MM
+        };
+        let poses_tell = known(old, self.before.0) && known(new, self.after.0);
+        let by_pose = !new.motion.is_feed() && !both_active && poses_tell;
+        if by_pose {
+            return Ok(());
+        }
+        if (old.tool_length - new.tool_length).abs() > LENGTH_MM {
             let why = format!(
-                "{:.4} mm of tool length are active, but the original program has {:.4} mm: activate the length of the tool that cuts",
+                "{:.4} mm of tool length are active, but the original program has {:.4} mm: activate the length of the tool in the spindle",
                 new.tool_length, old.tool_length
             );
             return self.refute(is, why);
         }
         // for undeclared lengths, and for words without a machine, all that is known is which tool they belong to
         let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
-        if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
+        if blind && old.length_of != new.length_of {
             let why = format!(
-                "the active tool length is {}, but the original program has {}: activate the length of the tool that cuts, or declare the lengths and \
-                 name the machine",
+                "the active tool length is {}, but the original program has {}: activate the length of the tool in the spindle, or declare the lengths \
+                 and name the machine",
                 new.length_of, old.length_of
             );
             return self.refute(is, why);

@@ -6,7 +6,7 @@
 use super::Ran;
 use super::ask_apt::record_asks;
 use super::ask_iso::Blocks;
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, PathMode};
 use trunnion_interp::AllClampCodes;
 use trunnion_syntax::{Address, BlockId, Format, Program, TextRange, Value, Word};
 
@@ -36,6 +36,13 @@ pub enum Ask {
     Stop {
         /// M1.
         optional: bool,
+    },
+    /// What the control does at the end of each block from here on.
+    Path {
+        /// The mode.
+        mode: PathMode,
+        /// The code, as written.
+        name: String,
     },
     /// The code of a clamp that the machine names, as written.
     Clamp(String),

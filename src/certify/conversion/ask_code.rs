@@ -139,9 +139,12 @@ fn quiet(code: &Code, held: Held, text: &str) -> Judged {
             }
         }
     };
+    // words beside it are tolerances, which another control does not have
+    if let Some(mode) = code.path.filter(|_| text == code.id) {
+        let name = text.to_owned();
+        return Named(Ask::Path { mode, name });
+    }
     match code.id.as_str() {
-        // alone it lets the control round corners without a stop, and requests nothing
-        "G64" if text == "G64" => Named(Ask::Idle(text.to_owned())),
         // they end what never begins in the output: the code that begins it is refused
         "COMPOF" | "FFWOF" | "OSOF" | "ORISOF" => Named(Ask::Idle(text.to_owned())),
         "G5.1" if text.ends_with(" Q0") => Named(Ask::Idle(text.to_owned())),

@@ -3,6 +3,7 @@ use super::ask::{Ask, Asked, Coolant, Own, Why};
 use super::{Part, Reading};
 use crate::Outcome;
 use core::fmt;
+use trunnion_dialect::PathMode;
 use trunnion_interp::AllClampCodes;
 use trunnion_syntax::{Address, BlockId, LineIndex};
 
@@ -88,6 +89,7 @@ struct Side<'a> {
     reading: &'a Reading,
     next: usize,
     coolants: Coolants,
+    path: Option<PathMode>,
     dropped: &'a [String],
     meanings: &'a [(String, Option<Ask>)],
     clamps: &'a AllClampCodes,
@@ -192,7 +194,36 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
             ),
         );
     }
+    if !ended && !follows_alike(was.path, is.path) {
+        return refute(
+            None,
+            format!(
+                "{}, but in the original program {}",
+                path_words(is.path),
+                path_words(was.path)
+            ),
+        );
+    }
     Ok(())
+}
+
+/// Whether both programs demand the same of the end of a block. A permission to round corners need not be used: where no mode is programmed, the
+/// control starts in its own.
+fn follows_alike(was: Option<PathMode>, is: Option<PathMode>) -> bool {
+    let demand = |mode: Option<PathMode>| mode.filter(|mode| *mode != PathMode::Continuous);
+    match (was, is) {
+        (Some(was), Some(is)) => was == is,
+        (was, is) => demand(was) == demand(is),
+    }
+}
+
+fn path_words(mode: Option<PathMode>) -> &'static str {
+    match mode {
+        None => "no mode of path control is programmed",
+        Some(PathMode::ExactStop) => "the axes stop at the end of every block",
+        Some(PathMode::ExactPath) => "the tool follows the path exactly",
+        Some(PathMode::Continuous) => "the control may round corners",
+    }
 }
 
 fn alike(one: &Event, other: &Event) -> bool {
@@ -243,6 +274,7 @@ impl<'a> Side<'a> {
             reading,
             next: 0,
             coolants: Coolants::default(),
+            path: None,
             dropped,
             meanings,
             clamps,
@@ -275,6 +307,8 @@ impl<'a> Side<'a> {
             }
             // where the program after has clamps of its own, they are judged by what its axes do
             Ask::Clamp(name) if *self.clamps == AllClampCodes::default() => self.own(name, name, true, ran, events),
+            Ask::Path { name, .. } if self.drops(name) => {}
+            Ask::Path { mode, .. } => self.path = Some(*mode),
             Ask::Idle(_) | Ask::Clamp(_) => {}
             Ask::Auxiliary(number) => self.auxiliary(*number, ran, events),
             Ask::Own(Own { name, text, why }) => {
@@ -289,9 +323,12 @@ impl<'a> Side<'a> {
         }
     }
 
+    fn drops(&self, name: &str) -> bool {
+        self.dropped.iter().any(|drop| drop.eq_ignore_ascii_case(name))
+    }
+
     fn own(&self, name: &str, text: &str, may_drop: bool, ran: usize, events: &mut Events) {
-        let dropped = may_drop && self.dropped.iter().any(|drop| drop.eq_ignore_ascii_case(name));
-        if !dropped {
+        if !(may_drop && self.drops(name)) {
             let own = Event::Own(text.to_owned(), Some(self.reading.dialect.clone()));
             events.push((own, self.reading.blocks[ran].block));
         }

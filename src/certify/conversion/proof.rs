@@ -2,7 +2,7 @@
 use super::axis::axes_apart;
 use super::effects::{Terms, same_requests};
 use super::known::Known;
-use super::words::{same_words, words_apart};
+use super::words::{moved_axes, same_words, words_apart};
 use super::{ConversionClaim, ConversionProof, Part, Posed, Reading, Track};
 use crate::Outcome;
 use std::cell::OnceCell;
@@ -159,7 +159,8 @@ impl Proof<'_> {
         let (Some(old), Some(new)) = (before.motions.get(was), after.motions.get(is)) else {
             return Err(Outcome::unknown("the converted program ends too early"));
         };
-        self.alike(old, new, is)?;
+        let lifts = |posed| moved_axes(posed).is_none_or(|moved| moved.iter().any(|(axis, _)| *axis == 2));
+        self.alike(old, new, is, lifts(old) || lifts(new))?;
         let apart = words_apart(old, new).filter(|_| same_words(self.before.1, self.after.1));
         match apart {
             Some((mm, degrees)) if !above(mm, self.claim.end_mm) && !above(degrees, self.claim.end_deg) => Ok(()),
@@ -194,7 +195,7 @@ impl Proof<'_> {
             return Err(Outcome::unknown("the converted program ends too early"));
         };
         for (index, posed) in new.iter().enumerate() {
-            self.alike(old, posed, is + index)?;
+            self.alike(old, posed, is + index, true)?;
         }
         if let MotionKind::Dwell(_) = old.motion.kind {
             return Ok(());

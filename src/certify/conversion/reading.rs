@@ -44,7 +44,7 @@ pub struct Posed {
     /// As programmed.
     pub motion: Motion,
     /// Where the tool is before, workpiece frame without work offset, mm; `None`: unknown. Of a tool whose length is switched off, where
-    /// the tip would be with the length that was last active for it.
+    /// the tip is with the length that was last active for it; before, with the declared one.
     pub start: Option<Pose>,
     /// Where the tool is after, or why that is unknown.
     pub end: Result<Pose, String>,
@@ -125,6 +125,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         is_apt,
         last: None,
         length: (None, 0.0),
+        tells_lengths: tells_lengths(run.dialect),
         motions: Vec::new(),
         blocks: Vec::new(),
         faults: Vec::new(),
@@ -176,9 +177,14 @@ pub fn read(run: &Run<'_>) -> Reading {
         given_up,
         faults,
         elsewhere,
-        tells_lengths: is_apt || run.dialect.quirks.edge_at_tool_change || run.dialect.g(430).is_some(),
+        tells_lengths: tells_lengths(run.dialect),
         changes_tools: is_apt || run.dialect.quirks.tool_word.changes() || run.dialect.m(60).is_some(),
     }
+}
+
+/// Whether a control adds the length of its tools itself.
+fn tells_lengths(dialect: &Dialect) -> bool {
+    dialect.lex.format == Format::Apt || dialect.quirks.edge_at_tool_change || dialect.g(430).is_some()
 }
 
 struct Collector<'m> {
@@ -187,8 +193,10 @@ struct Collector<'m> {
     is_apt: bool,
     /// Where the last motion ended, without a machine.
     last: Option<Pose>,
-    /// Tool and its length that was last in effect.
+    /// Tool and its length that was last in effect, mm; before, the one that is declared.
     length: (Option<u32>, f64),
+    /// The control adds the length of its tools itself.
+    tells_lengths: bool,
     motions: Vec<Posed>,
     blocks: Vec<Ran>,
     faults: Vec<Fault>,
@@ -205,8 +213,15 @@ impl Sink for Collector<'_> {
             self.given_up.get_or_insert(motion.block);
             return;
         }
-        if self.length.0 != motion.tool || motion.tool_length_mm != 0.0 {
+        if motion.tool_length_mm != 0.0 {
             self.length = (motion.tool, motion.tool_length_mm);
+        } else if self.length.0 != motion.tool {
+            // the tool is as long before its length is active
+            let declared = state
+                .tool
+                .data()
+                .filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
+            self.length = (motion.tool, declared.and_then(|tool| tool.length_mm).unwrap_or(0.0));
         }
         let posed = if let (Some(follower), Some(machine)) = (&mut self.follower, self.machine) {
             let leg = follower.follow(motion);

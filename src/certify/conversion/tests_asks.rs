@@ -178,10 +178,25 @@ fn another_zero_point_is_refuted() {
 #[test]
 fn the_text_of_another_control_is_no_counterpart() {
     let program = |request: &str| format!("{HEAD}{request}\n{TAIL}");
-    for request in ["M19", "M62", "G61"] {
+    for request in ["M19", "M62", "G9"] {
         let text = program(request);
         assert_eq!(outcome((&text, "fanuc-30i"), (&text, "fanuc-30i"), &[]), Ok(()));
         outcome((&text, "haas-ngc"), (&text, "fanuc-30i"), &[]).expect_err(request);
+    }
+    // a mode of path control is compared by what it demands
+    let path = |from: &str, to: &str, old: &str, new: &str| outcome((&program(old), from), (&program(new), to), &[]);
+    assert_eq!(path("haas-ngc", "fanuc-30i", "G61", "G61"), Ok(()));
+    assert_eq!(path("fanuc-30i", "linuxcnc", "G61", "G61.1"), Ok(()));
+    assert_eq!(path("fanuc-30i", "linuxcnc", "G64", ""), Ok(()));
+    for (from, to, old, new) in [
+        ("fanuc-30i", "linuxcnc", "G61", "G61"),
+        ("fanuc-30i", "haas-ngc", "G61", ""),
+        ("fanuc-30i", "haas-ngc", "G61", "G64"),
+        ("fanuc-30i", "haas-ngc", "G64", "G61"),
+        ("fanuc-30i", "haas-ngc", "", "G61"),
+    ] {
+        let found = path(from, to, old, new).expect_err("another mode");
+        assert!(found.contains("in the original program"), "{old} {new}: {found}");
     }
     let deleted = program("/M8");
     let found = outcome((&deleted, "fanuc-30i"), (&deleted, "fanuc-30i"), &[]).expect_err("a switch");

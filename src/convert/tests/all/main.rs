@@ -1,5 +1,6 @@
 //! Conversions: to each control and back, between machines, refusals, properties.
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
+mod approach;
 mod clamps;
 mod code;
 mod guide_vane;

@@ -249,14 +249,15 @@ fn a_posture_that_no_great_circle_leads_to_is_refused() {
     assert_eq!(onto(even, false).expect("proved").swaps, [] as [u32; 0]);
 }
 
-/// A cut without the length of its tool, or with that of another one: to write it with the length of its own would lift the spindle by it.
+/// A cut without the length of its tool, or with that of another one: to write it with the length of its own would lift the spindle by it. Without a
+/// length at all it stays where it is: its Z is written for the declared length.
 #[test]
 fn a_length_that_was_not_in_force_is_not_switched_on() {
     let options = Options::default();
     let declared = "(trunnion: tool 1 ball diameter 10 length 80)\n(trunnion: tool 5 ball diameter 10 length 90)\n";
     // of undeclared lengths it is known whose they are
     for (head, code, is_refused) in [
-        (declared, "", true),
+        (declared, "", false),
         (declared, "G43 H5", true),
         (declared, "G43 H1", false),
         ("", "", true),
@@ -274,10 +275,14 @@ fn a_length_that_was_not_in_force_is_not_switched_on() {
             &options,
         );
         match made {
-            Ok(_) => assert!(!is_refused, "{code}"),
+            Ok(made) => {
+                assert!(!is_refused, "{code}");
+                let height = if code == "G43 H1" { "Z41." } else { "Z-39." };
+                assert!(made.text.contains(height), "{code}: {}", made.text);
+            }
             Err(refused) => assert!(
                 is_refused && refused.message.contains("tool length"),
-                "{code}: {}",
+                "{head}{code}: {}",
                 refused.message
             ),
         }

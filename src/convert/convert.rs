@@ -12,7 +12,7 @@ use trunnion_certify::conversion::{
     Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on, read,
 };
 use trunnion_dialect::Dialect;
-use trunnion_interp::{AllClampCodes, Fault, FaultKind};
+use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks};
 use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
 use trunnion_syntax::{Format, LineIndex, Program};
 
@@ -219,7 +219,12 @@ fn wording(program: &Program, fault: &Fault) -> String {
             format!("{what}; if INSERT only carries remarks, add --insert-is-remark")
         }
         FaultKind::NotModelled { what } => {
-            format!("{what} is not modelled, so the motion of the tool is unknown from here on")
+            let remedy = match fault.kind.lacks() {
+                Some(Lacks::ReferencePoint) => "; declare `reference_points` in [control] of the machine file or of trunnion.toml",
+                Some(Lacks::Radius(_)) => "; declare the radius in a comment or as a [[tool]] of trunnion.toml",
+                None => "",
+            };
+            format!("not modelled: {what}. The motion of the tool is unknown from here on{remedy}")
         }
         FaultKind::Rejected { message, .. } => format!("the control refuses this block: {message}"),
         FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is unknown"),

@@ -193,7 +193,7 @@ struct Collector<'m> {
     is_apt: bool,
     /// Where the last motion ended, without a machine.
     last: Option<Pose>,
-    /// Tool and its length that was last in effect, mm; before, the one that is declared.
+    /// Tool and its own length that was last in effect, mm.
     length: (Option<u32>, f64),
     /// The control adds the length of its tools itself.
     tells_lengths: bool,
@@ -213,20 +213,11 @@ impl Sink for Collector<'_> {
             self.given_up.get_or_insert(motion.block);
             return;
         }
-        if motion.tool_length_mm != 0.0 {
-            self.length = (motion.tool, motion.tool_length_mm);
-        } else if self.length.0 != motion.tool {
-            // the tool is as long before its length is active
-            let declared = state
-                .tool
-                .data()
-                .filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
-            self.length = (motion.tool, declared.and_then(|tool| tool.length_mm).unwrap_or(0.0));
-        }
+        let length = self.length_of(motion, state);
         let posed = if let (Some(follower), Some(machine)) = (&mut self.follower, self.machine) {
             let leg = follower.follow(motion);
             let pose = |joints| {
-                let mut pose = forward(machine, joints, self.length.1);
+                let mut pose = forward(machine, joints, length);
                 pose.tip -= Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]);
                 pose
             };
@@ -253,7 +244,7 @@ impl Sink for Collector<'_> {
             start: posed.0,
             end: posed.1,
             leg: posed.2,
-            tool_length: self.length.1,
+            tool_length: length,
             length_of: state.length.of(),
             square,
             counter_clockwise: None,
@@ -299,6 +290,22 @@ impl Sink for Collector<'_> {
 }
 
 impl Collector<'_> {
+    /// The length of the tool for which a pose is given, mm: the one in effect. Where none is, the tool is still as long as it is: as declared, else as
+    /// long as its own length that was in effect before; 0 where that is unknown.
+    fn length_of(&mut self, motion: &Motion, state: &ModalState) -> f64 {
+        let own = state.length.of() == LengthOf::Tool(motion.tool);
+        if motion.tool_length_mm != 0.0 {
+            if own {
+                self.length = (motion.tool, motion.tool_length_mm);
+            }
+            return motion.tool_length_mm;
+        }
+        let declared = state.tool.data();
+        let declared = declared.filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
+        let last = Some(self.length.1).filter(|_| self.length.0 == motion.tool);
+        declared.and_then(|tool| tool.length_mm).or(last).unwrap_or(0.0)
+    }
+
     /// Poses by the words alone.
     fn plain(&self, motion: &Motion) -> (Option<Pose>, Result<Pose, String>) {
         let rotary = motion.end.known & 0b11_1000 != 0;

@@ -71,6 +71,23 @@ fn rapids_without_a_declared_length_keep_the_tip_in_place() {
     assert_eq!(heights(&made)[..3], ["G43 H1", "G0 X0. Y0. Z150.", "Z50."], "{made}");
 }
 
+/// After a change of tool, the tip under G49 is that of the tool in the spindle, not of the length that was active before.
+#[test]
+fn a_length_of_the_last_tool_is_not_that_of_the_next() {
+    let declared = format!("{DECLARED}(trunnion: tool 2 flat diameter 8 length 60)\n");
+    let blocks = "G0 X0 Y0\nG43 H1 Z50.\nT2 M6\nG0 X1. Y1.\nG49 Z200.\nG43 H2 Z60.";
+    let program = approach(&declared, blocks);
+    let made = text(to(
+        (&program, "fanuc-30i", "mill-3axis"),
+        "haas-ngc",
+        "mill-3axis",
+        &Options::default(),
+    ));
+    // spindle at 200: the tip of tool 2 is at 140
+    assert!(made.contains("Z140."), "{made}");
+    assert!(!made.contains("Z100."), "{made}");
+}
+
 /// The modes mean the same under other codes.
 #[test]
 fn modes_of_path_control_are_written_in_the_words_of_the_target() {

@@ -76,7 +76,7 @@ fn what_is_no_plain_motion_or_is_unknown_is_refused() {
             9,
             "whether the tool goes back at the feed",
         ),
-        ("CYCLE/THRU,DEPTH,10,MMPM,100,CLEAR,2", 8, "CYCLE/THRU is not modelled"),
+        ("CYCLE/THRU,DEPTH,10,MMPM,100,CLEAR,2", 8, "not modelled: CYCLE/THRU"),
         ("CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2,FOO,3", 8, "with FOO"),
     ] {
         let refused = refusal(to(

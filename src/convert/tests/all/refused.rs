@@ -35,7 +35,7 @@ fn programs_that_say_too_little_or_too_much() {
             "sinumerik-840d",
             five,
             5,
-            "is not modelled",
+            "not modelled: ",
         ),
         ("CUTCOM/LEFT\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "cutter radius"),
         ("FROBNI/1\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "unknown record"),

@@ -96,13 +96,20 @@ impl Proof<'_> {
 
     /// The zero point: its name, and what the program shifts in addition. CL data have none.
     fn same_zero(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
-        if old.motion.machine_coordinates || matches!(old.motion.kind, MotionKind::Dwell(_)) {
+        if matches!(old.motion.kind, MotionKind::Dwell(_)) {
             return Ok(());
         }
-        let apart = old
-            .shift
+        // machine coordinates know nothing of a shift
+        let shifts = |posed: &Posed| {
+            if posed.motion.machine_coordinates {
+                [0.0; 9]
+            } else {
+                posed.shift
+            }
+        };
+        let apart = shifts(old)
             .iter()
-            .zip(&new.shift)
+            .zip(&shifts(new))
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
             let why =

@@ -214,15 +214,28 @@ impl Sink for Collector<'_> {
             return;
         }
         let length = self.length_of(motion, state);
+        let added = shift(motion, state, self.setup, if self.is_apt { "G54" } else { "G500" });
         let posed = if let (Some(follower), Some(machine)) = (&mut self.follower, self.machine) {
             let leg = follower.follow(motion);
+            // machine coordinates know nothing of what the program adds to the zero point
+            let added = if motion.machine_coordinates { added } else { [0.0; 9] };
             let pose = |joints| {
                 let mut pose = forward(machine, joints, length);
-                pose.tip -= Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]);
+                for (axis, added) in added.iter().enumerate().take(3) {
+                    pose.tip[axis] -= motion.zero[axis] - added;
+                }
                 pose
             };
             let start = leg.start.as_ref().map(|stance| pose(&stance.joints));
+            let undeclared = state
+                .zero
+                .offset()
+                .filter(|name| self.setup.work_offset(name).is_none());
             let end = match &leg.end {
+                Ok(_) if motion.machine_coordinates && undeclared.is_some() => Err(format!(
+                    "where machine coordinates are in the part depends on {}: declare it in [work_offsets]",
+                    undeclared.unwrap_or_default()
+                )),
                 Ok(stance) => Ok(pose(&stance.joints)),
                 Err(why) => Err(reason(why)),
             };
@@ -248,7 +261,7 @@ impl Sink for Collector<'_> {
             length_of: state.length.of(),
             square,
             counter_clockwise: None,
-            shift: shift(motion, state, self.setup, if self.is_apt { "G54" } else { "G500" }),
+            shift: added,
             work_offset: state.zero.offset_name(),
         });
     }

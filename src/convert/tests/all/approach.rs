@@ -1,6 +1,8 @@
 //! Rapids before the tool's length is active keep it inactive, and modes of path control are carried over.
-use crate::support::{refusal, text, to};
-use trunnion_convert::Options;
+use crate::support::{machine, refusal, text, to};
+use trunnion_certify::conversion::Assume;
+use trunnion_convert::{Options, Source, Target, builtin_post, convert};
+use trunnion_interp::{Setup, WorkOffset};
 
 /// A Fanuc program whose tool 1 is `length` (a declaration or nothing) and approaches with these blocks.
 fn approach(length: &str, blocks: &str) -> String {
@@ -124,4 +126,42 @@ fn exact_stop_is_never_lost() {
     let program = "G21 G90 G17 G54 G94\nT1 M6\nS1000 M3\nG61\nG0 X0 Y0\nG43 H1 Z50\nG1 Z-1 F100\nM2\n";
     let refused = refusal(to((program, "linuxcnc", ""), "fanuc-30i", "", &Options::default()));
     assert!(refused.message.contains("`--drop G61`"), "{refused}");
+}
+
+/// A retract in machine coordinates goes where it went, whatever the program adds to the zero point; where the zero point is not declared, it is left out.
+#[test]
+fn machine_coordinates_ignore_what_the_program_shifts() {
+    let program = "; trunnion: tool 1 flat diameter 10 length 100\nG710 G17 G90 G94 G54\nT1 M6\nD1\nS1000 M3\nG0 X0 Y0 Z50\nG1 Z-1 F100\n\
+                   G0 Z50\nATRANS Z3\nG0 SUPA Z250 D0\nM5\nM30\n";
+    let made = |setup: &Setup| {
+        let source = Source {
+            text: program.as_bytes(),
+            dialect: trunnion_dialect::builtin("sinumerik-840d").expect("built in"),
+            machine: machine("mill-3axis"),
+            setup,
+            assume: Assume::default(),
+        };
+        let target = Target::Code {
+            post: builtin_post("fanuc-30i").expect("built in"),
+            machine: machine("mill-3axis"),
+        };
+        convert(&source, &target, &Options::default()).unwrap_or_else(|refused| panic!("{refused}"))
+    };
+    let mut declared = Setup::default();
+    let mut values = [0.0; 9];
+    values[2] = 20.0;
+    declared.work_offsets.push(WorkOffset {
+        name: "G54".into(),
+        values,
+    });
+    // spindle at 250, zero point at 20, length 100
+    let text = made(&declared).text;
+    assert!(text.contains("Z130."), "{text}");
+    let open = made(&Setup::default());
+    assert_eq!(
+        (open.proof.left_out, open.text.contains("Z150.")),
+        (1, false),
+        "{}",
+        open.text
+    );
 }

@@ -36,7 +36,7 @@ impl Klartext<'_> {
         }
         words.at = 0;
         for word in words.filter(|word| word.is("M")) {
-            if let Said::Number(code) = word.value {
+            if let Some(code) = self.memory.parameters.of(word.value) {
                 self.code_effects(code as u32, block, &mut after, &mut unmodelled);
             }
         }
@@ -49,9 +49,16 @@ impl Klartext<'_> {
         // a block that the operator may skip
         let may_skip = skips && self.core.setup.control.block_delete.is_none();
         if unmodelled || unknown || may_skip {
-            let text = crate::canonical_text(&String::from_utf8_lossy(text));
-            let effect = Effect::Unmodelled(vec![Argument::text("", &text)]);
-            self.core.effects.add(block, effect);
+            let canonical = crate::canonical_text(&String::from_utf8_lossy(text));
+            let mut arguments = vec![Argument::text("", &canonical)];
+            for word in Words::new(text) {
+                if let Said::Parameter(_, parameter) = word.value
+                    && let Some(value) = self.memory.parameters.get(parameter)
+                {
+                    arguments.push(Argument::number(parameter.to_string(), value));
+                }
+            }
+            self.core.effects.add(block, Effect::Unmodelled(arguments));
         }
         for effect in after {
             // the control goes on from where it was
@@ -107,12 +114,15 @@ impl Klartext<'_> {
         }
         let mut deltas = Vec::new();
         for word in words {
-            match (word.name(), word.value) {
-                (b"S", Said::Number(speed)) if kind.is("CALL") => {
+            match (word.name(), self.memory.parameters.of(word.value)) {
+                (b"S", Some(speed)) if kind.is("CALL") => {
                     effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
                 }
-                (name @ (b"DL" | b"DR" | b"DR2"), Said::Number(value)) if value != 0.0 => {
+                (name @ (b"DL" | b"DR" | b"DR2"), Some(value)) if value != 0.0 => {
                     deltas.push(Argument::number(String::from_utf8_lossy(name).into_owned(), value));
+                }
+                (name @ (b"DL" | b"DR" | b"DR2"), None) => {
+                    deltas.push(Argument::text(String::from_utf8_lossy(name).into_owned(), "unknown"));
                 }
                 _ => {}
             }
@@ -146,7 +156,10 @@ impl Klartext<'_> {
         let number = digits.fold(0u32, |all, digit| {
             all.saturating_mul(10).saturating_add(u32::from(digit - b'0'))
         });
-        !matches!(number, 7..=11 | 19 | 200..=203 | 205..=209 | 240 | 247)
+        match &self.memory.cycle {
+            Cycle::Hole(hole) if number >= 200 && number == hole.cycle => !self.is_followed(hole),
+            _ => !matches!(number, 7..=11 | 19 | 247),
+        }
     }
 }
 

@@ -130,6 +130,12 @@ impl Klartext<'_> {
         Some(block)
     }
 
+    /// Whether a program that CALL PGM has called is running.
+    pub(super) fn is_called(&self) -> bool {
+        let mut levels = self.flow.course.programs();
+        levels.any(|level| matches!(level, Level::Program(_)))
+    }
+
     /// Nothing is left to run.
     fn finished(&mut self, main: &Program, block: BlockId, sink: &mut impl Sink) {
         self.flow.finished = true;

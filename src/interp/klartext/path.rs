@@ -4,7 +4,7 @@ use super::words::Words;
 use super::{Klartext, Made};
 use crate::arc::plane_axes;
 use crate::core::{LINEAR, ROTARY, Report};
-use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Swivel};
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::TextRange;
 
@@ -48,13 +48,19 @@ impl Klartext<'_> {
         let moves = words.moves() || polar || words.tool.iter().any(Option::is_some) || path == Path::AboutPole;
         if words.has(140) {
             self.back_along_tool(words, report);
+        } else if moves && (words.has(91) || words.has(92)) && !matches!(path, Path::None | Path::Line) {
+            Self::not_modelled("M91 or M92 in another block than L", report);
+            self.core.forget_position();
+            self.unknown_motion(report);
         } else if moves && (words.has(91) || words.has(92)) {
             self.machine_motion(words, rapid, report);
         } else if moves {
             self.motion(path, words, rapid, report);
         }
-        if words.has(99) || self.memory.runs_after_each && moves && !words.has(89) {
+        if words.has(99) || self.memory.runs_after_each && moves {
             self.run_cycle(report);
+            // M99 ends M89
+            self.memory.runs_after_each &= !words.has(99);
         }
         if !words.codes().is_empty() {
             self.codes_after(words);
@@ -83,13 +89,13 @@ impl Klartext<'_> {
             Path::None | Path::Line | Path::Vectors => self.straight(rapid),
             Path::AboutPole => self.about_pole(&from, &end, words, report),
             Path::Radius => self.by_radius(&from, &end, words, report),
-            Path::Tangent => self.tangent(&from, &end, report),
+            Path::Tangent => self.tangent(&from, &end, false, report),
             Path::PolarLine | Path::PolarArc | Path::PolarTangent => {
                 let turned = self.polar_end(path, words, &from, &mut end, report);
                 match path {
                     Path::PolarLine => self.straight(rapid),
                     Path::PolarArc => self.polar_arc(&from, &end, turned, words, report),
-                    _ => self.tangent(&from, &end, report),
+                    _ => self.tangent(&from, &end, true, report),
                 }
             }
         };
@@ -173,8 +179,14 @@ impl Klartext<'_> {
 
     /// The orientation from TX TY TZ or rotary words; else it stays.
     fn tool_orientation(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
+        for (vector, names) in [(&words.tool, "TX, TY and TZ"), (&words.normal, "NX, NY and NZ")] {
+            let given = vector.iter().filter(|value| value.is_some()).count();
+            if !matches!(given, 0 | 3) {
+                Self::rejected(Refusal::MissingWord, format!("a vector needs {names}"), report);
+            }
+        }
         let orientation = if words.tool.iter().any(Option::is_some) {
-            let values = words.tool.map(|value| value.unwrap_or(Some(0.0)));
+            let values = words.tool.map(Option::flatten);
             match values {
                 [Some(x), Some(y), Some(z)] if self.core.state.tool_axis.tcp() => {
                     self.core
@@ -192,7 +204,7 @@ impl Klartext<'_> {
             self.core.held_orientation()
         };
         if words.normal.iter().any(Option::is_some) {
-            let values = words.normal.map(|value| value.unwrap_or(Some(0.0)));
+            let values = words.normal.map(Option::flatten);
             if let [Some(x), Some(y), Some(z)] = values {
                 let norm = Vec3::new(x, y, z).norm();
                 if (norm - 1.0).abs() > 1e-5 {
@@ -288,8 +300,17 @@ impl Klartext<'_> {
     fn back_along_tool(&mut self, words: &PathWords, report: &mut Report<'_>) {
         let start = self.core.state.position;
         let unit = self.core.state.coordinates.unit_mm();
-        let distance = words.back.map(|distance| distance * unit);
-        let rapid = self.take_feed(words.feed, report);
+        let mut distance = words.back.map(|distance| distance * unit);
+        if words.given != 0 {
+            Self::not_modelled("M140 in a block with coordinates: the order of both motions", report);
+            distance = None;
+        }
+        let feed = if words.own_feed == super::path_words::FeedSaid::Nothing {
+            words.feed
+        } else {
+            words.own_feed
+        };
+        let rapid = self.take_feed(feed, report);
         let stands = (3..6).all(|axis| start.get(axis).is_none_or(|value| value == 0.0));
         let along = match self.core.state.orientation {
             _ if self.memory.frames.tilt.is_some() => Some(Vec3::z()),
@@ -306,9 +327,9 @@ impl Klartext<'_> {
                     }
                 }
             }
-            None => end.known &= !LINEAR,
+            None => end.known &= !LINEAR & !words.given,
         }
-        let said = words.feed != super::path_words::FeedSaid::Nothing;
+        let said = feed != super::path_words::FeedSaid::Nothing;
         let kind = if said {
             self.straight(rapid)
         } else {

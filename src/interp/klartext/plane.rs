@@ -12,7 +12,7 @@ use crate::{Feed, MotionKind, Orientation, Posture, Refusal, Swivel};
 use trunnion_geometry::{Mat3, Vec3};
 
 /// Words of a PLANE block that are no numbers of its form.
-const POSITIONING: [&str; 6] = ["DIST", "F", "MB", "SEQ", "SYM", "FMAX"];
+const POSITIONING: [&str; 3] = ["SEQ", "SYM", "FMAX"];
 
 impl Klartext<'_> {
     pub(crate) fn plane(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
@@ -35,9 +35,10 @@ impl Klartext<'_> {
                     Said::Sign(minus) => posture = if minus { Posture::Lower } else { Posture::Higher },
                     _ => Self::rejected(Refusal::Syntax, "SEQ needs + or -", report),
                 },
+                b"F" | b"DIST" | b"MB" | b"TABLE" | b"COORD" => self.memory.unfollowed = true,
                 b"SYM" => free = Some("SYM: the symmetric solution"),
                 // where the swivel leaves no free axis it makes no difference
-                b"TABLE" | b"COORD" | b"ROT" | b"MAX" | b"AUTO" => {}
+                b"ROT" | b"MAX" | b"AUTO" => {}
                 name if POSITIONING.iter().any(|known| name == known.as_bytes()) => {}
                 _ if word.value == Said::Nothing => {
                     let what = String::from_utf8_lossy(word.name()).into_owned();

@@ -47,8 +47,9 @@ pub(crate) struct Memory {
     rotation: f64,
     /// Reasons why coordinates say nothing: bits of [`datum`].
     lost: u8,
-    /// CC: coordinates of the pole.
+    /// CC: coordinates of the pole, and whether there was one.
     pole: [Option<f64>; 3],
+    has_pole: bool,
     /// The plane of the two coordinates that CC gave; `None`: that of the tool axis.
     pole_plane: Option<trunnion_dialect::Plane>,
     /// The last polar radius.

@@ -52,6 +52,17 @@ impl Klartext<'_> {
             }
         }
         self.memory.polar_radius = None;
+        self.memory.has_pole = true;
+    }
+
+    /// CC is missing, or its coordinates are not known.
+    fn without_pole(&mut self, report: &mut Report<'_>) {
+        if self.memory.has_pole {
+            let what = "the pole: coordinates of CC that are not known, or a new coordinate system after it";
+            self.not_modelled_once(what, report);
+        } else {
+            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+        }
     }
 
     /// The axes of the plane of arcs and polar coordinates: that of the two coordinates of CC, else that of the tool axis.
@@ -86,7 +97,7 @@ impl Klartext<'_> {
             (centre[a], centre[b]) = (x, y);
             Some(centre)
         } else {
-            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            self.without_pole(report);
             None
         }
     }
@@ -233,7 +244,7 @@ impl Klartext<'_> {
             end.set(b, y + radius * sin);
         } else {
             if pole.is_none() {
-                report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+                self.without_pole(report);
             } else if words.polar_radius.is_none() && radius.is_none() && here.is_some() {
                 Self::not_modelled("a polar block without PR after a new pole", report);
             }

@@ -102,7 +102,10 @@ impl Klartext<'_> {
         let request = if matches!(request, Request::Next) {
             request
         } else {
-            self.flush_in(program, BlockId(next), &mut through);
+            // a corner and an approach wait for the next motion wherever it is in this file
+            if matches!(request, Request::Program(_) | Request::EndOfProgram | Request::Stop) {
+                self.flush_in(program, BlockId(next), &mut through);
+            }
             self.obey(request, program, called.as_deref(), next, &mut through)
         };
         self.flow.reported = through.reported;

@@ -96,10 +96,7 @@ impl Klartext<'_> {
     }
 
     pub(crate) fn parameter_unknown(&mut self, parameter: Parameter, report: &mut Report<'_>) {
-        let what = match (parameter.kind, parameter.number) {
-            (Kind::Global, 100..=199) => format!("{parameter}: a value of the control"),
-            _ => format!("{parameter}: the program does not set its value"),
-        };
+        let what = self.memory.parameters.cause(parameter);
         self.not_modelled_once(&what, report);
     }
 
@@ -277,5 +274,5 @@ impl Klartext<'_> {
 
 /// A word whose value is `nan` or `inf`, with or without its letters.
 fn is_no_number(name: &[u8]) -> bool {
-    name.len() <= 5 && [&b"NAN"[..], b"INF"].iter().any(|ending| name.ends_with(ending))
+    name.len() <= 6 && [&b"NAN"[..], b"INF"].iter().any(|ending| name.ends_with(ending))
 }

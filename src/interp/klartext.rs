@@ -12,6 +12,8 @@ mod effects;
 mod flow;
 mod fn_block;
 mod hole;
+mod labels;
+mod machine_motion;
 mod old_cycle;
 mod path;
 mod path_words;
@@ -56,6 +58,10 @@ pub(crate) struct Memory {
     polar_radius: Option<f64>,
     /// Direction of the last motion, in the coordinates of the words.
     heading: Option<Vec3>,
+    /// TOOL CALL has named the tool axis.
+    has_tool_axis: bool,
+    /// The last block with effects had a surface normal.
+    had_normal: bool,
     /// F of TOOL CALL, mm/min.
     tool_feed: Option<f64>,
     /// The cycle that CYCL CALL runs.

@@ -182,7 +182,11 @@ impl Klartext<'_> {
         report: &mut Report<'_>,
     ) -> MotionKind {
         self.memory.was_rapid = false;
-        let normal = if polar { self.polar_normal() } else { self.plane_normal() };
+        let normal = if polar {
+            self.polar_normal()
+        } else {
+            self.plane_normal()
+        };
         let flat = |vector: Vec3| vector - normal * normal.dot(&vector);
         let arc = (|| {
             let heading = flat(self.memory.heading?).try_normalize(1e-9)?;

@@ -86,7 +86,10 @@ impl Klartext<'_> {
         if unread {
             self.not_modelled_once("RND: words beside its radius and a feed in mm/min", report);
         }
-        self.corner(radius.map_or(Corner::Unknown, |radius| Corner::Round(radius, feed)), report);
+        self.corner(
+            radius.map_or(Corner::Unknown, |radius| Corner::Round(radius, feed)),
+            report,
+        );
     }
 
     /// CHF: whether its length is that of the face or of what it takes off is not taken from a source.

@@ -162,8 +162,8 @@ impl Klartext<'_> {
         let single = hole.is_single(depth * unit, unit);
         hole.is_by_tip()
             && match hole.cycle {
-                200 | 203 => single || self.core.setup.control.peck_clearance_mm.is_some(),
-                205 => single,
+                200 => single || self.core.setup.control.peck_clearance_mm.is_some(),
+                203 | 205 => single,
                 201 | 206 | 207 | 240 => true,
                 _ => false,
             }
@@ -233,7 +233,9 @@ impl Klartext<'_> {
                 self.level(MotionKind::Rapid, back, Feed::Rapid, report);
             } else {
                 broken = 0.0;
-                self.level(MotionKind::Rapid, Some(at.clear), Feed::Rapid, report);
+                // Q208 is the feed out of the hole
+                let out = at.out.unwrap_or(Feed::Rapid);
+                self.level(linear(out), Some(at.clear), out, report);
                 self.stay(hole.stay_above, report);
                 if near.is_none() {
                     let what = "where the rapid back into the hole ends (declare [control] peck_clearance)";

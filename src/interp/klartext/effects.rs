@@ -1,6 +1,6 @@
 //! What a block does apart from its motions, in the words that other languages use for the same.
 use super::Klartext;
-use super::words::{Said, Words};
+use super::words::{Said, Word, Words};
 use crate::tools::Chosen;
 use crate::{Argument, Effect, MotionKind, Reach};
 use trunnion_syntax::BlockId;
@@ -23,6 +23,7 @@ impl Klartext<'_> {
         let name = String::from_utf8_lossy(first.name()).into_owned();
         let mut unmodelled = other;
         let mut after = Vec::new();
+        self.surface_normal(&first, words.clone(), block);
         if first.is("TOOL") {
             self.tool_effects(words.clone(), block);
         } else if first.is("STOP") {
@@ -91,6 +92,29 @@ impl Klartext<'_> {
             _ => {}
         }
         *unmodelled |= !CODES.contains(&code) && !matches!(code, 129 | 136 | 137 | 140);
+    }
+
+    /// Deltas of the tool table act along it.
+    fn surface_normal(&mut self, first: &Word<'_>, words: Words<'_>, block: BlockId) {
+        let mut normal = Vec::new();
+        for word in words {
+            if let name @ (b"NX" | b"NY" | b"NZ") = word.name() {
+                let name = String::from_utf8_lossy(name).into_owned();
+                normal.push(match self.memory.parameters.of(word.value) {
+                    Some(value) => Argument::number(name, value),
+                    None => Argument::text(name, "unknown"),
+                });
+            }
+        }
+        let path = matches!(
+            first.name(),
+            b"L" | b"LN" | b"C" | b"CR" | b"CT" | b"LP" | b"CP" | b"CTP"
+        );
+        let has = !normal.is_empty();
+        if has || path && self.memory.had_normal {
+            self.core.effects.add(block, Effect::set("surface normal", normal));
+            self.memory.had_normal = has;
+        }
     }
 
     fn tool_effects(&mut self, mut words: Words<'_>, block: BlockId) {

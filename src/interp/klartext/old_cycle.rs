@@ -123,9 +123,9 @@ impl Klartext<'_> {
     fn work_and_return(&mut self, report: &mut Report<'_>) {
         let place = self.core.state.position;
         let orientation = self.core.held_orientation();
-        let motion =
-            self.core
-                .motion_in_frame(MotionKind::Unknown, [place; 2], orientation, Feed::Unknown, report);
+        let motion = self
+            .core
+            .motion_in_frame(MotionKind::Unknown, [place; 2], orientation, Feed::Unknown, report);
         self.memory.heading = None;
         self.emit(&motion, report);
     }

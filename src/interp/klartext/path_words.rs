@@ -207,7 +207,8 @@ impl Klartext<'_> {
         self.core.forget_position();
         found.no_number = true;
         if self.memory.said.first("nan") {
-            let message = "`nan` or `inf` is not a number: the program was written from values that could not be computed";
+            let message =
+                "`nan` or `inf` is not a number: the program was written from values that could not be computed";
             Self::rejected(Refusal::Number, message, report);
         }
     }
@@ -261,12 +262,12 @@ impl Klartext<'_> {
             return false;
         };
         let code = code as u32;
-        match found.codes.get_mut(found.code_count) {
-            Some(place) => {
-                *place = code;
-                found.code_count += 1;
-            }
-            None => Self::rejected(Refusal::Syntax, "a block has at most four M codes", report),
+        if let Some(place) = found.codes.get_mut(found.code_count) {
+            *place = code;
+            found.code_count += 1;
+        }
+        if found.code_count > 4 {
+            Self::rejected(Refusal::Syntax, "a block has at most four M codes", report);
         }
         matches!(code, 103 | 128 | 140)
     }

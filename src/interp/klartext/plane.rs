@@ -26,7 +26,10 @@ impl Klartext<'_> {
         };
         let mut numbers = Vec::new();
         let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
+        let (mut says_how, mut says_feed) = (false, false);
         for word in words.by_ref() {
+            says_how |= matches!(word.name(), b"MOVE" | b"TURN" | b"STAY");
+            says_feed |= matches!(word.name(), b"F" | b"FMAX" | b"FAUTO");
             match word.name() {
                 b"MOVE" => swivel = Some(Swivel::TipStays),
                 b"TURN" => swivel = Some(Swivel::AxesStay),
@@ -50,6 +53,8 @@ impl Klartext<'_> {
                 }
             }
         }
+        // without MOVE, TURN or STAY, or without a feed, it is up to the control
+        self.memory.unfollowed |= !says_how || swivel.is_some() && !says_feed;
         if let Some(what) = free {
             self.not_modelled_once(what, report);
         }

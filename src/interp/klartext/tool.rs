@@ -102,11 +102,23 @@ impl Klartext<'_> {
                 _ => {}
             }
         }
-        if let Some(plane) = axis {
-            self.core.state.coordinates.set_plane(plane);
+        match axis {
+            Some(plane) => {
+                self.core.state.coordinates.set_plane(plane);
+                self.memory.has_tool_axis = true;
+            }
+            None if chosen.is_some() && !self.memory.has_tool_axis => {
+                self.not_modelled_once("TOOL CALL without the tool axis: that of the program before", report);
+            }
+            None => {}
         }
         if let Some(feed) = feed {
             self.memory.tool_feed = feed.map(|feed| feed * self.core.state.feed.unit_mm());
+            if self.core.state.feed.value() != self.memory.tool_feed {
+                // whether F of TOOL CALL also replaces that of path blocks is not taken from a source
+                self.core.state.feed.set(None);
+                self.core.feed_unread = true;
+            }
         }
         if let Some(chosen) = chosen {
             self.change_tool(chosen, delta.unwrap_or(Some(0.0)), report);

@@ -12,6 +12,9 @@ mod effects;
 mod flow;
 mod fn_block;
 mod hole;
+mod labels;
+mod machine_motion;
+mod old_cycle;
 mod path;
 mod path_words;
 mod plane;
@@ -46,11 +49,19 @@ pub(crate) struct Memory {
     rotation: f64,
     /// Reasons why coordinates say nothing: bits of [`datum`].
     lost: u8,
-    /// CC: coordinates of the pole, and whether a polar radius was given since.
+    /// CC: coordinates of the pole, and whether there was one.
     pole: [Option<f64>; 3],
+    has_pole: bool,
+    /// The plane of the two coordinates that CC gave; `None`: that of the tool axis.
+    pole_plane: Option<trunnion_dialect::Plane>,
+    /// The last polar radius.
     polar_radius: Option<f64>,
     /// Direction of the last motion, in the coordinates of the words.
     heading: Option<Vec3>,
+    /// TOOL CALL has named the tool axis.
+    has_tool_axis: bool,
+    /// The last block with effects had a surface normal.
+    had_normal: bool,
     /// F of TOOL CALL, mm/min.
     tool_feed: Option<f64>,
     /// The cycle that CYCL CALL runs.
@@ -73,6 +84,10 @@ pub(crate) struct Memory {
     /// TOOL DEF with a length or radius.
     tools: Vec<crate::Tool>,
     said: Reported,
+    /// The block has words that are not followed, reported or not: two programs are the same only if they have the same ones.
+    unfollowed: bool,
+    /// The length of the tool in use without DL, mm.
+    tool_length: Option<f64>,
 }
 
 /// The engine of Klartext programs.
@@ -174,6 +189,7 @@ impl<'d> Klartext<'d> {
             return Request::Next;
         }
         self.core.last_content = Some(block);
+        self.memory.unfollowed = false;
         let text = sentence.text();
         let mut other = false;
         let request = {
@@ -189,6 +205,7 @@ impl<'d> Klartext<'d> {
             };
             self.sentence(&text, &mut report)
         };
+        other |= self.memory.unfollowed;
         if self.core.effects.wanted() {
             self.block_effects(&text, block, other, sentence.skips);
             self.core.emit_effects(sink);
@@ -199,6 +216,7 @@ impl<'d> Klartext<'d> {
 
     /// Reports once that something is not followed.
     fn not_modelled_once(&mut self, what: &str, report: &mut Report<'_>) {
+        self.memory.unfollowed = true;
         if self.memory.said.first(what) {
             report.fault(TextRange::default(), FaultKind::NotModelled { what: what.to_owned() });
         }

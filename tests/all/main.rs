@@ -11,6 +11,7 @@ mod generated_pages;
 mod generated_rewrite_docs;
 mod guide_vane;
 mod independent;
+mod klartext;
 mod lsp;
 mod lsp_backplot;
 mod lsp_client;

@@ -4,10 +4,11 @@ use super::path::Path;
 use super::path_words::PathWords;
 use super::values::Value;
 use super::words::Words;
-use crate::arc::mismatch;
-use crate::core::Report;
+use crate::arc::{mismatch, plane_axes};
+use crate::core::{LINEAR, Report};
 use crate::frames::sin_cos_degrees;
 use crate::{FaultKind, MotionKind, Position, Refusal};
+use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, RadiusFault, Turning};
 use trunnion_geometry::math::{atan2, rotate};
@@ -21,9 +22,20 @@ impl Klartext<'_> {
     pub(crate) fn pole(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let found = self.path_words(words, report);
         let here = self.memory.frames.programmed(&self.core.state.position);
-        if found.given == 0 {
+        if found.polar_radius.is_some() || found.polar_angle.is_some() || found.given & !LINEAR != 0 {
+            Self::not_modelled("CC in other words than X, Y and Z", report);
+            (self.memory.pole, self.memory.pole_plane) = ([None; 3], None);
+        } else if found.given == 0 {
             self.memory.pole = [here.get(0), here.get(1), here.get(2)];
+            self.memory.pole_plane = None;
         } else {
+            match found.given {
+                0b011 => self.memory.pole_plane = Some(Plane::Xy),
+                0b101 => self.memory.pole_plane = Some(Plane::Zx),
+                0b110 => self.memory.pole_plane = Some(Plane::Yz),
+                0b111 => Self::rejected(Refusal::Syntax, "CC takes two coordinates, not three", report),
+                _ => {}
+            }
             let mut place = here;
             for axis in 0..3 {
                 match self.memory.pole[axis] {
@@ -40,6 +52,31 @@ impl Klartext<'_> {
             }
         }
         self.memory.polar_radius = None;
+        self.memory.has_pole = true;
+    }
+
+    /// CC is missing, or its coordinates are not known.
+    fn without_pole(&mut self, report: &mut Report<'_>) {
+        if self.memory.has_pole {
+            let what = "the pole: coordinates of CC that are not known, or a new coordinate system after it";
+            self.not_modelled_once(what, report);
+        } else {
+            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+        }
+    }
+
+    /// The axes of the plane of arcs and polar coordinates: that of the two coordinates of CC, else that of the tool axis.
+    ///
+    /// The angle counts from X in XY, from Y in YZ, from Z in ZX. Sources: TNC 310 and TNC 426 pilots p. 8, angle reference axis; TNC 407
+    /// user's manual p. 5-19, mathematical direction of rotation.
+    fn polar_axes(&self) -> [usize; 3] {
+        self.memory.pole_plane.map_or_else(|| self.axes(), plane_axes)
+    }
+
+    fn polar_normal(&self) -> Vec3 {
+        let mut normal = Vec3::zeros();
+        normal[self.polar_axes()[2]] = 1.0;
+        normal
     }
 
     pub(crate) fn turning(words: &PathWords, report: &mut Report<'_>) -> Option<Turning> {
@@ -54,13 +91,13 @@ impl Klartext<'_> {
     }
 
     pub(crate) fn centre(&mut self, from: Vec3, report: &mut Report<'_>) -> Option<Vec3> {
-        let [a, b, _] = self.axes();
+        let [a, b, _] = self.polar_axes();
         let mut centre = from;
         if let (Some(x), Some(y)) = (self.memory.pole[a], self.memory.pole[b]) {
             (centre[a], centre[b]) = (x, y);
             Some(centre)
         } else {
-            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            self.without_pole(report);
             None
         }
     }
@@ -78,7 +115,7 @@ impl Klartext<'_> {
             let (start, end) = (from.xyz()?, end.xyz()?);
             let centre = self.centre(start, report)?;
             self.checked(
-                Arc::from_centre(start, end, centre, self.plane_normal(), turning, 0),
+                Arc::from_centre(start, end, centre, self.polar_normal(), turning, 0),
                 report,
             )
         })();
@@ -137,9 +174,19 @@ impl Klartext<'_> {
     }
 
     /// The arc that begins in the direction of the motion before.
-    pub(crate) fn tangent(&mut self, from: &Position, end: &Position, report: &mut Report<'_>) -> MotionKind {
+    pub(crate) fn tangent(
+        &mut self,
+        from: &Position,
+        end: &Position,
+        polar: bool,
+        report: &mut Report<'_>,
+    ) -> MotionKind {
         self.memory.was_rapid = false;
-        let normal = self.plane_normal();
+        let normal = if polar {
+            self.polar_normal()
+        } else {
+            self.plane_normal()
+        };
         let flat = |vector: Vec3| vector - normal * normal.dot(&vector);
         let arc = (|| {
             let heading = flat(self.memory.heading?).try_normalize(1e-9)?;
@@ -176,7 +223,7 @@ impl Klartext<'_> {
         end: &mut Position,
         report: &mut Report<'_>,
     ) -> Option<f64> {
-        let [a, b, _] = self.axes();
+        let [a, b, _] = self.polar_axes();
         let unit = self.core.state.coordinates.unit_mm();
         let pole = self.memory.pole[a].zip(self.memory.pole[b]);
         let here = pole.and_then(|(x, y)| {
@@ -201,7 +248,7 @@ impl Klartext<'_> {
             end.set(b, y + radius * sin);
         } else {
             if pole.is_none() {
-                report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+                self.without_pole(report);
             } else if words.polar_radius.is_none() && radius.is_none() && here.is_some() {
                 Self::not_modelled("a polar block without PR after a new pole", report);
             }
@@ -229,7 +276,7 @@ impl Klartext<'_> {
             let (start, end) = (from.xyz()?, end.xyz()?);
             let centre = self.centre(start, report)?;
             let arc = self.checked(
-                Arc::from_centre(start, end, centre, self.plane_normal(), turning, 0),
+                Arc::from_centre(start, end, centre, self.polar_normal(), turning, 0),
                 report,
             )?;
             let Some(turned) = turned else { return Some(arc) };

@@ -34,6 +34,11 @@ impl Klartext<'_> {
                     return Self::undecided("which label is called", report);
                 };
                 match words.next() {
+                    Some(word) if word.is("REP") && word.value == Said::Nothing => {
+                        // old controls show the question that was not answered, as `R F M` without values
+                        self.not_modelled_once("REP without a number: taken as a call of the subprogram", report);
+                        Request::Call(key)
+                    }
                     Some(word) if word.is("REP") => match self.said(word.value, report) {
                         Some(times) if (0.0..65536.0).contains(&times) && times.fract() == 0.0 => {
                             Request::Repeat(key, times as u32)

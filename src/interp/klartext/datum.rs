@@ -2,7 +2,6 @@
 //!
 //! An axis that a datum shift leaves out keeps its shift; a shift that is programmed in a tilted plane acts in it; mirror without axes,
 //! rotation by 0 and scaling by 1 end them (TNC 640 cycle manuals, coordinate transformations).
-use super::hole::Cycle;
 use super::path_words::PathWords;
 use super::words::{Said, Words};
 use super::{Klartext, values::Value};
@@ -102,6 +101,9 @@ impl Klartext<'_> {
             return self.lose(DATUM);
         }
         let found = self.axes_of(words, report);
+        if found.no_number {
+            return self.lose(DATUM);
+        }
         if found.given == 0 {
             return;
         }
@@ -309,12 +311,12 @@ impl Klartext<'_> {
 
     /// Any other cycle waits for its call.
     fn define_cycle(&mut self, cycle: u32, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
+        // a new cycle ends M89
+        self.memory.runs_after_each = false;
         if cycle >= 200 {
             self.memory.cycle = self.read_cycle(cycle, words, report);
-            return;
-        }
-        if line == 0 {
-            self.memory.cycle = Cycle::Old(cycle);
+        } else {
+            self.old_cycle_line(cycle, line, words, report);
         }
     }
 }

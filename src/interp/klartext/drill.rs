@@ -10,9 +10,9 @@ use crate::{Feed, MotionKind, Refusal};
 use trunnion_syntax::TextRange;
 
 /// Steps of one hole.
-const MOST: usize = 10_000;
+pub(super) const MOST: usize = 10_000;
 /// Levels that differ by less are one, mm.
-const SAME_LEVEL: f64 = 1e-9;
+pub(super) const SAME_LEVEL: f64 = 1e-9;
 
 /// Levels along the tool axis, mm, and feeds of a hole.
 struct At {
@@ -54,12 +54,8 @@ impl Klartext<'_> {
         match self.memory.cycle.clone() {
             Cycle::None => Self::rejected(Refusal::CannedCycle, "no cycle is defined before its call", report),
             Cycle::Hole(hole) => self.drill(&hole, report),
-            Cycle::Other(12) | Cycle::Old(12) => {
-                Self::not_modelled("cycle 12: the program that it calls", report);
-                self.core.forget_everything();
-                self.memory.parameters.lose();
-            }
-            Cycle::Other(number) | Cycle::Old(number) => {
+            Cycle::Old(old) => self.run_old_cycle(&old, report),
+            Cycle::Other(number) => {
                 self.not_modelled_once(&format!("cycle {number}: its path"), report);
                 self.work_unknown(report);
             }
@@ -67,7 +63,7 @@ impl Klartext<'_> {
     }
 
     /// A cycle whose path is not followed: the tool is above where it was called.
-    fn work_unknown(&mut self, report: &mut Report<'_>) {
+    pub(super) fn work_unknown(&mut self, report: &mut Report<'_>) {
         let start = self.core.state.position;
         let along = self.axes()[2];
         self.core.forget_linear();
@@ -82,7 +78,7 @@ impl Klartext<'_> {
         self.emit(&motion, report);
     }
 
-    fn cycle_feed(&mut self, feed: CycleFeed, report: &mut Report<'_>) -> Feed {
+    pub(super) fn cycle_feed(&mut self, feed: CycleFeed, report: &mut Report<'_>) -> Feed {
         let unit = self.core.state.feed.unit_mm();
         let value = match feed {
             CycleFeed::Value(Some(value)) if value > 0.0 => Some(value * unit),
@@ -127,6 +123,12 @@ impl Klartext<'_> {
                 CycleFeed::Missing | CycleFeed::Value(Some(0.0)) => Some(feed),
                 other => Some(self.cycle_feed(other, report)),
             },
+            // Q208 = 0 is Q206; 205 goes back in rapid where it is left out
+            203 | 205 => match hole.back_feed {
+                CycleFeed::Missing if hole.cycle == 205 => None,
+                CycleFeed::Missing | CycleFeed::Value(Some(0.0)) => Some(feed),
+                other => Some(self.cycle_feed(other, report)),
+            },
             206 | 207 | 209 => Some(feed),
             _ => None,
         };
@@ -137,9 +139,7 @@ impl Klartext<'_> {
             feed,
             out,
         };
-        let by_tip = hole.reference.is_none_or(|reference| reference == 0.0)
-            && hole.by_diameter.is_none_or(|reference| reference == 0.0)
-            && hole.start.is_none_or(|start| start == 0.0);
+        let by_tip = hole.is_by_tip();
         self.level(MotionKind::Rapid, Some(at.clear), Feed::Rapid, report);
         self.work(hole, &at, by_tip, depth * unit, report);
         match at.out {
@@ -153,11 +153,27 @@ impl Klartext<'_> {
         self.level(MotionKind::Rapid, Some(at.back), Feed::Rapid, report);
     }
 
+    /// Whether the motions of a hole say all about it: nothing else of its definition counts.
+    pub(super) fn is_followed(&self, hole: &Hole) -> bool {
+        let unit = self.core.state.coordinates.unit_mm();
+        let (Some(depth), Some(_), Some(_)) = (hole.depth, hole.clear, hole.surface) else {
+            return false;
+        };
+        let single = hole.is_single(depth * unit, unit);
+        hole.is_by_tip()
+            && match hole.cycle {
+                200 => single || self.core.setup.control.peck_clearance_mm.is_some(),
+                203 | 205 => single,
+                201 | 206 | 207 | 240 => true,
+                _ => false,
+            }
+    }
+
     /// From the clearance to the bottom.
     fn work(&mut self, hole: &Hole, at: &At, by_tip: bool, depth: f64, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let peck = hole.peck.map(|peck| peck * unit).filter(|peck| *peck > 0.0);
-        let single = peck.is_none_or(|peck| peck >= depth.abs() - SAME_LEVEL);
+        let single = hole.is_single(depth, unit);
         if !by_tip {
             self.not_modelled_once(
                 &format!("cycle {}: the depth depends on the tool's tip", hole.cycle),
@@ -217,7 +233,9 @@ impl Klartext<'_> {
                 self.level(MotionKind::Rapid, back, Feed::Rapid, report);
             } else {
                 broken = 0.0;
-                self.level(MotionKind::Rapid, Some(at.clear), Feed::Rapid, report);
+                // Q208 is the feed out of the hole
+                let out = at.out.unwrap_or(Feed::Rapid);
+                self.level(linear(out), Some(at.clear), out, report);
                 self.stay(hole.stay_above, report);
                 if near.is_none() {
                     let what = "where the rapid back into the hole ends (declare [control] peck_clearance)";
@@ -240,14 +258,14 @@ impl Klartext<'_> {
         self.level(MotionKind::Unknown, Some(at.bottom), Feed::Unknown, report);
     }
 
-    fn stay(&mut self, seconds: Option<f64>, report: &mut Report<'_>) {
+    pub(super) fn stay(&mut self, seconds: Option<f64>, report: &mut Report<'_>) {
         if let Some(seconds) = seconds.filter(|seconds| *seconds > 0.0) {
             self.dwell(Some(seconds), report);
         }
     }
 
     /// A motion along the tool axis to a level in the coordinates of the words; `None`: it is not known.
-    fn level(&mut self, kind: MotionKind, level: Option<f64>, feed: Feed, report: &mut Report<'_>) {
+    pub(super) fn level(&mut self, kind: MotionKind, level: Option<f64>, feed: Feed, report: &mut Report<'_>) {
         let along = self.axes()[2];
         let start = self.core.state.position;
         let mut end = self.memory.frames.programmed(&start);
@@ -271,7 +289,7 @@ impl Klartext<'_> {
     }
 }
 
-fn linear(feed: Feed) -> MotionKind {
+pub(super) fn linear(feed: Feed) -> MotionKind {
     if feed == Feed::Rapid {
         MotionKind::Rapid
     } else {

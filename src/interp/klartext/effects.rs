@@ -1,6 +1,6 @@
 //! What a block does apart from its motions, in the words that other languages use for the same.
 use super::Klartext;
-use super::words::{Said, Words};
+use super::words::{Said, Word, Words};
 use crate::tools::Chosen;
 use crate::{Argument, Effect, MotionKind, Reach};
 use trunnion_syntax::BlockId;
@@ -23,6 +23,7 @@ impl Klartext<'_> {
         let name = String::from_utf8_lossy(first.name()).into_owned();
         let mut unmodelled = other;
         let mut after = Vec::new();
+        self.surface_normal(&first, words.clone(), block);
         if first.is("TOOL") {
             self.tool_effects(words.clone(), block);
         } else if first.is("STOP") {
@@ -36,7 +37,7 @@ impl Klartext<'_> {
         }
         words.at = 0;
         for word in words.filter(|word| word.is("M")) {
-            if let Said::Number(code) = word.value {
+            if let Some(code) = self.memory.parameters.of(word.value) {
                 self.code_effects(code as u32, block, &mut after, &mut unmodelled);
             }
         }
@@ -49,9 +50,16 @@ impl Klartext<'_> {
         // a block that the operator may skip
         let may_skip = skips && self.core.setup.control.block_delete.is_none();
         if unmodelled || unknown || may_skip {
-            let text = crate::canonical_text(&String::from_utf8_lossy(text));
-            let effect = Effect::Unmodelled(vec![Argument::text("", &text)]);
-            self.core.effects.add(block, effect);
+            let canonical = crate::canonical_text(&String::from_utf8_lossy(text));
+            let mut arguments = vec![Argument::text("", &canonical)];
+            for word in Words::new(text) {
+                if let Said::Parameter(_, parameter) = word.value
+                    && let Some(value) = self.memory.parameters.get(parameter)
+                {
+                    arguments.push(Argument::number(parameter.to_string(), value));
+                }
+            }
+            self.core.effects.add(block, Effect::Unmodelled(arguments));
         }
         for effect in after {
             // the control goes on from where it was
@@ -86,6 +94,29 @@ impl Klartext<'_> {
         *unmodelled |= !CODES.contains(&code) && !matches!(code, 129 | 136 | 137 | 140);
     }
 
+    /// Deltas of the tool table act along it.
+    fn surface_normal(&mut self, first: &Word<'_>, words: Words<'_>, block: BlockId) {
+        let mut normal = Vec::new();
+        for word in words {
+            if let name @ (b"NX" | b"NY" | b"NZ") = word.name() {
+                let name = String::from_utf8_lossy(name).into_owned();
+                normal.push(match self.memory.parameters.of(word.value) {
+                    Some(value) => Argument::number(name, value),
+                    None => Argument::text(name, "unknown"),
+                });
+            }
+        }
+        let path = matches!(
+            first.name(),
+            b"L" | b"LN" | b"C" | b"CR" | b"CT" | b"LP" | b"CP" | b"CTP"
+        );
+        let has = !normal.is_empty();
+        if has || path && self.memory.had_normal {
+            self.core.effects.add(block, Effect::set("surface normal", normal));
+            self.memory.had_normal = has;
+        }
+    }
+
     fn tool_effects(&mut self, mut words: Words<'_>, block: BlockId) {
         let Some(kind) = words.next() else { return };
         let named = kind.is("CALL")
@@ -107,12 +138,15 @@ impl Klartext<'_> {
         }
         let mut deltas = Vec::new();
         for word in words {
-            match (word.name(), word.value) {
-                (b"S", Said::Number(speed)) if kind.is("CALL") => {
+            match (word.name(), self.memory.parameters.of(word.value)) {
+                (b"S", Some(speed)) if kind.is("CALL") => {
                     effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
                 }
-                (name @ (b"DL" | b"DR" | b"DR2"), Said::Number(value)) if value != 0.0 => {
+                (name @ (b"DL" | b"DR" | b"DR2"), Some(value)) if value != 0.0 => {
                     deltas.push(Argument::number(String::from_utf8_lossy(name).into_owned(), value));
+                }
+                (name @ (b"DL" | b"DR" | b"DR2"), None) => {
+                    deltas.push(Argument::text(String::from_utf8_lossy(name).into_owned(), "unknown"));
                 }
                 _ => {}
             }
@@ -146,7 +180,10 @@ impl Klartext<'_> {
         let number = digits.fold(0u32, |all, digit| {
             all.saturating_mul(10).saturating_add(u32::from(digit - b'0'))
         });
-        !matches!(number, 7..=11 | 19 | 200..=203 | 205..=209 | 240 | 247)
+        match &self.memory.cycle {
+            Cycle::Hole(hole) if number >= 200 && number == hole.cycle => !self.is_followed(hole),
+            _ => !matches!(number, 7..=11 | 19 | 247),
+        }
     }
 }
 

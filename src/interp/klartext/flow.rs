@@ -2,14 +2,14 @@
 //!
 //! `CALL LBL n` runs the blocks from the label to LBL 0; with REP m the section from the label to the call runs m times more; a called program
 //! ends with END PGM, M2 or M30, and what it has shifted and turned stays. Source: TNC 640 user's manual, subprograms and program sections.
-use super::calls::key_of;
-use super::words::{Parameter, Words};
+use super::labels::{doubled_label, files, labels, named, no_label};
+use super::words::Parameter;
 use super::{Klartext, values::Value};
 use crate::flow::through::Through;
-use crate::{Fault, FaultKind, Frame, Refusal, Sink};
-use std::collections::HashMap;
+use crate::{Fault, FaultKind, Frame, Sink};
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
-use trunnion_flow::{BlockBudget, Called, Course, Ends, Index, Key, Library, Loops, PendingCall, Search};
+use trunnion_flow::{BlockBudget, Called, Course, Ends, Index, Key, Library, PendingCall, Search};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// What a block requests of the flow.
@@ -48,6 +48,8 @@ pub(crate) struct Flow {
     finished: bool,
     library: Library,
     labels: HashMap<u16, Arc<Index<()>>>,
+    /// Labels that a file has more than once.
+    doubled: HashSet<(u16, Key)>,
     /// Sections that are being repeated: file, block of the call, depth, and how often still.
     repeats: HashMap<(u16, u32, usize), u32>,
     turns: u64,
@@ -102,7 +104,10 @@ impl Klartext<'_> {
         let request = if matches!(request, Request::Next) {
             request
         } else {
-            self.flush_in(program, BlockId(next), &mut through);
+            // a corner and an approach wait for the next motion wherever it is in this file
+            if matches!(request, Request::Program(_) | Request::EndOfProgram | Request::Stop) {
+                self.flush_in(program, BlockId(next), &mut through);
+            }
             self.obey(request, program, called.as_deref(), next, &mut through)
         };
         self.flow.reported = through.reported;
@@ -128,6 +133,12 @@ impl Klartext<'_> {
             }
         }
         Some(block)
+    }
+
+    /// Whether a program that CALL PGM has called is running.
+    pub(super) fn is_called(&self) -> bool {
+        let mut levels = self.flow.course.programs();
+        levels.any(|level| matches!(level, Level::Program(_)))
     }
 
     /// Nothing is left to run.
@@ -173,6 +184,12 @@ impl Klartext<'_> {
         let range = program.block(BlockId(from)).range();
         let block = BlockId(from);
         let mut tell = |kind: FaultKind| sink.fault(Fault { block, range, kind });
+        if let Request::Jump(key) | Request::Call(key) | Request::Repeat(key, _) = &request
+            && self.is_doubled(key, program)
+        {
+            tell(doubled_label(key));
+            return Request::Stop;
+        }
         match request {
             Request::Return => {
                 let call = self.flow.course.leave(self.flow.next);
@@ -319,6 +336,19 @@ impl Klartext<'_> {
         self.core.called_at = (file != 0).then_some(self.flow.course.place().main);
     }
 
+    /// Whether the file has a label more than once, which the control refuses.
+    fn is_doubled(&mut self, key: &Key, program: &Program) -> bool {
+        let file = self.flow.course.place().file;
+        if !self.flow.labels.contains_key(&file) {
+            self.target(key, program);
+            let mut seen = HashSet::new();
+            let doubled = named(program).into_iter().filter(|(key, _)| !seen.insert(key.clone()));
+            let doubled: Vec<_> = doubled.map(|(key, _)| (file, key)).collect();
+            self.flow.doubled.extend(doubled);
+        }
+        self.flow.doubled.contains(&(file, key.clone()))
+    }
+
     fn target(&mut self, key: &Key, program: &Program) -> Option<u32> {
         let file = self.flow.course.place().file;
         let index = self
@@ -334,57 +364,6 @@ fn too_deep() -> FaultKind {
     FaultKind::NotDecided {
         what: "calls inside calls beyond the bound of the run".to_owned(),
     }
-}
-
-fn no_label(key: &Key) -> FaultKind {
-    let name = match key {
-        Key::Number(number) => number.to_string(),
-        Key::Name(name) => format!("\"{name}\""),
-    };
-    FaultKind::Rejected {
-        refusal: Refusal::Label,
-        message: format!("the program has no label {name}"),
-        alarm: None,
-    }
-}
-
-/// The labels of a file.
-fn labels(program: &Program) -> Index<()> {
-    let mut found = Vec::new();
-    for view in program.blocks() {
-        let Some(sentence) = view.sentence() else { continue };
-        let text = sentence.text();
-        let mut words = Words::new(&text);
-        let Some(first) = words.next().filter(|word| word.is("LBL")) else {
-            continue;
-        };
-        match key_of(first.value, &mut words) {
-            Some(Key::Number(0)) | None => {}
-            Some(key) => found.push((key, view.id().0)),
-        }
-    }
-    Index::of(
-        found,
-        Vec::new(),
-        Loops::default(),
-        Vec::new(),
-        program.block_count() as u32,
-    )
-}
-
-/// File names that a called program may have.
-fn files(name: &str) -> Vec<String> {
-    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let mut files = vec![name.to_owned()];
-    for stem in [stem.to_owned(), stem.to_ascii_lowercase(), stem.to_ascii_uppercase()] {
-        for ending in ["h", "H"] {
-            let file = format!("{stem}.{ending}");
-            if !files.contains(&file) {
-                files.push(file);
-            }
-        }
-    }
-    files
 }
 
 fn frame(program: &Program, called: &Called, block: u32, is_place: bool) -> Frame {

@@ -42,11 +42,12 @@ impl Klartext<'_> {
                     })
                     .take(1)
                     .collect();
-                for parameter in target {
-                    self.memory.parameters.set(parameter, None);
-                }
                 let what = text.split(';').next().unwrap_or_default().trim();
-                self.not_modelled_once(&format!("FN {number}: {what}"), report);
+                let what = format!("FN {number}: {what}");
+                for parameter in target {
+                    self.memory.parameters.set_from(parameter, None, Some(what.clone()));
+                }
+                self.not_modelled_once(&what, report);
             }
             15 | 16 | 17 | 26 | 27 | 29 | 37 | 38 => {
                 self.not_modelled_once(&format!("FN {number}: what it writes or sends"), report);
@@ -77,8 +78,9 @@ impl Klartext<'_> {
             self.memory.parameters.texts.insert(target.number, text);
             return Request::Next;
         }
+        let cause = self.memory.parameters.cause_in(words.rest());
         match formula(&mut words, &self.memory.parameters) {
-            Ok(value) if words.rest().trim_ascii().is_empty() => self.memory.parameters.set(target, value),
+            Ok(value) if words.rest().trim_ascii().is_empty() => self.memory.parameters.set_from(target, value, cause),
             Ok(_) => {
                 self.memory.parameters.set(target, None);
                 let rest = String::from_utf8_lossy(words.rest()).trim().to_owned();
@@ -119,9 +121,10 @@ impl Klartext<'_> {
             Self::rejected(Refusal::Syntax, format!("FN {number} needs `Q... =`"), report);
             return;
         };
+        let cause = self.memory.parameters.cause_in(words.rest());
         let value = self.fn_value(number, words, report);
         if let Some(value) = value {
-            self.memory.parameters.set(target, value);
+            self.memory.parameters.set_from(target, value, cause);
         } else {
             self.memory.parameters.set(target, None);
             Self::rejected(Refusal::Expression, format!("FN {number} is incomplete"), report);

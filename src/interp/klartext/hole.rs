@@ -2,6 +2,7 @@
 //!
 //! Sources: cycle manuals -07 and -08 of the TNC 640; the orders and signs of 200, 201, 203 and 207 also in programs of shops.
 use super::Klartext;
+use super::old_cycle::OldCycle;
 use super::values::Value;
 use super::words::{Said, Words};
 use crate::core::Report;
@@ -57,8 +58,8 @@ pub(crate) enum Cycle {
     Hole(Box<Hole>),
     /// One whose path is not followed.
     Other(u32),
-    /// One of old controls (1 to 17), whose words depend on the language.
-    Old(u32),
+    /// One of old controls (1 to 18), whose words depend on the language.
+    Old(Box<OldCycle>),
 }
 
 impl Klartext<'_> {
@@ -123,6 +124,16 @@ impl Klartext<'_> {
 }
 
 impl Hole {
+    /// Whether its depth is that of the tip, from the surface on.
+    pub(crate) fn is_by_tip(&self) -> bool {
+        let zero = |value: Value| value.is_none_or(|value| value == 0.0);
+        zero(self.reference) && zero(self.by_diameter) && zero(self.start)
+    }
+    /// Whether the depth, mm, is reached in one step.
+    pub(crate) fn is_single(&self, depth: f64, unit: f64) -> bool {
+        let peck = self.peck.map(|peck| peck * unit).filter(|peck| *peck > 0.0);
+        peck.is_none_or(|peck| peck >= depth.abs() - super::drill::SAME_LEVEL)
+    }
     /// The name of what the tool does, as other controls call it.
     pub(crate) fn taps(&self) -> bool {
         matches!(self.cycle, 206 | 207 | 209)

@@ -4,7 +4,7 @@ use super::words::Words;
 use super::{Klartext, Made};
 use crate::arc::plane_axes;
 use crate::core::{LINEAR, ROTARY, Report};
-use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Swivel};
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::TextRange;
 
@@ -42,27 +42,51 @@ impl Klartext<'_> {
             self.take_feed(words.feed, report)
         };
         if let Some(compensation) = words.compensation {
-            self.compensate(compensation, report);
+            self.compensate(path, compensation, report);
+        }
+        if words.radius.is_some() && words.compensation != Some(0) && path != Path::Radius {
+            Self::rejected(
+                Refusal::Syntax,
+                "R with a value belongs to CR, RND, APPR and DEP",
+                report,
+            );
         }
         let polar = matches!(path, Path::PolarLine | Path::PolarArc | Path::PolarTangent);
         let moves = words.moves() || polar || words.tool.iter().any(Option::is_some) || path == Path::AboutPole;
         if words.has(140) {
             self.back_along_tool(words, report);
+        } else if moves && (words.has(91) || words.has(92)) && !matches!(path, Path::None | Path::Line) {
+            Self::not_modelled("M91 or M92 in another block than L", report);
+            self.core.forget_position();
+            self.unknown_motion(report);
         } else if moves && (words.has(91) || words.has(92)) {
             self.machine_motion(words, rapid, report);
         } else if moves {
             self.motion(path, words, rapid, report);
         }
-        if words.has(99) || self.memory.runs_after_each && moves && !words.has(89) {
+        if words.has(99) || self.memory.runs_after_each && moves {
             self.run_cycle(report);
+            // M99 ends M89
+            self.memory.runs_after_each &= !words.has(99);
         }
         if !words.codes().is_empty() {
             self.codes_after(words);
         }
     }
 
-    fn compensate(&mut self, compensation: u8, report: &mut Report<'_>) {
-        self.core.state.compensation = compensation;
+    /// RL and RR begin in a straight line, and change sides only over R0 (manual 34059x, tool radius compensation).
+    fn compensate(&mut self, path: Path, compensation: u8, report: &mut Report<'_>) {
+        let before = std::mem::replace(&mut self.core.state.compensation, compensation);
+        let straight = matches!(path, Path::None | Path::Line | Path::Vectors | Path::PolarLine);
+        if before != compensation && compensation != 0 {
+            if !straight {
+                let message = "radius compensation begins in an arc: it begins in a straight line";
+                Self::rejected(Refusal::Other, message, report);
+            } else if before != 0 {
+                let message = "RL and RR follow each other: R0 must stand between them";
+                Self::rejected(Refusal::Other, message, report);
+            }
+        }
         if compensation != 0 {
             let what = "cutter radius compensation: the programmed path is used instead";
             if !std::mem::replace(&mut self.core.compensation_reported, true) {
@@ -74,8 +98,11 @@ impl Klartext<'_> {
     fn motion(&mut self, path: Path, words: &PathWords, rapid: bool, report: &mut Report<'_>) {
         let start = self.core.state.position;
         let from = self.memory.frames.programmed(&start);
-        if words.plane_angles != 0 && words.plane_angles == words.given {
+        if words.plane_angles.count_ones() == 2 && words.plane_angles == words.given {
             return self.turn_to_plane(report);
+        }
+        if words.plane_angles != 0 {
+            self.not_modelled_once("Q120 to Q122: one of them alone, or with other axes", report);
         }
         let mut end = from;
         self.place(words, &mut end);
@@ -83,13 +110,13 @@ impl Klartext<'_> {
             Path::None | Path::Line | Path::Vectors => self.straight(rapid),
             Path::AboutPole => self.about_pole(&from, &end, words, report),
             Path::Radius => self.by_radius(&from, &end, words, report),
-            Path::Tangent => self.tangent(&from, &end, report),
+            Path::Tangent => self.tangent(&from, &end, false, report),
             Path::PolarLine | Path::PolarArc | Path::PolarTangent => {
                 let turned = self.polar_end(path, words, &from, &mut end, report);
                 match path {
                     Path::PolarLine => self.straight(rapid),
                     Path::PolarArc => self.polar_arc(&from, &end, turned, words, report),
-                    _ => self.tangent(&from, &end, report),
+                    _ => self.tangent(&from, &end, true, report),
                 }
             }
         };
@@ -173,8 +200,14 @@ impl Klartext<'_> {
 
     /// The orientation from TX TY TZ or rotary words; else it stays.
     fn tool_orientation(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
+        for (vector, names) in [(&words.tool, "TX, TY and TZ"), (&words.normal, "NX, NY and NZ")] {
+            let given = vector.iter().filter(|value| value.is_some()).count();
+            if !matches!(given, 0 | 3) {
+                Self::rejected(Refusal::MissingWord, format!("a vector needs {names}"), report);
+            }
+        }
         let orientation = if words.tool.iter().any(Option::is_some) {
-            let values = words.tool.map(|value| value.unwrap_or(Some(0.0)));
+            let values = words.tool.map(Option::flatten);
             match values {
                 [Some(x), Some(y), Some(z)] if self.core.state.tool_axis.tcp() => {
                     self.core
@@ -192,7 +225,7 @@ impl Klartext<'_> {
             self.core.held_orientation()
         };
         if words.normal.iter().any(Option::is_some) {
-            let values = words.normal.map(|value| value.unwrap_or(Some(0.0)));
+            let values = words.normal.map(Option::flatten);
             if let [Some(x), Some(y), Some(z)] = values {
                 let norm = Vec3::new(x, y, z).norm();
                 if (norm - 1.0).abs() > 1e-5 {
@@ -231,104 +264,6 @@ impl Klartext<'_> {
         self.out.push(motion);
     }
 
-    /// M91 and M92: from the machine's zero; from a point that only the builder knows.
-    fn machine_motion(&mut self, words: &PathWords, rapid: bool, report: &mut Report<'_>) {
-        self.flush(report);
-        let builder = words.has(92);
-        let mut start = self.core.state.position;
-        self.to_machine(&mut start, 1.0);
-        let mut end = start;
-        self.place(words, &mut end);
-        if words.incremental != 0 {
-            // from the last M91 position
-            end.known &= !words.incremental;
-        }
-        if builder {
-            self.not_modelled_once("M92: the point of the machine builder", report);
-            end.known &= !words.given;
-        }
-        let mut back = end;
-        self.to_machine(&mut back, -1.0);
-        let led = self.core.state.tool_axis.tcp() && words.given & LINEAR != 0;
-        if led {
-            report.fault(
-                TextRange::default(),
-                FaultKind::TcpState(crate::TcpMistake::MachineCoordinates),
-            );
-        }
-        self.core.state.position = back;
-        let kind = self.straight(rapid);
-        let feed = self.core.feed(kind, TextRange::default, report);
-        if words.given & ROTARY != 0 {
-            self.core.state.orientation = Orientation::Words;
-        }
-        let orientation = self.core.held_orientation();
-        let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
-        motion.in_machine_coordinates(words.given);
-        motion.says_way = words.incremental | unread(words);
-        self.memory.heading = None;
-        self.out.push(motion);
-    }
-
-    /// Between programmed (sign -1) and machine coordinates (sign 1); see the engine of ISO programs.
-    fn to_machine(&self, position: &mut Position, sign: f64) {
-        for (value, zero) in position.values.iter_mut().zip(self.core.state.zero.values()) {
-            *value += sign * zero;
-        }
-        let length = sign * self.core.state.length.mm().unwrap_or(0.0);
-        for (value, along) in position.values.iter_mut().zip(self.core.setup.length_along()) {
-            *value += length * along;
-        }
-        if self.core.state.tool_axis.tcp() || self.core.state.zero.is_lost() || self.memory.frames.tilt.is_some() {
-            position.known &= !LINEAR;
-        }
-    }
-
-    /// M140 MB: back along the tool axis.
-    fn back_along_tool(&mut self, words: &PathWords, report: &mut Report<'_>) {
-        let start = self.core.state.position;
-        let unit = self.core.state.coordinates.unit_mm();
-        let distance = words.back.map(|distance| distance * unit);
-        let rapid = self.take_feed(words.feed, report);
-        let stands = (3..6).all(|axis| start.get(axis).is_none_or(|value| value == 0.0));
-        let along = match self.core.state.orientation {
-            _ if self.memory.frames.tilt.is_some() => Some(Vec3::z()),
-            Orientation::Vector(_, vector) => Some(vector),
-            Orientation::Words => stands.then(|| self.plane_normal()),
-        };
-        let mut end = start;
-        match distance.zip(along) {
-            Some((distance, along)) => {
-                for axis in 0..3 {
-                    match start.get(axis) {
-                        Some(value) => end.set(axis, value + distance * along[axis]),
-                        None => end.forget(axis),
-                    }
-                }
-            }
-            None => end.known &= !LINEAR,
-        }
-        let said = words.feed != super::path_words::FeedSaid::Nothing;
-        let kind = if said {
-            self.straight(rapid)
-        } else {
-            MotionKind::Unknown
-        };
-        if !said {
-            self.not_modelled_once("M140 without F: at which feed", report);
-        }
-        self.core.state.position = end;
-        let feed = if said {
-            self.core.feed(kind, TextRange::default, report)
-        } else {
-            Feed::Unknown
-        };
-        let orientation = self.core.held_orientation();
-        let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
-        self.memory.heading = None;
-        self.emit(&motion, report);
-    }
-
     /// A motion of which nothing is known.
     pub(crate) fn unknown_motion(&mut self, report: &mut Report<'_>) {
         let start = self.core.state.position;
@@ -344,6 +279,8 @@ impl Klartext<'_> {
 
     /// Rotary words that are the angles which PLANE has computed.
     fn turn_to_plane(&mut self, report: &mut Report<'_>) {
+        // which axes the machine has, and the feed, are not in the motion
+        self.memory.unfollowed = true;
         let posture = self.memory.angles_wait.unwrap_or_default();
         self.swivel(Swivel::AxesStay, posture, report);
     }
@@ -360,7 +297,7 @@ impl Klartext<'_> {
 }
 
 /// Letters whose values are not known.
-fn unread(words: &PathWords) -> u16 {
+pub(super) fn unread(words: &PathWords) -> u16 {
     (0..9)
         .filter(|axis| words.values[*axis].is_none())
         .fold(0, |all, axis| all | 1 << axis)

@@ -34,6 +34,8 @@ pub(crate) struct PathWords {
     /// Rotary words that are `+Q120`, `+Q121`, `+Q122` of their letter.
     pub(crate) plane_angles: u16,
     pub(crate) feed: FeedSaid,
+    /// F behind M103, M128 and M140.
+    pub(crate) own_feed: FeedSaid,
     codes: [u32; MOST_CODES],
     code_count: usize,
     /// R0, RL, RR: 0, 41, 42.
@@ -54,6 +56,8 @@ pub(crate) struct PathWords {
     /// The distance of MB; none for MAX.
     pub(crate) back: Value,
     pub(crate) delta: bool,
+    /// `nan` stands in the block.
+    pub(crate) no_number: bool,
 }
 
 impl PathWords {
@@ -92,10 +96,7 @@ impl Klartext<'_> {
     }
 
     pub(crate) fn parameter_unknown(&mut self, parameter: Parameter, report: &mut Report<'_>) {
-        let what = match (parameter.kind, parameter.number) {
-            (Kind::Global, 100..=199) => format!("{parameter}: a value of the control"),
-            _ => format!("{parameter}: the program does not set its value"),
-        };
+        let what = self.memory.parameters.cause(parameter);
         self.not_modelled_once(&what, report);
     }
 
@@ -120,6 +121,13 @@ impl Klartext<'_> {
         report: &mut Report<'_>,
     ) -> bool {
         match word.name() {
+            [letter] | [b'I', letter]
+                if AxisLetter::new(*letter).is_some()
+                    && word.value == Said::Nothing
+                    && (words.takes_word("NAN") || words.takes_word("INF")) =>
+            {
+                self.no_number(found, report);
+            }
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
             b"F" => {
@@ -129,10 +137,13 @@ impl Klartext<'_> {
                     Said::Nothing => FeedSaid::Nothing,
                     said => FeedSaid::Value(self.said(said, report)),
                 };
-                if !own_feed {
+                if own_feed {
+                    found.own_feed = feed;
+                } else {
                     found.feed = feed;
                 }
             }
+            b"FMAX" if own_feed => found.own_feed = FeedSaid::Rapid,
             b"FMAX" => found.feed = FeedSaid::Rapid,
             b"FAUTO" => found.feed = FeedSaid::Auto,
             b"FU" => found.feed = FeedSaid::PerTurn(self.said(word.value, report)),
@@ -171,6 +182,8 @@ impl Klartext<'_> {
             }
             // distances of M120 LA, M118 X Y Z
             b"LA" => {}
+            // what a computation that failed has written
+            name if is_no_number(name) => self.no_number(found, report),
             b"" if matches!(word.value, Said::Parameter(..)) && found.codes().is_empty() && found.given == 0 => {
                 Self::rejected(Refusal::Syntax, "a Q parameter without a word in front of it", report);
             }
@@ -186,6 +199,18 @@ impl Klartext<'_> {
             }
         }
         false
+    }
+
+    /// `Xnan`: the word says nothing, and what it was meant to move is unknown.
+    fn no_number(&mut self, found: &mut PathWords, report: &mut Report<'_>) {
+        self.memory.unfollowed = true;
+        self.core.forget_position();
+        found.no_number = true;
+        if self.memory.said.first("nan") {
+            let message =
+                "`nan` or `inf` is not a number: the program was written from values that could not be computed";
+            Self::rejected(Refusal::Number, message, report);
+        }
     }
 
     fn axis(&mut self, word: &Word<'_>, letter: u8, incremental: bool, found: &mut PathWords, report: &mut Report<'_>) {
@@ -241,6 +266,14 @@ impl Klartext<'_> {
             *place = code;
             found.code_count += 1;
         }
+        if found.code_count > 4 {
+            Self::rejected(Refusal::Syntax, "a block has at most four M codes", report);
+        }
         matches!(code, 103 | 128 | 140)
     }
+}
+
+/// A word whose value is `nan` or `inf`, with or without its letters.
+fn is_no_number(name: &[u8]) -> bool {
+    name.len() <= 6 && [&b"NAN"[..], b"INF"].iter().any(|ending| name.ends_with(ending))
 }

@@ -12,7 +12,7 @@ use crate::{Feed, MotionKind, Orientation, Posture, Refusal, Swivel};
 use trunnion_geometry::{Mat3, Vec3};
 
 /// Words of a PLANE block that are no numbers of its form.
-const POSITIONING: [&str; 6] = ["DIST", "F", "MB", "SEQ", "SYM", "FMAX"];
+const POSITIONING: [&str; 3] = ["SEQ", "SYM", "FMAX"];
 
 impl Klartext<'_> {
     pub(crate) fn plane(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
@@ -26,7 +26,10 @@ impl Klartext<'_> {
         };
         let mut numbers = Vec::new();
         let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
+        let (mut says_how, mut says_feed) = (false, false);
         for word in words.by_ref() {
+            says_how |= matches!(word.name(), b"MOVE" | b"TURN" | b"STAY");
+            says_feed |= matches!(word.name(), b"F" | b"FMAX" | b"FAUTO");
             match word.name() {
                 b"MOVE" => swivel = Some(Swivel::TipStays),
                 b"TURN" => swivel = Some(Swivel::AxesStay),
@@ -35,9 +38,10 @@ impl Klartext<'_> {
                     Said::Sign(minus) => posture = if minus { Posture::Lower } else { Posture::Higher },
                     _ => Self::rejected(Refusal::Syntax, "SEQ needs + or -", report),
                 },
+                b"F" | b"DIST" | b"MB" | b"TABLE" | b"COORD" => self.memory.unfollowed = true,
                 b"SYM" => free = Some("SYM: the symmetric solution"),
                 // where the swivel leaves no free axis it makes no difference
-                b"TABLE" | b"COORD" | b"ROT" | b"MAX" | b"AUTO" => {}
+                b"ROT" | b"MAX" | b"AUTO" => {}
                 name if POSITIONING.iter().any(|known| name == known.as_bytes()) => {}
                 _ if word.value == Said::Nothing => {
                     let what = String::from_utf8_lossy(word.name()).into_owned();
@@ -49,6 +53,8 @@ impl Klartext<'_> {
                 }
             }
         }
+        // without MOVE, TURN or STAY, or without a feed, it is up to the control
+        self.memory.unfollowed |= !says_how || swivel.is_some() && !says_feed;
         if let Some(what) = free {
             self.not_modelled_once(what, report);
         }

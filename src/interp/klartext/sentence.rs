@@ -19,7 +19,8 @@ impl Klartext<'_> {
         match first.name() {
             b"L" => self.path_block(Path::Line, &mut words, report),
             b"LN" => self.path_block(Path::Vectors, &mut words, report),
-            b"C" => self.path_block(Path::AboutPole, &mut words, report),
+            // with a value it is the axis
+            b"C" if first.value == Said::Nothing => self.path_block(Path::AboutPole, &mut words, report),
             b"CR" => self.path_block(Path::Radius, &mut words, report),
             b"CT" => self.path_block(Path::Tangent, &mut words, report),
             b"LP" => self.path_block(Path::PolarLine, &mut words, report),
@@ -36,7 +37,7 @@ impl Klartext<'_> {
             b"PLANE" => self.plane(&mut words, report),
             b"FUNCTION" => self.function_block(&mut words, report),
             b"BEGIN" => self.begin(&mut words, report),
-            b"END" => return Request::EndOfProgram,
+            b"END" if words.clone().next().is_none_or(|word| word.is("PGM")) => return Request::EndOfProgram,
             b"LBL" => return self.label(first.value, &mut words),
             b"CALL" => return self.call(&mut words, report),
             b"SEL" => self.select(&mut words, report),
@@ -44,8 +45,11 @@ impl Klartext<'_> {
             b"" if matches!(first.value, Said::Parameter(..)) => return self.assignment(text, report),
             b"STOP" => self.path_block(Path::None, &mut words, report),
             b"BLK" => {}
-            b"TCH" | b"PATTERN" | b"TRANS" | b"CONTOUR" | b"SPL" | b"IF" | b"DECLARE" => {
+            b"TCH" | b"PATTERN" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"SPL" | b"DECLARE" => {
                 self.not_followed(first.name(), report);
+            }
+            b"IF" | b"ELSE" | b"ELSEIF" | b"END" | b"WHILE" | b"FOR" | b"BREAK" | b"CONTINUE" => {
+                return Self::undecided("IF, WHILE and FOR of newer controls", report);
             }
             // a block of words alone: M3, X+10 R0 F100
             _ => {
@@ -54,6 +58,10 @@ impl Klartext<'_> {
             }
         }
         if self.core.state.ended {
+            if self.is_called() {
+                let what = "M2 or M30 in a called program, which must not have them";
+                self.not_modelled_once(what, report);
+            }
             Request::EndOfProgram
         } else {
             Request::Next
@@ -75,7 +83,8 @@ impl Klartext<'_> {
         let name = String::from_utf8_lossy(name).into_owned();
         self.flush(report);
         let text = report.program.text(report.whole());
-        let start: Vec<&str> = text.split_whitespace().take(3).collect();
+        let digits = |byte: char| byte.is_ascii_digit() || byte.is_whitespace();
+        let start: Vec<&str> = text.trim_start_matches(digits).split_whitespace().take(2).collect();
         Self::not_modelled(start.join(" "), report);
         match name.as_str() {
             "DECLARE" | "PATTERN" | "CONTOUR" => {}
@@ -83,7 +92,7 @@ impl Klartext<'_> {
                 self.core.forget_position();
                 self.memory.parameters.lose();
             }
-            "TRANS" => self.lose(super::datum::DATUM),
+            "TRANS" | "PRESET" => self.lose(super::datum::DATUM),
             _ => {
                 self.core.forget_everything();
                 self.memory.parameters.lose();
@@ -159,10 +168,18 @@ impl Klartext<'_> {
             match code {
                 3 | 4 | 13 | 14 => self.core.state.spindle.switch(true),
                 6 => self.core.forget_linear(),
-                89 => self.memory.runs_after_each = true,
+                89 => {
+                    self.memory.runs_after_each = true;
+                    let what = "M89: a machine parameter decides whether it calls the cycle (MP 7440 of the TNC 426)";
+                    self.not_modelled_once(what, report);
+                }
                 126 => self.memory.shortest = true,
                 127 => self.memory.shortest = false,
-                128 => self.guide_tip(true, report),
+                128 => {
+                    // the highest feed of the compensating motions
+                    self.memory.unfollowed |= words.own_feed != FeedSaid::Nothing;
+                    self.guide_tip(true, report);
+                }
                 129 => self.guide_tip(false, report),
                 136 => self.feed_per_turn(true),
                 137 => self.feed_per_turn(false),

@@ -84,7 +84,7 @@ impl Klartext<'_> {
                 })
             }
         };
-        let (mut axis, mut delta, mut feed) = (None, Some(0.0), None);
+        let (mut axis, mut delta, mut feed) = (None, None, None);
         for word in words.by_ref() {
             match word.name() {
                 b"X" => axis = Some(Plane::Yz),
@@ -98,19 +98,43 @@ impl Klartext<'_> {
                 b"F" if word.value == Said::Nothing => {}
                 b"F" => feed = Some(self.said(word.value, report)),
                 b"FU" | b"FZ" => feed = Some(None),
-                b"DL" => delta = self.said(word.value, report),
+                b"DL" => delta = Some(self.said(word.value, report)),
                 _ => {}
             }
         }
-        if let Some(plane) = axis {
-            self.core.state.coordinates.set_plane(plane);
+        match axis {
+            Some(plane) => {
+                self.core.state.coordinates.set_plane(plane);
+                self.memory.has_tool_axis = true;
+            }
+            None if chosen.is_some() && !self.memory.has_tool_axis => {
+                self.not_modelled_once("TOOL CALL without the tool axis: that of the program before", report);
+            }
+            None => {}
         }
         if let Some(feed) = feed {
             self.memory.tool_feed = feed.map(|feed| feed * self.core.state.feed.unit_mm());
+            if self.core.state.feed.value() != self.memory.tool_feed {
+                // whether F of TOOL CALL also replaces that of path blocks is not taken from a source
+                self.core.state.feed.set(None);
+                self.core.feed_unread = true;
+            }
         }
         if let Some(chosen) = chosen {
-            self.change_tool(chosen, delta, report);
+            self.change_tool(chosen, delta.unwrap_or(Some(0.0)), report);
+        } else if let Some(delta) = delta {
+            self.change_length(delta);
         }
+    }
+
+    /// TOOL CALL DL+0,1: the same tool, measured otherwise. The machine stays where it is, so the tip is somewhere else along the tool.
+    fn change_length(&mut self, delta: Option<f64>) {
+        let unit = self.core.state.coordinates.unit_mm();
+        let length = self.memory.tool_length.zip(delta);
+        let of = LengthOf::Tool(self.core.state.tool.number());
+        let length = length.map(|(length, delta)| length + delta * unit);
+        self.core.state.length.set_declared(length, of);
+        self.core.forget_linear();
     }
 
     fn change_tool(&mut self, chosen: Chosen, delta: Option<f64>, report: &mut Report<'_>) {
@@ -124,7 +148,11 @@ impl Klartext<'_> {
             }
             _ => self.core.forget_linear(),
         }
-        self.core.state.spindle.switch(false);
+        // whether the spindle stops where the tool is in it already is left to the machine
+        let stays = matches!(chosen, Chosen::Number(_) | Chosen::Named(_)) && *self.core.tools.in_spindle() == chosen;
+        if !stays {
+            self.core.state.spindle.switch(false);
+        }
         let number = if let Chosen::Number(number) = chosen {
             Some(number)
         } else {
@@ -135,6 +163,7 @@ impl Klartext<'_> {
         self.core.state.tool.load(number);
         self.core.state.tool.prepare(number);
         self.core.merge_tool();
+        self.memory.tool_length = None;
         if number == Some(0) {
             self.core.state.length.set(None, LengthOf::Nothing);
             return;
@@ -142,6 +171,7 @@ impl Klartext<'_> {
         let declared = self.core.state.tool.data().and_then(|tool| tool.length_mm);
         let own = self.memory.tools.iter().find(|tool| Some(tool.number) == number);
         let length = declared.or(own.and_then(|tool| tool.length_mm));
+        self.memory.tool_length = length;
         let unit = self.core.state.coordinates.unit_mm();
         let length = length.zip(delta).map(|(length, delta)| length + delta * unit);
         let name = self.core.tools.name();

@@ -18,6 +18,8 @@ const DEEPEST: usize = 64;
 pub(crate) struct Parameters {
     numbers: BTreeMap<Parameter, Value>,
     pub(crate) texts: BTreeMap<u32, Option<String>>,
+    /// Why the value of a parameter is not known, where that is another parameter or the control.
+    causes: BTreeMap<Parameter, String>,
     /// Grows with everything that may change a decision.
     pub(crate) changes: u64,
 }
@@ -31,6 +33,31 @@ impl Parameters {
         let value = value.filter(|value| value.is_finite());
         if self.numbers.insert(parameter, value) != Some(value) || value.is_none() {
             self.changes += 1;
+        }
+    }
+    /// Sets a value, or remembers why it is not known.
+    pub(crate) fn set_from(&mut self, parameter: Parameter, value: Value, cause: Option<String>) {
+        self.set(parameter, value);
+        match cause.filter(|_| value.is_none()) {
+            Some(cause) => self.causes.insert(parameter, cause),
+            None => self.causes.remove(&parameter),
+        };
+    }
+    /// The first parameter of a text whose value is not known: why it is not.
+    pub(crate) fn cause_in(&self, text: &[u8]) -> Option<String> {
+        Words::new(text).find_map(|word| match word.value {
+            Said::Parameter(_, parameter) if self.get(parameter).is_none() => Some(self.cause(parameter)),
+            _ => None,
+        })
+    }
+    /// Why a value is not known.
+    pub(crate) fn cause(&self, parameter: Parameter) -> String {
+        match self.causes.get(&parameter) {
+            Some(cause) => cause.clone(),
+            None if parameter.kind == Kind::Global && (100..200).contains(&parameter.number) => {
+                format!("{parameter}: a value of the control")
+            }
+            None => format!("{parameter}: the program does not set its value"),
         }
     }
     /// The value of a word.
@@ -52,6 +79,7 @@ impl Parameters {
             }
         }
         self.texts.clear();
+        self.causes.clear();
     }
     /// Takes the local ones away.
     pub(crate) fn take_locals(&mut self) -> Vec<(Parameter, Value)> {

@@ -1,0 +1,117 @@
+//! Motions in machine coordinates (M91, M92), and back along the tool (M140).
+use super::Klartext;
+use super::path::unread;
+use super::path_words::PathWords;
+use crate::core::{LINEAR, ROTARY, Report};
+use crate::{FaultKind, Feed, MotionKind, Orientation, Position};
+use trunnion_geometry::Vec3;
+use trunnion_syntax::TextRange;
+
+impl Klartext<'_> {
+    /// M91 and M92: from the machine's zero; from a point that only the builder knows.
+    pub(super) fn machine_motion(&mut self, words: &PathWords, rapid: bool, report: &mut Report<'_>) {
+        self.flush(report);
+        let builder = words.has(92);
+        let mut start = self.core.state.position;
+        self.to_machine(&mut start, 1.0);
+        let mut end = start;
+        self.place(words, &mut end);
+        if words.incremental != 0 {
+            // from the last M91 position
+            end.known &= !words.incremental;
+        }
+        if builder {
+            self.not_modelled_once("M92: the point of the machine builder", report);
+            end.known &= !words.given;
+        }
+        let mut back = end;
+        self.to_machine(&mut back, -1.0);
+        let led = self.core.state.tool_axis.tcp() && words.given & LINEAR != 0;
+        if led {
+            report.fault(
+                TextRange::default(),
+                FaultKind::TcpState(crate::TcpMistake::MachineCoordinates),
+            );
+        }
+        self.core.state.position = back;
+        let kind = self.straight(rapid);
+        let feed = self.core.feed(kind, TextRange::default, report);
+        if words.given & ROTARY != 0 {
+            self.core.state.orientation = Orientation::Words;
+        }
+        let orientation = self.core.held_orientation();
+        let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
+        motion.in_machine_coordinates(words.given);
+        motion.says_way = words.incremental | unread(words);
+        self.memory.heading = None;
+        self.out.push(motion);
+    }
+
+    /// Between programmed (sign -1) and machine coordinates (sign 1); see the engine of ISO programs.
+    fn to_machine(&self, position: &mut Position, sign: f64) {
+        for (value, zero) in position.values.iter_mut().zip(self.core.state.zero.values()) {
+            *value += sign * zero;
+        }
+        let length = sign * self.core.state.length.mm().unwrap_or(0.0);
+        for (value, along) in position.values.iter_mut().zip(self.core.setup.length_along()) {
+            *value += length * along;
+        }
+        if self.core.state.tool_axis.tcp() || self.core.state.zero.is_lost() || self.memory.frames.tilt.is_some() {
+            position.known &= !LINEAR;
+        }
+    }
+
+    /// M140 MB: back along the tool axis.
+    pub(super) fn back_along_tool(&mut self, words: &PathWords, report: &mut Report<'_>) {
+        let start = self.core.state.position;
+        let unit = self.core.state.coordinates.unit_mm();
+        let mut distance = words.back.map(|distance| distance * unit);
+        if words.given != 0 {
+            Self::not_modelled("M140 in a block with coordinates: the order of both motions", report);
+            distance = None;
+        }
+        let feed = if words.own_feed == super::path_words::FeedSaid::Nothing {
+            words.feed
+        } else {
+            words.own_feed
+        };
+        let rapid = self.take_feed(feed, report);
+        let stands = (3..6).all(|axis| start.get(axis).is_none_or(|value| value == 0.0));
+        let along = match self.core.state.orientation {
+            _ if self.memory.frames.tilt.is_some() => Some(Vec3::z()),
+            Orientation::Vector(_, vector) => Some(vector),
+            Orientation::Words => stands.then(|| self.plane_normal()),
+        };
+        let mut end = start;
+        match distance.zip(along) {
+            Some((distance, along)) => {
+                for axis in 0..3 {
+                    match start.get(axis) {
+                        Some(value) => end.set(axis, value + distance * along[axis]),
+                        None => end.forget(axis),
+                    }
+                }
+            }
+            None => end.known &= !LINEAR & !words.given,
+        }
+        let said = feed != super::path_words::FeedSaid::Nothing;
+        let kind = if said {
+            self.straight(rapid)
+        } else {
+            MotionKind::Unknown
+        };
+        if !said {
+            self.not_modelled_once("M140 without F: at which feed", report);
+        }
+        self.core.state.position = end;
+        let feed = if said {
+            self.core.feed(kind, TextRange::default, report)
+        } else {
+            Feed::Unknown
+        };
+        let orientation = self.core.held_orientation();
+        let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        self.memory.heading = None;
+        self.emit(&motion, report);
+    }
+}

@@ -215,9 +215,6 @@ fn extension(name: &str) -> Option<String> {
 
 /// The control that alone owns an extension. Extensions of the core (`.nc`) are shared by many controls and name none.
 fn owner(extension: &str) -> Option<&'static str> {
-    if matches!(extension, "min" | "ssb" | "msb") {
-        return Some("okuma-osp");
-    }
     let owners = BUILTIN_NAMES
         .iter()
         .filter_map(|name| builtin(name))

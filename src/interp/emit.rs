@@ -95,7 +95,7 @@ impl Iso<'_> {
         if frame_hides {
             self.core.hide(&mut motion);
         }
-        if self.core.dialect.quirks.user_names() {
+        if self.core.dialect.quirks.sinumerik() {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
@@ -140,13 +140,17 @@ impl Iso<'_> {
     }
 
     /// G53, G153 and SUPA of a Sinumerik: machine data 10760 MN_G53_TOOLCORR decides whether they suppress the tool's length too.
-    /// With D0 there is none.
+    /// With D0 there is none. Of G16 H0 of an Okuma no source states it.
     fn suppressed_length(&self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
         let linear = (words.axes.given | words.axes.unread) & LINEAR;
         let length = self.core.state.length.mm();
         let active = length.is_some_and(|length| length != 0.0 || self.memory.tool_data_written);
         if self.core.dialect.quirks.machine_data_suppress_length && active && linear != 0 {
-            let what = "SUPA with tool length (MN_G53_TOOLCORR)";
+            let what = if self.core.dialect.quirks.user_task() {
+                "G16 H0 with a tool length: whether it acts in machine coordinates"
+            } else {
+                "SUPA with tool length (MN_G53_TOOLCORR)"
+            };
             let kind = FaultKind::NotModelled { what: what.to_owned() };
             report.fault(words.first.unwrap_or_default(), kind);
             end.known &= !linear;

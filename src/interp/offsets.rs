@@ -1,5 +1,5 @@
 //! Work offsets, tool lengths and cutting edges, and their effect on the programmed position.
-use crate::codes::Found;
+use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::frames::OffsetValues;
 use crate::iso::Iso;
@@ -7,9 +7,10 @@ use crate::tools::Chosen;
 use crate::words::{WordValue, Words};
 use crate::{FaultKind, LengthOf, Tool, Undeclared};
 use std::sync::Arc;
+use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
-impl Iso<'_> {
+impl<'d> Iso<'d> {
     /// Selects a work offset by the code's own name, with P where the code reads one (G54.1 P3).
     pub(crate) fn work_offset(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
         let mut name = found.code.id.clone();
@@ -29,6 +30,57 @@ impl Iso<'_> {
             report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
         }
         self.set_zero(Some(name.into()), zero.unwrap_or_default());
+    }
+
+    /// Okuma G15 H and G16 H: the work coordinate system of that number, named as it is written: `G15 H1`. G16 holds for its block. What H0
+    /// means with G15 is not stated by a source; with G16 it is the machine's.
+    pub(crate) fn work_system(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let once = found.code.action == Action::WorkSystemOnce;
+        let number = match words.length_offset.index() {
+            Some(0) if once => {
+                block.machine_coordinates = true;
+                return;
+            }
+            Some(number @ 1..) => number,
+            _ => {
+                let h = match words.length_offset {
+                    WordValue::Nothing => "without H".to_owned(),
+                    WordValue::Number(number) => format!("H{}", number.value),
+                    _ => "H with a value that is unknown".to_owned(),
+                };
+                let what = format!("{} {h}: which coordinate system it is", found.code.id);
+                report.fault(found.range, FaultKind::NotModelled { what });
+                self.core.unknown.begin(found.code, true);
+                self.core.unknown.turns_axes(found.code);
+                self.core.forget_position();
+                return;
+            }
+        };
+        if once {
+            let zero = &self.core.state.zero;
+            self.memory.zero_after = Some((zero.offset_name(), self.memory.frames.selected, zero.undeclared()));
+        }
+        let name = format!("G15 H{number}");
+        let zero = self.offset_values(&name);
+        if zero.is_none() && self.core.offsets_reported.first(&name) {
+            report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
+        }
+        self.set_zero(Some(name.into()), zero.unwrap_or_default());
+    }
+
+    /// After the block of G16 the system of before is in effect again.
+    pub(crate) fn restore_zero(&mut self) {
+        if let Some((name, values, undeclared)) = self.memory.zero_after.take() {
+            self.core.state.zero.choose(name, undeclared);
+            self.memory.frames.selected = values;
+            self.refresh_zero();
+        }
     }
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.

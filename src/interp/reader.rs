@@ -107,6 +107,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 }
             }
             Item::Other(range) => self.other(range),
+            Item::Label(range) if self.dialect.quirks.user_task() => self.task_label(range),
             Item::Comment(_) | Item::Skip(..) | Item::Label(_) => {}
         }
     }
@@ -319,6 +320,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
         self.words.unknown_code |= kind == CodeKind::G;
         self.words.builder_code |= machine_builder;
+        // a code of an Okuma that no source describes may shift or turn the coordinates
+        self.words.writes_system |= kind == CodeKind::G && self.dialect.quirks.user_task();
         (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
     }
 
@@ -329,7 +332,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn call(&mut self, call: &Call) {
-        if self.macro_statement(call) || self.sinumerik_name(call) {
+        if self.macro_statement(call) || self.sinumerik_name(call) || self.task_name(call) {
             return;
         }
         let Some(code) = self.name(call.name) else {

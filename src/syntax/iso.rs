@@ -7,7 +7,7 @@ use crate::error::SyntaxErrorKind;
 use crate::lines::character;
 use crate::sink::Sink;
 use crate::straight::Sign;
-use crate::{LexOptions, TextRange, TokenKind, plain};
+use crate::{Format, LexOptions, TextRange, TokenKind, plain};
 use logos::Logos;
 
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +95,11 @@ fn lex_with(
         out.push(TokenKind::Blank, 0);
         lexer.bump(3);
     }
+    if let Some(length) = header(&source[lexer.span().end..], options).filter(|_| at_start) {
+        out.course.odd();
+        out.push(TokenKind::Percent, lexer.span().end as u32);
+        lexer.bump(length);
+    }
     loop {
         let behind = lexer.span().end;
         lexer.bump(fast(source, behind, options, out) - behind);
@@ -109,6 +114,11 @@ fn lex_with(
             Ok(Raw::Word) => {
                 out.course.pass(Sign::word(span.len()));
                 TokenKind::Word
+            }
+            Ok(Raw::Newline) if plain::goes_on(source, span.end, options) => {
+                out.course.odd();
+                lexer.bump(1);
+                TokenKind::Continuation
             }
             Ok(Raw::Newline) => {
                 out.push(TokenKind::Newline, start);
@@ -142,6 +152,13 @@ fn lex_with(
         out.push(kind, start);
     }
     out.finish(source, options, source.len() as u32);
+}
+
+/// The length of the name of an OSP file in its first line: `$PART-1.MIN%`.
+fn header(source: &[u8], options: LexOptions) -> Option<usize> {
+    let first = options.format == Format::Osp && source.first() == Some(&b'$');
+    let end = memchr::memchr2(b'\n', b'\r', source).unwrap_or(source.len());
+    first.then(|| source[..end].trim_ascii_end().len())
 }
 
 /// The kinds that need no further check.

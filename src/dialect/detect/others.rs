@@ -12,7 +12,8 @@ pub(super) fn raw(line: &str, votes: &mut Votes) {
     if has_word(line, "WEDM") || line.contains("ACCUTEX") || line.starts_with("(EXTERNAL TEC") {
         votes.add("wire-edm", 12, "the conditions of a wire EDM");
     }
-    let is_name = line.starts_with('$') && [".MIN", ".SSB", ".SUB"].iter().any(|end| line.contains(end));
+    let endings = [".MIN", ".SSB", ".SUB", ".LIB", ".MSB"];
+    let is_name = line.starts_with('$') && endings.iter().any(|end| line.contains(end));
     if is_name {
         votes.add("okuma-osp", 12, "a file name $...MIN");
     }

@@ -93,7 +93,7 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         | Action::ReferenceStoreOther
         | Action::SwivelCycle
         | Action::Kinematics => Sort::Before,
-        Action::MachineCoordinates => Sort::Setting("coordinates"),
+        Action::MachineCoordinates | Action::WorkSystemOnce => Sort::Setting("coordinates"),
         Action::CompensationLeft | Action::CompensationRight | Action::CompensationOff => Sort::Setting("compensation"),
         // a limit of the spindle's speed
         Action::PositionSet | Action::NotFollowed | Action::FrameChange

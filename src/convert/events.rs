@@ -53,7 +53,11 @@ pub(crate) fn job(
                 let message = "Klartext programs are not converted: only checked, compared and proved";
                 Err((block.range(), message.to_owned()))
             }
-            Format::Iso | Format::Osp => said(&block, dialect),
+            Format::Osp => {
+                let message = "Okuma OSP programs are not converted: only checked, compared and proved";
+                Err((block.range(), message.to_owned()))
+            }
+            Format::Iso => said(&block, dialect),
         }
         .map_err(|(range, message)| Refused::range(program, range, message))?;
         let count = reading.asks[next..]

@@ -233,7 +233,7 @@ fn read_words(
     let mut list = Vec::new();
     if let Some(block) = program
         .block_at(line)
-        .filter(|_| program.options().format == Format::Iso)
+        .filter(|_| program.options().format.has_words())
     {
         let mut offered = BTreeSet::new();
         for (code, _) in codes(dialect, &program.block(block)) {

@@ -80,7 +80,11 @@ impl Iso<'_> {
         }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
-            motion.in_machine_coordinates(words.axes.given | words.axes.unread);
+            let moved = words.axes.given | words.axes.unread;
+            motion.in_machine_coordinates(moved);
+            // G16 H0: whether the length acts is not stated by a source
+            let acts = self.core.dialect.quirks.user_task() && self.core.state.length.is_undeclared();
+            motion.undeclared.length |= acts && moved & LINEAR != 0;
         }
         motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
         if self.memory.tcp_used {

@@ -154,6 +154,9 @@ impl trunnion_formula::Variables for View<'_> {
     fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
         let value = self.own.element(name, index);
         Ok(self.give(value, || {
+            if self.own.is_task {
+                return crate::osp::why_unknown(name);
+            }
             format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
         }))
     }

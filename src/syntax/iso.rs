@@ -142,6 +142,11 @@ fn lex_with(
                 };
                 kind
             }
+            Err(()) if let Some(length) = typographic(&source[span.start..], options) => {
+                out.course.odd();
+                lexer.bump(length - span.len());
+                TokenKind::Text
+            }
             Err(()) => {
                 out.course.odd();
                 let length = character(&source[span.start..]);
@@ -159,6 +164,14 @@ fn header(source: &[u8], options: LexOptions) -> Option<usize> {
     let first = options.format == Format::Osp && source.first() == Some(&b'$');
     let end = memchr::memchr2(b'\n', b'\r', source).unwrap_or(source.len());
     first.then(|| source[..end].trim_ascii_end().len())
+}
+
+/// The length of a text in the quotation marks of a word processor, which messages of OSP programs have where they were written with one.
+fn typographic(source: &[u8], options: LexOptions) -> Option<usize> {
+    let opens = options.format == Format::Osp && matches!(source, [0xE2, 0x80, 0x98 | 0x99, ..]);
+    let line = memchr::memchr2(b'\n', b'\r', source).unwrap_or(source.len());
+    let close = opens.then(|| memchr::memmem::find(&source[3..line], b"\xE2\x80\x99"))??;
+    Some(3 + close + 3)
 }
 
 /// The kinds that need no further check.

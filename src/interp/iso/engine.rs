@@ -10,7 +10,7 @@ use crate::written::Values;
 use trunnion_dialect::{Dialect, Language};
 use trunnion_syntax::{BlockId, Program};
 
-/// The engine of all controls whose programs are blocks of words: Fanuc, Haas, grbl, ISO 6983, Sinumerik.
+/// The engine of all controls whose programs are blocks of words: Fanuc, Haas, grbl, ISO 6983, Sinumerik, Okuma.
 #[derive(Clone)]
 pub(crate) struct Iso<'d> {
     pub(crate) core: Core<'d>,

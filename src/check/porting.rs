@@ -11,7 +11,7 @@ use crate::view::Overview;
 use crate::words::hash;
 use line::Line;
 use trunnion_dialect::{Dialect, Expressions};
-use trunnion_syntax::{TextRange};
+use trunnion_syntax::TextRange;
 
 /// From which control to which.
 pub(crate) struct Route<'d> {

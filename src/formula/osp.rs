@@ -179,9 +179,14 @@ impl<'s> Reader<'s> {
 
     fn number(&mut self) -> Result<(), Kind> {
         let rest = self.rest();
-        let length = rest.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count();
+        let length = rest
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit() || **byte == b'.')
+            .count();
         let text = String::from_utf8_lossy(&rest[..length]);
-        let value = text.parse().map_err(|_| Kind::NotANumber { text: text.as_ref().into() })?;
+        let value = text.parse().map_err(|_| Kind::NotANumber {
+            text: text.as_ref().into(),
+        })?;
         self.take(length);
         self.push(Op::Number(value));
         Ok(())
@@ -192,7 +197,9 @@ impl<'s> Reader<'s> {
         let rest = &self.rest()[1..];
         let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
         let text = String::from_utf8_lossy(&rest[..length]).to_ascii_uppercase();
-        let value = text.strip_suffix('H').and_then(|digits| u32::from_str_radix(digits, 16).ok());
+        let value = text
+            .strip_suffix('H')
+            .and_then(|digits| u32::from_str_radix(digits, 16).ok());
         let Some(value) = value else {
             return Err(Kind::NotANumber { text: text.into() });
         };
@@ -270,7 +277,10 @@ impl<'s> Reader<'s> {
         match self.peek() {
             Some(b']') => return self.close(),
             Some(b',') => {
-                let open = self.waiting.iter().rposition(|waiting| !matches!(waiting, Waiting::Binary(..)));
+                let open = self
+                    .waiting
+                    .iter()
+                    .rposition(|waiting| !matches!(waiting, Waiting::Binary(..)));
                 if let Some(open) = open
                     && matches!(self.waiting[open], Waiting::Two(_, false))
                 {

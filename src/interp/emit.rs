@@ -146,7 +146,13 @@ impl Iso<'_> {
     /// G53, G153 and SUPA of a Sinumerik: machine data 10760 MN_G53_TOOLCORR decides whether they suppress the tool's length too.
     /// With D0 there is none. Of G16 H0 of an Okuma no source states it.
     fn suppressed_length(&self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
-        let linear = (words.axes.given | words.axes.unread) & LINEAR;
+        let named = words.axes.given | words.axes.unread;
+        if self.core.dialect.quirks.user_task() && self.core.state.coordinates.incremental() && named != 0 {
+            let what = "G16 H0 with G91: whether its words are distances".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            end.known &= !named;
+        }
+        let linear = named & LINEAR;
         let length = self.core.state.length.mm();
         let active = length.is_some_and(|length| length != 0.0 || self.memory.tool_data_written);
         if self.core.dialect.quirks.machine_data_suppress_length && active && linear != 0 {

@@ -77,9 +77,14 @@ impl<'d> Iso<'d> {
     /// After the block of G16 the system of before is in effect again.
     pub(crate) fn restore_zero(&mut self) {
         if let Some((name, values, undeclared)) = self.memory.zero_after.take() {
+            let zero = &self.core.state.zero;
+            let other = zero.offset() != name.as_deref();
+            let unclear = if other { zero.undeclared() | undeclared } else { 0 };
             self.core.state.zero.choose(name, undeclared);
             self.memory.frames.selected = values;
             self.refresh_zero();
+            // how far the two systems are apart is not declared
+            self.core.state.position.known &= !unclear;
         }
     }
 
@@ -117,6 +122,9 @@ impl<'d> Iso<'d> {
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
     pub(crate) fn length_on(&mut self, offset: WordValue, range: TextRange, report: &mut Report<'_>) {
+        if self.core.dialect.quirks.user_task() && !offset.is_given() {
+            return self.unstated_length("a length offset without H", range, report);
+        }
         if let Some(number) = offset.index() {
             self.memory.length_offset = Some(number);
         }
@@ -145,6 +153,12 @@ impl<'d> Iso<'d> {
         self.take_length(tool, (&key, of), range, report);
     }
 
+    /// What no source states of the length offsets of an Okuma: positions are unknown until G56 H or G53.
+    fn unstated_length(&mut self, what: &str, range: TextRange, report: &mut Report<'_>) {
+        report.fault(range, FaultKind::NotModelled { what: what.to_owned() });
+        self.length_after_tip_control();
+    }
+
     /// H without a code that reads it: the number changes while the compensation is on, and else waits for it (Fanuc Series 30i
     /// operator's manual, tool length offset: H is modal).
     pub(crate) fn length_word_alone(&mut self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
@@ -156,6 +170,9 @@ impl<'d> Iso<'d> {
             .length_offset
             .number()
             .map_or(TextRange::default(), |number| number.range);
+        if self.core.dialect.quirks.user_task() {
+            return self.unstated_length("H without a code that reads it", range, report);
+        }
         if self.core.state.length.mm().is_some() {
             self.length_on(words.length_offset, range, report);
         } else if let Some(number) = words.length_offset.index() {

@@ -172,7 +172,8 @@ impl Blocks<'_> {
             _ if kind == TokenKind::Comma => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
                 // some controls read an E after digits as an exponent
-                let joined = left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E');
+                let joined =
+                    left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E');
                 // OSP needs a blank behind the number of a block
                 !joined || is_number(left.item) && self.program.options().format == Format::Osp
             }

@@ -99,7 +99,8 @@ impl Reader<'_, '_> {
                 Item::Call(call) if self.program.options().format == Format::Osp => {
                     let name = self.text(call.name).to_ascii_uppercase();
                     if matches!(name.as_str(), "IF" | "GOTO") {
-                        let why = format!("`{name}` names a block by its text (N0123 is not N123), so the numbers stay");
+                        let why =
+                            format!("`{name}` names a block by its text (N0123 is not N123), so the numbers stay");
                         self.obstacle(call.range, why);
                     }
                 }

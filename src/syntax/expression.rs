@@ -6,7 +6,8 @@ use crate::{TextRange, TokenId, TokenKind, Value};
 
 /// Operators that are written as words, of all dialects.
 const BINARY: [&str; 17] = [
-    "AND", "OR", "XOR", "EOR", "MOD", "DIV", "EQ", "NE", "LT", "LE", "GT", "GE", "B_AND", "B_OR", "B_XOR", "B_NOT", "NAND",
+    "AND", "OR", "XOR", "EOR", "MOD", "DIV", "EQ", "NE", "LT", "LE", "GT", "GE", "B_AND", "B_OR", "B_XOR", "B_NOT",
+    "NAND",
 ];
 
 /// Ways to write a rotary or incremental target around one number (Sinumerik).

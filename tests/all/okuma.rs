@@ -47,7 +47,14 @@ fn rewritten(fanuc: &str) -> String {
 
 /// The rows of a trace under tool centre point control: place and orientation of the tip, and the rotary axes.
 fn tips(file: &Path) -> Vec<[f64; 8]> {
-    let arguments = ["trace", "--machine", "mikron-ucp710", "--assume", "work-offset,tool-length", str(file)];
+    let arguments = [
+        "trace",
+        "--machine",
+        "mikron-ucp710",
+        "--assume",
+        "work-offset,tool-length",
+        str(file),
+    ];
     let table = text(&trunnion(&arguments).stdout);
     let mut lines = table.lines();
     let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
@@ -63,9 +70,15 @@ fn tips(file: &Path) -> Vec<[f64; 8]> {
 
 #[test]
 fn the_five_axis_part_has_the_same_targets() {
-    let Some(fanuc) = data("four-controls/fanuc/5X_MILLING.NC") else { return };
+    let Some(fanuc) = data("four-controls/fanuc/5X_MILLING.NC") else {
+        return;
+    };
     let folder = TempDir::new().expect("a folder");
-    let own = write(&folder, "5x.min", &rewritten(&std::fs::read_to_string(&fanuc).expect("text")));
+    let own = write(
+        &folder,
+        "5x.min",
+        &rewritten(&std::fs::read_to_string(&fanuc).expect("text")),
+    );
     let (own, fanuc) = (tips(&own), tips(&fanuc));
     assert!(fanuc.len() >= 44_600, "{}", fanuc.len());
     assert_eq!(own.len(), fanuc.len());
@@ -75,8 +88,17 @@ fn the_five_axis_part_has_the_same_targets() {
 
 #[test]
 fn most_tips_of_the_shared_part_are_known() {
-    let Some(file) = data("four-controls/okuma/2.5D_MILLING.min") else { return };
-    let found = json(&trunnion(&["check", "--format", "json", "--assume", "work-offset,tool-length", str(&file)]));
+    let Some(file) = data("four-controls/okuma/2.5D_MILLING.min") else {
+        return;
+    };
+    let found = json(&trunnion(&[
+        "check",
+        "--format",
+        "json",
+        "--assume",
+        "work-offset,tool-length",
+        str(&file),
+    ]));
     let coverage = &found["files"][0]["coverage"];
     let number = |key: &str| coverage[key].as_u64().expect("a number");
     assert_eq!(number("blocks"), number("blocks_run"));
@@ -97,15 +119,25 @@ const REVIEWED: &[&str] = &[
 
 #[test]
 fn programs_of_a_shop_stop_where_only_the_machine_knows() {
-    let Some(folder) = data("wild/MachinistFTW+OkumaMacros") else { return };
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
+    let Some(folder) = data("wild/MachinistFTW+OkumaMacros") else {
+        return;
+    };
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
     files.sort();
     let mut arguments = vec!["check", "--format", "json", "--assume", "work-offset,tool-length"];
     arguments.extend(files.iter().map(|file| str(file)));
     let found = json(&trunnion(&arguments));
     let (mut stops, mut blocks, mut errors) = (BTreeSet::new(), 0, 0);
     for file in found["files"].as_array().expect("files") {
-        let name = file["path"].as_str().expect("a path").rsplit('/').next().expect("a name");
+        let name = file["path"]
+            .as_str()
+            .expect("a path")
+            .rsplit('/')
+            .next()
+            .expect("a name");
         let dialect = file["dialect"].as_str().expect("a name");
         assert!(dialect.starts_with("okuma-osp"), "{name}: {dialect}");
         blocks += file["coverage"]["blocks"].as_u64().expect("a number");
@@ -117,7 +149,11 @@ fn programs_of_a_shop_stop_where_only_the_machine_knows() {
             errors += u64::from(one["severity"] == "error");
             let rule = one["rule"].as_str().expect("a rule");
             if matches!(rule, "not-decided" | "not-modelled" | "missing-subprogram") {
-                stops.insert(format!("{name}:{}: {}", one["line"], one["message"].as_str().expect("a text")));
+                stops.insert(format!(
+                    "{name}:{}: {}",
+                    one["line"],
+                    one["message"].as_str().expect("a text")
+                ));
             }
         }
     }
@@ -129,7 +165,14 @@ fn programs_of_a_shop_stop_where_only_the_machine_knows() {
 #[test]
 fn the_sample_runs_from_its_first_block_to_its_end() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/programs/okuma/ring-plate.min");
-    let found = json(&trunnion(&["check", "--format", "json", "--assume", "work-offset", str(&file)]));
+    let found = json(&trunnion(&[
+        "check",
+        "--format",
+        "json",
+        "--assume",
+        "work-offset",
+        str(&file),
+    ]));
     let file = &found["files"][0];
     assert_eq!(file["dialect"], "okuma-osp");
     let coverage = &file["coverage"];
@@ -137,6 +180,9 @@ fn the_sample_runs_from_its_first_block_to_its_end() {
     assert_eq!(coverage["blocks"], coverage["blocks_run"]);
     // 3 to start, 7 for each pocket, 2 at the end
     assert_eq!(coverage["motions"], 3 - 1 + 6 * 7 + 2, "{coverage}");
-    let errors = all_findings(file).into_iter().filter(|one| one["severity"] == "error").count();
+    let errors = all_findings(file)
+        .into_iter()
+        .filter(|one| one["severity"] == "error")
+        .count();
     assert_eq!(errors, 0, "{file}");
 }

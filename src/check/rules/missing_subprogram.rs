@@ -58,7 +58,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             format!("searched: the program itself, {}", folders.join(", "))
         });
         if in_control && refused.is_none() {
-            draft.unknown().note("the control itself is supplied with subprograms".to_owned());
+            draft
+                .unknown()
+                .note("the control itself is supplied with subprograms".to_owned());
         }
         if let Some(alarm) = alarm {
             draft.note(format!("the control says: {alarm}"));

@@ -177,20 +177,27 @@ fn okuma(code: &str, votes: &mut Votes) {
 /// Whether only an Okuma for turning has what is in a line: limits of the spindle, turrets, sides, driven tools, LAP (NC-PB/gEdit, syntax-okuma.md).
 pub(super) fn okuma_turns(code: &str) -> bool {
     let g = [
-        "13", "14", "96", "101", "102", "103", "110", "111", "136", "137", "138", "140", "141", "180", "181", "182", "183", "184", "185",
-        "186", "187", "188", "189",
+        "13", "14", "96", "101", "102", "103", "110", "111", "136", "137", "138", "140", "141", "180", "181", "182",
+        "183", "184", "185", "186", "187", "188", "189",
     ];
     let m = ["109", "110", "146", "147"];
     let limit = has(code, b'G', "50") && word(code, b'S');
     let lap = ["85", "86", "87", "88"].iter().any(|number| {
-        has(code, b'G', number) && code.split_whitespace().skip(1).any(|part| part.starts_with('N') && !part.starts_with("NOEX"))
+        has(code, b'G', number)
+            && code
+                .split_whitespace()
+                .skip(1)
+                .any(|part| part.starts_with('N') && !part.starts_with("NOEX"))
     });
     let steps = ["73", "74"].iter().any(|number| has(code, b'G', number)) && word(code, b'D');
     let thread = ["71", "72"].iter().any(|number| has(code, b'G', number)) && word(code, b'X') && word(code, b'Z');
     // T010101, T0101, T1212
     let turret = words(code).any(|(letter, number)| {
         let pair = number.len() == 4 && (number.starts_with('0') || number[..2] == number[2..]);
-        letter == b'T' && (pair || number.len() == 6) && number.bytes().all(|b| b.is_ascii_digit()) && !has(code, b'M', "6")
+        letter == b'T'
+            && (pair || number.len() == 6)
+            && number.bytes().all(|b| b.is_ascii_digit())
+            && !has(code, b'M', "6")
     });
     let coded = g.iter().any(|number| has(code, b'G', number)) || m.iter().any(|number| has(code, b'M', number));
     coded || limit || lap || steps || thread || turret || has_word(code, "SB")

@@ -185,9 +185,7 @@ impl Seen {
                 }
                 Some((name, reason))
             }
-            "okuma-osp" => {
-                Some((self.okuma_name(known), strongest(group)?))
-            }
+            "okuma-osp" => Some((self.okuma_name(known), strongest(group)?)),
             name => Some((name, strongest(group)?)),
         }
     }

@@ -376,7 +376,11 @@ fn okuma_mills_and_lathes() {
         ("a.min", "G15 H1\nT1 M6\nG56 H1\nG0 X1 Y2 Z3\nM2\n", "okuma-osp"),
         ("a.nc", "$PART.MIN%\nG15 H1\nG0 X1 Y2\nM2\n", "okuma-osp"),
         ("a.lib", "OHOL1\nG1 Z=DP F50\nRTS\n", "okuma-osp"),
-        ("a.nc", "N1 V1=2\nCALL OSUB AB=V1\nIF [V1 EQ 2] NEND\nNEND M2\n", "okuma-osp"),
+        (
+            "a.nc",
+            "N1 V1=2\nCALL OSUB AB=V1\nIF [V1 EQ 2] NEND\nNEND M2\n",
+            "okuma-osp",
+        ),
         ("a.min", "G0 Z100\nM2\n", "okuma-osp"),
         // what a lathe writes, with and without its signs
         ("a.min", "G0 X50 Z2\nG1 Z-10 F0.2\nM2\n", "okuma-osp-lathe"),
@@ -392,6 +396,10 @@ fn okuma_mills_and_lathes() {
         assert_eq!(got, wanted, "{text}: {}", found.reason);
     }
     // a machine of that family does not make a lathe's program one of a mill
-    let found = detect(Some("a.nc"), b"G0 X50 Z2\nG96 S200 M3\nG1 Z-10 F0.2\nM2\n", Some("okuma-osp"));
+    let found = detect(
+        Some("a.nc"),
+        b"G0 X50 Z2\nG96 S200 M3\nG1 Z-10 F0.2\nM2\n",
+        Some("okuma-osp"),
+    );
     assert!(found.foreign.is_some(), "{}", found.reason);
 }

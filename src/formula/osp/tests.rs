@@ -57,7 +57,10 @@ fn values() {
         ("NOT [V1 EQ 1]", 0.0),
     ] {
         let (got, rest) = value(text).expect(text);
-        assert!((got - expected).abs() < 1e-12 && rest.is_empty(), "{text}: {got} {rest}");
+        assert!(
+            (got - expected).abs() < 1e-12 && rest.is_empty(),
+            "{text}: {got} {rest}"
+        );
     }
 }
 
@@ -86,11 +89,7 @@ fn what_no_source_states_is_unknown() {
 
 #[test]
 fn an_expression_ends_where_its_language_does() {
-    for (text, rest) in [
-        ("V1+2 Z2", " Z2"),
-        ("V1] NLOOP", "] NLOOP"),
-        ("40 ZL1=-20", " ZL1=-20"),
-    ] {
+    for (text, rest) in [("V1+2 Z2", " Z2"), ("V1] NLOOP", "] NLOOP"), ("40 ZL1=-20", " ZL1=-20")] {
         assert_eq!(value(text).map(|found| found.1).as_deref(), Ok(rest), "{text}");
     }
     for text in ["", "V1+", "[V1", "MOD[1]", "* 2", "VZOFX[1", "#XH", "'A'"] {

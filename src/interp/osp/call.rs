@@ -74,7 +74,9 @@ impl Iso<'_> {
         let task = &self.memory.own.task;
         let (calling, depth) = task.modal.as_ref().filter(|_| !task.in_modal)?;
         if *depth != task.outer.len() {
-            return Some(Err("whether MODIN of the calling program acts in a subprogram".to_owned()));
+            return Some(Err(
+                "whether MODIN of the calling program acts in a subprogram".to_owned()
+            ));
         }
         Some(Ok(calling.clone()))
     }

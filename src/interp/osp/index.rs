@@ -14,12 +14,20 @@ pub(crate) fn index(program: &Program) -> Index {
             None => {}
         }
     }
-    Index::of(labels, programs, Loops::default(), Vec::new(), program.block_count() as u32)
+    Index::of(
+        labels,
+        programs,
+        Loops::default(),
+        Vec::new(),
+        program.block_count() as u32,
+    )
 }
 
 /// The name at the start of a block with its letter, in upper case: `NLOOP`, `N0123`, `OPART`.
 pub(super) fn head(block: &Block<'_>) -> Option<String> {
-    let mut items = block.items().filter(|item| !matches!(item, Item::Comment(_) | Item::Skip(..)));
+    let mut items = block
+        .items()
+        .filter(|item| !matches!(item, Item::Comment(_) | Item::Skip(..)));
     let range = match items.next()? {
         Item::Label(range) => range,
         Item::Word(word) if matches!(word.address, Address::Letter(b'N' | b'O')) => word.range,
@@ -34,7 +42,11 @@ pub(crate) fn files(name: &Key) -> Vec<String> {
     let lower = name.to_ascii_lowercase();
     let endings = ["SUB", "SSB", "LIB", "MIN"];
     let upper = endings.iter().map(|ending| format!("{name}.{ending}"));
-    let small = endings.iter().map(|ending| format!("{lower}.{}", ending.to_ascii_lowercase()));
-    let mixed = endings.iter().map(|ending| format!("{name}.{}", ending.to_ascii_lowercase()));
+    let small = endings
+        .iter()
+        .map(|ending| format!("{lower}.{}", ending.to_ascii_lowercase()));
+    let mixed = endings
+        .iter()
+        .map(|ending| format!("{name}.{}", ending.to_ascii_lowercase()));
     upper.chain(mixed).chain(small).collect()
 }

@@ -29,7 +29,9 @@ const LONGEST: usize = 4;
 
 /// Whether a name is one of a block (`N`) or program (`O`), with its letter.
 pub(super) fn is_name(name: &str, letter: char) -> bool {
-    let Some(rest) = name.strip_prefix(letter) else { return false };
+    let Some(rest) = name.strip_prefix(letter) else {
+        return false;
+    };
     let digits = rest.bytes().all(|byte| byte.is_ascii_digit());
     let begins = digits || rest.starts_with(|first: char| first.is_ascii_uppercase());
     begins && (1..=LONGEST).contains(&rest.len()) && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
@@ -87,7 +89,10 @@ impl Statement<'_> {
         let range = self.text.range(from, from + name.len());
         match self.own.is_defined(name) {
             Some(is) => Ok(is),
-            None => not_decided(range, format!("whether {name} has a value: no program that is read here writes it")),
+            None => not_decided(
+                range,
+                format!("whether {name} has a value: no program that is read here writes it"),
+            ),
         }
     }
 
@@ -124,7 +129,10 @@ impl Statement<'_> {
         let name = self.text.word();
         let range = self.text.range(from, from + name.len());
         if !is_name(&name, 'N') {
-            return not_decided(range, "the target of a jump: a sequence name is N and up to 4 letters or digits");
+            return not_decided(
+                range,
+                "the target of a jump: a sequence name is N and up to 4 letters or digits",
+            );
         }
         let key = Key::Name(name.as_str().into());
         let index = (self.index)();
@@ -145,7 +153,10 @@ impl Statement<'_> {
         let name = self.text.word();
         let range = self.text.range(from, from + name.len());
         if !is_name(&name, 'O') {
-            return not_decided(range, "which program is called: its name is O and up to 4 letters or digits");
+            return not_decided(
+                range,
+                "which program is called: its name is O and up to 4 letters or digits",
+            );
         }
         let mut times = 1;
         let mut arguments = Vec::new();
@@ -153,7 +164,9 @@ impl Statement<'_> {
             let at = self.text.at();
             let word = self.text.word();
             let range = self.text.range(at, at + word.len().max(1));
-            let repeats = word.strip_prefix('Q').filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
+            let repeats = word
+                .strip_prefix('Q')
+                .filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
             if let Some(digits) = repeats.filter(|digits| !digits.is_empty()) {
                 times = self.repeats(digits.parse().ok(), range)?;
                 continue;

@@ -114,7 +114,10 @@ fn wrong_head(block: &Block<'_>) -> Option<(TextRange, String)> {
         return None;
     }
     if !is_name(&head, letter) && head.len() > 1 && !head[1..].trim().bytes().all(|byte| byte.is_ascii_digit()) {
-        return Some((place, format!("`{head}`: a name after {letter} has at most 4 letters or digits; shorten it")));
+        return Some((
+            place,
+            format!("`{head}`: a name after {letter} has at most 4 letters or digits; shorten it"),
+        ));
     }
     let behind = bytes.get(start + head.len());
     let ends = matches!(behind, None | Some(b' ' | b'\t' | b'(' | b'\r' | b'\n'));

@@ -40,7 +40,11 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// `L20` calls a subprogram, where calls are followed.
     pub(crate) fn sinumerik_number(&mut self, letter: u8, word: &Word) -> bool {
-        match self.own.as_mut().filter(|own| own.follows && !own.is_task && letter == b'L') {
+        match self
+            .own
+            .as_mut()
+            .filter(|own| own.follows && !own.is_task && letter == b'L')
+        {
             Some(own) => {
                 own.called_by_number = Some(word.range);
                 true

@@ -50,7 +50,7 @@ use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::{Claim, RefitSource};
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
-use trunnion_syntax::{Program};
+use trunnion_syntax::Program;
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 

@@ -53,7 +53,11 @@ fn work_systems_and_lengths() {
     }
     let text = "G15 H1\nG0 X1 Y0 Z5\nG16 H2 X2\nX3\nG16 H0 X4\nX5\nM2\n";
     let log = run_bytes(NAME, text.as_bytes(), &setup).1;
-    let zeros: Vec<(f64, String)> = log.motions.iter().map(|motion| (motion.zero[0], line(motion))).collect();
+    let zeros: Vec<(f64, String)> = log
+        .motions
+        .iter()
+        .map(|motion| (motion.zero[0], line(motion)))
+        .collect();
     let shown: Vec<(f64, &str)> = zeros.iter().map(|(zero, line)| (*zero, line.as_str())).collect();
     assert_eq!(
         shown,
@@ -66,7 +70,10 @@ fn work_systems_and_lengths() {
         ]
     );
     // the start of a motion in another system is the same place
-    assert_eq!((log.motions[1].start.get(0), log.motions[2].start.get(0)), (Some(-99.0), Some(102.0)));
+    assert_eq!(
+        (log.motions[1].start.get(0), log.motions[2].start.get(0)),
+        (Some(-99.0), Some(102.0))
+    );
 }
 
 #[test]
@@ -125,7 +132,10 @@ fn what_is_not_decided_ends_the_run_by_name() {
         ("IF [V7 EQ 1] NA\nNA X1\n", "V7: its value is unknown here"),
         ("IF [VZOFX[1] EQ 1] NA\nNA X1\n", "VZOFX: a variable of the control"),
         ("IF AB NA\nNA X1\n", "whether AB has a value"),
-        ("V1=1\nIF [[V1 EQ 1] AND [V1 EQ 1] OR [V1 EQ 1]] NA\nNA X1\n", "not documented"),
+        (
+            "V1=1\nIF [[V1 EQ 1] AND [V1 EQ 1] OR [V1 EQ 1]] NA\nNA X1\n",
+            "not documented",
+        ),
         ("NA X1\nNA X2\nGOTO NA\n", "more than once"),
         ("GOTO 10\nN10 X1\n", "a sequence name is N"),
         ("MODIN OA\nMODIN OA\nX1\n", "MODIN inside MODIN"),
@@ -142,6 +152,10 @@ fn what_is_not_decided_ends_the_run_by_name() {
 fn what_no_source_states_is_unknown_by_name() {
     for (blocks, name) in [
         ("G71 Z50\n", "G71"),
+        ("G56\n", "a length offset without H"),
+        ("H2\n", "H without a code"),
+        ("G53\nG91 G16 H0 Z5\n", "G16 H0 with G91"),
+        ("G41 D1\nG1 X5 F100\nX9\nG40 X0\n", "ompensation"),
         ("G15 H0\n", "G15 H0"),
         ("G16 H0 Z5\n", "G16 H0 with a tool length"),
         ("G81 X1 Y1 Z-5 R2 F100\n", "G81: the level to which it returns"),
@@ -172,7 +186,14 @@ fn what_no_source_states_is_unknown_by_name() {
     }
     // a code that may shift or turn the coordinates hides all that follow
     let log = run_text(NAME, "G15 H1\nG0 X0 Y0 Z0\nG11 X1 P30\nG1 X5 Y5 Z5 A3 F100\nM2\n");
-    assert!(log.motions.last().expect("a motion").zero.iter().all(|zero| *zero == 0.0));
+    assert!(
+        log.motions
+            .last()
+            .expect("a motion")
+            .zero
+            .iter()
+            .all(|zero| *zero == 0.0)
+    );
     assert!(log.state.expect("a state").zero.is_lost());
 }
 
@@ -196,10 +217,16 @@ fn drilling_keeps_what_is_known() {
 
 #[test]
 fn tip_control() {
-    let found = lines(NAME, "G56 H1\nG0 X0 Y0 Z9 A0 C0\nG53\nG169 H1\nG1 X1 Y1 Z1 A10 C20 F100\nG170\nG0 Z50\nM2\n");
+    let found = lines(
+        NAME,
+        "G56 H1\nG0 X0 Y0 Z9 A0 C0\nG53\nG169 H1\nG1 X1 Y1 Z1 A10 C20 F100\nG170\nG0 Z50\nM2\n",
+    );
     assert_eq!(found[1], "L X1 Y1 Z1 A10 C20 F100 tcp");
     assert!(!found[2].contains("tcp"), "{found:?}");
-    let log = run_text(NAME, "G169 H1\nG1 X1 Y1 Z1 A10 C20 F100\nG170\nG0 X5 Y5 Z50\nG53\nG0 X6 Y6 Z60\nM2\n");
+    let log = run_text(
+        NAME,
+        "G169 H1\nG1 X1 Y1 Z1 A10 C20 F100\nG170\nG0 X5 Y5 Z50\nG53\nG0 X6 Y6 Z60\nM2\n",
+    );
     assert!(log.state.is_some());
 }
 
@@ -222,13 +249,24 @@ fn the_same_part_for_three_controls() {
     ];
     let mut all = Vec::new();
     for (dialect, file) in files {
-        let Some(bytes) = shared(&format!("four-controls/{file}")) else { return };
+        let Some(bytes) = shared(&format!("four-controls/{file}")) else {
+            return;
+        };
         all.push(run_bytes(dialect, &bytes, &Setup::default()).1);
     }
-    let own: Vec<String> = (all[0].motions.iter().filter(|motion| motion.machine_coordinates).map(line)).collect();
+    let own: Vec<String> = (all[0]
+        .motions
+        .iter()
+        .filter(|motion| motion.machine_coordinates)
+        .map(line))
+    .collect();
     // what differs: each tool retracts in machine coordinates (G16 H0), where the others go to the reference point; and one G71
     assert_eq!(own.len(), 8, "{own:?}");
-    let unknown: Vec<&Motion> = all[0].motions.iter().filter(|motion| motion.kind == MotionKind::Unknown).collect();
+    let unknown: Vec<&Motion> = all[0]
+        .motions
+        .iter()
+        .filter(|motion| motion.kind == MotionKind::Unknown)
+        .collect();
     assert_eq!(unknown.len(), 1, "G71 Z93 in front of the holes");
     let [own, fanuc, siemens] = [0, 1, 2].map(|at| targets(&all[at].motions));
     assert!(own.len() > 750, "{}", own.len());

@@ -108,9 +108,9 @@ impl Dialect {
     /// The language of its expressions and flow. Words alone are read as RS274/NGC, of which they are a subset.
     pub fn expressions(&self) -> Expressions {
         match (self.lex.format, self.quirks.language) {
-            (Format::Apt | Format::Klartext, _) | (Format::Iso, Language::Sinumerik) => Expressions::Other,
+            (Format::Apt | Format::Klartext | Format::Osp, _)
+            | (Format::Iso, Language::Sinumerik | Language::UserTask) => Expressions::Other,
             (Format::Iso, Language::MacroB) => Expressions::MacroB,
-            (Format::Osp, _) | (Format::Iso, Language::UserTask) => Expressions::Other,
             (Format::Iso, Language::Words | Language::Linuxcnc) => Expressions::Rs274Ngc,
         }
     }

@@ -9,6 +9,8 @@ use crate::code::{Binary, Code, Comparison, Formula, Op, Step, Unary};
 use crate::{FormulaError, FormulaErrorKind as Kind, Name};
 use trunnion_syntax::TextRange;
 
+mod operands;
+
 /// What is open or needs its second operand.
 enum Waiting {
     Binary(Binary, u8),
@@ -107,8 +109,16 @@ impl<'s> Reader<'s> {
         self.rest().first().copied()
     }
 
+    /// Passes over blanks, and the line end and `$` of a block that continues.
     fn blanks(&mut self) {
-        self.at += self.rest().iter().take_while(|byte| byte.is_ascii_whitespace()).count() as u32;
+        while let Some(byte) = self.peek() {
+            let before = (self.at as usize).checked_sub(1).map(|at| self.text[at]);
+            let continues = byte == b'$' && matches!(before, Some(b'\n' | b'\r'));
+            if !byte.is_ascii_whitespace() && !continues {
+                return;
+            }
+            self.at += 1;
+        }
     }
 
     fn take(&mut self, bytes: usize) {
@@ -175,101 +185,6 @@ impl<'s> Reader<'s> {
             Some(b'a'..=b'z' | b'A'..=b'Z') => self.name(),
             _ => Err(Kind::MissingValue),
         }
-    }
-
-    fn number(&mut self) -> Result<(), Kind> {
-        let rest = self.rest();
-        let length = rest
-            .iter()
-            .take_while(|byte| byte.is_ascii_digit() || **byte == b'.')
-            .count();
-        let text = String::from_utf8_lossy(&rest[..length]);
-        let value = text.parse().map_err(|_| Kind::NotANumber {
-            text: text.as_ref().into(),
-        })?;
-        self.take(length);
-        self.push(Op::Number(value));
-        Ok(())
-    }
-
-    /// `#1FH`.
-    fn hexadecimal(&mut self) -> Result<(), Kind> {
-        let rest = &self.rest()[1..];
-        let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
-        let text = String::from_utf8_lossy(&rest[..length]).to_ascii_uppercase();
-        let value = text
-            .strip_suffix('H')
-            .and_then(|digits| u32::from_str_radix(digits, 16).ok());
-        let Some(value) = value else {
-            return Err(Kind::NotANumber { text: text.into() });
-        };
-        self.take(length + 1);
-        self.push(Op::Number(f64::from(value)));
-        Ok(())
-    }
-
-    fn word(&self) -> &'s [u8] {
-        let rest = self.rest();
-        let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
-        &rest[..length]
-    }
-
-    /// A variable, a function or NOT.
-    fn name(&mut self) -> Result<bool, Kind> {
-        let name = String::from_utf8_lossy(self.word()).to_ascii_lowercase();
-        self.take(name.len());
-        let behind = self.at;
-        self.blanks();
-        let bracket = self.peek() == Some(b'[');
-        if name == "not" {
-            self.waiting.push(Waiting::Unary(Unary::TruthNot));
-            return Ok(false);
-        }
-        if !bracket {
-            self.at = behind;
-            self.push(Op::Named(Name::new(&name)));
-            return Ok(true);
-        }
-        let waiting = match function(&name) {
-            Some(Some(waiting)) => waiting,
-            Some(None) => return self.unknown(&name),
-            None if self.has_one_index() => Waiting::Field(Name::new(&name)),
-            None => return self.unknown(&name),
-        };
-        self.take(1);
-        self.open(waiting);
-        Ok(false)
-    }
-
-    /// Skips the bracket of a name that has no known value.
-    fn unknown(&mut self, name: &str) -> Result<bool, Kind> {
-        let mut deep = 0usize;
-        for (at, byte) in self.rest().iter().enumerate() {
-            match byte {
-                b'[' => deep += 1,
-                b']' => deep -= 1,
-                _ => {}
-            }
-            if deep == 0 {
-                self.take(at + 1);
-                self.push(Op::Named(Name::new(&format!("{name}["))));
-                return Ok(true);
-            }
-        }
-        Err(Kind::UnclosedBracket)
-    }
-
-    /// Whether the bracket at the cursor holds one expression.
-    fn has_one_index(&mut self) -> bool {
-        if self.at < self.one_index_to {
-            return true;
-        }
-        let inside = self.rest().split(|&byte| byte == b']').next().unwrap_or_default();
-        let one = !inside.contains(&b',');
-        if one {
-            self.one_index_to = self.at + inside.len() as u32;
-        }
-        one
     }
 
     /// What follows a whole operand.
@@ -393,23 +308,6 @@ impl<'s> Reader<'s> {
         let found = known.iter().find(|(name, ..)| word.eq_ignore_ascii_case(name))?;
         Some((found.1, found.2, word.len()))
     }
-}
-
-/// A function; `Some(None)`: what it gives is not stated by a source.
-fn function(name: &str) -> Option<Option<Waiting>> {
-    Some(match name {
-        "sin" => Some(Waiting::One(Unary::Sin)),
-        "cos" => Some(Waiting::One(Unary::Cos)),
-        "tan" => Some(Waiting::One(Unary::Tan)),
-        "sqrt" => Some(Waiting::One(Unary::Sqrt)),
-        "abs" => Some(Waiting::One(Unary::Abs)),
-        "round" => Some(Waiting::One(Unary::NearestWhole)),
-        "fix" => Some(Waiting::One(Unary::WholeBelow)),
-        "fup" => Some(Waiting::One(Unary::RoundUp)),
-        "mod" => Some(Waiting::Two(Binary::PositiveRemainder, false)),
-        "atan" | "atan2" | "dround" | "dfix" | "dfup" | "bin" | "bcd" => None,
-        _ => return None,
-    })
 }
 
 #[cfg(test)]

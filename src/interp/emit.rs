@@ -80,11 +80,7 @@ impl Iso<'_> {
         }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
-            let moved = words.axes.given | words.axes.unread;
-            motion.in_machine_coordinates(moved);
-            // G16 H0: whether the length acts is not stated by a source
-            let acts = self.core.dialect.quirks.user_task() && self.core.state.length.is_undeclared();
-            motion.undeclared.length |= acts && moved & LINEAR != 0;
+            self.in_machine_coordinates(&mut motion, words.axes.given | words.axes.unread);
         }
         motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
         if self.memory.tcp_used {
@@ -103,6 +99,13 @@ impl Iso<'_> {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
+    }
+
+    fn in_machine_coordinates(&self, motion: &mut Motion, moved: u16) {
+        motion.in_machine_coordinates(moved);
+        // G16 H0 of an Okuma: whether the length acts is not stated by a source
+        let acts = self.core.dialect.quirks.user_task() && self.core.state.length.is_undeclared();
+        motion.undeclared.length |= acts && moved & LINEAR != 0;
     }
 
     /// Linear machine coordinates under tool centre point control: G53 of a Fanuc may be refused there; SUPA of a Sinumerik suppresses frames,

@@ -56,7 +56,7 @@ impl Sort {
 /// The variables that a program declares. Names are in lower case.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scope {
-    pub(crate) sorts: HashMap<Box<str>, Sort>,
+    pub(crate) sorts: BTreeMap<Box<str>, Sort>,
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
 }

@@ -107,8 +107,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 }
             }
             Item::Other(range) => self.other(range),
-            Item::Label(range) if self.dialect.quirks.user_task() => self.task_label(range),
-            Item::Comment(_) | Item::Skip(..) | Item::Label(_) => {}
+            Item::Label(range) => self.task_label(range),
+            Item::Comment(_) | Item::Skip(..) => {}
         }
     }
 
@@ -146,8 +146,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
 
     /// `CR=`, `TURN=`; `#1=` and names of the program's own are variables, which move nothing; `,R` and `,C` are corners.
     fn named_word(&mut self, name: TextRange, word: &Word) {
-        let range = name;
-        let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+        let (range, name) = (name, self.program.source().get(name.as_usize()).unwrap_or_default());
         if name.first() == Some(&b'#') && self.macro_assignment(range, word) {
             return;
         }
@@ -320,8 +319,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
         self.words.unknown_code |= kind == CodeKind::G;
         self.words.builder_code |= machine_builder;
-        // a code of an Okuma that no source describes may shift or turn the coordinates
-        self.words.writes_system |= kind == CodeKind::G && self.dialect.quirks.user_task();
+        self.words.writes_system |= kind == CodeKind::G && self.dialect.quirks.user_task(); // it may turn the coordinates
         (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
     }
 

@@ -29,10 +29,11 @@ pub(crate) fn binary(operation: Binary, a: f64, b: f64) -> Result<f64, Kind> {
             Comparison::Less => a < b,
             Comparison::LessOrEqual => a <= b,
         })),
-        Binary::WholeDivide | Binary::WholeRemainder if b == 0.0 => return Err(Kind::DivisionByZero),
+        Binary::WholeDivide | Binary::WholeRemainder | Binary::PositiveRemainder if b == 0.0 => {
+            return Err(Kind::DivisionByZero);
+        }
         Binary::WholeDivide if integers => (a / b).trunc() + 0.0,
         Binary::WholeRemainder if integers => a % b + 0.0,
-        Binary::PositiveRemainder if b == 0.0 => return Err(Kind::DivisionByZero),
         Binary::PositiveRemainder if integers && a >= 0.0 && b > 0.0 => a % b,
         Binary::TruthAnd | Binary::TruthOr | Binary::TruthXor => match (truth(a), truth(b)) {
             (Some(a), Some(b)) => f64::from(u8::from(match operation {

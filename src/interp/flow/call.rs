@@ -77,7 +77,7 @@ impl Iso<'_> {
                     return self.stop();
                 }
             },
-            With::Task(with) => Level::Task(self.enter_task(with)),
+            With::Task(with) => Level::Task(Box::new(self.enter_task(with))),
         };
         self.push_call(level, times, place, running, from);
     }

@@ -44,7 +44,7 @@ impl Level {
 
 impl Iso<'_> {
     /// Gives a subprogram its arguments; returns what is kept for the caller.
-    pub(crate) fn enter_task(&mut self, with: With) -> Box<Level> {
+    pub(crate) fn enter_task(&mut self, with: With) -> Level {
         let own = &mut self.memory.own;
         let scope = own.begin_scope();
         own.task.outer.push(scope.sorts.keys().cloned().collect());
@@ -56,7 +56,7 @@ impl Iso<'_> {
         };
         own.task.in_modal |= with.modal;
         hand_over(own, &level.arguments);
-        Box::new(level)
+        level
     }
 
     /// A subprogram has returned: the caller's variables are back.

@@ -168,7 +168,7 @@ impl Statement<'_> {
                 .strip_prefix('Q')
                 .filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
             if let Some(digits) = repeats.filter(|digits| !digits.is_empty()) {
-                times = self.repeats(digits.parse().ok(), range)?;
+                times = times_of(digits.parse().ok(), range)?;
                 continue;
             }
             let lower = word.to_ascii_lowercase();
@@ -184,7 +184,7 @@ impl Statement<'_> {
                 Err(error) => return not_decided(range, format!("an argument that cannot be read: {error}")),
             };
             if repeats.is_some() {
-                times = self.repeats(value, range)?;
+                times = times_of(value, range)?;
             } else {
                 arguments.push((lower.into(), value));
             }
@@ -196,11 +196,11 @@ impl Statement<'_> {
             with: Handed::Task(With { arguments, modal }),
         })
     }
+}
 
-    fn repeats(&self, value: Option<f64>, range: TextRange) -> Result<u32, Trouble> {
-        match value {
-            Some(times) if (1.0..=9999.0).contains(&times) && times.fract() == 0.0 => Ok(times as u32),
-            _ => not_decided(range, "how often the subprogram runs"),
-        }
+fn times_of(value: Option<f64>, range: TextRange) -> Result<u32, Trouble> {
+    match value {
+        Some(times) if (1.0..=9999.0).contains(&times) && times.fract() == 0.0 => Ok(times as u32),
+        _ => not_decided(range, "how often the subprogram runs"),
     }
 }

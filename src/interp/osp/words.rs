@@ -32,7 +32,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// A name at the start of a block: `OPART` begins a program.
     pub(crate) fn task_label(&mut self, range: TextRange) {
-        if matches!(self.program.bytes(range).first(), Some(b'O' | b'o')) {
+        if self.dialect.quirks.user_task() && matches!(self.program.bytes(range).first(), Some(b'O' | b'o')) {
             self.words.program_number = Some(range);
         }
     }

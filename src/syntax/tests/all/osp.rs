@@ -19,9 +19,9 @@ fn names_continued_lines_and_numbers() {
         ("NA /X1", "label[NA] skip1[/] X=1"),
         ("NCYL G81 X1", "call:NCYL G=81 X=1"),
         ("G1 X1\n$ Y2\nZ3", "G=1 X=1 Y=2 | Z=3"),
-        ("X=V1\n$+2 Y=PX1", "X=V1\n$+2 Y=PX1"),
-        ("VF=#81H+#0fh X1", "<VF>=#81H+#0fh X=1"),
-        ("V1=V2 EOR V3", "V[1]=V2 EOR V3"),
+        ("X=V1\n$+2 Y=PX1", "X={V1\n$+2} Y={PX1}"),
+        ("VF=#81H+#0fh X1", "<VF>={#81H+#0fh} X=1"),
+        ("V1=V2 EOR V3", "V[1]={V2 EOR V3}"),
     ] {
         let parsed = program(text, OSP);
         assert_eq!(items(&parsed), wanted, "{text}");

@@ -14,11 +14,15 @@ pub(crate) enum Part {
     Fragment,
 }
 
-/// What the text says: a subprogram begins with PROC, or the first code that ends a program is one that returns to a caller (M99, M17, RET).
+/// What the text says: a subprogram begins with PROC, or the first code that ends a program is one that returns to a caller (M99, M17, RET, RTS).
 /// In LinuxCNC, where subprograms come first, the last such code counts.
 pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
     let sinumerik = dialect.quirks.language == Language::Sinumerik;
-    let returns: &[&str] = if sinumerik { &["M17", "RET"] } else { &["M99"] };
+    let returns: &[&str] = match dialect.quirks.language {
+        Language::Sinumerik => &["M17", "RET"],
+        Language::UserTask => &["RTS"],
+        _ => &["M99"],
+    };
     let mut blocks = (0..program.block_count() as u32).map(BlockId);
     if sinumerik
         && blocks
@@ -80,6 +84,8 @@ mod tests {
             ),
             ("sinumerik-840d", "G1 X1\nM30\n", Part::Main),
             ("sinumerik-840d", "G1 X1\n", Part::Fragment),
+            ("okuma-osp", "OSUB\nG1 X1\nRTS\n", Part::Called),
+            ("okuma-osp", "G1 X1\nM02\nOSUB\nRTS\n", Part::Main),
         ] {
             let dialect = trunnion_dialect::builtin(dialect).expect("built in");
             let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);

@@ -1,11 +1,11 @@
 //! Where in a block a finding is shown: the word that names the axis, the vector, or the block's code without its comments.
-use trunnion_syntax::{Address, AptArg, Block, BlockId, Format, Item, Program, TextRange};
+use trunnion_syntax::{Address, AptArg, Block, BlockId, Item, Program, TextRange};
 
 /// The word of an axis (upper case letter); failing that, the words or numbers of the tool's orientation for a rotary letter;
 /// failing that, the code of the block.
 pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRange {
     let view = program.block(block);
-    if program.options().format == Format::Iso
+    if program.options().format.has_words()
         && let Some(word) = view.words().find(|word| word.address == Address::Letter(letter))
     {
         return word.range;
@@ -20,7 +20,7 @@ pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRa
 pub(crate) fn names_axis(program: &Program, block: BlockId, letter: u8) -> bool {
     let view = program.block(block);
     let named = |word: trunnion_syntax::Word| word.address == Address::Letter(letter);
-    program.options().format != Format::Iso || view.words().any(named)
+    !program.options().format.has_words() || view.words().any(named)
 }
 
 /// The words or numbers that give the tool's orientation: A B C, A3= B3= C3=, I J K of a vector, the last three numbers of GOTO;

@@ -11,7 +11,7 @@ use crate::view::Overview;
 use crate::words::hash;
 use line::Line;
 use trunnion_dialect::{Dialect, Expressions};
-use trunnion_syntax::{Format, TextRange};
+use trunnion_syntax::TextRange;
 
 /// From which control to which.
 pub(crate) struct Route<'d> {
@@ -67,7 +67,7 @@ pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         let Some(to) = trunnion_dialect::builtin(name) else {
             continue;
         };
-        let both_iso = from.lex.format == Format::Iso && to.lex.format == trunnion_syntax::Format::Iso;
+        let both_iso = from.lex.format.has_words() && to.lex.format.has_words();
         if to.name == from.name || !both_iso {
             continue;
         }

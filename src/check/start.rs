@@ -6,7 +6,7 @@ use crate::Settings;
 use crate::view::MotionView;
 use trunnion_dialect::{Action, Dialect, Plane};
 use trunnion_interp::{ControlData, FeedMode, MotionKind, declared_at_power_on, power_on_state};
-use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, Value};
+use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
 
 const PLANES: [Action; 3] = [Action::PlaneXy, Action::PlaneZx, Action::PlaneYz];
 const DISTANCES: [Action; 2] = [Action::Absolute, Action::Incremental];
@@ -78,7 +78,7 @@ impl Start {
     /// The codes of the power-on state that the program relies on, and whether the machine declares them.
     pub(crate) fn relied(&self, program: &Program, dialect: &Dialect) -> [Vec<String>; 2] {
         let mut out = [Vec::new(), Vec::new()];
-        if program.options().format != Format::Iso {
+        if !program.options().format.has_words() {
             return out;
         }
         let state = power_on_state(dialect, &self.in_effect);

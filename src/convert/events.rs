@@ -55,6 +55,10 @@ pub(crate) fn job(
                 let message = "Klartext programs are not converted: only checked, compared and proved";
                 Err((block.range(), message.to_owned()))
             }
+            Format::Osp => {
+                let message = "Okuma OSP programs are not converted: only checked, compared and proved";
+                Err((block.range(), message.to_owned()))
+            }
             Format::Iso => said(&block, dialect),
         }
         .map_err(|(range, message)| Refused::range(program, range, message))?;

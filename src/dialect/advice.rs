@@ -28,6 +28,8 @@ pub struct Advice {
     pub whole_coordinate: Option<String>,
     /// Which setting decides what F without a decimal point means.
     pub whole_feed: Option<String>,
+    /// Subprograms that are not in the folder may be in the control, which is supplied with some.
+    pub subprograms_in_control: bool,
     /// How to limit the spindle speed under constant surface speed; `None`: a check does not ask for a limit.
     pub spindle_limit: Option<String>,
 }
@@ -41,6 +43,7 @@ pub(crate) struct AdviceRow {
     whole_coordinate: Option<String>,
     whole_feed: Option<String>,
     spindle_limit: Option<String>,
+    subprograms_in_control: Option<bool>,
 }
 
 impl AdviceRow {
@@ -51,6 +54,7 @@ impl AdviceRow {
             last_word_wins: self.last_word_wins.unwrap_or(base.last_word_wins),
             whole_coordinate: self.whole_coordinate.or_else(|| base.whole_coordinate.clone()),
             whole_feed: self.whole_feed.or_else(|| base.whole_feed.clone()),
+            subprograms_in_control: self.subprograms_in_control.unwrap_or(base.subprograms_in_control),
             spindle_limit: self.spindle_limit.or_else(|| base.spindle_limit.clone()),
         }
     }

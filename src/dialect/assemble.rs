@@ -127,6 +127,7 @@ fn lex_options(lex: Lex) -> LexOptions {
             FormatRow::Iso => Format::Iso,
             FormatRow::Apt => Format::Apt,
             FormatRow::Klartext => Format::Klartext,
+            FormatRow::Osp => Format::Osp,
         },
         paren_comment: lex.paren_comment,
         semicolon_comment: lex.semicolon_comment,

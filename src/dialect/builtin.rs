@@ -16,10 +16,11 @@ pub const BUILTIN_NAMES: &[&str] = &[
     "sinumerik-840d",
     "apt",
     "heidenhain-klartext",
+    "okuma-osp",
 ];
 
 /// Texts of the tables, in the order of [`BUILTIN_NAMES`]. A table may extend only one that comes before it.
-const TABLES: [&str; 12] = [
+const TABLES: [&str; 13] = [
     include_str!("../../grammar/dialects/iso-6983.toml"),
     include_str!("../../grammar/dialects/linuxcnc.toml"),
     include_str!("../../grammar/dialects/fanuc-30i.toml"),
@@ -32,9 +33,10 @@ const TABLES: [&str; 12] = [
     include_str!("../../grammar/dialects/sinumerik-840d.toml"),
     include_str!("../../grammar/dialects/apt.toml"),
     include_str!("../../grammar/dialects/heidenhain-klartext.toml"),
+    include_str!("../../grammar/dialects/okuma-osp.toml"),
 ];
 
-static LOADED: [OnceLock<Dialect>; 12] = [const { OnceLock::new() }; 12];
+static LOADED: [OnceLock<Dialect>; 13] = [const { OnceLock::new() }; 13];
 
 /// A built-in dialect by name; loaded once. `None` when there is no such name.
 pub fn builtin(name: &str) -> Option<&'static Dialect> {

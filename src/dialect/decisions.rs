@@ -16,6 +16,8 @@ pub enum Language {
     Sinumerik,
     /// Programs are run by LinuxCNC's own interpreter.
     Linuxcnc,
+    /// Okuma's user task: variables with names, CALL, RTS, GOTO, IF, MODIN.
+    UserTask,
 }
 
 /// Which control's custom macro B it is.
@@ -106,7 +108,8 @@ impl Dialect {
     /// The language of its expressions and flow. Words alone are read as RS274/NGC, of which they are a subset.
     pub fn expressions(&self) -> Expressions {
         match (self.lex.format, self.quirks.language) {
-            (Format::Apt | Format::Klartext, _) | (Format::Iso, Language::Sinumerik) => Expressions::Other,
+            (Format::Apt | Format::Klartext | Format::Osp, _)
+            | (Format::Iso, Language::Sinumerik | Language::UserTask) => Expressions::Other,
             (Format::Iso, Language::MacroB) => Expressions::MacroB,
             (Format::Iso, Language::Words | Language::Linuxcnc) => Expressions::Rs274Ngc,
         }
@@ -119,15 +122,31 @@ impl Quirks {
     pub fn macro_b(&self) -> bool {
         match self.language {
             Language::MacroB => true,
-            Language::Words | Language::Sinumerik | Language::Linuxcnc => false,
+            Language::Words | Language::Sinumerik | Language::Linuxcnc | Language::UserTask => false,
         }
     }
     /// The program may define names of its own.
     #[inline]
     pub fn user_names(&self) -> bool {
         match self.language {
-            Language::Sinumerik => true,
+            Language::Sinumerik | Language::UserTask => true,
             Language::Words | Language::MacroB | Language::Linuxcnc => false,
+        }
+    }
+    /// The language of a Sinumerik.
+    #[inline]
+    pub fn sinumerik(&self) -> bool {
+        match self.language {
+            Language::Sinumerik => true,
+            Language::Words | Language::MacroB | Language::Linuxcnc | Language::UserTask => false,
+        }
+    }
+    /// Okuma's user task.
+    #[inline]
+    pub fn user_task(&self) -> bool {
+        match self.language {
+            Language::UserTask => true,
+            Language::Words | Language::MacroB | Language::Linuxcnc | Language::Sinumerik => false,
         }
     }
     /// Programs are run by LinuxCNC's own interpreter.
@@ -135,7 +154,7 @@ impl Quirks {
     pub fn rs274(&self) -> bool {
         match self.language {
             Language::Linuxcnc => true,
-            Language::Words | Language::MacroB | Language::Sinumerik => false,
+            Language::Words | Language::MacroB | Language::Sinumerik | Language::UserTask => false,
         }
     }
 }

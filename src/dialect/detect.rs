@@ -84,9 +84,17 @@ pub fn detect_on(file_name: Option<&str>, source: &[u8], known: Surroundings<'_>
             foreign: Some(Foreign::NotAProgram(what)),
         };
     }
-    seen.decide(owner, known)
-        .unwrap_or_else(|| by_name_or_machine(extension.as_deref(), head, known))
+    let found = seen
+        .decide(owner, known)
+        .unwrap_or_else(|| by_name_or_machine(extension.as_deref(), head, known));
+    // a file name or a machine does not say whether an Okuma mills or turns
+    let turns = found.foreign.is_none() && found.dialect.name == OKUMA && seen.okuma_name(known) != OKUMA;
+    let lathe = turns.then(|| named(seen.okuma_name(known), found.reason.clone(), found.certain));
+    lathe.flatten().unwrap_or(found)
 }
+
+/// The dialect whose programs look like those of lathes.
+const OKUMA: &str = "okuma-osp";
 
 /// A file that is not text has no dialect, whatever is declared.
 pub fn not_text(source: &[u8]) -> Option<Detected> {
@@ -215,9 +223,6 @@ fn extension(name: &str) -> Option<String> {
 
 /// The control that alone owns an extension. Extensions of the core (`.nc`) are shared by many controls and name none.
 fn owner(extension: &str) -> Option<&'static str> {
-    if matches!(extension, "min" | "ssb" | "msb") {
-        return Some("okuma-osp");
-    }
     let owners = BUILTIN_NAMES
         .iter()
         .filter_map(|name| builtin(name))

@@ -61,6 +61,8 @@ pub struct Quirks {
     pub straight_rapids: bool,
     /// A drilling cycle may leave out R: where its feed starts then is not known here.
     pub cycle_level_optional: bool,
+    /// Where a drilling cycle returns to is not stated by a source that is read here.
+    pub cycle_return_unknown: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
     pub machine_data_suppress_length: bool,
@@ -189,7 +191,7 @@ impl Dialect {
     }
     /// Whether a code switches the tool's length on (G43); on lathes the tool word does it, on other controls the tool change.
     pub fn length_by_code(&self) -> bool {
-        let on = |code: &Code| code.action == Action::ToolLengthOn && code.id == "G43";
+        let on = |code: &Code| code.action == Action::ToolLengthOn && (code.id == "G43" || code.id == "G56");
         self.quirks.tool_word != ToolWord::ChangesWithOffset && self.codes.iter().any(on)
     }
     /// The control's alarm for a mistake by its key in `[alarms]`: `peck-missing`.

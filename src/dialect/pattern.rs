@@ -27,7 +27,7 @@ impl Pattern {
         let (from, to) = text.split_once("..").unwrap_or((text, text));
         let numbers = format != Format::Apt && matches!(text.as_bytes(), [b'G' | b'M', b'0'..=b'9', ..]);
         if !numbers {
-            let apt_name = text.split([' ', '-']).all(is_name) && format != Format::Iso;
+            let apt_name = text.split([' ', '-']).all(is_name) && !format.has_words();
             return if apt_name || is_name(text) {
                 Ok(Self::Name(text.clone()))
             } else {

@@ -31,6 +31,7 @@ pub(crate) struct QuirksRow {
     dwell_then_moves: Option<bool>,
     straight_rapids: Option<bool>,
     cycle_level_optional: Option<bool>,
+    cycle_return_unknown: Option<bool>,
 }
 
 impl QuirksRow {
@@ -60,6 +61,7 @@ impl QuirksRow {
             dwell_then_moves: self.dwell_then_moves.unwrap_or(base.dwell_then_moves),
             straight_rapids: self.straight_rapids.unwrap_or(base.straight_rapids),
             cycle_level_optional: self.cycle_level_optional.unwrap_or(base.cycle_level_optional),
+            cycle_return_unknown: self.cycle_return_unknown.unwrap_or(base.cycle_return_unknown),
             machine_data_suppress_length: self
                 .machine_data_suppress_length
                 .unwrap_or(base.machine_data_suppress_length),

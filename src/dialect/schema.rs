@@ -89,13 +89,14 @@ pub(crate) struct Lex {
     pub(crate) blanks_in_numbers: bool,
 }
 
-/// `format = "iso" | "apt" | "klartext"`.
+/// `format = "iso" | "apt" | "klartext" | "osp"`.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum FormatRow {
     Iso,
     Apt,
     Klartext,
+    Osp,
 }
 
 /// `[arc-tolerance]`.

@@ -13,7 +13,7 @@ pub fn textmate(dialects: &[&Dialect]) -> String {
     let grammar = match format {
         Some(Format::Apt) => apt_grammar(dialects),
         Some(Format::Klartext) => klartext_grammar(dialects),
-        Some(Format::Iso) | None => iso_grammar(dialects),
+        Some(Format::Iso | Format::Osp) | None => iso_grammar(dialects),
     };
     let mut text = format!("{grammar:#}");
     text.push('\n');
@@ -96,6 +96,9 @@ fn iso_grammar(dialects: &[&Dialect]) -> Value {
         "repository": {
             "program": { "patterns": [
                 { "match": r"^\s*%[^;(]*", "name": "keyword.control.program.gcode" },
+                { "match": r"^\$[^%\s]*%", "name": "keyword.control.program.gcode" },
+                { "match": r"^\$(?=\s)", "name": "keyword.operator.continuation.gcode" },
+                { "match": r"(?i)^\s*/?\s*(?!NOEX|NCYL|OMIT)([NO][A-Z][A-Z0-9]{0,3})(?=[ \t(]|$)(?!\s*=)", "captures": { "1": { "name": "entity.name.function.label.gcode" } } },
                 { "match": r"(?i)^\s*(?:N\d+\s*)?([A-Z_][A-Z0-9_]+:|:\d+)(?!=)", "name": "entity.name.function.label.gcode" }
             ] },
             "comment": { "patterns": [
@@ -185,7 +188,7 @@ fn expression_part() -> Value {
         { "match": r"#(?:\d+|<[^>\n]*>)?|\$[A-Za-z_][A-Za-z0-9_]*", "name": "variable.other.gcode" },
         { "match": r"(?i)(?<![A-Za-z_0-9])(?:SIN|COS|TAN|ASIN|ACOS|ATAN2?|SQRT|POT|ABS|ROUND|TRUNC|FIX|FUP|EXP|LN|POW|BIN|BCD|ADP|EXISTS|MINVAL|MAXVAL|BOUND)(?![A-Za-z_])",
           "name": "entity.name.function.math.gcode" },
-        { "match": r"(?i)(?<![A-Za-z_])(?:EQ|NE|GT|GE|LT|LE|AND|OR|XOR|NOT|MOD|DIV)(?![A-Za-z_])|==|<>|<<|<=|>=|\*\*|[-+*/<>=]", "name": "keyword.operator.gcode" },
+        { "match": r"(?i)(?<![A-Za-z_])(?:EQ|NE|GT|GE|LT|LE|AND|OR|XOR|EOR|NOT|MOD|DIV)(?![A-Za-z_])|==|<>|<<|<=|>=|\*\*|[-+*/<>=]", "name": "keyword.operator.gcode" },
         { "match": r"(?:\d+\.?\d*|\.\d+)", "name": "constant.numeric.gcode" },
         { "match": r"[\[\]()]", "name": "punctuation.section.gcode" },
         { "match": r"[A-Za-z_][A-Za-z0-9_]+", "name": "variable.other.gcode" }

@@ -16,10 +16,6 @@ pub const UNSUPPORTED: &[Unsupported] = &[
         title: "HEIDENHAIN DIN/ISO",
     },
     Unsupported {
-        name: "okuma-osp",
-        title: "Okuma OSP",
-    },
-    Unsupported {
         name: "okuma-osp-lathe",
         title: "Okuma OSP, lathe",
     },

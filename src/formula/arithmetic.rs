@@ -136,7 +136,16 @@ pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -
         Unary::Tan => degrees::tan(x),
         Unary::FromBcd => from_bcd(x)?,
         Unary::ToBcd => to_bcd(x)?,
-        Unary::Square | Unary::Not | Unary::BitNot | Unary::CutOff | Unary::RoundHalf | Unary::RoundUp => {
+        Unary::Square
+        | Unary::Not
+        | Unary::BitNot
+        | Unary::CutOff
+        | Unary::RoundHalf
+        | Unary::RoundUp
+        | Unary::TruthNot
+        | Unary::NearestWhole
+        | Unary::WholeBelow
+        | Unary::Unsettled => {
             // what is not documented is unknown
             return checked(if x.is_nan() { x } else { sinumerik::unary(operation, x) });
         }
@@ -188,6 +197,10 @@ pub(crate) fn binary(operation: Binary, left: f64, right: f64, positive: &dyn Fn
         Binary::Compared(_)
         | Binary::WholeDivide
         | Binary::WholeRemainder
+        | Binary::TruthAnd
+        | Binary::TruthOr
+        | Binary::TruthXor
+        | Binary::PositiveRemainder
         | Binary::WholeAnd
         | Binary::WholeOr
         | Binary::WholeXor

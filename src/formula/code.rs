@@ -49,8 +49,16 @@ pub(crate) enum Unary {
     CutOff,
     /// Sinumerik: ROUND, unknown for a negative half.
     RoundHalf,
-    /// Sinumerik: ROUNDUP, unknown below zero.
+    /// Sinumerik: ROUNDUP, unknown below zero; Okuma: FUP.
     RoundUp,
+    /// Okuma: NOT, known of 0 and 1.
+    TruthNot,
+    /// Okuma: ROUND, unknown of a half.
+    NearestWhole,
+    /// Okuma: FIX, unknown below zero.
+    WholeBelow,
+    /// Okuma: operators whose order no source states: unknown.
+    Unsettled,
 }
 
 /// How a Sinumerik compares two numbers.
@@ -107,6 +115,12 @@ pub(crate) enum Binary {
     /// Sinumerik: MINVAL, MAXVAL.
     Minimum,
     Maximum,
+    /// Okuma: AND, OR, EOR, known of 0 and 1.
+    TruthAnd,
+    TruthOr,
+    TruthXor,
+    /// Okuma: MOD, known of whole numbers that are not negative.
+    PositiveRemainder,
     /// Sinumerik: `<<` joins strings, whose values are not followed.
     Join,
 }

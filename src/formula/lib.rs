@@ -1,4 +1,4 @@
-//! Floor 0: expressions of RS274/NGC, of Fanuc's Macro B and of Sinumerik: compiled once, evaluated many times.
+//! Floor 0: expressions of RS274/NGC, of Fanuc's Macro B, of Sinumerik and of Okuma's user task: compiled once, evaluated many times.
 //!
 //! Reading never recurses: a hundred thousand nested brackets need proportional memory, and no stack. Evaluation needs no memory
 //! for formulas that keep at most eight values at once. A value that is unknown is NaN and stays so through arithmetic.
@@ -12,6 +12,7 @@ mod degrees;
 mod error;
 mod eval;
 mod name;
+mod osp;
 mod pool;
 mod sinumerik;
 mod words;
@@ -21,6 +22,7 @@ pub use compile::{bracketed, target, value, value_or_error};
 pub use cursor::Cursor;
 pub use error::{FormulaError, FormulaErrorKind};
 pub use name::Name;
+pub use osp::osp;
 pub use pool::Pool;
 pub use sinumerik::sinumerik;
 use trunnion_syntax::TextRange;

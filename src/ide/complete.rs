@@ -231,10 +231,7 @@ fn read_words(
     starts: &dyn Fn(&str) -> bool,
 ) -> Vec<Completion> {
     let mut list = Vec::new();
-    if let Some(block) = program
-        .block_at(line)
-        .filter(|_| program.options().format == Format::Iso)
-    {
+    if let Some(block) = program.block_at(line).filter(|_| program.options().format.has_words()) {
         let mut offered = BTreeSet::new();
         for (code, _) in codes(dialect, &program.block(block)) {
             for word in code.words.iter().filter(|word| starts(word)) {

@@ -118,7 +118,7 @@ fn values(program: &Program, settings: &Settings<'_>, block: &Block<'_>, info: &
     let grammar = match settings.dialect.quirks.language {
         Language::Linuxcnc | Language::Words => Grammar::Rs274,
         Language::MacroB => Grammar::MacroB,
-        Language::Sinumerik => {
+        Language::Sinumerik | Language::UserTask => {
             return sinumerik(program, block, info, found);
         }
     };

@@ -56,7 +56,7 @@ pub fn check_new_name(of: &Occurrence, dialect: &Dialect, new: &str) -> Result<(
 fn class(dialect: &Dialect, name: &str) -> u8 {
     let number: u32 = name.trim_start_matches('R').parse().unwrap_or(u32::MAX);
     match dialect.quirks.language {
-        Language::Sinumerik => 0,
+        Language::Sinumerik | Language::UserTask => 0,
         Language::Linuxcnc => match number {
             0 => 9,
             1..=30 => 1,
@@ -140,7 +140,7 @@ fn compared(of: &Occurrence, dialect: &Dialect, program: &Program, new: &str) ->
         };
         return format!("{prefix}{number}").into();
     }
-    let upper = program.options().format == Format::Apt || dialect.quirks.language == Language::Sinumerik;
+    let upper = program.options().format == Format::Apt || dialect.quirks.user_names();
     if upper {
         new.to_ascii_uppercase().into()
     } else {

@@ -1,6 +1,6 @@
 //! Colours: what each piece of a text is, from its tokens and the dialect's table.
 use trunnion_dialect::{Dialect, Language, Role};
-use trunnion_syntax::{Format, LexOptions, TextRange, TokenKind, parse};
+use trunnion_syntax::{Format, Item, LexOptions, Program, TextRange, TokenId, TokenKind, parse};
 
 /// The kinds of pieces, as the protocol names them; [`Token::kind`] is an index.
 pub const TOKEN_TYPES: [&str; 10] = [
@@ -50,6 +50,7 @@ pub fn tokens(lines: &[u8], lex: LexOptions, dialect: &Dialect) -> Vec<Token> {
             TokenKind::Text => STRING,
             TokenKind::Number => NUMBER,
             TokenKind::Word | TokenKind::Letter => letter(dialect, text[0].to_ascii_uppercase()),
+            TokenKind::Name if is_osp_name(&program, id, text) => LABEL,
             TokenKind::Name => name(dialect, lex, &program.text(range)),
             TokenKind::Hash => VARIABLE,
             TokenKind::Less | TokenKind::Greater if text.len() > 1 => LABEL,
@@ -78,6 +79,17 @@ pub fn tokens(lines: &[u8], lex: LexOptions, dialect: &Dialect) -> Vec<Token> {
         }
     }
     found
+}
+
+/// Whether a name is that of an OSP block or program, at the start of its block.
+fn is_osp_name(program: &Program, id: TokenId, text: &[u8]) -> bool {
+    if program.options().format != Format::Osp || !matches!(text[0], b'N' | b'n' | b'O' | b'o') {
+        return false;
+    }
+    let range = program.tokens().range(id);
+    let label = |item: Item| matches!(item, Item::Label(label) if label.start == range.start);
+    let block = program.block_at(range.start).map(|block| program.block(block));
+    block.is_some_and(|block| block.items().take(2).any(label))
 }
 
 fn letter(dialect: &Dialect, letter: u8) -> u32 {

@@ -61,7 +61,11 @@ fn rank(action: Action) -> u8 {
         Action::CompensationOff | Action::CompensationLeft | Action::CompensationRight => 7,
         Action::ToolLengthOn | Action::ToolLengthOff => 8,
         Action::TcpOn | Action::TcpVectorOn | Action::TcpOff => 9,
-        Action::WorkOffset | Action::WorkOffsetNone | Action::MachineCoordinates => 10,
+        Action::WorkOffset
+        | Action::WorkOffsetNone
+        | Action::WorkSystem
+        | Action::WorkSystemOnce
+        | Action::MachineCoordinates => 10,
         Action::Absolute | Action::Incremental => 11,
         Action::FrameReset | Action::RotationOff | Action::ScalingOff | Action::MirrorOff | Action::PolarOff => 12,
         Action::TiltedPlaneTurn | Action::TiltedPlaneTurnTip | Action::ProgramStop | Action::ProgramEnd => 14,
@@ -187,8 +191,10 @@ impl<'d> Iso<'d> {
             Action::TcpOff => {
                 self.core.unknown.end(found.code);
                 self.tcp_off();
+                self.length_after_tip_control();
             }
             Action::WorkOffset => self.work_offset(found, words, report),
+            Action::WorkSystem | Action::WorkSystemOnce => self.work_system(found, words, block, report),
             Action::WorkOffsetNone => self.no_work_offset(&found.code.id),
             Action::FrameReset => {
                 let ended = self.core.unknown.end(found.code);

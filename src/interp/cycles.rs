@@ -93,7 +93,12 @@ impl<'d> Iso<'d> {
         let cycle = &mut self.memory.cycle;
         cycle.id.clone_from(&found.code.id);
         cycle.letters = crate::unused::letters(found.code);
-        cycle.repeats = if reads("L") { b'L' } else { b'K' };
+        cycle.repeats = match (reads("L"), reads("K")) {
+            (true, _) => b'L',
+            // of an Okuma no source names a word for repeats
+            (false, false) if self.core.dialect.quirks.user_task() => 0,
+            (false, _) => b'K',
+        };
         cycle.reads = [reads("I"), reads("J") && reads("I"), reads("K") && reads("L")];
         self.core.state.motion = Some(action);
     }

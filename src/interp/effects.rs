@@ -103,7 +103,7 @@ impl Iso<'_> {
         } else {
             free |= unread & !held;
         }
-        if !self.core.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_given() {
+        if !self.core.dialect.quirks.sinumerik() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_given() {
             let to = [said("D", words.letter(b'D'))];
             self.core.effects.add(block, Effect::set("radius offset", to));
             free &= !letter_bit(b'D');
@@ -269,7 +269,9 @@ impl Iso<'_> {
         let named = words.axes.given | words.axes.unread;
         let unknown_end = motions.iter().any(|motion| ends_unknown(motion, named));
         let frame = codes.iter().any(|found| is_frame(found.code.action));
-        let offset = codes.iter().any(|found| found.code.action == Action::WorkOffset);
+        let offset = codes
+            .iter()
+            .any(|found| matches!(found.code.action, Action::WorkOffset | Action::WorkSystem));
         let lost = self.core.state.zero.values().iter().any(|value| value.is_nan()) || self.core.state.zero.is_lost();
         let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
         let unread = has_unread(words);
@@ -338,7 +340,7 @@ impl Iso<'_> {
         let block = self.core.main_block(view.id());
         if codes
             .iter()
-            .any(|found| found.code.action == Action::MachineCoordinates)
+            .any(|found| matches!(sort(found, words), Sort::Setting("coordinates")))
         {
             self.core.effects.add(block, Effect::set("coordinates", []));
         }

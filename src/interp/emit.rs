@@ -80,7 +80,7 @@ impl Iso<'_> {
         }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
-            motion.in_machine_coordinates(words.axes.given | words.axes.unread);
+            self.in_machine_coordinates(&mut motion, words.axes.given | words.axes.unread);
         }
         motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
         if self.memory.tcp_used {
@@ -95,10 +95,17 @@ impl Iso<'_> {
         if frame_hides {
             self.core.hide(&mut motion);
         }
-        if self.core.dialect.quirks.user_names() {
+        if self.core.dialect.quirks.sinumerik() {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
+    }
+
+    fn in_machine_coordinates(&self, motion: &mut Motion, moved: u16) {
+        motion.in_machine_coordinates(moved);
+        // G16 H0 of an Okuma: whether the length acts is not stated by a source
+        let acts = self.core.dialect.quirks.user_task() && self.core.state.length.is_undeclared();
+        motion.undeclared.length |= acts && moved & LINEAR != 0;
     }
 
     /// Linear machine coordinates under tool centre point control: G53 of a Fanuc may be refused there; SUPA of a Sinumerik suppresses frames,
@@ -140,13 +147,23 @@ impl Iso<'_> {
     }
 
     /// G53, G153 and SUPA of a Sinumerik: machine data 10760 MN_G53_TOOLCORR decides whether they suppress the tool's length too.
-    /// With D0 there is none.
+    /// With D0 there is none. Of G16 H0 of an Okuma no source states it.
     fn suppressed_length(&self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
-        let linear = (words.axes.given | words.axes.unread) & LINEAR;
+        let named = words.axes.given | words.axes.unread;
+        if self.core.dialect.quirks.user_task() && self.core.state.coordinates.incremental() && named != 0 {
+            let what = "G16 H0 with G91: whether its words are distances".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            end.known &= !named;
+        }
+        let linear = named & LINEAR;
         let length = self.core.state.length.mm();
         let active = length.is_some_and(|length| length != 0.0 || self.memory.tool_data_written);
         if self.core.dialect.quirks.machine_data_suppress_length && active && linear != 0 {
-            let what = "SUPA with tool length (MN_G53_TOOLCORR)";
+            let what = if self.core.dialect.quirks.user_task() {
+                "G16 H0 with a tool length: whether it acts in machine coordinates"
+            } else {
+                "SUPA with tool length (MN_G53_TOOLCORR)"
+            };
             let kind = FaultKind::NotModelled { what: what.to_owned() };
             report.fault(words.first.unwrap_or_default(), kind);
             end.known &= !linear;

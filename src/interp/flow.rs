@@ -9,7 +9,7 @@ pub(crate) mod through;
 mod transfer;
 
 use crate::macro_b::{self, Deep, Mistake};
-use crate::sinumerik;
+use crate::{osp, sinumerik};
 use reported::ReportedFaults;
 pub(crate) use run::Running;
 use std::sync::Arc;
@@ -49,6 +49,7 @@ pub(crate) enum Level {
     Section,
     MacroB(macro_b::Level),
     Sinumerik(Box<sinumerik::Level>),
+    Task(Box<osp::Level>),
 }
 
 /// Targets of the jumps of a file.
@@ -96,6 +97,7 @@ pub(crate) struct Calling {
 pub(crate) enum With {
     MacroB(macro_b::With),
     Sinumerik(sinumerik::With),
+    Task(osp::With),
 }
 
 impl Trail {
@@ -157,6 +159,7 @@ impl Flow {
 pub(crate) fn index_of(dialect: &trunnion_dialect::Dialect, program: &Program) -> Index {
     match dialect.quirks.language {
         Language::Sinumerik => sinumerik::index(program),
+        Language::UserTask => osp::index(program),
         Language::Words | Language::MacroB | Language::Linuxcnc => macro_b::index(program),
     }
 }

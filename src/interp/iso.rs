@@ -14,7 +14,10 @@ use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
 /// Whether a block begins with `/`.
 fn is_deleted(block: &Block<'_>) -> bool {
-    matches!(block.items().next(), Some(Item::Skip(..)))
+    let begins = |item: &Item| matches!(item, Item::Word(_) | Item::Label(_) | Item::Skip(..));
+    // OSP takes it behind the number of the block too
+    let mut first = block.items().take(2).take_while(begins);
+    first.any(|item| matches!(item, Item::Skip(..)))
 }
 
 impl<'d> Iso<'d> {
@@ -71,6 +74,9 @@ impl<'d> Iso<'d> {
             );
         }
         self.put_out(motion.as_ref(), block, sink);
+        if self.memory.zero_after.is_some() {
+            self.restore_zero();
+        }
         self.codes = codes;
     }
 
@@ -208,7 +214,7 @@ impl<'d> Iso<'d> {
         } else {
             words
         };
-        if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.user_names() {
+        if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.sinumerik() {
             self.unused_words(codes, words, &block, report);
         }
         self.memory.corners.word = words

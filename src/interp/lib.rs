@@ -27,6 +27,7 @@ mod macro_b;
 mod memory;
 mod offsets;
 mod orientation;
+mod osp;
 mod own;
 mod reader;
 mod reported;

@@ -1,6 +1,9 @@
 //! What the engine of ISO programs remembers in addition to the modal state.
 use trunnion_dialect::Action;
 
+/// A zero point that was in effect.
+pub(crate) type ZeroBefore = (Option<std::sync::Arc<str>>, [f64; 9], u16);
+
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory<'d> {
@@ -32,6 +35,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) edge: Option<u32>,
     /// Last H.
     pub(crate) length_offset: Option<u32>,
+    /// The zero point that is in effect again after this block: its name, its values, the axes for which it is not declared.
+    pub(crate) zero_after: Option<ZeroBefore>,
     pub(crate) before_cycle: Option<Action>,
     /// Coordinates that the program shifts and turns.
     pub(crate) frames: crate::frames::Frames,

@@ -1,5 +1,5 @@
 //! Work offsets, tool lengths and cutting edges, and their effect on the programmed position.
-use crate::codes::Found;
+use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::frames::OffsetValues;
 use crate::iso::Iso;
@@ -7,9 +7,10 @@ use crate::tools::Chosen;
 use crate::words::{WordValue, Words};
 use crate::{FaultKind, LengthOf, Tool, Undeclared};
 use std::sync::Arc;
+use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
-impl Iso<'_> {
+impl<'d> Iso<'d> {
     /// Selects a work offset by the code's own name, with P where the code reads one (G54.1 P3).
     pub(crate) fn work_offset(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
         let mut name = found.code.id.clone();
@@ -29,6 +30,62 @@ impl Iso<'_> {
             report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
         }
         self.set_zero(Some(name.into()), zero.unwrap_or_default());
+    }
+
+    /// Okuma G15 H and G16 H: the work coordinate system of that number, named as it is written: `G15 H1`. G16 holds for its block. What H0
+    /// means with G15 is not stated by a source; with G16 it is the machine's.
+    pub(crate) fn work_system(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let once = found.code.action == Action::WorkSystemOnce;
+        let number = match words.length_offset.index() {
+            Some(0) if once => {
+                block.machine_coordinates = true;
+                return;
+            }
+            Some(number @ 1..) => number,
+            _ => {
+                let h = match words.length_offset {
+                    WordValue::Nothing => "without H".to_owned(),
+                    WordValue::Number(number) => format!("H{}", number.value),
+                    _ => "H with a value that is unknown".to_owned(),
+                };
+                let what = format!("{} {h}: which coordinate system it is", found.code.id);
+                report.fault(found.range, FaultKind::NotModelled { what });
+                self.core.unknown.begin(found.code, true);
+                self.core.unknown.turns_axes(found.code);
+                self.core.forget_position();
+                return;
+            }
+        };
+        if once {
+            let zero = &self.core.state.zero;
+            self.memory.zero_after = Some((zero.offset_name(), self.memory.frames.selected, zero.undeclared()));
+        }
+        let name = format!("G15 H{number}");
+        let zero = self.offset_values(&name);
+        if zero.is_none() && self.core.offsets_reported.first(&name) {
+            report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
+        }
+        self.set_zero(Some(name.into()), zero.unwrap_or_default());
+    }
+
+    /// After the block of G16 the system of before is in effect again.
+    pub(crate) fn restore_zero(&mut self) {
+        if let Some((name, values, undeclared)) = self.memory.zero_after.take() {
+            let zero = &self.core.state.zero;
+            let other = zero.offset() != name.as_deref();
+            let unclear = if other { zero.undeclared() | undeclared } else { 0 };
+            self.core.state.zero.choose(name, undeclared);
+            self.memory.frames.selected = values;
+            self.refresh_zero();
+            // how far the two systems are apart is not declared
+            self.core.state.position.known &= !unclear;
+        }
     }
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
@@ -65,6 +122,9 @@ impl Iso<'_> {
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
     pub(crate) fn length_on(&mut self, offset: WordValue, range: TextRange, report: &mut Report<'_>) {
+        if self.core.dialect.quirks.user_task() && !offset.is_given() {
+            return self.unstated_length("a length offset without H", range, report);
+        }
         if let Some(number) = offset.index() {
             self.memory.length_offset = Some(number);
         }
@@ -93,6 +153,12 @@ impl Iso<'_> {
         self.take_length(tool, (&key, of), range, report);
     }
 
+    /// What no source states of the length offsets of an Okuma: positions are unknown until G56 H or G53.
+    fn unstated_length(&mut self, what: &str, range: TextRange, report: &mut Report<'_>) {
+        report.fault(range, FaultKind::NotModelled { what: what.to_owned() });
+        self.length_after_tip_control();
+    }
+
     /// H without a code that reads it: the number changes while the compensation is on, and else waits for it (Fanuc Series 30i
     /// operator's manual, tool length offset: H is modal).
     pub(crate) fn length_word_alone(&mut self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
@@ -104,6 +170,9 @@ impl Iso<'_> {
             .length_offset
             .number()
             .map_or(TextRange::default(), |number| number.range);
+        if self.core.dialect.quirks.user_task() {
+            return self.unstated_length("H without a code that reads it", range, report);
+        }
         if self.core.state.length.mm().is_some() {
             self.length_on(words.length_offset, range, report);
         } else if let Some(number) = words.length_offset.index() {

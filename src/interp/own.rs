@@ -56,24 +56,28 @@ impl Sort {
 /// The variables that a program declares. Names are in lower case.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scope {
-    sorts: HashMap<Box<str>, Sort>,
-    values: BTreeMap<Box<str>, f64>,
+    pub(crate) sorts: BTreeMap<Box<str>, Sort>,
+    pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
 }
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Own {
+    /// Variables and expressions are those of Okuma's user task.
+    pub(crate) is_task: bool,
+    /// What only the user task has.
+    pub(crate) task: crate::osp::Task,
     parameters: BTreeMap<i64, f64>,
     /// Names that the program does not declare.
-    others: BTreeMap<Box<str>, f64>,
-    scope: Scope,
+    pub(crate) others: BTreeMap<Box<str>, f64>,
+    pub(crate) scope: Scope,
     /// What was last written, word for word, to names whose values are not followed: strings, axes, arrays, unknown expressions.
     texts: BTreeMap<Box<str>, Box<str>>,
     /// The values that were known before they were lost.
     before_loss: BTreeMap<Box<str>, f64>,
     /// Written in the current block: when the control writes is not documented, so they are not read in the same block.
-    fresh: Vec<Box<str>>,
+    pub(crate) fresh: Vec<Box<str>>,
     /// Grows with everything that may change the outcome of a decision.
     pub(crate) changes: u64,
     /// Jumps and calls are followed.
@@ -137,6 +141,7 @@ impl trunnion_formula::Variables for View<'_> {
         let shown = || name.trim_end_matches(['[', '(']).to_ascii_uppercase();
         let value = self.own.read(name);
         Ok(self.give(value, || match name.as_bytes() {
+            _ if self.own.is_task && !self.own.is_fresh(name) => crate::osp::why_unknown(name),
             [b'$', ..] => format!("{}: a variable of the control", shown()),
             [.., b'['] => format!("{}[]: array elements are not followed", shown()),
             [.., b'('] => format!("{}(): the function is not modelled", shown()),
@@ -149,6 +154,9 @@ impl trunnion_formula::Variables for View<'_> {
     fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
         let value = self.own.element(name, index);
         Ok(self.give(value, || {
+            if self.own.is_task {
+                return crate::osp::why_unknown(name);
+            }
             format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
         }))
     }
@@ -187,6 +195,7 @@ impl Own {
         self.parameters
             .iter()
             .map(|(number, value)| (format!("R{number}"), *value))
+            .chain(self.common())
     }
     /// Records what is written to a name whose value is not followed.
     pub(crate) fn note_text(&mut self, name: &str, text: &str) {
@@ -222,6 +231,9 @@ impl Own {
         self.changes += 1;
         let value = value.filter(|value| value.abs() <= crate::reader::LARGEST);
         let name = name.trim().to_ascii_lowercase();
+        if self.is_task {
+            return self.assign_of_task(&name, value);
+        }
         let parameter = match name.split_once('[') {
             None => r_parameter(&name),
             Some((stem, index)) if stem.trim() == "r" => {
@@ -307,7 +319,12 @@ impl Own {
         from: usize,
     ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
         let range = TextRange::new(from as u32, text.len() as u32);
-        let (formula, end) = trunnion_formula::sinumerik(text, range).map_err(|error| error.kind)?;
+        let read = if self.is_task {
+            trunnion_formula::osp
+        } else {
+            trunnion_formula::sinumerik
+        };
+        let (formula, end) = read(text, range).map_err(|error| error.kind)?;
         let view = View {
             own: self,
             unknown: RefCell::default(),

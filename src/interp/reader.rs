@@ -107,7 +107,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 }
             }
             Item::Other(range) => self.other(range),
-            Item::Comment(_) | Item::Skip(..) | Item::Label(_) => {}
+            Item::Label(range) => self.task_label(range),
+            Item::Comment(_) | Item::Skip(..) => {}
         }
     }
 
@@ -145,8 +146,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
 
     /// `CR=`, `TURN=`; `#1=` and names of the program's own are variables, which move nothing; `,R` and `,C` are corners.
     fn named_word(&mut self, name: TextRange, word: &Word) {
-        let range = name;
-        let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+        let (range, name) = (name, self.program.source().get(name.as_usize()).unwrap_or_default());
         if name.first() == Some(&b'#') && self.macro_assignment(range, word) {
             return;
         }
@@ -319,6 +319,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
         self.words.unknown_code |= kind == CodeKind::G;
         self.words.builder_code |= machine_builder;
+        self.words.writes_system |= kind == CodeKind::G && self.dialect.quirks.user_task(); // it may turn the coordinates
         (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
     }
 
@@ -329,7 +330,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn call(&mut self, call: &Call) {
-        if self.macro_statement(call) || self.sinumerik_name(call) {
+        if self.macro_statement(call) || self.sinumerik_name(call) || self.task_name(call) {
             return;
         }
         let Some(code) = self.name(call.name) else {

@@ -47,7 +47,8 @@ impl<'d> Interpreter<'d> {
             (Format::Apt, _) => Engines::Apt(Box::new(Apt::new(core))),
             (Format::Klartext, _) => Engines::Klartext(Box::new(Klartext::new(core))),
             (Format::Iso, Language::Linuxcnc) => Engines::Ngc(Box::new(Ngc::new(core))),
-            (Format::Iso, Language::Words | Language::MacroB | Language::Sinumerik) => {
+            (Format::Osp, _)
+            | (Format::Iso, Language::Words | Language::MacroB | Language::Sinumerik | Language::UserTask) => {
                 Engines::Iso(Box::new(Iso::new(core)))
             }
         };

@@ -17,16 +17,17 @@ pub(crate) use call::{Level, With, too_deep};
 pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
+pub(crate) use text::Text;
 
 use crate::flow::Index;
 use crate::{FaultKind, Refusal};
 
-/// The fact that a label is missing.
-pub(crate) fn no_label(message: String) -> FaultKind {
+/// The fact that a label is missing; with the alarm of a Sinumerik.
+pub(crate) fn no_label(message: String, alarm: bool) -> FaultKind {
     FaultKind::Rejected {
         refusal: Refusal::Label,
         message,
-        alarm: Some("14080".to_owned()),
+        alarm: alarm.then(|| "14080".to_owned()),
     }
 }
 

@@ -26,6 +26,14 @@ fn without_position(number: u32) -> bool {
 
 /// What the assignment to `name` (`$P_PFRAME`, `#5221`, with its index, without `=`) changes.
 pub(crate) fn system_write(dialect: &Dialect, name: &[u8]) -> SystemWrite {
+    if dialect.quirks.user_task() {
+        // which variables of an Okuma move zero points or tools is not known of all of them
+        return if crate::osp::is_of_control(name) {
+            SystemWrite::Meaning
+        } else {
+            SystemWrite::Nothing
+        };
+    }
     match name {
         [b'$', ..] => {
             let harmless = HARMLESS.iter().any(|known| {

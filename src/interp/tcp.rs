@@ -5,7 +5,7 @@ use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Motion, Orientation, Position, TcpMistake};
-use trunnion_dialect::{Code, CodeKind};
+use trunnion_dialect::{Action, Code, CodeKind};
 
 impl<'d> Iso<'d> {
     /// Begins tool centre point control.
@@ -27,6 +27,18 @@ impl<'d> Iso<'d> {
         self.core.state.tool_axis.set_tcp(false);
         self.core.state.tool_axis.set_vectors(false);
         self.core.state.orientation = Orientation::Words;
+    }
+
+    /// Whether the length that G169 H of an Okuma has brought stays after G170 is not stated by a source: it is unknown until G56 or G53.
+    pub(crate) fn length_after_tip_control(&mut self) {
+        if !self.core.dialect.quirks.user_task() {
+            return;
+        }
+        let ends = |code: &&Code| code.action == Action::ToolLengthOff;
+        if let Some(code) = self.core.dialect.codes().iter().find(ends) {
+            self.core.unknown.begin(code, true);
+            self.core.forget_linear();
+        }
     }
 
     /// G43 and G49 end a tool centre point control that is a code of their own group (G43.4).

@@ -43,6 +43,7 @@ impl<'d> Iso<'d> {
                     | Action::TcpOn
                     | Action::TcpOff
                     | Action::WorkOffset
+                    | Action::WorkSystem
                     | Action::FrameReset
                     | Action::Metric
                     | Action::Absolute

@@ -95,7 +95,7 @@ impl Blocks<'_> {
             let text = self.program.bytes(table.range(id));
             match table.kind(id) {
                 TokenKind::Blank => !is_plain_blank(text),
-                TokenKind::Unknown | TokenKind::UnclosedComment => true,
+                TokenKind::Unknown | TokenKind::UnclosedComment | TokenKind::Continuation => true,
                 // `GOTOF LBL1 2 GOTOF LBL2` of a CASE: two numbers, where the control does not read over blanks
                 TokenKind::Word | TokenKind::Number => !self.dialect.lex.blanks_in_numbers && parts_number(text),
                 TokenKind::Percent => {
@@ -109,7 +109,7 @@ impl Blocks<'_> {
     }
 
     fn lay_out(&self, block: &Block<'_>, depth: usize, out: &mut Vec<u8>) {
-        debug_assert_eq!(self.program.options().format, Format::Iso);
+        debug_assert!(self.program.options().format.has_words());
         let table = self.program.tokens();
         let from = out.len();
         let control = is_control_line(block);
@@ -172,7 +172,10 @@ impl Blocks<'_> {
             _ if kind == TokenKind::Comma => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
                 // some controls read an E after digits as an exponent
-                !(left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E'))
+                let joined =
+                    left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E');
+                // OSP needs a blank behind the number of a block
+                !joined || is_number(left.item) && self.program.options().format == Format::Osp
             }
             _ => true,
         }

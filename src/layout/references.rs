@@ -96,6 +96,14 @@ impl Reader<'_, '_> {
                     (Address::Letter(letter), _) => words.push((letter, word)),
                     _ => {}
                 },
+                Item::Call(call) if self.program.options().format == Format::Osp => {
+                    let name = self.text(call.name).to_ascii_uppercase();
+                    if matches!(name.as_str(), "IF" | "GOTO") {
+                        let why =
+                            format!("`{name}` names a block by its text (N0123 is not N123), so the numbers stay");
+                        self.obstacle(call.range, why);
+                    }
+                }
                 Item::Call(call) if self.text(call.name).eq_ignore_ascii_case("GOTO") => {
                     self.jump(call.range, call.arguments);
                 }

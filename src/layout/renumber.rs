@@ -8,7 +8,8 @@ use trunnion_interp::Setup;
 use trunnion_same::Difference;
 use trunnion_syntax::{BlockId, Format, Program, TextEdit, TextRange, apply_edits, parse};
 
-/// Most digits of a block number: RS274/NGC 99999, others eight digits.
+/// Most digits of a block number: OSP four (NC-PB/gEdit, syntax-okuma.md, 3.1), RS274/NGC 99999, others eight digits.
+const MOST_OSP: i64 = 9999;
 const MOST_NGC: i64 = 99_999;
 const MOST: i64 = 99_999_999;
 
@@ -162,17 +163,21 @@ fn new_numbers(
     numbers: Numbers,
     survey: &Survey,
 ) -> Result<(Vec<(BlockId, TextEdit)>, usize), Obstacle> {
-    if program.options().format != Format::Iso {
+    if !program.options().format.has_words() {
         return Err(Obstacle {
             range: TextRange::default(),
             why: match program.options().format {
                 Format::Klartext => "the control numbers the blocks of a Klartext program itself",
-                Format::Apt | Format::Iso => "APT statements have no block numbers",
+                Format::Apt | Format::Iso | Format::Osp => "APT statements have no block numbers",
             }
             .to_owned(),
         });
     }
-    let most = if dialect.lex.blanks_in_numbers { MOST_NGC } else { MOST };
+    let most = match dialect.lex.format {
+        Format::Osp => MOST_OSP,
+        _ if dialect.lex.blanks_in_numbers => MOST_NGC,
+        _ => MOST,
+    };
     let own: Vec<_> = program
         .blocks()
         .filter_map(|block| Some((block.id(), own_number(&block)?.0)))

@@ -42,7 +42,7 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             out.extend_from_slice(ending);
         }
         (blank_lines, any) = (0, true);
-        if program.options().format == Format::Iso {
+        if program.options().format.has_words() {
             let depth = nesting.depth(&block);
             blocks.write(&block, depth, &mut out);
             percents += u32::from(is_bare_percent(&block));
@@ -51,7 +51,7 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
         }
         let stays = || match program.options().format {
             Format::Apt | Format::Klartext => apt::stays(program, &block),
-            Format::Iso => blocks.stays(&block),
+            Format::Iso | Format::Osp => blocks.stays(&block),
         };
         if !(own_ending.is_empty() && stays()) {
             out.extend_from_slice(ending);

@@ -2,7 +2,7 @@
 use trunnion_check::{Assume, Settings};
 use trunnion_interp::{ChainId, Fault, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, Tool, run};
 use trunnion_machine::{AxisKind, Follower, Leg, Machine};
-use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, Value};
+use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
 
 /// One rapid motion.
 #[derive(Clone, Debug)]
@@ -141,7 +141,7 @@ pub(crate) fn rapid_runs(
     settings: &Settings<'_>,
     machine: &Machine,
 ) -> Result<Vec<Vec<Rapid>>, String> {
-    if settings.dialect.lex.format != Format::Iso {
+    if !settings.dialect.lex.format.has_words() {
         return Err("rapid motions of APT are not rewritten: its post-processor writes them".into());
     }
     let mut collector = Collector {

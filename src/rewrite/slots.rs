@@ -1,6 +1,6 @@
 //! The coordinate numbers of a block: where they are written, and edits that give them new values.
 use crate::style::NumberStyle;
-use trunnion_syntax::{Address, AptArg, Block, Format, Program, TextEdit, TextRange, Value};
+use trunnion_syntax::{Address, AptArg, Block, Program, TextEdit, TextRange, Value};
 
 /// Which numbers of a block a rewrite handles: X, Y, Z, and then two rotary words or three components of the tool vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub(crate) type Slots = [Option<Slot>; 6];
 impl Scheme {
     /// The scheme of a block whose tool axis is programmed as a vector.
     pub(crate) fn of_vector(program: &Program, block: &Block<'_>) -> Self {
-        if program.options().format != Format::Iso {
+        if !program.options().format.has_words() {
             return Self::Goto;
         }
         let indexed = block

@@ -100,14 +100,14 @@ pub fn run_alike(before: &Input<'_>, after: &Input<'_>) -> bool {
     setup == *after.setup && one_library
 }
 
-/// Whether a text may call a program of another file: it has the words of a call, or computes codes. A Sinumerik calls any name.
+/// Whether a text may call a program of another file: it has the words of a call, or computes codes. A Sinumerik calls any name, an Okuma by CALL.
 fn may_call(input: &Input<'_>) -> bool {
     let (program, quirks) = (input.program, &input.dialect.quirks);
     match program.options().format {
         Format::Apt => return false,
         // CALL PGM, SEL PGM and cycle 12
         Format::Klartext => return true,
-        Format::Iso => {}
+        Format::Iso | Format::Osp => {}
     }
     let text: Vec<u8> = (program.source().iter())
         .filter(|byte| !byte.is_ascii_whitespace())

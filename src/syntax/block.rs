@@ -160,7 +160,7 @@ impl<'p> Block<'p> {
     pub fn record(&self) -> Option<Record<'p>> {
         let tokens = self.tokens();
         match self.program.options.format {
-            Format::Iso | Format::Klartext => None,
+            Format::Iso | Format::Osp | Format::Klartext => None,
             Format::Apt => Record::read(self.program, self.program.scan(tokens.end), tokens.start),
         }
     }
@@ -168,7 +168,7 @@ impl<'p> Block<'p> {
     pub fn sentence(&self) -> Option<Sentence<'p>> {
         let tokens = self.tokens();
         match self.program.options.format {
-            Format::Iso | Format::Apt => None,
+            Format::Iso | Format::Osp | Format::Apt => None,
             Format::Klartext => Sentence::read(self.program, self.program.scan(tokens.end), tokens.start),
         }
     }

@@ -113,7 +113,7 @@ impl Builder {
             end: self.table.kinds.len() as u32,
         };
         match options.format {
-            Format::Iso => items::check(scan, self.first, &mut self.errors),
+            Format::Iso | Format::Osp => items::check(scan, self.first, &mut self.errors),
             Format::Apt => record::check(scan, self.first, &mut self.errors),
             // the lexer reports its problems; what words mean is not known here
             Format::Klartext => {}

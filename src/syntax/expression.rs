@@ -5,8 +5,9 @@ use crate::sink::Sink;
 use crate::{TextRange, TokenId, TokenKind, Value};
 
 /// Operators that are written as words, of all dialects.
-const BINARY: [&str; 16] = [
-    "AND", "OR", "XOR", "MOD", "DIV", "EQ", "NE", "LT", "LE", "GT", "GE", "B_AND", "B_OR", "B_XOR", "B_NOT", "NAND",
+const BINARY: [&str; 17] = [
+    "AND", "OR", "XOR", "EOR", "MOD", "DIV", "EQ", "NE", "LT", "LE", "GT", "GE", "B_AND", "B_OR", "B_XOR", "B_NOT",
+    "NAND",
 ];
 
 /// Ways to write a rotary or incremental target around one number (Sinumerik).
@@ -100,6 +101,7 @@ impl Scan<'_> {
         Some(match self.kind(at) {
             TokenKind::Number => self.exponent(at + 1).unwrap_or(at + 1),
             TokenKind::Text => at + 1,
+            TokenKind::Hash if self.is_osp() => self.hexadecimal(at)?,
             TokenKind::Hash => self.parameter(at, sink),
             TokenKind::BracketOpen | TokenKind::ParenOpen => self.group(at, sink),
             TokenKind::Word | TokenKind::Letter => self.index(at + 1, sink),
@@ -113,6 +115,15 @@ impl Scan<'_> {
             }
             _ => return None,
         })
+    }
+
+    /// After the hexadecimal number `#1FH` at `at` (OSP).
+    fn hexadecimal(&self, at: TokenId) -> Option<TokenId> {
+        let end = self.name_end(at);
+        let text = self.bytes(self.span(at, end)).split_first()?.1;
+        let (mark, digits) = text.split_last()?;
+        let is_one = matches!(mark, b'H' | b'h') && !digits.is_empty() && digits.iter().all(u8::is_ascii_hexdigit);
+        is_one.then_some(end)
     }
 
     /// After an index `[..]` at `at`, if there is one.

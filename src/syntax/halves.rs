@@ -3,6 +3,7 @@
 //! A lexer that starts at a block start needs nothing from before it. So the halves are those of the whole where
 //! the first of them ends with a line end of its own, and not inside a comment or statement of several lines.
 use crate::builder::Builder;
+use crate::plain::goes_on;
 use crate::program::{lex, room};
 use crate::{LexOptions, Program, SyntaxError, TokenKind, parse};
 
@@ -21,7 +22,7 @@ pub fn parse_on(source: Vec<u8>, options: LexOptions, threads: usize) -> Program
 
 /// Parses what is before the byte `cut`, after a line feed, and what is after it in parallel.
 fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
-    if source.len() >= u32::MAX as usize {
+    if source.len() >= u32::MAX as usize || goes_on(&source, cut, options) {
         return parse(source, options);
     }
     let (front, back) = source.split_at(cut);
@@ -83,7 +84,11 @@ mod tests {
             format: Format::Apt,
             ..core
         };
-        for options in [core, no_comments, apt] {
+        let osp = LexOptions {
+            format: Format::Osp,
+            ..core
+        };
+        for options in [core, no_comments, apt, osp] {
             let whole = parse(source.to_vec(), options);
             for cut in memchr::memchr_iter(b'\n', source) {
                 prop_assert_eq!(
@@ -109,6 +114,7 @@ mod tests {
             "G1 X\nG1 [\n(\n\"\nX5.5.5\n",
             "\u{feff}G1\n\u{feff}X1\n",
             "%\n%\n",
+            "$A.MIN%\nN1 X1\n$ Y2\n$\n$Z3\nNA X4\n",
             "\n",
         ] {
             compare(source.as_bytes()).expect(source);

@@ -7,7 +7,7 @@ use crate::error::SyntaxErrorKind;
 use crate::lines::character;
 use crate::sink::Sink;
 use crate::straight::Sign;
-use crate::{LexOptions, TextRange, TokenKind, plain};
+use crate::{Format, LexOptions, TextRange, TokenKind, plain};
 use logos::Logos;
 
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +95,11 @@ fn lex_with(
         out.push(TokenKind::Blank, 0);
         lexer.bump(3);
     }
+    if let Some(length) = header(&source[lexer.span().end..], options).filter(|_| at_start) {
+        out.course.odd();
+        out.push(TokenKind::Percent, lexer.span().end as u32);
+        lexer.bump(length);
+    }
     loop {
         let behind = lexer.span().end;
         lexer.bump(fast(source, behind, options, out) - behind);
@@ -109,6 +114,11 @@ fn lex_with(
             Ok(Raw::Word) => {
                 out.course.pass(Sign::word(span.len()));
                 TokenKind::Word
+            }
+            Ok(Raw::Newline) if plain::goes_on(source, span.end, options) => {
+                out.course.odd();
+                lexer.bump(1);
+                TokenKind::Continuation
             }
             Ok(Raw::Newline) => {
                 out.push(TokenKind::Newline, start);
@@ -132,6 +142,11 @@ fn lex_with(
                 };
                 kind
             }
+            Err(()) if let Some(length) = typographic(&source[span.start..], options) => {
+                out.course.odd();
+                lexer.bump(length - span.len());
+                TokenKind::Text
+            }
             Err(()) => {
                 out.course.odd();
                 let length = character(&source[span.start..]);
@@ -142,6 +157,21 @@ fn lex_with(
         out.push(kind, start);
     }
     out.finish(source, options, source.len() as u32);
+}
+
+/// The length of the name of an OSP file in its first line: `$PART-1.MIN%`.
+fn header(source: &[u8], options: LexOptions) -> Option<usize> {
+    let first = options.format == Format::Osp && source.first() == Some(&b'$');
+    let end = memchr::memchr2(b'\n', b'\r', source).unwrap_or(source.len());
+    first.then(|| source[..end].trim_ascii_end().len())
+}
+
+/// The length of a text in the quotation marks of a word processor, which messages of OSP programs have where they were written with one.
+fn typographic(source: &[u8], options: LexOptions) -> Option<usize> {
+    let opens = options.format == Format::Osp && matches!(source, [0xE2, 0x80, 0x98 | 0x99, ..]);
+    let line = memchr::memchr2(b'\n', b'\r', source).unwrap_or(source.len());
+    let close = opens.then(|| memchr::memmem::find(&source[3..line], b"\xE2\x80\x99"))??;
+    Some(3 + close + 3)
 }
 
 /// The kinds that need no further check.

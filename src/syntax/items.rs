@@ -58,7 +58,7 @@ impl<'p> Items<'p> {
         while self.at < self.scan.end {
             let at = self.at;
             let kind = self.scan.kind(at);
-            if matches!(kind, TokenKind::Blank | TokenKind::Newline) {
+            if matches!(kind, TokenKind::Blank | TokenKind::Newline | TokenKind::Continuation) {
                 self.at += 1;
                 continue;
             }
@@ -213,13 +213,19 @@ impl<'p> Items<'p> {
             self.at = at + 1;
             return Item::Comment(comment(scan.source, scan.range(at)));
         }
-        if kind == TokenKind::Slash && stage == Stage::Start {
+        if kind == TokenKind::Slash && (stage == Stage::Start || stage == Stage::Numbered && scan.is_osp()) {
             return self.skip(at);
         }
         if scan.options.format == Format::Klartext {
             // its words have a view of their own: `Sentence`
             self.at = at + 1;
             return self.silent(at, at + 1);
+        }
+        if kind == TokenKind::Name
+            && stage == Stage::Start
+            && let Some(end) = self.osp_name(at)
+        {
+            return self.label(at, end);
         }
         self.stage = Stage::Inside;
         match kind {

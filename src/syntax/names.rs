@@ -16,7 +16,19 @@ pub(crate) const CONDITIONS: [&str; 7] = ["IF", "ELSEIF", "WHILE", "UNTIL", "EVE
 /// Names that take the rest of the block: declarations, and loops with their own syntax.
 const DECLARATIONS: [&str; 7] = ["DEF", "PROC", "EXTERN", "CASE", "FOR", "DEFINE", "REDEF"];
 
+/// Words of OSP that begin like a name of a block or program.
+const NO_LABELS: [&str; 3] = ["NCYL", "NOEX", "OMIT"];
+
 impl Items<'_> {
+    /// After the name of an OSP block or program at `at`, with its letter `N` or `O`: `NLOOP`, `OPART`.
+    pub(crate) fn osp_name(&self, at: TokenId) -> Option<TokenId> {
+        let scan = self.scan;
+        let end = scan.name_end(at);
+        let text = scan.bytes(scan.span(at, end));
+        let named = scan.is_osp() && matches!(text[0], b'N' | b'n' | b'O' | b'o');
+        (named && !is_one_of(text, &NO_LABELS) && !scan.assigns(scan.skip_blank(end))).then_some(end)
+    }
+
     /// A name: label, assignment, jump, condition, declaration or call.
     pub(crate) fn name(&mut self, at: TokenId, stage: Stage, sink: &mut impl Sink) -> Item {
         let scan = self.scan;

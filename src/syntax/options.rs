@@ -9,12 +9,25 @@ pub enum Format {
     Apt,
     /// HEIDENHAIN Klartext: `12 L X+10 Y-5,5 R0 FMAX M3`.
     Klartext,
+    /// Okuma OSP: ISO words, with names after `N` and `O` at the start of a block (`NLOOP G1 X1`), a first line `$NAME.MIN%`, lines that begin
+    /// with `$` and continue the block above, and hexadecimal numbers `#1FH`.
+    Osp,
+}
+
+impl Format {
+    /// Blocks of words: ISO 6983 and what extends it.
+    pub fn has_words(self) -> bool {
+        match self {
+            Self::Iso | Self::Osp => true,
+            Self::Apt | Self::Klartext => false,
+        }
+    }
 }
 
 /// Lexical facts of a dialect. Comments the flags do not name are still lexed as far as that is unambiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LexOptions {
-    /// ISO words, APT records or Klartext.
+    /// ISO words, APT records, Klartext or OSP.
     pub format: Format,
     /// `( ... )` is a comment (else it brackets arguments: `CYCLE81(1,2)`).
     pub paren_comment: bool,

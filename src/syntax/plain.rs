@@ -5,7 +5,7 @@
 use crate::builder::{Builder, HELD};
 use crate::length::short;
 use crate::straight::{Course, Sign};
-use crate::{LexOptions, TokenKind};
+use crate::{Format, LexOptions, TokenKind};
 
 /// What a byte may begin.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -224,11 +224,18 @@ fn lex_into<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<
                 cut.push(TokenKind::Blank, Sign::Blank, start);
             }
             Class::LineFeed => {
+                if goes_on(source, at + 1, options) {
+                    break;
+                }
                 at += 1;
                 cut.line_end(source, options, start, at);
             }
             Class::Return => {
-                at += 1 + usize::from(source.get(at + 1) == Some(&b'\n'));
+                let end = at + 1 + usize::from(source.get(at + 1) == Some(&b'\n'));
+                if goes_on(source, end, options) {
+                    break;
+                }
+                at = end;
                 cut.line_end(source, options, start, at);
             }
             Class::Sign => {
@@ -259,6 +266,12 @@ fn lex_into<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<
         }
     }
     (at, cut)
+}
+
+/// Whether the line that begins at `at` continues the block above (OSP).
+#[inline]
+pub(crate) fn goes_on(source: &[u8], at: usize, options: LexOptions) -> bool {
+    options.format == Format::Osp && source.get(at) == Some(&b'$')
 }
 
 /// Kind and end of the token that begins with the `#`, `/`, `(` or `;` at `at`.

@@ -64,7 +64,7 @@ pub(crate) fn room(source: &[u8], options: LexOptions) -> Builder {
 /// Lexes `source` with the lexer of its format.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
     match options.format {
-        Format::Iso => iso::lex(source, options, at_start, out),
+        Format::Iso | Format::Osp => iso::lex(source, options, at_start, out),
         Format::Apt => apt::lex(source, options, at_start, out),
         Format::Klartext => klartext::lex(source, options, at_start, out),
     }

@@ -1,7 +1,7 @@
 //! A view of the tokens of one block, with the small steps of every grammar rule.
 use crate::error::SyntaxErrorKind;
 use crate::sink::Sink;
-use crate::{Decimal, LexOptions, TextRange, TokenId, TokenKind, TokenTable, Value};
+use crate::{Decimal, Format, LexOptions, TextRange, TokenId, TokenKind, TokenTable, Value};
 
 /// The tokens up to `end`, and their text.
 #[derive(Clone, Copy)]
@@ -65,10 +65,15 @@ impl<'p> Scan<'p> {
     /// The next token from `at` on that is not a blank.
     #[inline]
     pub(crate) fn skip_blank(&self, mut at: TokenId) -> TokenId {
-        while self.kind(at) == TokenKind::Blank {
+        while self.kind(at) == TokenKind::Blank || self.kind(at) == TokenKind::Continuation && self.is_osp() {
             at += 1;
         }
         at
+    }
+
+    /// Whether the words are those of OSP.
+    pub(crate) fn is_osp(&self) -> bool {
+        self.options.format == Format::Osp
     }
 
     /// After the last token of `from..to` that is neither blank nor comment nor line end.

@@ -101,6 +101,10 @@ actions! {
     MachineCoordinates = "machine-coordinates",
     /// G54 ... : select a work offset; the code's own id is the offset's name.
     WorkOffset = "work-offset",
+    /// Okuma G15 H: selects the work coordinate system of that number.
+    WorkSystem = "work-system",
+    /// Okuma G16 H: the same for this block; H0 is the machine's.
+    WorkSystemOnce = "work-system-once",
     /// Sinumerik G500: no settable offset.
     WorkOffsetNone = "work-offset-none",
     /// M3.

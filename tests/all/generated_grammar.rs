@@ -15,7 +15,7 @@ fn dialects(format: Format) -> Vec<&'static Dialect> {
     BUILTIN_NAMES
         .iter()
         .filter_map(|name| builtin(name))
-        .filter(|dialect| dialect.lex.format == format)
+        .filter(|dialect| dialect.lex.format == format || format == Format::Iso && dialect.lex.format.has_words())
         .collect()
 }
 

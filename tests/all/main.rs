@@ -22,6 +22,7 @@ mod lsp_writing;
 mod mutated_formats;
 mod mutated_programs;
 mod mutations;
+mod okuma;
 mod once_wrong;
 mod planted;
 mod random;

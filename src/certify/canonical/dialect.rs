@@ -66,6 +66,7 @@ impl Encode for Quirks {
             dwell_then_moves,
             straight_rapids,
             cycle_level_optional,
+            cycle_return_unknown,
             machine_data_suppress_length,
         } = self;
         let has = |wanted: Language| *language == wanted;
@@ -99,7 +100,9 @@ impl Encode for Quirks {
                 .field(26, machine_data_suppress_length)
                 .field(27, &(*macros == Macros::Fanuc).then_some(true))
                 .field(28, &straight_rapids.then_some(true))
-                .field(29, &cycle_level_optional.then_some(true));
+                .field(29, &cycle_level_optional.then_some(true))
+                .field(30, &has(Language::UserTask).then_some(true))
+                .field(31, &cycle_return_unknown.then_some(true));
         });
     }
 }

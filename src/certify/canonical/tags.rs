@@ -35,7 +35,7 @@ macro_rules! tags {
     };
 }
 
-tags! { Format { Iso = 1, Apt = 2, Klartext = 3 } }
+tags! { Format { Iso = 1, Apt = 2, Klartext = 3, Osp = 4 } }
 tags! { CodeKind { G = 1, M = 2, Name = 3 } }
 tags! { Owner { Control = 1, MachineBuilder = 2 } }
 tags! { PathMode { ExactStop = 1, ExactPath = 2, Continuous = 3 } }
@@ -83,6 +83,7 @@ tags! {
         PatternRepeatCycle = 97, ThreadRepeatCycle = 98, FacePeckCycle = 99, GroovePeckCycle = 100, CannedCycle = 101,
         CycleOff = 102, ConstantSurfaceSpeed = 103, ConstantSpindleSpeed = 104, SubprogramCall = 105, OrientationAxes = 106,
         OrientationVector = 107, PointToPoint = 108, PointToPointRapid = 109, ContinuousPath = 110,
-        ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114,
+        ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114, WorkSystem = 115,
+        WorkSystemOnce = 116,
     }
 }

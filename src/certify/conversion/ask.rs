@@ -201,7 +201,7 @@ pub(super) fn asks(
 
 /// M99 as the last block that runs: the program starts again, or returns to its caller.
 fn runs_again(program: &Program, dialect: &Dialect, block: BlockId) -> Option<TextRange> {
-    let is_iso = program.options().format == Format::Iso;
+    let is_iso = program.options().format.has_words();
     let is = |word: &Word| match (word.address, word.value) {
         (Address::Letter(b'M'), Value::Number(number)) => number.to_integer() == Some(99),
         _ => false,

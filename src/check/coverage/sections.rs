@@ -88,7 +88,7 @@ fn mark(block: &Block<'_>, language: Language) -> Option<Mark> {
                 None
             }
         }
-        Language::MacroB | Language::Words if matches!(first, b'O' | b'o' | b':') => {
+        Language::MacroB | Language::Words | Language::UserTask if matches!(first, b'O' | b'o' | b':') => {
             let head = match block.items().next()? {
                 Item::Word(word) => word.address == Address::Letter(b'O'),
                 Item::Label(_) => true,

@@ -26,7 +26,6 @@
 //! # Sources
 //! * ISO 6983-1:2009, sequence numbers.
 use crate::prelude::*;
-use trunnion_syntax::Format;
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::Program(check)]);
 
@@ -41,7 +40,7 @@ enum Start {
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let program = overview.program;
-    if program.options().format != Format::Iso {
+    if !program.options().format.has_words() {
         return;
     }
     let mut last: Option<(u64, TextRange)> = None;

@@ -15,7 +15,8 @@
 //! Put the program in the folder of the one that calls it, or name its folder in `trunnion.toml`: `subprogram_path = ["subs"]`.
 //!
 //! # Guarantee
-//! Sound for the calls that are modelled. Only the program itself, its folder and the folders in the settings are
+//! Sound for the calls that are modelled. On an Okuma, which is supplied with subprograms of its own, it is unknown whether the program is
+//! there. Only the program itself, its folder and the folders in the settings are
 //! searched.
 //!
 //! # Sources
@@ -37,6 +38,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .as_ref()
             .map_or_else(String::new, |place| format!(", called in {place}"));
         let near = out.near_code(name);
+        let in_control = out.dialect().advice.subprograms_in_control;
         let refused = searched.iter().find_map(|place| place.refused.as_ref());
         let draft = out.report(
             fault.range,
@@ -55,6 +57,11 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         } else {
             format!("searched: the program itself, {}", folders.join(", "))
         });
+        if in_control && refused.is_none() {
+            draft
+                .unknown()
+                .note("the control itself is supplied with subprograms".to_owned());
+        }
         if let Some(alarm) = alarm {
             draft.note(format!("the control says: {alarm}"));
             draft.value_text("alarm", alarm.clone());

@@ -12,7 +12,8 @@ pub(super) fn raw(line: &str, votes: &mut Votes) {
     if has_word(line, "WEDM") || line.contains("ACCUTEX") || line.starts_with("(EXTERNAL TEC") {
         votes.add("wire-edm", 12, "the conditions of a wire EDM");
     }
-    let is_name = line.starts_with('$') && [".MIN", ".SSB", ".SUB"].iter().any(|end| line.contains(end));
+    let endings = [".MIN", ".SSB", ".SUB", ".LIB", ".MSB"];
+    let is_name = line.starts_with('$') && endings.iter().any(|end| line.contains(end));
     if is_name {
         votes.add("okuma-osp", 12, "a file name $...MIN");
     }
@@ -171,6 +172,41 @@ fn okuma(code: &str, votes: &mut Votes) {
     {
         votes.add("okuma-osp-lathe", 4, "a T word of six digits");
     }
+}
+
+/// Whether only an Okuma for turning has what is in a line: limits of the spindle, turrets, sides, driven tools, LAP (NC-PB/gEdit, syntax-okuma.md).
+pub(super) fn okuma_turns(code: &str) -> bool {
+    let g = [
+        "13", "14", "96", "101", "102", "103", "110", "111", "136", "137", "138", "140", "141", "180", "181", "182",
+        "183", "184", "185", "186", "187", "188", "189",
+    ];
+    let m = ["109", "110", "146", "147"];
+    let limit = has(code, b'G', "50") && word(code, b'S');
+    let lap = ["85", "86", "87", "88"].iter().any(|number| {
+        has(code, b'G', number)
+            && code
+                .split_whitespace()
+                .skip(1)
+                .any(|part| part.starts_with('N') && !part.starts_with("NOEX"))
+    });
+    let steps = ["73", "74"].iter().any(|number| has(code, b'G', number)) && word(code, b'D');
+    let thread = ["71", "72"].iter().any(|number| has(code, b'G', number)) && word(code, b'X') && word(code, b'Z');
+    // T010101, T0101, T1212
+    let turret = words(code).any(|(letter, number)| {
+        let pair = number.len() == 4 && (number.starts_with('0') || number[..2] == number[2..]);
+        letter == b'T'
+            && (pair || number.len() == 6)
+            && number.bytes().all(|b| b.is_ascii_digit())
+            && !has(code, b'M', "6")
+    });
+    let coded = g.iter().any(|number| has(code, b'G', number)) || m.iter().any(|number| has(code, b'M', number));
+    coded || limit || lap || steps || thread || turret || has_word(code, "SB")
+}
+
+/// Whether only an Okuma for milling has what is in a line.
+pub(super) fn okuma_mills(code: &str) -> bool {
+    let drills = (81..=89).any(|number| has(code, b'G', &number.to_string())) && word(code, b'R');
+    drills || has(code, b'G', "56") && word(code, b'H') || ["169", "116"].iter().any(|number| has(code, b'G', number))
 }
 
 fn centroid_and_eding(code: &str, votes: &mut Votes) {

@@ -11,6 +11,8 @@ const EXTENSION: u32 = 9;
 pub(super) struct Seen {
     votes: Votes,
     shape: Shape,
+    /// What only an Okuma for turning, and only one for milling, has.
+    okuma: (bool, bool),
 }
 
 /// Signs that distinguish a Haas from a Fanuc.
@@ -56,6 +58,7 @@ impl Seen {
         let mut seen = Self {
             votes: Votes::default(),
             shape: Shape::default(),
+            okuma: (false, false),
         };
         let votes = &mut seen.votes;
         for (at, line) in lines(text).map(str::trim).enumerate() {
@@ -87,6 +90,8 @@ impl Seen {
             let plain = code.strip_prefix('/').map_or(code, str::trim_start);
             supported::code(plain, votes);
             others::code(plain, votes);
+            seen.okuma.0 |= others::okuma_turns(plain);
+            seen.okuma.1 |= others::okuma_mills(plain);
             seen.shape.look(plain, at + 1);
         }
         seen
@@ -141,6 +146,15 @@ impl Seen {
         named(name, format!("content: {reason}"), certain)
     }
 
+    /// Which Okuma an Okuma program is for. A lathe has signs of its own; one without them moves X and never Y, and has nothing that only a
+    /// machining centre has.
+    pub(super) fn okuma_name(&self, known: Surroundings<'_>) -> &'static str {
+        let (turns, mills) = self.okuma;
+        let sign = turns || self.shape.turns() || self.votes.weight(&["okuma-osp-lathe"]) > 0;
+        let flat = self.shape.is_flat() && !mills && !self.shape.mill && known.turns != Some(false);
+        if sign || flat { "okuma-osp-lathe" } else { "okuma-osp" }
+    }
+
     /// The control inside a group, and the sign that shows it.
     fn in_group(
         &self,
@@ -171,11 +185,7 @@ impl Seen {
                 }
                 Some((name, reason))
             }
-            "okuma-osp" => {
-                let turns = self.shape.turns() || self.votes.weight(&["okuma-osp-lathe"]) > 0;
-                let name = if turns { "okuma-osp-lathe" } else { "okuma-osp" };
-                Some((name, strongest(group)?))
-            }
+            "okuma-osp" => Some((self.okuma_name(known), strongest(group)?)),
             name => Some((name, strongest(group)?)),
         }
     }

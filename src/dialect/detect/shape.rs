@@ -8,6 +8,8 @@ pub(super) struct Shape {
     pub(super) mill: bool,
     /// Motions with Y.
     y: u32,
+    /// Motions with X.
+    x: u32,
     /// Motions in X or Z without Y.
     xz: u32,
     /// T words that name tool and offset: T0101.
@@ -38,6 +40,7 @@ impl Shape {
             let plain = digits.bytes().all(|b| b.is_ascii_digit());
             self.turret |= plain && matches!(digits.len(), 3 | 4) && digits != "0000";
         }
+        self.x += u32::from(word(code, b'X'));
         if word(code, b'Y') {
             self.y += 1;
         } else if word(code, b'X') || word(code, b'Z') {
@@ -94,6 +97,11 @@ impl Shape {
             strong: false,
             system_b: false,
         })
+    }
+
+    /// Whether X moves and Y never does.
+    pub(super) fn is_flat(&self) -> bool {
+        self.x > 0 && self.y == 0
     }
 
     /// Whether only X and Z move, with a turret: a lathe of any control.

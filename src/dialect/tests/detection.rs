@@ -226,7 +226,7 @@ fn klartext_is_told_by_its_blocks() {
 fn controls_that_are_not_read() {
     for (text, name) in [
         ("%A G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN20 G00 X+5*\n", "heidenhain-iso"),
-        ("OHOME\nG0 X60.\nG20 HP=4\nRTS\n", "okuma-osp"),
+        ("OHOME\nG0 X60.\nG20 HP=4\nRTS\n", "okuma-osp-lathe"),
         ("$PART.MIN%\nG50 S2000\nT010101\nG0 X50 Z2\nM2\n", "okuma-osp-lathe"),
         ("IF #4201 || #4202 THEN GOTO 1000\n#29952 = #25012\nN1000\n", "centroid"),
         ("Sub user_1\n    DlgMsg \"a\" \"b\" 1\nEndSub\n", "eding"),
@@ -368,4 +368,33 @@ fn programs_of_known_origin() {
         "by content alone: {right} of {seen} right, {} wrong: {wrong:#?}",
         wrong.len()
     );
+}
+
+#[test]
+fn okuma_mills_and_lathes() {
+    for (name, text, wanted) in [
+        ("a.min", "G15 H1\nT1 M6\nG56 H1\nG0 X1 Y2 Z3\nM2\n", "okuma-osp"),
+        ("a.nc", "$PART.MIN%\nG15 H1\nG0 X1 Y2\nM2\n", "okuma-osp"),
+        (
+            "a.nc",
+            "N1 V1=2\nCALL OSUB AB=V1\nIF [V1 EQ 2] NEND\nNEND M2\n",
+            "okuma-osp",
+        ),
+        ("a.min", "G0 X50 Z2\nG1 Z-10 F0.2\nM2\n", "okuma-osp-lathe"),
+        ("a.min", "G50 S2000\nT010101\nG0 X50 Y0 Z2\nM2\n", "okuma-osp-lathe"),
+    ] {
+        let found = detect(Some(name), text.as_bytes(), None);
+        let lathe = matches!(found.foreign, Some(Foreign::Control(control)) if control.name == "okuma-osp-lathe");
+        assert_eq!(
+            if lathe { "okuma-osp-lathe" } else { &found.dialect.name },
+            wanted,
+            "{text}"
+        );
+    }
+    let found = detect(
+        Some("a.nc"),
+        b"G0 X50 Z2\nG96 S200 M3\nG1 Z-10 F0.2\nM2\n",
+        Some("okuma-osp"),
+    );
+    assert!(found.foreign.is_some(), "{}", found.reason);
 }

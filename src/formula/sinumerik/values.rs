@@ -1,9 +1,14 @@
-//! What the operations of a Sinumerik compute; NaN where the outcome is not documented.
+//! What the operations that only a Sinumerik or an Okuma has compute; NaN where the outcome is not documented.
 use crate::FormulaErrorKind as Kind;
 use crate::code::{Binary, Comparison, Unary};
 
 /// Numbers that differ by less than this part of the larger may be equal to the control.
 const NEAR: f64 = 1e-9;
+
+/// 0 and 1 as truth values.
+fn truth(value: f64) -> Option<bool> {
+    (value == 0.0 || value == 1.0).then_some(value == 1.0)
+}
 
 /// Whether two numbers differ by so little that the outcome of comparing them is not documented.
 fn is_near(a: f64, b: f64) -> bool {
@@ -24,9 +29,20 @@ pub(crate) fn binary(operation: Binary, a: f64, b: f64) -> Result<f64, Kind> {
             Comparison::Less => a < b,
             Comparison::LessOrEqual => a <= b,
         })),
-        Binary::WholeDivide | Binary::WholeRemainder if b == 0.0 => return Err(Kind::DivisionByZero),
+        Binary::WholeDivide | Binary::WholeRemainder | Binary::PositiveRemainder if b == 0.0 => {
+            return Err(Kind::DivisionByZero);
+        }
         Binary::WholeDivide if integers => (a / b).trunc() + 0.0,
         Binary::WholeRemainder if integers => a % b + 0.0,
+        Binary::PositiveRemainder if integers && a >= 0.0 && b > 0.0 => a % b,
+        Binary::TruthAnd | Binary::TruthOr | Binary::TruthXor => match (truth(a), truth(b)) {
+            (Some(a), Some(b)) => f64::from(u8::from(match operation {
+                Binary::TruthAnd => a && b,
+                Binary::TruthOr => a || b,
+                _ => a != b,
+            })),
+            _ => f64::NAN,
+        },
         Binary::Minimum => a.min(b),
         Binary::Maximum => a.max(b),
         Binary::WholeAnd | Binary::WholeOr | Binary::WholeXor => match (bits(a), bits(b)) {
@@ -50,6 +66,9 @@ pub(crate) fn unary(operation: Unary, x: f64) -> f64 {
         Unary::BitNot if x.fract() == 0.0 => -x - 1.0,
         Unary::CutOff if !is_near(x, nearest) => x.trunc() + 0.0,
         Unary::RoundHalf if x >= 0.0 || x.fract() != -0.5 => (x + 0.5).floor() + 0.0,
+        Unary::TruthNot => truth(x).map_or(f64::NAN, |x| f64::from(u8::from(!x))),
+        Unary::NearestWhole if !is_near(x.abs().fract(), 0.5) && x.abs().fract() != 0.5 => nearest + 0.0,
+        Unary::WholeBelow if x >= 0.0 && (x == nearest || !is_near(x, nearest)) => x.floor(),
         Unary::RoundUp if x >= 0.0 && !is_near(x, nearest) || x == nearest => x.ceil(),
         _ => f64::NAN,
     }

@@ -9,6 +9,10 @@ const SHARED_NGC: u32 = 31;
 const SHARED_MACRO: u32 = 34;
 
 pub(super) fn read(program: &Program, dialect: &Dialect, found: &mut Names) {
+    if dialect.quirks.user_task() {
+        // `#1FH` is a number
+        return;
+    }
     let rs274 = dialect.quirks.language == Language::Linuxcnc;
     let tokens = program.tokens();
     for block in program.blocks() {

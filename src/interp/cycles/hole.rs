@@ -129,7 +129,11 @@ impl Iso<'_> {
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let always_initial = self.core.state.motion == Some(Action::BackBoreCycle);
-        let back = if self.memory.cycle.to_r && !always_initial {
+        let back = if self.core.dialect.quirks.cycle_return_unknown {
+            let what = format!("{}: the level to which it returns", self.memory.cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            None
+        } else if self.memory.cycle.to_r && !always_initial {
             r
         } else {
             hole.initial

@@ -94,6 +94,8 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         | Action::SwivelCycle
         | Action::Kinematics => Sort::Before,
         Action::MachineCoordinates => Sort::Setting("coordinates"),
+        // the system of another number is that of the motion
+        Action::WorkSystemOnce if words.length_offset.index() == Some(0) => Sort::Setting("coordinates"),
         Action::CompensationLeft | Action::CompensationRight | Action::CompensationOff => Sort::Setting("compensation"),
         // a limit of the spindle's speed
         Action::PositionSet | Action::NotFollowed | Action::FrameChange

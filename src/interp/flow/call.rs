@@ -43,7 +43,7 @@ impl Iso<'_> {
                 };
                 found
             }
-            With::Sinumerik(_) => self.find(&calling.program, running, false),
+            With::Sinumerik(_) | With::Task(_) => self.find(&calling.program, running, false),
         };
         let place = match found {
             Ok(place) => place,
@@ -77,6 +77,7 @@ impl Iso<'_> {
                     return self.stop();
                 }
             },
+            With::Task(with) => Level::Task(Box::new(self.enter_task(with))),
         };
         self.push_call(level, times, place, running, from);
     }
@@ -138,14 +139,21 @@ impl Iso<'_> {
         let Some(library) = &self.core.setup.library.0 else {
             return Err(Vec::new());
         };
-        let tried = if dialect.quirks.user_names() {
+        let tried = if dialect.quirks.sinumerik() {
             sinumerik::files(name)
+        } else if dialect.quirks.user_task() {
+            crate::osp::files(name)
         } else {
             crate::macro_b::files(name)
         };
         let load = |file: &str| library.load(file).map(|loaded| (loaded.path, loaded.bytes));
         let file = trail.library.find(name, tried.into_iter(), dialect.lex, load)?;
-        Ok((file, self.first_block(file, name)))
+        let found = self.first_block(file, name);
+        if dialect.quirks.user_task() && !self.names_program(file, name) {
+            // a file says which programs are in it
+            return Err(Vec::new());
+        }
+        Ok((file, found))
     }
 
     /// The block where a program of another file begins: at its number or header, else after the `%` at its start.
@@ -164,6 +172,12 @@ impl Iso<'_> {
             });
             u32::from(percent)
         })
+    }
+
+    /// Whether a file that was indexed has a program of this name.
+    fn names_program(&self, file: u16, name: &Key) -> bool {
+        let index = self.flow.trail.as_ref().and_then(|trail| trail.known_index(file));
+        index.is_some_and(|index| index.program(name).is_some())
     }
 
     /// A return.
@@ -194,6 +208,7 @@ impl Iso<'_> {
                     }
                 }
                 Level::Sinumerik(level) => level.again(&mut self.memory.own),
+                Level::Task(level) => level.again(&mut self.memory.own),
                 Level::Section => {}
             }
             self.flow.next = trail.course.jump_back(self.flow.next, start, changes);
@@ -212,6 +227,7 @@ impl Iso<'_> {
                     self.tell_of_flow(running, from, (back.range, kind), sink);
                 }
             }
+            Level::Task(level) => self.leave_task(*level),
             Level::Section => {}
         }
     }

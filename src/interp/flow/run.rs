@@ -97,6 +97,7 @@ impl Iso<'_> {
         if self.core.state.ended {
             return self.end(running.main, sink);
         }
+        let pending = pending.or_else(|| self.modal_of_task(running, from, moved, sink));
         let pending = pending.or_else(|| {
             let range = || running.program().block(BlockId(from)).range();
             let deep = self.flow.deep.as_ref().filter(|_| moved)?;
@@ -111,6 +112,24 @@ impl Iso<'_> {
         }
         if self.core.state.ended {
             self.end(running.main, sink);
+        }
+    }
+
+    /// The call of MODIN after a block that has moved.
+    fn modal_of_task(
+        &mut self,
+        running: &Running<'_>,
+        from: u32,
+        moved: bool,
+        sink: &mut impl Sink,
+    ) -> Option<Transfer> {
+        match self.modal_task().filter(|_| moved)? {
+            Ok(calling) => Some(Transfer::Call(calling)),
+            Err(what) => {
+                let range = running.program().block(BlockId(from)).range();
+                self.tell_of_flow(running, from, (range, FaultKind::NotDecided { what }), sink);
+                Some(Transfer::End)
+            }
         }
     }
 

@@ -10,7 +10,7 @@ use crate::written::Values;
 use trunnion_dialect::{Dialect, Language};
 use trunnion_syntax::{BlockId, Program};
 
-/// The engine of all controls whose programs are blocks of words: Fanuc, Haas, grbl, ISO 6983, Sinumerik.
+/// The engine of all controls whose programs are blocks of words: Fanuc, Haas, grbl, ISO 6983, Sinumerik, Okuma.
 #[derive(Clone)]
 pub(crate) struct Iso<'d> {
     pub(crate) core: Core<'d>,
@@ -118,7 +118,7 @@ impl Values for Iso<'_> {
     }
     fn value(&self, text: &str) -> Option<f64> {
         match self.core.dialect.quirks.language {
-            Language::Sinumerik => self.memory.own.value(text.trim()),
+            Language::Sinumerik | Language::UserTask => self.memory.own.value(text.trim()),
             Language::Words | Language::MacroB | Language::Linuxcnc => {
                 self.variable(text.trim()).filter(|value| !value.is_nan())
             }
@@ -136,6 +136,7 @@ impl<'d> Iso<'d> {
             flow: Flow::default(),
             cycle_motions: 0,
         };
+        engine.memory.own.is_task = engine.core.dialect.quirks.user_task();
         let setup = std::sync::Arc::clone(&engine.core.setup);
         if engine.core.dialect.quirks.first_offset_at_start
             && let Some(offset) = setup.work_offset("G54")

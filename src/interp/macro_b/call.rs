@@ -87,9 +87,9 @@ impl Iso<'_> {
         let of_macro = |level: &&Kept| matches!(level, Kept::MacroB(level) if level.variables_of_call.is_some());
         let is_macro = match &calling.with {
             crate::flow::With::MacroB(with) => with.arguments.is_some(),
-            crate::flow::With::Sinumerik(_) => false,
+            crate::flow::With::Sinumerik(_) | crate::flow::With::Task(_) => false,
         };
-        let (depth, limit, what) = if self.core.dialect.quirks.user_names() {
+        let (depth, limit, what) = if self.core.dialect.quirks.sinumerik() {
             return crate::sinumerik::too_deep(levels, self.core.setup.limits.depth as usize);
         } else if !is_fanuc(self.core.dialect) {
             (levels, self.core.setup.limits.depth as usize, "calls")

@@ -8,7 +8,7 @@ use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::words::Words;
 use crate::{Clamps, Fault, FaultKind, Refusal};
-use trunnion_syntax::{BlockId, Format, Program, TextRange};
+use trunnion_syntax::{BlockId, Program, TextRange};
 
 impl Iso<'_> {
     /// Nothing is left to run: reports what is missing, and what is wrong with the text of blocks that did not run.
@@ -20,7 +20,7 @@ impl Iso<'_> {
         self.finish(program, sink);
         let reads =
             self.core.dialect.quirks.macro_b() || self.core.dialect.quirks.user_names() && self.flow.trail.is_some();
-        if !reads || program.options().format != Format::Iso {
+        if !reads || !program.options().format.has_words() {
             return;
         }
         let next = self.flow.next;

@@ -75,8 +75,10 @@ impl<'d> Iso<'d> {
         if words.forgets_all || self.core.dialect.quirks.user_names() && codes.iter().any(calls) {
             self.memory.own.lose();
         }
-        if self.core.dialect.quirks.user_names() {
+        if self.core.dialect.quirks.sinumerik() {
             self.sinumerik_words(block, codes, words, report);
+        } else if self.core.dialect.quirks.user_task() {
+            self.task_words(block, codes, words, report);
         }
         if words.flow || words.program_number.is_some() {
             self.flow_words(block, codes, words, report);
@@ -121,7 +123,7 @@ impl<'d> Iso<'d> {
     }
 
     /// Whether the O word of a block begins a program after the one that runs.
-    fn begins_another(&self, block: &Block<'_>) -> bool {
+    pub(crate) fn begins_another(&self, block: &Block<'_>) -> bool {
         let inside = self.flow.trail.as_ref().is_some_and(|trail| {
             let section = trail.course.place().section;
             let starts = section.is_some_and(|section| section.0 == block.id().0);

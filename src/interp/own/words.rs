@@ -10,7 +10,7 @@ impl super::Own {
     /// What a variable holds now, also where the current block has written it.
     pub(crate) fn held(&self, name: &str) -> Option<f64> {
         let name = name.to_ascii_lowercase();
-        match super::r_parameter(&name) {
+        match super::r_parameter(&name).filter(|_| !self.is_task) {
             Some(number) => self.parameters.get(&number).copied(),
             None if name.contains('[') => self.held_element(&name),
             None => self

@@ -227,7 +227,8 @@ impl Iso<'_> {
             block.words().any(is_end)
         };
         if running.program().blocks().any(ends) {
-            let what = "RET in the main program: taken as its end".to_owned();
+            let name = running.program().text(back.range).trim().to_ascii_uppercase();
+            let what = format!("{name} in the main program: taken as its end");
             self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
         }
         self.stop();
@@ -247,6 +248,11 @@ impl Iso<'_> {
             .min(running.program().block_count() as u32)
             .saturating_sub(1);
         let range = running.program().block(BlockId(last)).range();
+        if self.core.dialect.quirks.user_task() {
+            let what = "a subprogram that ends without RTS".to_owned();
+            self.tell_of_flow(&running, last, (range, FaultKind::NotDecided { what }), sink);
+            return self.stop();
+        }
         let what = "a subprogram that ends without M17 or RET: taken as its return".to_owned();
         if place.file == 0 {
             sink.fault(Fault {

@@ -340,7 +340,7 @@ impl Statement<'_> {
             (Some(block), None) | (None, Some(block)) => Ok(block),
             (None, None) => Err((
                 range,
-                super::no_label(format!("there is no label {name} in this program")),
+                super::no_label(format!("there is no label {name} in this program"), true),
             )),
             (Some(_), Some(_)) => not_decided(
                 range,

@@ -1,8 +1,8 @@
 //! The text of one statement, comments left out, with its place in the file.
-use trunnion_syntax::{Block, TextRange};
+use trunnion_syntax::{Block, Format, TextRange};
 
 /// See the module.
-pub(super) struct Text {
+pub(crate) struct Text {
     bytes: Vec<u8>,
     /// Offset of the first byte in the file.
     base: u32,
@@ -11,7 +11,7 @@ pub(super) struct Text {
 
 impl Text {
     /// The block from the byte `start` of the file on.
-    pub(super) fn of(block: &Block<'_>, start: u32) -> Self {
+    pub(crate) fn of(block: &Block<'_>, start: u32) -> Self {
         let range = TextRange::new(start, block.range().end.max(start));
         let mut bytes = block.program().bytes(range).to_vec();
         for comment in block.comments() {
@@ -21,6 +21,14 @@ impl Text {
                 bytes[from..to].fill(b' ');
             }
         }
+        if block.program().options().format == Format::Osp {
+            // the `$` of lines that continue the block
+            for at in 1..bytes.len() {
+                if bytes[at] == b'$' && matches!(bytes[at - 1], b'\n' | b'\r') {
+                    bytes[at] = b' ';
+                }
+            }
+        }
         Self {
             bytes,
             base: start,
@@ -28,7 +36,7 @@ impl Text {
         }
     }
 
-    pub(super) fn bytes(&self) -> &[u8] {
+    pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
@@ -38,34 +46,34 @@ impl Text {
     }
 
     /// The position of the next character in the text.
-    pub(super) fn at(&mut self) -> usize {
+    pub(crate) fn at(&mut self) -> usize {
         self.blanks();
         self.at
     }
 
-    pub(super) fn go_to(&mut self, at: usize) {
+    pub(crate) fn go_to(&mut self, at: usize) {
         self.at = at.min(self.bytes.len());
     }
 
-    pub(super) fn is_at_end(&mut self) -> bool {
+    pub(crate) fn is_at_end(&mut self) -> bool {
         self.at() == self.bytes.len()
     }
 
     /// The place of a part of the text in the file.
-    pub(super) fn range(&self, from: usize, to: usize) -> TextRange {
+    pub(crate) fn range(&self, from: usize, to: usize) -> TextRange {
         let part = &self.bytes[from..to.max(from)];
         let blanks = part.iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
         TextRange::new(self.base + from as u32, self.base + (to.max(from) - blanks) as u32)
     }
 
     /// The place of all that is not read yet.
-    pub(super) fn rest(&mut self) -> TextRange {
+    pub(crate) fn rest(&mut self) -> TextRange {
         let at = self.at();
         self.range(at, self.bytes.len())
     }
 
     /// A word of letters, digits and `_` in upper case; empty where there is none.
-    pub(super) fn word(&mut self) -> String {
+    pub(crate) fn word(&mut self) -> String {
         let from = self.at();
         let is_name = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'_';
         self.at += self.bytes[from..].iter().take_while(is_name).count();
@@ -73,7 +81,7 @@ impl Text {
     }
 
     /// Letters alone: a keyword that a number may follow directly.
-    pub(super) fn letters(&mut self) -> String {
+    pub(crate) fn letters(&mut self) -> String {
         let from = self.at();
         let count = self.bytes[from..]
             .iter()
@@ -84,7 +92,7 @@ impl Text {
     }
 
     /// Takes a character if it is next.
-    pub(super) fn eat(&mut self, sign: u8) -> bool {
+    pub(crate) fn eat(&mut self, sign: u8) -> bool {
         let at = self.at();
         let there = self.bytes.get(at) == Some(&sign);
         self.at += usize::from(there);
@@ -92,7 +100,7 @@ impl Text {
     }
 
     /// A string in quotation marks, without them.
-    pub(super) fn quoted(&mut self) -> Option<String> {
+    pub(crate) fn quoted(&mut self) -> Option<String> {
         let from = self.at();
         if self.bytes.get(from) != Some(&b'"') {
             return None;
@@ -103,7 +111,7 @@ impl Text {
     }
 
     /// Takes a whole number with its sign.
-    pub(super) fn integer(&mut self) -> Option<f64> {
+    pub(crate) fn integer(&mut self) -> Option<f64> {
         let from = self.at();
         let sign = usize::from(matches!(self.bytes.get(from), Some(b'-' | b'+')));
         let digits = self.bytes[from + sign..]

@@ -18,7 +18,7 @@ use trunnion_syntax::{Block, Call, TextRange, Word};
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// A flow statement, or a name that is not a code, where jumps and calls are followed; false for other names.
     pub(crate) fn sinumerik_name(&mut self, call: &Call) -> bool {
-        let Some(own) = self.own.as_mut().filter(|own| own.follows) else {
+        let Some(own) = self.own.as_mut().filter(|own| own.follows && !own.is_task) else {
             return false;
         };
         let Some(name) = self.program.source().get(call.name.as_usize()) else {
@@ -40,7 +40,11 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// `L20` calls a subprogram, where calls are followed.
     pub(crate) fn sinumerik_number(&mut self, letter: u8, word: &Word) -> bool {
-        match self.own.as_mut().filter(|own| own.follows && letter == b'L') {
+        match self
+            .own
+            .as_mut()
+            .filter(|own| own.follows && !own.is_task && letter == b'L')
+        {
             Some(own) => {
                 own.called_by_number = Some(word.range);
                 true

@@ -50,7 +50,7 @@ use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::{Claim, RefitSource};
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
-use trunnion_syntax::{Format, Program};
+use trunnion_syntax::Program;
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
@@ -58,7 +58,7 @@ pub(super) const REWRITE: Body = Body { cures: &[], propose };
 const EXACT: f64 = 1e-9;
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
-    if program.options().format != Format::Iso {
+    if !program.options().format.has_words() {
         return Err("APT: only G code has words that repeat".into());
     }
     let hand = Hand::of(program);

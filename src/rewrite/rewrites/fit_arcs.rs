@@ -58,12 +58,12 @@ use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
-use trunnion_syntax::{Address, Format, Program, TextRange, Value};
+use trunnion_syntax::{Address, Program, TextRange, Value};
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
-    if program.options().format != Format::Iso {
+    if !program.options().format.has_words() {
         return Err("APT: arcs are not written there".into());
     }
     let found = chains(program, settings, 2);

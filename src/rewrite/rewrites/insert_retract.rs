@@ -61,7 +61,7 @@ use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
 use trunnion_interp::{AxisLetter, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, run};
 use trunnion_machine::{Follower, Leg, Machine};
-use trunnion_syntax::{Address, Format, Program, TextEdit, TextRange};
+use trunnion_syntax::{Address, Program, TextEdit, TextRange};
 
 pub(super) const REWRITE: Body = Body {
     cures: &["branch-swap"],
@@ -135,7 +135,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and postures depend on the machine (--machine)".into());
     };
-    if machine.rotary.len() != 2 || settings.dialect.lex.format != Format::Iso {
+    if machine.rotary.len() != 2 || !settings.dialect.lex.format.has_words() {
         return Ok(None);
     }
     let letters = [0, 1].map(|index| machine.axes[machine.rotary[index]].letter);

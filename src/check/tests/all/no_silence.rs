@@ -7,16 +7,25 @@ use trunnion_check::{Diagnostic, Settings, Severity, Status, check};
 use trunnion_interp::{Fault, Limits, ModalState, Motion, MotionKind, Setup, Sink, run};
 use trunnion_machine::{Follower, builtin};
 
-const DIALECTS: [&str; 6] = [
+const DIALECTS: [&str; 7] = [
     "fanuc-30i",
     "haas-ngc",
     "sinumerik-840d",
     "linuxcnc",
     "iso-6983",
     "fanuc-30i-lathe-a",
+    "okuma-osp",
 ];
 
-const CODES: [&str; 76] = [
+const CODES: [&str; 84] = [
+    "G15 H1",
+    "G16 H1",
+    "G16 H0",
+    "G56 H1",
+    "G169 H1",
+    "G170",
+    "NCYL",
+    "G116 T1",
     "G0",
     "G1",
     "G2",

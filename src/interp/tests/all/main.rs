@@ -26,6 +26,7 @@ mod macro_programs;
 mod macro_values;
 mod motions;
 mod nose;
+mod okuma;
 mod one_block;
 mod orientation;
 mod own_codes;

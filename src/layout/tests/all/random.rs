@@ -104,6 +104,13 @@ fn pieces() -> impl Strategy<Value = Vec<u8>> {
         "G2X1Y1R1",
         "G4P1",
         "*57",
+        "\n$ Y1",
+        "$A.MIN%",
+        "NLAP1 ",
+        "\nOAB\n",
+        "X=V1+2",
+        "#1FH",
+        "CALL OAB Q2 AB=1",
     ]);
     let piece = prop_oneof![
         9 => piece.prop_map(|text| text.as_bytes().to_vec()),

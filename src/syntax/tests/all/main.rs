@@ -5,4 +5,5 @@ mod iso_items;
 mod lines;
 mod lossless;
 mod numbers;
+mod osp;
 mod show;

@@ -12,7 +12,7 @@ use super::hole::{Cycle, CycleFeed};
 use super::values::Value;
 use super::words::{Said, Words};
 use crate::core::Report;
-use crate::{Feed, MotionKind, Refusal};
+use crate::{Feed, MotionKind};
 
 /// Lines of a cycle.
 const LINES: usize = 8;
@@ -58,11 +58,8 @@ impl Klartext<'_> {
                     old.feed = feed;
                 }
             }
-            _ => {
-                let message = format!("CYCL DEF {number}.{line} stands without CYCL DEF {number}.0");
-                Self::rejected(Refusal::Syntax, message, report);
-                self.memory.cycle = Cycle::Other(number);
-            }
+            // its beginning is missing, which was reported
+            _ => self.memory.cycle = Cycle::Other(number),
         }
     }
 

@@ -453,19 +453,34 @@ fn an_approach_to_a_contour_in_a_label() {
 #[test]
 fn refused_programs() {
     for (blocks, what) in [
-        ("CALL LBL 1\nM30\nLBL 1\nL X+1\nLBL 0\nLBL 1\nL X+2\nLBL 0\n", "label 1 more than once"),
+        (
+            "CALL LBL 1\nM30\nLBL 1\nL X+1\nLBL 0\nLBL 1\nL X+2\nLBL 0\n",
+            "label 1 more than once",
+        ),
         ("L X+0 Y+0 Z+0 FMAX\nL X+5 RL F100\nL Y+5 RR\n", "R0 must stand"),
         ("L X+0 Y+0 Z+0 FMAX\nCR X+5 Y+5 R+5 DR+ RL F100\n", "begins in an arc"),
         ("L X+0 M3 M8 M13 M97 M90\n", "four M codes"),
         ("L X+0 R5\n", "belongs to CR"),
         ("CC X+0 Y+0 Z+0\n", "two coordinates"),
+        ("CYCL DEF 7.1 X+5\n", "without CYCL DEF 7.0"),
+        ("CYCL DEF 8.0 M\nCYCL DEF 1.1 DIST2\n", "without CYCL DEF 1.0"),
+        ("FN 9: IF +1 NE +1 GOTO LBL 1\nLBL 1\n", "EQU"),
+        ("FN 12: IF +1 +2 GOTO LBL 1\nLBL 1\n", "LT"),
     ] {
         let found = faults(NAME, &program(blocks));
         assert!(found.iter().any(|fault| fault.contains(what)), "{blocks}: {found:?}");
     }
     // an arc about an unknown pole is not one without a pole
     let text = program("L X+0 Y+0 Z+0 FMAX\nCC X+Q5 Y+0\nC X+10 Y+0 DR+ F100\n");
-    assert!(!faults(NAME, &text).iter().any(|fault| fault.contains("ArcCentreMissing")));
+    assert!(
+        !faults(NAME, &text)
+            .iter()
+            .any(|fault| fault.contains("ArcCentreMissing"))
+    );
     let text = program("L X+0 Y+0 Z+0 FMAX\nC X+10 Y+0 DR+ F100\n");
-    assert!(faults(NAME, &text).iter().any(|fault| fault.contains("ArcCentreMissing")));
+    assert!(
+        faults(NAME, &text)
+            .iter()
+            .any(|fault| fault.contains("ArcCentreMissing"))
+    );
 }

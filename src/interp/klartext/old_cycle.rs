@@ -38,7 +38,7 @@ impl Klartext<'_> {
             return;
         }
         let (mut value, mut feed) = (None, None);
-        while let Some(word) = words.next() {
+        for word in words.by_ref() {
             match (word.name(), word.value) {
                 (b"FMAX", _) => feed = Some(CycleFeed::Rapid),
                 (b"FAUTO", _) => feed = Some(CycleFeed::Auto),

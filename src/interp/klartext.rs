@@ -64,6 +64,8 @@ pub(crate) struct Memory {
     had_normal: bool,
     /// F of TOOL CALL, mm/min.
     tool_feed: Option<f64>,
+    /// The last CYCL DEF, whose lines may follow.
+    opened_cycle: Option<u32>,
     /// The cycle that CYCL CALL runs.
     cycle: hole::Cycle,
     /// M89.

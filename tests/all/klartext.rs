@@ -168,7 +168,8 @@ impl Form {
             }
             if self.vectors && led {
                 // the machine file: u = (sin A sin C, -sin A cos C, cos A)
-                let [(sin_a, cos_a), (sin_c, cos_c)] = angles.map(|angle| angle.to_radians().sin_cos());
+                let [(sin_a, cos_a), (sin_c, cos_c)] =
+                    angles.map(|angle| trunnion_geometry::math::sin_cos(angle.to_radians()));
                 for (name, value) in [("TX", sin_a * sin_c), ("TY", -sin_a * cos_c), ("TZ", cos_a)] {
                     write!(block, " {name}{}", self.number(&format!("{value:.9}"))).expect("memory");
                 }

@@ -43,8 +43,10 @@ pub(crate) fn comes(report: &Report<'_>) -> bool {
         words.at = bytes.iter().position(|byte| !digits(byte)).unwrap_or(bytes.len());
         match words.rest() {
             // computations may stand between both
-            [] | [b';' | b'*', ..] | [b'Q' | b'q', b'0'..=b'9' | b'L' | b'R' | b'l' | b'r', ..] => {}
-            [b'F' | b'f', b'N' | b'n', ..] => {}
+            []
+            | [b';' | b'*', ..]
+            | [b'Q' | b'q', b'0'..=b'9' | b'L' | b'R' | b'l' | b'r', ..]
+            | [b'F' | b'f', b'N' | b'n', ..] => {}
             [a, b, c, ..] => {
                 let name = [a, b, c].map(u8::to_ascii_uppercase);
                 return name == *b"RND" || name == *b"CHF";

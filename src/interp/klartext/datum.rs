@@ -62,6 +62,11 @@ impl Klartext<'_> {
         };
         words.at = start + first + length;
         self.flush(report);
+        let opened = self.memory.opened_cycle.replace(cycle);
+        if line != 0 && opened != Some(cycle) {
+            let message = format!("CYCL DEF {cycle}.{line} stands without CYCL DEF {cycle}.0");
+            Self::rejected(Refusal::Syntax, message, report);
+        }
         match cycle {
             7 => self.datum_shift(line, words, report),
             8 => self.mirror(line, words, report),

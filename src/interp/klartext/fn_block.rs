@@ -209,12 +209,15 @@ impl Klartext<'_> {
             Some(said) => said,
             None => Said::Nothing,
         };
-        let target = words.find(|word| word.is("LBL"));
+        let names = ["EQU", "NE", "GT", "LT"];
+        let wanted = names.get(number as usize - 9).copied().unwrap_or_default();
+        let fits = relation.is_some_and(|word| word.is(wanted)) && words.takes_word("GOTO");
+        let target = words.find(|word| word.is("LBL")).filter(|_| fits);
         let key = target.and_then(|word| self.key(word.value, words, report));
         if first == Said::Nothing || second == Said::Nothing || target.is_none() {
             Self::rejected(
                 Refusal::Syntax,
-                "a jump is IF, two values with a relation, GOTO LBL",
+                format!("FN {number} is IF, a value, {wanted}, a value, GOTO LBL"),
                 report,
             );
             return Request::Stop;

@@ -12,7 +12,7 @@ use super::hole::{Cycle, CycleFeed};
 use super::values::Value;
 use super::words::{Said, Words};
 use crate::core::Report;
-use crate::{Feed, MotionKind, Refusal};
+use crate::{Feed, MotionKind};
 
 /// Lines of a cycle.
 const LINES: usize = 8;
@@ -38,7 +38,7 @@ impl Klartext<'_> {
             return;
         }
         let (mut value, mut feed) = (None, None);
-        while let Some(word) = words.next() {
+        for word in words.by_ref() {
             match (word.name(), word.value) {
                 (b"FMAX", _) => feed = Some(CycleFeed::Rapid),
                 (b"FAUTO", _) => feed = Some(CycleFeed::Auto),
@@ -58,11 +58,8 @@ impl Klartext<'_> {
                     old.feed = feed;
                 }
             }
-            _ => {
-                let message = format!("CYCL DEF {number}.{line} stands without CYCL DEF {number}.0");
-                Self::rejected(Refusal::Syntax, message, report);
-                self.memory.cycle = Cycle::Other(number);
-            }
+            // its beginning is missing, which was reported
+            _ => self.memory.cycle = Cycle::Other(number),
         }
     }
 

@@ -60,17 +60,7 @@ impl Klartext<'_> {
         }
         let name = String::from_utf8_lossy(form.name()).into_owned();
         if name == "RESET" {
-            self.found(PLANE);
-            self.tilt_to(None);
-            self.memory.angles_wait = None;
-            if let Some(swivel) = swivel {
-                // back to the untilted tool: the plane is that of the workpiece
-                self.tilt_to(Some(Tilted::new(Vec3::zeros(), &[])));
-                self.swivel(swivel, posture, report);
-                self.tilt_to(None);
-                self.memory.angles_wait = None;
-            }
-            return;
+            return self.reset_plane(swivel, posture, report);
         }
         let number = |wanted: &str| numbers.iter().find(|(found, _)| found == wanted).map(|found| found.1);
         let turn = match name.as_str() {
@@ -92,16 +82,31 @@ impl Klartext<'_> {
             _ => None,
         };
         let Some(turn) = turn else {
-            let why = match name.as_str() {
-                "RELATIV" | "RELATIVE" => "PLANE RELATIV in a tilted plane".to_owned(),
-                name => format!("PLANE {name}: its values, or the form itself"),
+            let relative = name.starts_with("RELATIV");
+            let what = if relative {
+                "in a tilted plane"
+            } else {
+                "its values, or the form itself"
             };
-            Self::not_modelled(why, report);
+            Self::not_modelled(format!("PLANE {name}: {what}"), report);
             self.tilt_to(None);
             self.memory.angles_wait = None;
             return self.lose(PLANE);
         };
         self.set_plane(turn, swivel, posture, report);
+    }
+
+    fn reset_plane(&mut self, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
+        self.found(PLANE);
+        self.tilt_to(None);
+        self.memory.angles_wait = None;
+        if let Some(swivel) = swivel {
+            // back to the untilted tool: the plane is that of the workpiece
+            self.tilt_to(Some(Tilted::new(Vec3::zeros(), &[])));
+            self.swivel(swivel, posture, report);
+            self.tilt_to(None);
+            self.memory.angles_wait = None;
+        }
     }
 
     fn set_plane(&mut self, turn: Mat3, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {

@@ -118,6 +118,7 @@ impl Klartext<'_> {
                 // whether F of TOOL CALL also replaces that of path blocks is not taken from a source
                 self.core.state.feed.set(None);
                 self.core.feed_unread = true;
+                self.memory.unfollowed = true;
             }
         }
         if let Some(chosen) = chosen {

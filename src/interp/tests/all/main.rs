@@ -20,6 +20,7 @@ mod files;
 mod fold_samples;
 mod frames;
 mod klartext;
+mod klartext_more;
 mod macro_calls;
 mod macro_flow;
 mod macro_programs;

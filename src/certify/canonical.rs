@@ -77,6 +77,8 @@ pub(crate) trait Encode {
 #[derive(Default)]
 pub(crate) struct CanonicalV1 {
     bytes: Vec<u8>,
+    /// A number that is infinite or NaN is among them.
+    not_finite: bool,
 }
 
 impl CanonicalV1 {
@@ -85,6 +87,13 @@ impl CanonicalV1 {
         let mut out = Self::default();
         value.encode(&mut out);
         out.bytes
+    }
+
+    /// Whether all numbers of a value are finite.
+    pub(crate) fn is_finite<T: Encode + ?Sized>(value: &T) -> bool {
+        let mut out = Self::default();
+        value.encode(&mut out);
+        !out.not_finite
     }
 
     /// A record with the fields that `fill` writes.
@@ -167,6 +176,7 @@ impl Encode for usize {
 
 impl Encode for f64 {
     fn encode(&self, out: &mut CanonicalV1) {
+        out.not_finite |= !self.is_finite();
         let bits = match *self {
             value if value.is_nan() => NAN,
             // -0 too

@@ -235,6 +235,18 @@ impl Certificate {
         serde_json::from_str(json).map_err(wrong)
     }
 
+    /// Whether [`Self::from_json`] gives back what [`Self::to_json`] writes: JSON has all but numbers that are not finite.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn can_be_stored(&self) -> Result<(), String> {
+        if crate::canonical::CanonicalV1::is_finite(self) {
+            Ok(())
+        } else {
+            Err("the certificate cannot be stored without loss: a number in it is not finite".into())
+        }
+    }
+
     /// One line for people: what is proved, with the worst numbers.
     pub fn summary(&self) -> String {
         let (mm, degrees) = self.claim.tolerances();

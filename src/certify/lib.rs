@@ -22,6 +22,7 @@ mod proof;
 mod rapids;
 mod recheck;
 mod retracts;
+mod switch;
 mod text;
 mod unlike;
 mod verdict;

@@ -6,6 +6,7 @@ use crate::certificate::{NamedDigest, SCHEMA, TextDigest, other_schema};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::proof::Proof;
+use crate::switch;
 use crate::text::text_change;
 use crate::{Certificate, Claim, Outcome, RefitSource};
 use std::sync::Arc;
@@ -141,8 +142,34 @@ fn after_dialect<'d>(certificate: &Certificate, dialect: &'d Dialect) -> Result<
         .ok_or_else(|| Outcome::refuted(format!("the certificate was made for another dialect {}", named.name)))
 }
 
-/// The proof.
+/// The proof: where blocks with `/` run, and where they are skipped, unless it is declared which.
 fn prove(
+    texts: [&[u8]; 2],
+    dialects: [&Dialect; 2],
+    machine: &Machine,
+    (setup, after_library): (&Setup, &Library),
+    claim: &Claim,
+) -> Result<Certificate, Outcome> {
+    let mut proved = prove_run(texts, dialects, machine, (setup, after_library), claim)?;
+    if texts[0] == texts[1] || setup.control.block_delete.is_some() {
+        return Ok(proved);
+    }
+    let switches = switch::switches(texts, dialects);
+    // called programs may have such blocks too
+    if switches.is_empty() && proved.library.is_empty() {
+        return Ok(proved);
+    }
+    switch::at_most_one(&switches)?;
+    let mut skipping = setup.clone();
+    skipping.control.block_delete = Some(true);
+    let other =
+        prove_run(texts, dialects, machine, (&skipping, after_library), claim).map_err(switch::where_skipped)?;
+    proved.worst.join(&other.worst);
+    Ok(proved.sealed())
+}
+
+/// The proof for one state of the switch for block delete.
+fn prove_run(
     [before, after]: [&[u8]; 2],
     [dialect, other]: [&Dialect; 2],
     machine: &Machine,
@@ -183,7 +210,8 @@ fn prove(
         return Err(proof.outcome(verdict, &old));
     }
     // a rewrite claims that each change is proved; two programs are compared by what they do
-    if text.rest_identical && claim.is_rewrite() {
+    // where blocks are skipped, what they say makes no difference
+    if text.rest_identical && claim.is_rewrite() && setup.control.block_delete != Some(true) {
         every_change_ran(&sides, (&old, new))?;
     }
     let postures = proof.postures()?;

@@ -3,7 +3,6 @@ mod moves;
 mod sections;
 mod tally;
 
-use crate::both::slash;
 use crate::sink::{Reporter, active};
 use crate::suppress::{Suppressions, has_code};
 use crate::visited::Visited;
@@ -13,7 +12,7 @@ use moves::moves;
 use sections::Sections;
 pub(crate) use tally::Tally;
 use trunnion_dialect::Dialect;
-use trunnion_interp::directives;
+use trunnion_interp::{directives, slash};
 use trunnion_syntax::{Block, BlockId, Program};
 
 /// Why blocks did not run.

@@ -81,6 +81,11 @@ impl<'p> Draft<'p> {
         self
     }
 
+    /// How bad it is.
+    pub(crate) fn own_severity(&self) -> Severity {
+        self.diagnostic.severity
+    }
+
     /// What it says so far.
     pub(crate) fn message(&self) -> &str {
         &self.diagnostic.message

@@ -52,7 +52,7 @@ mod waiting;
 mod wake;
 mod words;
 
-pub use analysis::{check, check_on};
+pub use analysis::{check, check_objections, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Scope, Settings};
 pub use coverage::{Coverage, GivenUp, NotRun, NotRunReason};
 pub use datum::{Assume, assumptions};

@@ -11,16 +11,18 @@ use crate::start::Start;
 use crate::suppress::Suppressions;
 use crate::told::text_rule_reported;
 use crate::trail::{Trail, axes_chord};
-use crate::view::{InForce, LegView, MotionView, Overview};
+use crate::view::{InForce, LegView, MotionView};
 use crate::visited::Visited;
 use crate::waiting::Waiting;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use std::collections::BTreeSet;
-use trunnion_dialect::{Dialect, Foreign};
+use trunnion_dialect::Dialect;
 use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
-use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
+use trunnion_syntax::{BlockId, Program};
+
+mod text;
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -108,6 +110,15 @@ impl<'a> Pass<'a> {
         }
     }
 
+    /// Reports errors and what is undecided only: see [`crate::check_objections`].
+    pub(crate) fn objections_only(&mut self) {
+        self.reporter.objections_only();
+        let objects = |rule: &Active| matches!(rule.wake, Wake::Pace(..)) && rule.may_be_error();
+        if !self.legs.rules.iter().any(objects) {
+            self.pace = None;
+        }
+    }
+
     /// The current position of the machine.
     pub(crate) fn follower(&self) -> Option<&Follower<'a>> {
         self.follower.as_ref()
@@ -123,52 +134,6 @@ impl<'a> Pass<'a> {
         self.executed += 1;
         self.last_ran = Some(block);
         self.visited.add(block)
-    }
-
-    pub(crate) fn read_text(&mut self, program: &Program) {
-        // the block whose comment ends too early: to its author the text after that end is still comment
-        let mut nested = None;
-        for error in program.errors() {
-            let block = program.block_at(error.range.start).unwrap_or_default();
-            if nested == Some(block) {
-                continue;
-            }
-            nested = (error.kind == SyntaxErrorKind::NestedComment).then_some(block);
-            let at = (Some(block), u64::from(block.0));
-            ask(&self.rules, &mut self.reporter, at, |wake, out| {
-                if let Wake::Text(rule) = wake {
-                    rule(error, out);
-                }
-            });
-        }
-    }
-
-    /// Reports that the file is not read: it is for an unsupported control, or is not a program.
-    pub(crate) fn report_foreign(&mut self, foreign: Foreign) {
-        ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
-            if let Wake::Foreign(rule) = wake {
-                rule(&foreign, out);
-            }
-        });
-    }
-
-    /// Reports that the file is not text; false where the rules that report it are allowed.
-    pub(crate) fn report_unreadable(&mut self) -> bool {
-        ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
-            if let Wake::Unreadable(rule) = wake {
-                rule(out);
-            }
-        });
-        self.rules.iter().any(|rule| matches!(rule.wake, Wake::Unreadable(_)))
-    }
-
-    pub(crate) fn read_whole(&mut self, overview: &Overview<'_>) {
-        let ported = self.ported;
-        ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| match wake {
-            Wake::Program(rule) => rule(overview, out),
-            Wake::Port(rule) if ported => rule(overview, out),
-            _ => {}
-        });
     }
 
     #[inline]

@@ -28,6 +28,13 @@ pub(crate) struct Active {
     pub(crate) wake: Wake,
 }
 
+impl Active {
+    /// Whether the settings or the rule itself make its findings errors.
+    pub(crate) fn may_be_error(&self) -> bool {
+        self.level.unwrap_or(self.severity) == Severity::Error
+    }
+}
+
 /// Collects findings of rules.
 pub(crate) struct Reporter<'a> {
     program: &'a Program,
@@ -51,6 +58,8 @@ pub(crate) struct Reporter<'a> {
     spoke: bool,
     part: OnceCell<Part>,
     judges_machine: bool,
+    /// Findings of legs that are no errors are left out.
+    objections_only: bool,
     /// Where words with a letter O for a zero begin, each reported once.
     slips: BTreeSet<u32>,
     near: NearCodes<'a>,
@@ -75,6 +84,7 @@ impl<'a> Reporter<'a> {
             spoke: false,
             part: OnceCell::new(),
             judges_machine: false,
+            objections_only: false,
             slips: BTreeSet::new(),
             near: NearCodes::new(dialect),
         }
@@ -84,6 +94,11 @@ impl<'a> Reporter<'a> {
     pub(crate) fn judging_machine(mut self, judges: bool) -> Self {
         self.judges_machine = judges;
         self
+    }
+
+    /// Leaves out findings of legs that are no errors.
+    pub(crate) fn objections_only(&mut self) {
+        self.objections_only = true;
     }
 
     /// Whether the axes of a machine are judged.
@@ -191,8 +206,17 @@ impl<'a> Reporter<'a> {
     /// Reports a finding of a leg. `word` writes the message; if blocks before it have this finding already, only when it stays the worst.
     pub(crate) fn finding(&mut self, view: &LegView<'_>, merge: Merge, word: impl FnOnce(&mut Draft<'a>)) {
         let severity = self.level.unwrap_or(self.severity);
+        if self.objections_only && severity < Severity::Error {
+            self.spoke = true;
+            return;
+        }
         if !self.absorb(severity, Status::Fail, view, merge) {
-            word(self.draft().merge(merge));
+            let draft = self.draft().merge(merge);
+            word(draft);
+            debug_assert!(
+                draft.own_severity() <= severity || self.level.is_some(),
+                "`finding_as` says that it is worse"
+            );
         }
     }
 

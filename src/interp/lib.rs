@@ -13,6 +13,7 @@ mod compensation;
 mod core;
 mod corner;
 mod cycles;
+mod deleted;
 mod directive;
 mod drawing;
 mod dwell;
@@ -49,6 +50,7 @@ mod values;
 mod words;
 mod written;
 
+pub use deleted::{deleted_levels, slash};
 pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
 pub use effects::Situation;
 pub use run::{Interpreter, run};

@@ -4,7 +4,7 @@ use crate::{Change, Options, Place, Refusal, Rewrite};
 use core::cell::OnceCell;
 use core::fmt::Write;
 use trunnion_certify::{Certificate, Claim, Outcome, certify};
-use trunnion_check::{Diagnostic, Report, Settings, Severity, Status, check};
+use trunnion_check::{Diagnostic, Report, Settings, Severity, Status, check_objections};
 use trunnion_syntax::{BlockId, LineIndex, Program, TextEdit, parse};
 
 /// So many places are left out one after the other because they cannot be proved; then all of them are refused. Each costs a proof.
@@ -271,15 +271,15 @@ impl Prover<'_> {
             }
         };
         // as it will be stored: what is read back must be what was proved
-        if Certificate::from_json(&certificate.to_json()).map_err(Failure::from)? != *certificate {
-            return Err("the certificate cannot be stored without loss".to_owned().into());
-        }
+        certificate.can_be_stored().map_err(Failure::from)?;
         // the guard follows what a rewrite makes least: postures their cost, smooth-pole the slope, which it compares itself
         if matches!(certificate.claim, Claim::SamePoses { .. }) {
             no_worse_turns(&certificate)?;
         }
-        let is = check(&parse(after.clone(), self.program.options()), self.settings);
-        let was = self.before.get_or_init(|| check(self.program, self.settings));
+        let is = check_objections(&parse(after.clone(), self.program.options()), self.settings);
+        let was = self
+            .before
+            .get_or_init(|| check_objections(self.program, self.settings));
         no_worse_report(self.rewrite, was, &is)?;
         Ok(Proved {
             edits: edits.to_vec(),

@@ -185,6 +185,35 @@ fn the_pocket_runs_on_three_axes() {
     assert_eq!(file["motions"], 1408);
 }
 
+/// With what stands below Z -0.2 in declared as a body, the wall is found: N257 to N323 run in it with both ends (67 rapids), N256 goes down into it and N324 comes
+/// out of it.
+#[test]
+fn the_wall_of_the_pocket_is_cut_in_rapid() {
+    let folder = tempfile::TempDir::new().expect("works");
+    let program = folder.path().join("pocket.nc");
+    std::fs::copy(&programs("pocket")[0], &program).expect("copied");
+    let stock = "[[obstacle]]\nname = \"stock\"\nbox = [[-50, -50, -50], [150, 150, -5.08]]\n";
+    let assumed = "assume = [\"work-offset\", \"tool-length\"]\n";
+    std::fs::write(folder.path().join("trunnion.toml"), format!("{assumed}{stock}")).expect("written");
+    let (verdict, _, file) = check(&program, Some("mill-3axis"));
+    assert_eq!(verdict, "fail");
+    let text = std::fs::read_to_string(&program).expect("there");
+    let line = |number: &str| text.lines().position(|line| line.starts_with(number)).expect("there") as u64 + 1;
+    let wall: Vec<Value> = all_findings(&file)
+        .into_iter()
+        .filter(|found| {
+            let at = found["line"].as_u64().expect("a number");
+            found["rule"] == "rapid-through-obstacle" && (line("N256")..=line("N324")).contains(&at)
+        })
+        .collect();
+    let [wall] = &wall[..] else { panic!("{wall:?}") };
+    assert_eq!(
+        (wall["line"].as_u64(), wall["count"].as_u64()),
+        (Some(line("N256")), Some(69))
+    );
+    assert_eq!(wall["severity"], "error");
+}
+
 #[test]
 fn every_sample_is_named_in_the_readme() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");

@@ -4,6 +4,7 @@ use crate::{Certificate, Claim, Outcome};
 use trunnion_interp::Setup;
 
 mod refitted;
+mod switch;
 mod versions;
 
 const TURNS: Claim = Claim::SamePoses {

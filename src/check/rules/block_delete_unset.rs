@@ -23,8 +23,8 @@
 //! # Sources
 //! * ISO 6983-1:2009, block delete.
 //! * FANUC Series 30i B-64484EN: optional block skip, levels 1 to 9.
-use crate::both::{levels, slash};
 use crate::prelude::*;
+use trunnion_interp::{deleted_levels, slash};
 use trunnion_syntax::{Block, Item};
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::Program(check)]);
@@ -35,7 +35,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let dialect = overview.settings.dialect;
-    let (levels, count) = levels(overview.program, dialect);
+    let (levels, count) = deleted_levels(overview.program, dialect);
     let slashes = || {
         let blocks = overview.program.blocks();
         blocks.filter_map(|block| Some((slash(&block, dialect)?.1, is_first(&block))))

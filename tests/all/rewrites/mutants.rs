@@ -78,6 +78,14 @@ fn the_certificate_holds_and_survives_json() {
     let read = Certificate::from_json(&certificate.to_json()).expect("JSON");
     assert_eq!(read, certificate);
     assert!(matches!(again(&read, &before, &after, &settings), Outcome::Proved(_)));
+    assert_eq!(certificate.can_be_stored(), Ok(()));
+    for number in [f64::NAN, f64::INFINITY] {
+        let mut other = certificate.clone();
+        other.changes[0].path_bound_mm = number;
+        assert!(Certificate::from_json(&other.to_json()).is_err());
+        let why = other.can_be_stored().expect_err("JSON has no such number");
+        assert!(why.contains("not finite"), "{why}");
+    }
 }
 
 #[test]

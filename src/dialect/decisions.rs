@@ -133,9 +133,9 @@ impl Quirks {
             Language::Words | Language::MacroB | Language::Linuxcnc => false,
         }
     }
-    /// The language of a Sinumerik.
+    /// The program declares its names and its subprograms' parameters: the language of a Sinumerik.
     #[inline]
-    pub fn sinumerik(&self) -> bool {
+    pub fn declares_names(&self) -> bool {
         match self.language {
             Language::Sinumerik => true,
             Language::Words | Language::MacroB | Language::Linuxcnc | Language::UserTask => false,

@@ -135,7 +135,7 @@ impl Iso<'_> {
         if let Some(waiting) = self.memory.corners.waiting.take() {
             self.cut_corner(*waiting, &mut pending, on, report);
         }
-        let tolerant = self.core.dialect.quirks.sinumerik();
+        let tolerant = self.core.dialect.quirks.declares_names();
         match self.memory.corners.word.take() {
             Some((letter, size)) if motion.is_feed() || tolerant => {
                 self.memory.corners.waiting = Some(Box::new(Waiting { pending, letter, size }));
@@ -153,7 +153,7 @@ impl Iso<'_> {
     pub(crate) fn end_corners(&mut self, on: &mut Vec<PendingMotion>, report: &mut Report<'_>) {
         self.memory.corners.word = None;
         if let Some(waiting) = self.memory.corners.waiting.take() {
-            if !self.core.dialect.quirks.sinumerik() {
+            if !self.core.dialect.quirks.declares_names() {
                 self.no_corner("no motion follows the corner", "corner-no-move", report);
             }
             on.push(waiting.pending);
@@ -192,7 +192,7 @@ impl Iso<'_> {
         let mut before = waiting.pending;
         let axes = plane_axes(before.1.coordinates.plane());
         let known = is_known(&before.0, axes) && is_known(&next.0, axes);
-        let tolerant = self.core.dialect.quirks.sinumerik();
+        let tolerant = self.core.dialect.quirks.declares_names();
         if tolerant && known && (is_vertical(&before.0, axes) || is_vertical(&next.0, axes)) {
             // no corner is made where a motion leaves the plane (Programming Manual, Fundamentals, chamfer and rounding)
             on.push(before);

@@ -103,7 +103,8 @@ impl Iso<'_> {
         } else {
             free |= unread & !held;
         }
-        if !self.core.dialect.quirks.sinumerik() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_given() {
+        if !self.core.dialect.quirks.declares_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_given()
+        {
             let to = [said("D", words.letter(b'D'))];
             self.core.effects.add(block, Effect::set("radius offset", to));
             free &= !letter_bit(b'D');

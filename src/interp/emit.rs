@@ -95,7 +95,7 @@ impl Iso<'_> {
         if frame_hides {
             self.core.hide(&mut motion);
         }
-        if self.core.dialect.quirks.sinumerik() {
+        if self.core.dialect.quirks.declares_names() {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion

@@ -12,6 +12,7 @@ use crate::macro_b::{self, Deep, Mistake};
 use crate::{osp, sinumerik};
 use reported::ReportedFaults;
 pub(crate) use run::Running;
+pub(crate) use sinumerik::Text;
 use std::sync::Arc;
 use trunnion_dialect::Language;
 use trunnion_flow::{Course, Key, Library};

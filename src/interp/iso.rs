@@ -214,7 +214,7 @@ impl<'d> Iso<'d> {
         } else {
             words
         };
-        if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.sinumerik() {
+        if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.declares_names() {
             self.unused_words(codes, words, &block, report);
         }
         self.memory.corners.word = words

@@ -279,7 +279,7 @@ impl<'a> Steps<'a> {
         for block in std::mem::take(&mut self.run.missing) {
             self.run.actions.add(Actions::MISSING);
             let text = self.input.program.text(self.input.program.block(block).range());
-            let text = if self.input.dialect.quirks.sinumerik() {
+            let text = if self.input.dialect.quirks.declares_names() {
                 // what is between parentheses are arguments
                 self.interpreter
                     .resolved_text(text.split(';').next().unwrap_or_default())

@@ -45,7 +45,7 @@ impl Iso<'_> {
                     // the switch decides whether the block runs at all; a Sinumerik counts its levels from 0 (Programming Manual,
                     // Fundamentals, skipping blocks)
                     let bare = view.program().text(range).trim() == "/";
-                    let level = if bare && self.core.dialect.quirks.sinumerik() {
+                    let level = if bare && self.core.dialect.quirks.declares_names() {
                         0
                     } else {
                         level
@@ -70,7 +70,7 @@ impl Iso<'_> {
     /// Parameters of the block that neither its codes nor the active codes read. The machine, or a macro that a code calls, may read them.
     pub(super) fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
         let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
-        if opaque || self.core.dialect.quirks.sinumerik() {
+        if opaque || self.core.dialect.quirks.declares_names() {
             return 0;
         }
         let read = codes

@@ -139,7 +139,7 @@ impl Iso<'_> {
         let Some(library) = &self.core.setup.library.0 else {
             return Err(Vec::new());
         };
-        let tried = if dialect.quirks.sinumerik() {
+        let tried = if dialect.quirks.declares_names() {
             sinumerik::files(name)
         } else if dialect.quirks.user_task() {
             crate::osp::files(name)

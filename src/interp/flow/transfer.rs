@@ -127,7 +127,7 @@ impl Iso<'_> {
             Key::Name(name) => format!("there is no label {name} {where_to}"),
         };
         let kind = if self.core.dialect.quirks.user_names() {
-            sinumerik::no_label(message, self.core.dialect.quirks.sinumerik())
+            sinumerik::no_label(message, self.core.dialect.quirks.declares_names())
         } else {
             rejected(self.core.dialect, Mistake::NumberNotFound, Refusal::Label, message)
         };

@@ -89,7 +89,7 @@ impl Iso<'_> {
             crate::flow::With::MacroB(with) => with.arguments.is_some(),
             crate::flow::With::Sinumerik(_) | crate::flow::With::Task(_) => false,
         };
-        let (depth, limit, what) = if self.core.dialect.quirks.sinumerik() {
+        let (depth, limit, what) = if self.core.dialect.quirks.declares_names() {
             return crate::sinumerik::too_deep(levels, self.core.setup.limits.depth as usize);
         } else if !is_fanuc(self.core.dialect) {
             (levels, self.core.setup.limits.depth as usize, "calls")

@@ -75,7 +75,7 @@ impl<'d> Iso<'d> {
         if words.forgets_all || self.core.dialect.quirks.user_names() && codes.iter().any(calls) {
             self.memory.own.lose();
         }
-        if self.core.dialect.quirks.sinumerik() {
+        if self.core.dialect.quirks.declares_names() {
             self.sinumerik_words(block, codes, words, report);
         } else if self.core.dialect.quirks.user_task() {
             self.task_words(block, codes, words, report);

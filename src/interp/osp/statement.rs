@@ -2,9 +2,9 @@
 use super::call::With;
 use super::variables::{Class, class};
 use crate::FaultKind;
-use crate::flow::{Back, Calling, Index, Label, Transfer, With as Handed};
+use crate::flow::{Back, Calling, Index, Label, Text, Transfer, With as Handed};
 use crate::own::Own;
-use crate::sinumerik::Text;
+
 use trunnion_flow::{Key, Search};
 use trunnion_syntax::TextRange;
 

@@ -3,10 +3,10 @@ use super::is_statement;
 use super::statement::{Statement, is_name};
 use crate::codes::Found;
 use crate::core::Report;
-use crate::flow::{Transfer, index_of};
+use crate::flow::{Text, Transfer, index_of};
 use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::sinumerik::Text;
+
 use crate::words::Words;
 use crate::{FaultKind, Refusal};
 use trunnion_syntax::{Block, Call, TextRange};

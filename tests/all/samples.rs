@@ -199,7 +199,7 @@ fn the_wall_of_the_pocket_is_cut_in_rapid() {
     assert_eq!(verdict, "fail");
     let text = std::fs::read_to_string(&program).expect("there");
     let line = |number: &str| text.lines().position(|line| line.starts_with(number)).expect("there") as u64 + 1;
-    let wall: Vec<Value> = all_findings(&file)
+    let wall: Vec<&Value> = all_findings(&file)
         .into_iter()
         .filter(|found| {
             let at = found["line"].as_u64().expect("a number");

@@ -1,3 +1,4 @@
+//! Levels, verdicts, threads, and what a check that looks for objections leaves out.
 use super::*;
 use crate::fixture::Fixture;
 use crate::{RuleLevel, Scope, Session, Severity, Verdict};

@@ -11,8 +11,7 @@ use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::iso::Iso;
 use crate::words::{WordValue, Words};
 use crate::written::{Keep, written};
-use crate::{Argument, Effect, Reach};
-use crate::{FaultKind, Motion, MotionKind};
+use crate::{Argument, Effect, FaultKind, Motion, MotionKind, Reach};
 use assignments::{
     comments, declarations, named_effects, reads_machine_position, system_assignment, unknown_assignment,
 };

@@ -92,7 +92,7 @@ fn quickly(value: f64, decimals: usize) -> Option<String> {
     let scale = 10_u64.checked_pow(u32::try_from(decimals).ok().filter(|&digits| digits <= 9)?)?;
     let scaled = value.abs() * scale as f64;
     // also where it is not a number
-    if !(scaled < LARGEST) {
+    if scaled.is_nan() || scaled >= LARGEST {
         return None;
     }
     let (whole, rest) = (scaled as u64, scaled.fract());

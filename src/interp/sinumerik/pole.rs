@@ -58,7 +58,8 @@ impl<'d> Iso<'d> {
         } else {
             contour.radius?
         };
-        if radius < 0.0 {
+        // the manual gives the polar angle from -360 to 360 degrees
+        if radius < 0.0 || polar.get(0).is_some_and(|angle| angle.abs() > 360.0) {
             return None;
         }
         let (sin, cos) = sin_cos_degrees(angle);

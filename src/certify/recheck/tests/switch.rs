@@ -86,7 +86,7 @@ fn the_certificate_has_the_worst_of_both_states() {
         tolerance_deg: 1e-6,
     };
     let worst = |state| match certified(&before, &after, state, &claim) {
-        Outcome::Proved(found) => found.worst.path_bound_mm.value,
+        Outcome::Proved(found) => found.worst.tip_shift_mm.value,
         other => panic!("{other:?}"),
     };
     assert_eq!(worst(Some(false)), 0.0);

@@ -148,7 +148,7 @@ fn calls_that_name_a_block_of_another_program_stand_in_the_way() {
 fn names_of_osp_are_text() {
     assert_eq!(
         changed("N0005 G1 X1 F9\nNA X2\nN7 X3\nM2\n", "okuma-osp"),
-        "N0010 G1 X1 F9\nNA X2\nN0020 X3\nM2\n"
+        "N0100 G1 X1 F9\nNA X2\nN0110 X3\nM2\n"
     );
     assert!(refused("V1=1\nN5 G1 X1 F9\nIF [V1 EQ 2] N5\nM2\n", "okuma-osp").contains("N0123 is not N123"));
 }

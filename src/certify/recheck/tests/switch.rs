@@ -78,7 +78,8 @@ fn several_switches_have_more_states_than_two() {
 #[test]
 fn the_certificate_has_the_worst_of_both_states() {
     // Y is left out where the block before it says it, and 0.002 mm off where that block is skipped
-    let before = BEFORE.replace("X5.", "X5. Y0.002").replace("/X10.", "/X10. Y0.");
+    let start = BEFORE.replace("Z5.", "Z5. A0. C0.");
+    let before = start.replace("X5.", "X5. Y0.002").replace("/X10.", "/X10. Y0.");
     let after = before.replace("X10. Y0.\nY10.", "X10.\nY10.");
     assert_ne!(after, before);
     let claim = Claim::SameToolPath {

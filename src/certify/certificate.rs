@@ -286,16 +286,28 @@ impl Certificate {
             Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",
         };
         let worst = &self.worst;
+        let motions = &self.motions;
         let mut text = format!(
-            "{claim} within {mm} mm and {degrees} deg: {} of {} motions differ; shift at block ends {:.6} mm, tool axis {:.6} deg; \
-             paths at most {:.6} mm and {:.6} deg apart",
-            self.motions.changed,
-            self.motions.total,
-            worst.point_shift_mm.value,
-            worst.axis_change_deg.value,
-            worst.path_bound_mm.value,
-            worst.path_axis_bound_deg.value
+            "{claim} within {mm} mm and {degrees} deg: {} of {} motions differ",
+            motions.changed, motions.total
         );
+        if motions.unknown < motions.total || motions.total == 0 {
+            let _ = write!(
+                text,
+                "; shift at block ends {:.6} mm, tool axis {:.6} deg; paths at most {:.6} mm and {:.6} deg apart",
+                worst.point_shift_mm.value,
+                worst.axis_change_deg.value,
+                worst.path_bound_mm.value,
+                worst.path_axis_bound_deg.value
+            );
+        }
+        if motions.unknown > 0 {
+            let _ = write!(
+                text,
+                "; {} of {} motions have unknown positions, which both programs program alike: their shift is not measured",
+                motions.unknown, motions.total
+            );
+        }
         if let (Some(rapids), Claim::ClearRapids { clearance_mm, .. }) = (&self.rapids, &self.claim) {
             let near = rapids.least_distance_mm.map_or("always above them".to_owned(), |mm| {
                 format!("nearest {mm:.6} mm at line {}", rapids.line)
@@ -305,9 +317,6 @@ impl Certificate {
                 "; {} runs of rapids: {:.6} mm instead of {:.6} mm, at least {clearance_mm} mm from the obstacles ({near})",
                 rapids.runs, rapids.length_after_mm, rapids.length_before_mm
             );
-        }
-        if self.motions.unknown > 0 {
-            text.push_str("; some positions are unknown, but both programs program them in the same words");
         }
         if self.motions.process_changed > 0 {
             text.push_str("; feed or spindle speed differ");

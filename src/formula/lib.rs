@@ -11,6 +11,7 @@ mod cursor;
 mod degrees;
 mod error;
 mod eval;
+mod infix;
 mod name;
 mod osp;
 mod pool;

@@ -49,7 +49,7 @@ impl NumberStyle {
 
     /// `value` in this style, rounded to [`NumberStyle::decimals`]; `plus` writes the sign of positive numbers.
     pub(crate) fn write(&self, value: f64, plus: bool) -> String {
-        let mut text = quickly(value, self.decimals).unwrap_or_else(|| format!("{value:.*}", self.decimals));
+        let mut text = format!("{value:.*}", self.decimals);
         if self.trims && text.contains('.') {
             text.truncate(text.trim_end_matches('0').len());
             if text.ends_with('.') && !self.whole_point {
@@ -83,31 +83,6 @@ impl NumberStyle {
     pub(crate) fn rounding(&self) -> f64 {
         0.5 / 10f64.powi(i32::try_from(self.decimals).unwrap_or(i32::MAX))
     }
-}
-
-/// The text of `format!("{value:.*}", decimals)`, by whole numbers. `None` where the last digit needs more than that: for large values, and where
-/// the rest is a half but for rounding.
-fn quickly(value: f64, decimals: usize) -> Option<String> {
-    const LARGEST: f64 = (1_u64 << 36) as f64;
-    let scale = 10_u64.checked_pow(u32::try_from(decimals).ok().filter(|&digits| digits <= 9)?)?;
-    let scaled = value.abs() * scale as f64;
-    // also where it is not a number
-    if scaled.is_nan() || scaled >= LARGEST {
-        return None;
-    }
-    let (whole, rest) = (scaled as u64, scaled.fract());
-    // the product is off by at most 2^-53 of 2^36
-    if (rest - 0.5).abs() < 1e-4 {
-        return None;
-    }
-    let count = whole + u64::from(rest > 0.5);
-    let sign = if value.is_sign_negative() { "-" } else { "" };
-    let (units, fraction) = (count / scale, count % scale);
-    Some(if decimals == 0 {
-        format!("{sign}{units}")
-    } else {
-        format!("{sign}{units}.{fraction:0decimals$}")
-    })
 }
 
 /// Signs and leading zero in this style; never a minus before only zeros.
@@ -164,43 +139,6 @@ mod tests {
 
     fn style(texts: &[&str]) -> NumberStyle {
         NumberStyle::learn(texts.iter().copied()).expect("numbers")
-    }
-
-    #[test]
-    fn quick_numbers_are_those_of_the_standard_library() {
-        let mut bits = 1_u64;
-        let mut quick = 0;
-        for round in 0..200_000_u32 {
-            bits = bits
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            let share = (bits >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
-            let decimals = round as usize % 11;
-            // digits that end in a half in binary and nearly so
-            let value = match round % 4 {
-                0 => share * 2000.0,
-                1 => (share * 20_000.0).round() / 16.0,
-                2 => (share * 2_000_000.0).round() / 10f64.powi(i32::try_from(decimals).unwrap_or(0)),
-                _ => share * 1e-6,
-            };
-            if let Some(text) = super::quickly(value, decimals) {
-                assert_eq!(text, format!("{value:.decimals$}"), "{value:?} {decimals}");
-                quick += 1;
-            }
-        }
-        assert!(quick > 100_000, "{quick}");
-        for odd in [
-            f64::NAN,
-            f64::INFINITY,
-            -f64::INFINITY,
-            1e300,
-            -0.0,
-            0.0,
-            f64::MIN_POSITIVE,
-        ] {
-            let text = super::quickly(odd, 3).unwrap_or_else(|| format!("{odd:.3}"));
-            assert_eq!(text, format!("{odd:.3}"));
-        }
     }
 
     #[test]

@@ -1,102 +1,64 @@
 //! Operands: numbers, variables, functions.
-use super::{Reader, Waiting};
+use super::Osp;
 use crate::code::{Binary, Op, Unary};
+use crate::infix::{Reader, Rules, Waiting};
 use crate::{FormulaErrorKind as Kind, Name};
 
-impl<'s> Reader<'s> {
-    pub(super) fn number(&mut self) -> Result<(), Kind> {
-        let rest = self.rest();
-        let length = rest
-            .iter()
-            .take_while(|byte| byte.is_ascii_digit() || **byte == b'.')
-            .count();
-        let text = String::from_utf8_lossy(&rest[..length]);
-        let value = text.parse().map_err(|_| Kind::NotANumber {
-            text: text.as_ref().into(),
-        })?;
-        self.take(length);
-        self.push(Op::Number(value));
-        Ok(())
-    }
+pub(super) fn number(reader: &mut Reader<'_, Osp>) -> Result<(), Kind> {
+    let rest = reader.rest();
+    let length = rest
+        .iter()
+        .take_while(|byte| byte.is_ascii_digit() || **byte == b'.')
+        .count();
+    let text = String::from_utf8_lossy(&rest[..length]);
+    let value = text.parse().map_err(|_| Kind::NotANumber {
+        text: text.as_ref().into(),
+    })?;
+    reader.take(length);
+    reader.push(Op::Number(value));
+    Ok(())
+}
 
-    /// `#1FH`.
-    pub(super) fn hexadecimal(&mut self) -> Result<(), Kind> {
-        let rest = &self.rest()[1..];
-        let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
-        let text = String::from_utf8_lossy(&rest[..length]).to_ascii_uppercase();
-        let value = text
-            .strip_suffix('H')
-            .and_then(|digits| u32::from_str_radix(digits, 16).ok());
-        let Some(value) = value else {
-            return Err(Kind::NotANumber { text: text.into() });
-        };
-        self.take(length + 1);
-        self.push(Op::Number(f64::from(value)));
-        Ok(())
-    }
+/// `#1FH`.
+pub(super) fn hexadecimal(reader: &mut Reader<'_, Osp>) -> Result<(), Kind> {
+    let text = String::from_utf8_lossy(word(&reader.rest()[1..])).to_ascii_uppercase();
+    let value = text
+        .strip_suffix('H')
+        .and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    let Some(value) = value else {
+        return Err(Kind::NotANumber { text: text.into() });
+    };
+    reader.take(text.len() + 1);
+    reader.push(Op::Number(f64::from(value)));
+    Ok(())
+}
 
-    pub(super) fn word(&self) -> &'s [u8] {
-        let rest = self.rest();
-        let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
-        &rest[..length]
-    }
+pub(super) fn word(rest: &[u8]) -> &[u8] {
+    let length = rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count();
+    &rest[..length]
+}
 
-    /// A variable, a function or NOT.
-    pub(super) fn name(&mut self) -> Result<bool, Kind> {
-        let name = String::from_utf8_lossy(self.word()).to_ascii_lowercase();
-        self.take(name.len());
-        let behind = self.at;
-        self.blanks();
-        let bracket = self.peek() == Some(b'[');
-        if name == "not" {
-            self.waiting.push(Waiting::Unary(Unary::TruthNot));
-            return Ok(false);
-        }
-        if !bracket {
-            self.at = behind;
-            self.push(Op::Named(Name::new(&name)));
-            return Ok(true);
-        }
-        let waiting = match function(&name) {
-            Function::Known(waiting) => waiting,
-            Function::None if self.has_one_index() => Waiting::Field(Name::new(&name)),
-            Function::Unstated | Function::None => return self.unknown(&name),
-        };
-        self.take(1);
-        self.open(waiting);
-        Ok(false)
+/// A variable, a function or NOT.
+pub(super) fn name(reader: &mut Reader<'_, Osp>) -> Result<bool, Kind> {
+    let name = String::from_utf8_lossy(word(reader.rest())).to_ascii_lowercase();
+    reader.take(name.len());
+    Osp::blanks(reader);
+    if name == "not" {
+        reader.prefix(Unary::TruthNot);
+        return Ok(false);
     }
-
-    /// Skips the bracket of a name that has no known value.
-    fn unknown(&mut self, name: &str) -> Result<bool, Kind> {
-        let mut deep = 0usize;
-        for (at, byte) in self.rest().iter().enumerate() {
-            match byte {
-                b'[' => deep += 1,
-                b']' => deep -= 1,
-                _ => {}
-            }
-            if deep == 0 {
-                self.take(at + 1);
-                self.push(Op::Named(Name::new(&format!("{name}["))));
-                return Ok(true);
-            }
-        }
-        Err(Kind::UnclosedBracket)
+    if reader.peek() != Some(b'[') {
+        reader.back();
+        reader.named(&name);
+        return Ok(true);
     }
-
-    /// Whether the bracket at the cursor holds one expression.
-    fn has_one_index(&mut self) -> bool {
-        if self.at < self.one_index_to {
-            return true;
-        }
-        let inside = self.rest().split(|&byte| byte == b']').next().unwrap_or_default();
-        let one = !inside.contains(&b',');
-        if one {
-            self.one_index_to = self.at + inside.len() as u32;
-        }
-        one
-    }
+    let waiting = match function(&name) {
+        Function::Known(waiting) => waiting,
+        Function::None if reader.has_one_index() => Waiting::Field(Name::new(&name)),
+        Function::Unstated | Function::None => return reader.bracket_of(&name, Osp::GROUP).map(|()| true),
+    };
+    reader.open(waiting);
+    Ok(false)
 }
 
 /// What a name before a bracket is.

@@ -1,142 +1,98 @@
 //! Operands: numbers, variables, functions.
-use super::{Reader, Waiting, is_name};
+use super::Sinumerik;
 use crate::code::{Binary, Op, Unary};
+use crate::infix::{Reader, Rules, Waiting};
 use crate::{FormulaErrorKind as Kind, Name};
 
-impl<'s> Reader<'s> {
-    /// `5`, `.5`, `1.EX-3`.
-    pub(super) fn number(&mut self) -> Result<(), Kind> {
-        let rest = self.rest();
-        let digits = |from: usize| rest[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
-        let mut length = digits(0);
-        if rest.get(length) == Some(&b'.') {
-            length += 1;
-            length += digits(length);
-        }
-        let mut text = String::from_utf8_lossy(&rest[..length]).into_owned();
-        if rest
-            .get(length..length + 2)
-            .is_some_and(|mark| mark.eq_ignore_ascii_case(b"EX"))
-        {
-            let sign = usize::from(matches!(rest.get(length + 2), Some(b'+' | b'-')));
-            let exponent = digits((length + 2 + sign).min(rest.len()));
-            if exponent > 0 {
-                text.push('e');
-                text.push_str(&String::from_utf8_lossy(
-                    &rest[length + 2..length + 2 + sign + exponent],
-                ));
-                length += 2 + sign + exponent;
-            }
-        }
-        let value = text.parse().map_err(|_| Kind::NotANumber { text: text.into() })?;
-        self.take(length);
-        self.push(Op::Number(value));
-        Ok(())
+/// `5`, `.5`, `1.EX-3`.
+pub(super) fn number(reader: &mut Reader<'_, Sinumerik>) -> Result<(), Kind> {
+    let rest = reader.rest();
+    let digits = |from: usize| rest[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let mut length = digits(0);
+    if rest.get(length) == Some(&b'.') {
+        length += 1;
+        length += digits(length);
     }
+    let mut text = String::from_utf8_lossy(&rest[..length]).into_owned();
+    if rest
+        .get(length..length + 2)
+        .is_some_and(|mark| mark.eq_ignore_ascii_case(b"EX"))
+    {
+        let sign = usize::from(matches!(rest.get(length + 2), Some(b'+' | b'-')));
+        let exponent = digits((length + 2 + sign).min(rest.len()));
+        if exponent > 0 {
+            text.push('e');
+            text.push_str(&String::from_utf8_lossy(
+                &rest[length + 2..length + 2 + sign + exponent],
+            ));
+            length += 2 + sign + exponent;
+        }
+    }
+    let value = text.parse().map_err(|_| Kind::NotANumber { text: text.into() })?;
+    reader.take(length);
+    reader.push(Op::Number(value));
+    Ok(())
+}
 
-    /// `'H1F'`, `'B101'`.
-    pub(super) fn coded(&mut self) -> Result<(), Kind> {
-        let inside = self.rest()[1..].split(|&byte| byte == b'\'').next().unwrap_or_default();
-        let text = String::from_utf8_lossy(inside).to_ascii_uppercase();
-        let value = match (text.get(..1), text.get(1..)) {
-            (Some("H"), Some(digits)) => u32::from_str_radix(digits, 16).ok(),
-            (Some("B"), Some(digits)) => u32::from_str_radix(digits, 2).ok(),
-            _ => None,
-        };
-        let Some(value) = value.filter(|_| self.rest().len() > inside.len() + 1) else {
-            return Err(Kind::NotANumber { text: text.into() });
-        };
-        self.take(inside.len() + 2);
-        self.push(Op::Number(f64::from(value)));
-        Ok(())
-    }
+/// `'H1F'`, `'B101'`.
+pub(super) fn coded(reader: &mut Reader<'_, Sinumerik>) -> Result<(), Kind> {
+    let inside = reader.rest()[1..]
+        .split(|&byte| byte == b'\'')
+        .next()
+        .unwrap_or_default();
+    let text = String::from_utf8_lossy(inside).to_ascii_uppercase();
+    let value = match (text.get(..1), text.get(1..)) {
+        (Some("H"), Some(digits)) => u32::from_str_radix(digits, 16).ok(),
+        (Some("B"), Some(digits)) => u32::from_str_radix(digits, 2).ok(),
+        _ => None,
+    };
+    let Some(value) = value.filter(|_| reader.rest().len() > inside.len() + 1) else {
+        return Err(Kind::NotANumber { text: text.into() });
+    };
+    reader.take(inside.len() + 2);
+    reader.push(Op::Number(f64::from(value)));
+    Ok(())
+}
 
-    pub(super) fn word(&self) -> &'s [u8] {
-        let rest = self.rest();
-        let sign = usize::from(rest.first() == Some(&b'$'));
-        let letters = rest[sign..].iter().take_while(|byte| is_name(**byte)).count();
-        &rest[..sign + letters]
-    }
+pub(super) fn word(rest: &[u8]) -> &[u8] {
+    let sign = usize::from(rest.first() == Some(&b'$'));
+    let of_name = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'_';
+    let letters = rest[sign..].iter().take_while(of_name).count();
+    &rest[..sign + letters]
+}
 
-    /// A variable, function, TRUE, FALSE or NOT.
-    pub(super) fn name(&mut self) -> Result<bool, Kind> {
-        let name = String::from_utf8_lossy(self.word()).to_ascii_lowercase();
-        self.take(name.len());
-        let behind = self.at;
-        self.blanks();
-        match (name.as_str(), self.peek()) {
-            ("not", _) => self.waiting.push(Waiting::Unary(Unary::Not)),
-            ("b_not", _) => self.waiting.push(Waiting::Unary(Unary::BitNot)),
-            ("r", Some(b'[')) => {
-                self.take(1);
-                self.waiting.push(Waiting::Index);
-            }
-            (_, Some(b'(')) => {
-                let Some(waiting) = function(&name) else {
-                    self.group(b'(', b')')?;
-                    self.unknown(&format!("{name}("));
-                    return Ok(true);
-                };
-                self.take(1);
-                self.waiting.push(waiting);
-            }
-            (_, Some(b'[')) if !name.starts_with('$') && self.has_one_index() => {
-                self.take(1);
-                self.waiting.push(Waiting::Field(Name::new(&name)));
-            }
-            (_, Some(b'[')) => {
-                self.group(b'[', b']')?;
-                self.unknown(&format!("{name}["));
-                return Ok(true);
-            }
-            _ => {
-                self.at = behind;
-                let number = name
-                    .strip_prefix('r')
-                    .filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
-                match (name.as_str(), number.and_then(|digits| digits.parse().ok())) {
-                    ("true", _) => self.push(Op::Number(1.0)),
-                    ("false", _) => self.push(Op::Number(0.0)),
-                    (_, Some(number)) => self.push(Op::Read(number)),
-                    _ => self.unknown(&name),
-                }
-                return Ok(true);
-            }
+/// A variable, function, TRUE, FALSE or NOT.
+pub(super) fn name(reader: &mut Reader<'_, Sinumerik>) -> Result<bool, Kind> {
+    let name = String::from_utf8_lossy(word(reader.rest())).to_ascii_lowercase();
+    reader.take(name.len());
+    Sinumerik::blanks(reader);
+    match (name.as_str(), reader.peek()) {
+        ("not", _) => reader.prefix(Unary::Not),
+        ("b_not", _) => reader.prefix(Unary::BitNot),
+        ("r", Some(b'[')) => reader.open(Waiting::Index),
+        (_, Some(b'(')) => match function(&name) {
+            Some(waiting) => reader.open(waiting),
+            None => return reader.bracket_of(&name, *b"()").map(|()| true),
+        },
+        (_, Some(b'[')) if !name.starts_with('$') && reader.has_one_index() => {
+            reader.open(Waiting::Field(Name::new(&name)));
         }
-        Ok(false)
+        (_, Some(b'[')) => return reader.bracket_of(&name, *b"[]").map(|()| true),
+        _ => {
+            reader.back();
+            let number = name
+                .strip_prefix('r')
+                .filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
+            match (name.as_str(), number.and_then(|digits| digits.parse().ok())) {
+                ("true", _) => reader.push(Op::Number(1.0)),
+                ("false", _) => reader.push(Op::Number(0.0)),
+                (_, Some(number)) => reader.push(Op::Read(number)),
+                _ => reader.named(&name),
+            }
+            return Ok(true);
+        }
     }
-
-    /// Whether the bracket at the cursor holds one expression, which is no text.
-    fn has_one_index(&mut self) -> bool {
-        if self.at < self.one_index_to {
-            return true;
-        }
-        let inside = self.rest().split(|&byte| byte == b']').next().unwrap_or_default();
-        let one = !inside.iter().any(|byte| matches!(byte, b',' | b'"'));
-        if one {
-            self.one_index_to = self.at + inside.len() as u32;
-        }
-        one
-    }
-
-    /// Skips a bracket and its contents.
-    pub(super) fn group(&mut self, open: u8, close: u8) -> Result<(), Kind> {
-        let mut deep = 0usize;
-        let mut quoted = false;
-        for (at, &byte) in self.rest().iter().enumerate() {
-            quoted ^= byte == b'"';
-            if byte == open && !quoted {
-                deep += 1;
-            } else if byte == close && !quoted {
-                deep -= 1;
-                if deep == 0 {
-                    self.take(at + 1);
-                    return Ok(());
-                }
-            }
-        }
-        Err(Kind::UnclosedBracket)
-    }
+    Ok(false)
 }
 
 fn function(name: &str) -> Option<Waiting> {

@@ -17,9 +17,6 @@ impl Ngc<'_> {
         let has_other_effects = std::mem::take(&mut run.calls.has_other_effects);
         let unknown_end = std::mem::take(&mut run.calls.unknown_end);
         let text = run.engine.text_of(at.file, at.line);
-        if !(has_other_effects || unknown_end) && moves_only(&text) {
-            return;
-        }
         let codes = Codes::of(run.engine.block_at(at));
         let upper = crate::written::packed(&text);
         let names = crate::written::names(&text);
@@ -156,31 +153,6 @@ impl Ngc<'_> {
     }
 }
 
-/// Whether a line has nothing but numbers of axes, arcs, the feed and its own, and G0 to G3: its motions and settings are all that it does. Blanks may stand
-/// between any two characters: `G5 3` is G53.
-fn moves_only(line: &str) -> bool {
-    let mut bytes = line.bytes().filter(|byte| !byte.is_ascii_whitespace()).peekable();
-    while let Some(letter) = bytes.next() {
-        let (mut digits, mut value, mut plain) = (0_u32, 0_u32, true);
-        while let Some(byte) = bytes.next_if(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'+' | b'-')) {
-            plain &= byte.is_ascii_digit();
-            if plain {
-                value = value.saturating_mul(10).saturating_add(u32::from(byte - b'0'));
-            }
-            digits += u32::from(byte.is_ascii_digit());
-        }
-        let serves = match letter.to_ascii_uppercase() {
-            b'G' => plain && value <= 3,
-            b'A'..=b'C' | b'F' | b'I'..=b'K' | b'N' | b'U'..=b'Z' => true,
-            _ => false,
-        };
-        if !serves || digits == 0 {
-            return false;
-        }
-    }
-    true
-}
-
 /// Whether a line is M99, which is read as a line of the flow and not as a block.
 fn is_return(line: &str) -> bool {
     let line = line.trim_start_matches('/');
@@ -191,50 +163,4 @@ fn is_return(line: &str) -> bool {
     let digits = line.strip_prefix('M').unwrap_or_default();
     let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
     digits[..end].parse() == Ok(99)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::moves_only;
-
-    #[test]
-    fn only_plain_motions_need_no_second_look() {
-        for line in [
-            "G1 X1 Y-2.5 F100",
-            "x1y2",
-            "N10 G02 X1 I.5 J0",
-            "",
-            "  ",
-            "G 1 X 1 0 . 5",
-            "A1 B2 C3 U1 W-1",
-        ] {
-            assert!(moves_only(line), "{line}");
-        }
-        for line in [
-            "G5 3 X1",
-            "G1.1",
-            "G",
-            "X",
-            "X.",
-            "G53 X1",
-            "M9 9",
-            "/X1",
-            "X#1",
-            "X[1]",
-            "(a)",
-            "X1 ; a",
-            "o1 call",
-            "G10 L2 P1 X1",
-            "G92 X0",
-            "#1=2",
-            "S100",
-            "T1",
-            "X1 R2",
-            "G28",
-            "%",
-            "G-1 X1",
-        ] {
-            assert!(!moves_only(line), "{line}");
-        }
-    }
 }

@@ -43,7 +43,14 @@ impl Proof<'_> {
         let same_full_turns =
             !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
         if !same_turning || !same_speed || !same_full_turns {
-            return self.refute(is, "the spindle differs".to_owned());
+            let [was, now] = [old, new].map(turning);
+            let way_out = if old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(false) {
+                "; where a tool change stops it on the target, program M3 or M4 after the tool change"
+            } else {
+                ""
+            };
+            let why = format!("the spindle differs: in the original program it {was}, in the output it {now}{way_out}");
+            return self.refute(is, why);
         }
         let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
         if old.motion.tool != new.motion.tool && !by_hand {
@@ -126,6 +133,19 @@ impl Proof<'_> {
                 self.refute(is, "several work offsets became one".to_owned())
             }
             _ => Ok(()),
+        }
+    }
+}
+
+/// What the spindle does, as the end of a sentence.
+fn turning(posed: &Posed) -> String {
+    match (posed.motion.spindle_on, posed.motion.spindle_rpm) {
+        (None, _) => "is in an unknown state".to_owned(),
+        (Some(false), _) => "stands".to_owned(),
+        (Some(true), rpm) => {
+            let counter = if posed.counter_clockwise == Some(true) { "counter-" } else { "" };
+            let speed = rpm.map_or("an unknown speed".to_owned(), |rpm| format!("{rpm} 1/min"));
+            format!("turns {counter}clockwise at {speed}")
         }
     }
 }

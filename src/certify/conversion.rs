@@ -7,6 +7,7 @@ mod ask;
 mod ask_apt;
 mod ask_code;
 mod ask_iso;
+mod ask_klartext;
 mod axis;
 mod certificate;
 mod claim;

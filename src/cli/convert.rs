@@ -304,6 +304,11 @@ fn summary(name: &str, converted: &Converted) -> Vec<String> {
             proof.left_out
         ));
     }
+    if let Some((was, now)) = &converted.renamed_offset {
+        lines.push(format!(
+            "{name}: {now} stands for {was} of the original: set the same zero point there"
+        ));
+    }
     if !converted.swaps.is_empty() {
         let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
@@ -377,6 +382,7 @@ fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &Converted) -
             "feeds_not_compared": proof.feeds_not_compared,
         },
         "left_out": left_out,
+        "renamed_offset": converted.renamed_offset.as_ref().map(|(was, now)| serde_json::json!({ "was": was, "now": now })),
         "swap_lines": converted.swaps,
         "beyond_travel": beyond,
         "travel_undecided_lines": converted.travel_undecided,

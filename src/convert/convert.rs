@@ -32,6 +32,8 @@ pub struct Converted {
     pub proof: ConversionProof,
     /// What has no counterpart and moves nothing (path modes, marks), with the line of its first use.
     pub left_out: Vec<(String, u32)>,
+    /// A zero point that the target cannot name (a preset, G15 H1), and the work offset that stands for it.
+    pub renamed_offset: Option<(String, String)>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
     /// Axes that leave their travel, each limit once, computed from an undeclared zero point. Where it is declared, such a program is
@@ -122,6 +124,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .iter()
             .map(|(what, block)| (what.clone(), line(*block)))
             .collect(),
+        renamed_offset: job.renamed_offset,
         swaps: swaps
             .iter()
             .map(|&index| line(reading.motions[index].motion.block))

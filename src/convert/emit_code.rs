@@ -40,6 +40,8 @@ pub(crate) struct Writer<'a> {
     /// Coolant other than through the spindle is on.
     pub(crate) coolant_outside: bool,
     pub(crate) zero: [f64; 9],
+    /// Klartext is written.
+    pub(crate) klartext: bool,
 }
 
 /// A program as it is written.
@@ -78,6 +80,7 @@ impl<'a> Writer<'a> {
             tool: None,
             coolant_outside: false,
             zero: [0.0; 9],
+            klartext: setting.klartext(),
         }
     }
 
@@ -153,7 +156,11 @@ impl<'a> Writer<'a> {
         let opens = comment.chars().next();
         let first = line.chars().next();
         let is_code = first.is_some_and(|c| c.is_ascii_alphabetic()) && !line.starts_with('O') && first != opens;
-        if is_code && self.post.number_step > 0 {
+        if self.klartext && self.post.number_step > 0 {
+            // every block has its number
+            let _ = write!(self.text, "{} ", self.next_number);
+            self.next_number += self.post.number_step;
+        } else if is_code && self.post.number_step > 0 {
             let _ = write!(self.text, "N{} ", self.next_number);
             self.next_number += self.post.number_step;
         }
@@ -178,6 +185,8 @@ impl<'a> Writer<'a> {
         // a comment must not command the control: (ABORT,...)
         let head = text.split(',').next().unwrap_or_default().trim().to_ascii_uppercase();
         let linuxcnc = self.post.dialect == "linuxcnc" && text.contains(',');
+        // at the end of a line `~` would continue the block
+        let text = if self.klartext { text.replace('~', "-") } else { text };
         let speaks = linuxcnc && (ACTIVE.contains(&head.as_str()) || head == "PY") || text.starts_with('$');
         let text = if speaks { format!("- {text}") } else { text };
         if self.post.upper_case {
@@ -349,7 +358,9 @@ fn self_name(name: &str, job: &Job, options: &Options, post: &Post) -> Option<St
     match name {
         "program" => {
             let text = plain(job.name.as_deref().unwrap_or_default());
-            Some(if post.upper_case {
+            Some(if post.dialect == "heidenhain-klartext" {
+                crate::emit_klartext::program_name(&text)
+            } else if post.upper_case {
                 text.to_ascii_uppercase()
             } else {
                 text

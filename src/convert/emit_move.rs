@@ -20,7 +20,7 @@ const PLANES: [(&str, [char; 2], [usize; 2]); 3] = [
 ];
 
 impl Writer<'_> {
-    fn length(&self, mm: f64) -> String {
+    pub(crate) fn length(&self, mm: f64) -> String {
         let inch = self.options.units == crate::Units::Inch;
         let decimals = self.post.length[usize::from(inch)];
         number(mm / self.options.units.mm(), decimals, self.post.point)
@@ -43,7 +43,8 @@ impl Writer<'_> {
                 self.length_off(block)?;
             }
         }
-        let mut words: Vec<String> = self.modal.change("motion", "G0".to_owned()).into_iter().collect();
+        let code = if self.klartext { "L" } else { "G0" };
+        let mut words: Vec<String> = self.modal.change("motion", code.to_owned()).into_iter().collect();
         let mut turns = 0;
         for (axis, value) in known {
             let text = if (3..6).contains(axis) {
@@ -52,7 +53,11 @@ impl Writer<'_> {
                 self.length(*value)
             };
             turns |= if *axis > 2 { 1 << axis } else { 0 };
-            words.push(format!("{}{text}", WORDS[*axis]));
+            words.push(format!("{}{}", WORDS[*axis], self.signed(text)));
+        }
+        if self.klartext {
+            self.modal.forget("motion");
+            words.push("FMAX".to_owned());
         }
         self.clamp(Step::Motion { turns, cuts: false }, block)?;
         self.line(&words.join(" "));
@@ -62,6 +67,9 @@ impl Writer<'_> {
     }
 
     pub(crate) fn one(&mut self, one: &Move, block: BlockId) -> Result<(), Refused> {
+        if self.klartext {
+            return self.sentence(one, block);
+        }
         let mut words: Vec<String> = Vec::new();
         self.feed_mode(one, &mut words, block)?;
         let arc = match one.shape {
@@ -98,10 +106,10 @@ impl Writer<'_> {
     }
 
     /// The words of the axes that changed; bit per axis other than X Y Z that they may turn or shift.
-    fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) -> u16 {
+    pub(crate) fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) -> u16 {
         let mut turns = 0;
         for (axis, word) in WORDS.into_iter().enumerate().take(3) {
-            let text = format!("{word}{}", self.length(one.xyz[axis]));
+            let text = format!("{word}{}", self.signed(self.length(one.xyz[axis])));
             if arc_axis.is_some_and(|normal| normal != axis) {
                 // the plane's coordinates are always there
                 self.modal.forget(word);
@@ -121,7 +129,8 @@ impl Writer<'_> {
             rotary.sort_unstable();
             for (slot, index) in rotary {
                 let value = deg(one.q[index]) - self.zero[slot];
-                let text = format!("{}{}", WORDS[slot], number(value, self.post.angle, self.post.point));
+                let text = self.signed(number(value, self.post.angle, self.post.point));
+                let text = format!("{}{text}", WORDS[slot]);
                 let news = self.modal.change(WORDS[slot], text);
                 turns |= u16::from(news.is_some()) << slot;
                 words.extend(news);
@@ -164,7 +173,7 @@ impl Writer<'_> {
                     number(value, self.post.angle, self.post.point)
                 }
             };
-            let text = format!("{}{text}", WORDS[slot]);
+            let text = format!("{}{}", WORDS[slot], self.signed(text));
             let news = self.modal.change(WORDS[slot], text);
             said |= u16::from(news.is_some()) << slot;
             words.extend(news);
@@ -209,7 +218,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn feed(&mut self, one: &Move, words: &mut Vec<String>) {
+    pub(crate) fn feed(&mut self, one: &Move, words: &mut Vec<String>) {
         let (point, unit) = (self.post.point, self.options.units.mm());
         let text = match one.feed {
             Feed::PerMinute(feed) | Feed::PerRevolution(feed) => number(feed / unit, self.post.feed, point),

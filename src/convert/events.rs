@@ -45,21 +45,15 @@ pub(crate) fn job(
         spindle: Spindle::Unknown,
         tool: None,
         work_offset: None,
+        options,
     };
     let (mut motions, mut next) = (0, 0);
     for (index, ran) in reading.blocks.iter().enumerate() {
         let block = program.block(ran.block);
         let said = match program.options().format {
             Format::Apt => crate::events_apt::said(&block, options),
-            Format::Klartext => {
-                let message = "Klartext programs are not converted: only checked, compared and proved";
-                Err((block.range(), message.to_owned()))
-            }
-            Format::Osp => {
-                let message = "Okuma OSP programs are not converted: only checked, compared and proved";
-                Err((block.range(), message.to_owned()))
-            }
-            Format::Iso => said(&block, dialect),
+            Format::Klartext => crate::events_klartext::said(&block),
+            Format::Iso | Format::Osp => said(&block, dialect),
         }
         .map_err(|(range, message)| Refused::range(program, range, message))?;
         let count = reading.asks[next..]
@@ -102,6 +96,7 @@ struct EventCollector<'p> {
     spindle: Spindle,
     tool: Option<u32>,
     work_offset: Option<String>,
+    options: &'p Options,
 }
 
 impl EventCollector<'_> {
@@ -219,9 +214,22 @@ impl EventCollector<'_> {
         }
         let name = ran.work_offset.as_deref();
         if name.is_some() && name != self.work_offset.as_deref() {
-            self.work_offset = name.map(str::to_owned);
-            self.job
-                .push(Event::WorkOffset(name.unwrap_or_default().to_owned()), block);
+            let before = std::mem::replace(&mut self.work_offset, name.map(str::to_owned));
+            let name = name.unwrap_or_default();
+            let written = if is_foreign(name) {
+                if let Some(other) = before.filter(|before| before != name) {
+                    let message = format!(
+                        "{name} after {other}: the target names its zero points otherwise, and `--work-offset` gives the name of one"
+                    );
+                    return Err(Refused::at(self.program, block, message));
+                }
+                let stand_in = self.options.work_offset.clone();
+                self.job.renamed_offset = Some((name.to_owned(), stand_in.clone()));
+                stand_in
+            } else {
+                name.to_owned()
+            };
+            self.job.push(Event::WorkOffset(written), block);
         }
         Ok(())
     }
@@ -246,6 +254,11 @@ impl EventCollector<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a zero point has a name that no G-code target can write: a preset of a TNC, a work coordinate system of an OSP.
+fn is_foreign(name: &str) -> bool {
+    name.starts_with("preset ") || name.starts_with("G15 ")
 }
 
 /// A comment as an event; machine-readable marks and comments about another dialect are left out.

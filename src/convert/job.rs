@@ -49,6 +49,8 @@ pub(crate) struct Job {
     pub(crate) places: BTreeMap<u32, usize>,
     /// What is left out, once each, with its place.
     pub(crate) left_out: Vec<(String, BlockId)>,
+    /// A zero point that the target cannot name, and the work offset that stands for it.
+    pub(crate) renamed_offset: Option<(String, String)>,
     /// The names in it.
     pub(crate) known_left_out: BTreeSet<String>,
 }

@@ -15,19 +15,21 @@ pub const BUILTIN_POSTS: &[&str] = &[
     "haas-ngc",
     "sinumerik-840d",
     "grbl",
+    "heidenhain-klartext",
 ];
 
 /// Texts, in the order of [`BUILTIN_POSTS`]. A post may extend only one that comes before it.
-const TEXTS: [&str; 6] = [
+const TEXTS: [&str; 7] = [
     include_str!("../../grammar/posts/iso-6983.toml"),
     include_str!("../../grammar/posts/linuxcnc.toml"),
     include_str!("../../grammar/posts/fanuc-30i.toml"),
     include_str!("../../grammar/posts/haas-ngc.toml"),
     include_str!("../../grammar/posts/sinumerik-840d.toml"),
     include_str!("../../grammar/posts/grbl.toml"),
+    include_str!("../../grammar/posts/heidenhain-klartext.toml"),
 ];
 
-static LOADED: [OnceLock<Option<Post>>; 6] = [const { OnceLock::new() }; 6];
+static LOADED: [OnceLock<Option<Post>>; 7] = [const { OnceLock::new() }; 7];
 
 /// Templates and the names that they may use.
 const TEMPLATES: &[(&str, &[&str])] = &[

@@ -11,6 +11,7 @@ use trunnion_dialect::{Action, Dialect};
 use trunnion_geometry::deg;
 use trunnion_interp::{AllClampCodes, ClampCodes, Setup};
 use trunnion_machine::{Machine, Side};
+use trunnion_syntax::Format;
 
 /// Tolerance where neither machine nor user names one, mm.
 const TOLERANCE_MM: f64 = 0.01;
@@ -58,6 +59,12 @@ impl<'a> Setting<'a> {
         if vectors && (post.template("tcp-vectors-on").is_none() || post.template("vector").is_none()) {
             return lacks("tcp-vectors-on", "tool vectors");
         }
+        if inch && post.template("units-inch").is_none() {
+            return Err(Refused::new(format!(
+                "the post for {} writes no programs in inch: remove --units inch",
+                post.dialect
+            )));
+        }
         let mode = match machine {
             _ if vectors => Mode::Tip,
             None => Mode::Tip,
@@ -85,6 +92,11 @@ impl<'a> Setting<'a> {
             vectors,
             inch,
         })
+    }
+
+    /// Whether blocks of Klartext are written.
+    pub(crate) fn klartext(&self) -> bool {
+        self.dialect.lex.format == Format::Klartext
     }
 
     /// Codes of the clamps of the machine, as far as they can be written: not if they mean something else on the control.

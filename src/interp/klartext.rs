@@ -32,6 +32,7 @@ use flow::{Flow, Request};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{BlockId, Program, TextRange};
 use values::Parameters;
+pub use words::{SentenceWord, sentence_words};
 
 /// A motion in the coordinates of the tilted plane that was active when it was made.
 #[derive(Clone, Debug)]

@@ -53,6 +53,7 @@ mod written;
 pub use deleted::{deleted_levels, slash};
 pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
 pub use effects::Situation;
+pub use klartext::{SentenceWord, sentence_words};
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{

@@ -2,6 +2,7 @@
 use super::proof::{Proof, above};
 use super::{Posed, Reading};
 use crate::Outcome;
+use std::sync::Arc;
 use trunnion_interp::{LengthOf, MotionKind};
 use trunnion_syntax::Format;
 
@@ -101,6 +102,19 @@ impl Proof<'_> {
         Ok(())
     }
 
+    /// A zero point of the original and one of the output, which have names of different controls: each stands for one other.
+    fn stands_for(&mut self, was: &Arc<str>, now: &Arc<str>, is: usize) -> Result<(), Outcome> {
+        let found = self.renamed.iter().find(|(old, new)| old == was || new == now);
+        match found {
+            None => self.renamed.push((was.clone(), now.clone())),
+            Some((old, new)) if old == was && new == now => {}
+            Some((old, new)) => {
+                return self.refute(is, format!("{now} stands for {was}, but before {new} stood for {old}"));
+            }
+        }
+        Ok(())
+    }
+
     /// The zero point: its name, and what the program shifts in addition. CL data have none.
     fn same_zero(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
         if matches!(old.motion.kind, MotionKind::Dwell(_)) {
@@ -124,6 +138,7 @@ impl Proof<'_> {
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {
+            (Some(was), Some(now)) if scheme(was) != scheme(now) => self.stands_for(was, now, is),
             (Some(was), Some(now)) if was != now => self.refute(
                 is,
                 format!("the work offset is {now}, but the original program has {was}"),
@@ -137,13 +152,26 @@ impl Proof<'_> {
     }
 }
 
+/// How a control names its zero points: other controls cannot name the same one.
+fn scheme(name: &str) -> u8 {
+    match name {
+        name if name.starts_with("preset ") => 1,
+        name if name.starts_with("G15 ") => 2,
+        _ => 0,
+    }
+}
+
 /// What the spindle does, as the end of a sentence.
 fn turning(posed: &Posed) -> String {
     match (posed.motion.spindle_on, posed.motion.spindle_rpm) {
         (None, _) => "is in an unknown state".to_owned(),
         (Some(false), _) => "stands".to_owned(),
         (Some(true), rpm) => {
-            let counter = if posed.counter_clockwise == Some(true) { "counter-" } else { "" };
+            let counter = if posed.counter_clockwise == Some(true) {
+                "counter-"
+            } else {
+                ""
+            };
             let speed = rpm.map_or("an unknown speed".to_owned(), |rpm| format!("{rpm} 1/min"));
             format!("turns {counter}clockwise at {speed}")
         }

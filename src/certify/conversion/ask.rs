@@ -6,9 +6,10 @@
 use super::Ran;
 use super::ask_apt::record_asks;
 use super::ask_iso::Blocks;
+use super::ask_klartext::sentence_asks;
 use trunnion_dialect::{Dialect, PathMode};
 use trunnion_interp::AllClampCodes;
-use trunnion_syntax::{Address, BlockId, Format, Program, TextRange, Value, Word};
+use trunnion_syntax::{Address, Block, BlockId, Format, Program, TextRange, Value, Word};
 
 /// Coolant that is switched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,11 +155,7 @@ pub(super) fn asks(
     let mut blocks = Blocks::new(program, dialect, clamps);
     for (index, one) in ran.iter().enumerate() {
         let block = program.block(one.block);
-        let found = if program.options().format == Format::Apt {
-            record_asks(&block)
-        } else {
-            blocks.next(&block)
-        };
+        let found = found_in(&block, &mut blocks);
         turn = found.counter_clockwise.or(turn);
         turns.push(turn);
         for (range, mut ask) in found.asks {
@@ -217,9 +214,17 @@ pub fn asked_in(text: &[u8], dialect: &Dialect) -> Vec<Ask> {
     let mut blocks = Blocks::new(&program, dialect, &clamps);
     program
         .blocks()
-        .flat_map(|block| blocks.next(&block).asks)
+        .flat_map(|block| found_in(&block, &mut blocks).asks)
         .map(|(_, ask)| ask)
         .collect()
+}
+
+fn found_in(block: &Block<'_>, blocks: &mut Blocks<'_>) -> Found {
+    match block.program().options().format {
+        Format::Apt => record_asks(block),
+        Format::Klartext => sentence_asks(block),
+        Format::Iso | Format::Osp => blocks.next(block),
+    }
 }
 
 /// What one block asks for.

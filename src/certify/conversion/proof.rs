@@ -23,6 +23,8 @@ pub(super) struct Proof<'a> {
     found: ConversionProof,
     /// The work offset of the program that names one, where the other names none.
     pub(super) offset: Option<Arc<str>>,
+    /// Work offsets of the original, and those of the other control's names that stand for them.
+    pub(super) renamed: Vec<(Arc<str>, Arc<str>)>,
     /// Known positions of the original, once a motion is left out.
     known: OnceCell<Known>,
 }
@@ -65,6 +67,7 @@ pub fn converted_on(
         claim,
         found: ConversionProof::default(),
         offset: None,
+        renamed: Vec::new(),
         known: OnceCell::new(),
     };
     let (mut was, mut is) = (0, 0);

@@ -184,7 +184,8 @@ pub fn read(run: &Run<'_>) -> Reading {
 
 /// Whether a control adds the length of its tools itself.
 fn tells_lengths(dialect: &Dialect) -> bool {
-    dialect.lex.format == Format::Apt || dialect.quirks.edge_at_tool_change || dialect.g(430).is_some()
+    let by_itself = matches!(dialect.lex.format, Format::Apt | Format::Klartext);
+    by_itself || dialect.quirks.edge_at_tool_change || dialect.g(430).is_some()
 }
 
 struct Collector<'m> {

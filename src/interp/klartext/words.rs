@@ -71,6 +71,29 @@ impl Word<'_> {
     }
 }
 
+/// A word of a Klartext block, for readers that need to know what a block contains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SentenceWord {
+    /// Upper case; empty for a number or parameter alone.
+    pub name: String,
+    /// Its value, where that is a number, in the program's unit.
+    pub number: Option<f64>,
+    /// It has a value: a number, a parameter, a sign or a text.
+    pub has_value: bool,
+}
+
+/// The words of a Klartext block (`Sentence::text`).
+pub fn sentence_words(text: &[u8]) -> impl Iterator<Item = SentenceWord> + '_ {
+    Words::new(text).map(|word| SentenceWord {
+        name: String::from_utf8_lossy(word.name()).into_owned(),
+        number: match word.value {
+            Said::Number(value) => Some(value),
+            _ => None,
+        },
+        has_value: word.value != Said::Nothing,
+    })
+}
+
 /// The words of a text, in order.
 #[derive(Clone)]
 pub(crate) struct Words<'t> {

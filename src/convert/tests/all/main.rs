@@ -6,6 +6,7 @@ mod code;
 mod guide_vane;
 mod holes;
 mod kept;
+mod klartext;
 mod machines;
 mod places;
 mod proof;

@@ -25,6 +25,16 @@ test('every file extension of a dialect table belongs to a language', () => {
   }
 });
 
+test('Neovim takes the same files for programs', () => {
+  const lua = readFileSync(here('../integrations/neovim/lua/trunnion/filetypes.lua'), 'utf8');
+  const server = readFileSync(here('../integrations/neovim/lsp/trunnion.lua'), 'utf8');
+  const tables = [...lua.matchAll(/^  (\w+) = \{\n    extensions = \{([^}]*)\}/gm)];
+  const read = tables.map(([, id, list]) => [id, [...list.matchAll(/'([^']+)'/g)].map(([, extension]) => `.${extension}`).sort()]);
+  const expected = contributes.languages.map(({ id, extensions }) => [id, [...extensions].sort()]);
+  assert.deepEqual(Object.fromEntries(read), Object.fromEntries(expected));
+  for (const { id } of contributes.languages) assert.ok(server.includes(`'${id}'`), `${id} is not in lsp/trunnion.lua`);
+});
+
 test('no file extension belongs to two languages', () => {
   const all = contributes.languages.flatMap((language) => language.extensions);
   assert.deepEqual([...new Set(all)], all);

@@ -17,8 +17,13 @@ let shown: { path: Path; summary: Summary; title: string } | undefined;
 let at = 0;
 let running: number | undefined;
 
-const kept = (code.getState() ?? {}) as { mode?: Mode };
+const kept = (code.getState() ?? {}) as { mode?: Mode; machine?: boolean };
 if (kept.mode) mode.value = kept.mode;
+if (kept.machine) {
+  get<HTMLInputElement>('machine').checked = true;
+  view.showMachine(true);
+}
+const keep = () => code.setState({ mode: mode.value, machine: get<HTMLInputElement>('machine').checked });
 
 function paint(): Float32Array {
   const { values, legend: meaning } = colours(shown!.path, mode.value as Mode, shown!.summary.machine?.tipToleranceMm ?? 0.01);
@@ -74,9 +79,9 @@ function show(title: string, summary: Summary, bytes: ArrayBuffer): void {
   shown = { path, summary, title };
   document.body.classList.toggle('with-machine', summary.machine !== null);
   slider.max = String(Math.max(path.count - 1, 0));
-  warn(remarks(summary).join(' '));
   if (path.count === 0) return warn('No path is known in this program: see its findings.');
-  view.show(path, paint(), summary.tool?.diameter ?? null, fresh);
+  view.show(path, paint(), summary, fresh);
+  note();
   go(line === undefined ? 0 : (vertexOfLine(path, line) ?? 0));
   code.postMessage({ type: 'drawn', vertices: path.count });
 }
@@ -89,6 +94,13 @@ function remarks(summary: Summary): string[] {
   else if (summary.leftOutMm > 0) said.push(`${summary.vertices} of ${summary.whole} points are drawn; the others lie within ${short(summary.leftOutMm)} mm.`);
   if (!summary.machine) said.push('No machine is chosen: this is the programmed path.');
   return said;
+}
+
+/** Says what is not drawn, and why. */
+function note(): void {
+  if (!shown) return;
+  const machine = view.machineRemark();
+  warn([...remarks(shown.summary), ...(machine ? [machine] : [])].join(' '));
 }
 
 function warn(text: string): void {
@@ -149,7 +161,7 @@ window.addEventListener('message', ({ data }: MessageEvent<ToPage>) => {
 });
 
 mode.addEventListener('change', () => {
-  code.setState({ mode: mode.value });
+  keep();
   if (shown) view.paint(paint());
 });
 slider.addEventListener('input', () => {
@@ -163,6 +175,13 @@ for (const what of ['rapids', 'normals', 'tool'] as const) {
   const box = get<HTMLInputElement>(what);
   box.addEventListener('change', () => view.toggle(what, box.checked));
 }
+
+const machine = get<HTMLInputElement>('machine');
+machine.addEventListener('change', () => {
+  keep();
+  view.showMachine(machine.checked);
+  note();
+});
 
 let pressed: [number, number] | undefined;
 get('view').addEventListener('pointerdown', (event) => (pressed = [event.offsetX, event.offsetY]));

@@ -35,14 +35,14 @@ export class Backplot implements vscode.Disposable {
 
   /** Opens the backplot beside the editor in front. */
   async open(): Promise<void> {
-    const editor = vscode.window.activeTextEditor;
-    if (!editor || !isProgram(editor.document)) {
-      void vscode.window.showInformationMessage('Open a program first: the backplot shows the program in front.');
+    const document = inFront();
+    if (!document) {
+      void vscode.window.showInformationMessage('Open a program first: the backplot shows the path of the program in front.');
       return;
     }
     this.panel ??= this.make();
     this.panel.reveal(vscode.ViewColumn.Beside, true);
-    await this.show(editor.document);
+    await this.show(document);
   }
 
   /** Draws a second program over the one that is shown: before and after. */
@@ -157,6 +157,13 @@ export class Backplot implements vscode.Disposable {
     });
     return panel;
   }
+}
+
+/** The program in front; where something else is in front, such as the walkthrough, one that is open. */
+function inFront(): vscode.TextDocument | undefined {
+  const { activeTextEditor, visibleTextEditors } = vscode.window;
+  const shown = [activeTextEditor, ...visibleTextEditors].flatMap((editor) => editor?.document ?? []);
+  return [...shown, ...vscode.workspace.textDocuments].find(isProgram);
 }
 
 const name = (document: vscode.TextDocument): string => document.uri.path.split('/').pop() ?? '';

@@ -31,8 +31,8 @@ export function page({ script, style, source, nonce }: Sources): string {
 </header>
 <div id="notice" role="status" hidden></div>
 <main>
-<div id="space"><canvas id="view" aria-label="Path of the tool tip" tabindex="0"></canvas><div id="legend"></div></div>
-<aside><canvas id="plane" aria-label="Tool axis seen along Z"></canvas><canvas id="joints" aria-label="Positions of the axes over the path"></canvas></aside>
+<div id="space"><canvas id="view" role="img" aria-label="Path of the tool tip. The arrow keys turn the view, plus and minus change its size, Home shows all." tabindex="0"></canvas><div id="legend"></div></div>
+<aside><canvas id="plane" role="img" aria-label="Tool axis seen along Z"></canvas><canvas id="joints" role="img" aria-label="Positions of the axes over the path"></canvas></aside>
 </main>
 <footer>
 <button id="play">Play</button>

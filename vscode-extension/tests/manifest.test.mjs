@@ -50,6 +50,25 @@ test('every file the manifest names exists', () => {
   for (const path of named) assert.ok(existsSync(here(path)), path);
 });
 
+test('the walkthrough names commands, texts and events that exist', () => {
+  const own = new Set(contributes.commands.map(({ command }) => command));
+  // those of VS Code itself, https://code.visualstudio.com/api/references/contribution-points#contributes.walkthroughs
+  const known = (command) => own.has(command) || /^(workbench\.action(s)?\.|editor\.action\.)/.test(command);
+  const shipped = readFileSync(here('.vscodeignore'), 'utf8');
+  assert.ok(shipped.includes('!media/walkthrough/*'));
+  const { steps } = contributes.walkthroughs[0];
+  assert.deepEqual(steps.map(({ id }) => id), ['program', 'machine', 'findings', 'fix', 'backplot']);
+  for (const { id, title, description, media, completionEvents } of steps) {
+    const buttons = [...description.matchAll(/\]\(command:([^)]+)\)/g)].map(([, command]) => command);
+    assert.ok(title && buttons.length > 0 && completionEvents.length > 0, id);
+    for (const command of [...buttons, ...completionEvents.map((event) => event.replace('onCommand:', ''))]) assert.ok(known(command), `${id}: ${command}`);
+    const text = readFileSync(here(media.markdown), 'utf8');
+    for (const [, picture] of text.matchAll(/!\[[^\]]+\]\(([^)]+)\)/g)) assert.ok(existsSync(here(`media/walkthrough/${picture}`)), picture);
+    // commands that a text names in italics are those of the palette
+    for (const [, name] of text.matchAll(/\*Trunnion: ([^*]+)\*/g)) assert.ok(contributes.commands.some((command) => command.title === name), name);
+  }
+});
+
 test('dependencies are pinned exactly', () => {
   for (const [name, version] of Object.entries(manifest.devDependencies)) assert.match(version, /^\d+\.\d+\.\d+$/, name);
 });

@@ -136,7 +136,7 @@ export class MachineModel {
     const tips = cuts(this.path);
     // the part in the frame of its table, and a disc under it
     const part = new three.Box3().setFromArray(tips).translate(offset);
-    const turning = this.axes.slice(0, this.table).find((axis) => axis.rotary && Math.abs(new three.Vector3(...axis.direction).dot(up)) > 0.99);
+    const turning = this.axes.slice(0, this.table).find((axis) => axis.rotary && parallel(axis, up));
     const centre = part.getCenter(new three.Vector3());
     if (turning) {
       const point = new three.Vector3(...turning.point);
@@ -153,7 +153,8 @@ export class MachineModel {
     const top = centre.clone().add(up.clone().multiplyScalar(lowest - centre.dot(up) - 0.02 * this.size));
     const plate = this.body(this.table > 0 ? 0 : -1, turning ? this.colour(this.axes.indexOf(turning)) : STEEL);
     const rest = top.clone().add(up.clone().multiplyScalar(-thick / 2));
-    this.add(plate, turning ? new three.CylinderGeometry(radius, radius, thick, 64) : new three.BoxGeometry(1.9 * radius, thick, 1.9 * radius), new three.Vector3(0, 1, 0), up, rest);
+    // a lathe has no table
+    if (this.axes.length > 2) this.add(plate, turning ? new three.CylinderGeometry(radius, radius, thick, 64) : new three.BoxGeometry(1.9 * radius, thick, 1.9 * radius), new three.Vector3(0, 1, 0), up, rest);
     if (turning) {
       // a mark on the rim, so that a turn is seen
       const across = new three.Vector3(1, 0, 0).projectOnPlane(up).normalize();
@@ -181,20 +182,23 @@ export class MachineModel {
     const length = Math.max(toolLength, 0.15 * this.size);
     this.tool = { length, size: this.size };
     const nose = tip.clone().add(up.clone().multiplyScalar(length));
-    const long = 0.22 * this.size;
+    // it reaches to the pivot of the head
+    const pivots = this.axes.slice(this.table).flatMap((axis) => (axis.rotary ? [this.nearSpindle(axis, tip, up).sub(tip).dot(up)] : []));
+    const long = Math.max(0.22 * this.size, ...pivots.map((pivot) => pivot - length));
     const wide = 0.07 * this.size;
     this.add(spindle, new three.CylinderGeometry(wide, 0.6 * wide, long, 32), new three.Vector3(0, 1, 0), up, nose.clone().add(up.clone().multiplyScalar(long / 2)));
     let height = length + long;
     for (let k = last; k >= this.table; k -= 1) {
       const axis = this.axes[k]!;
       if (axis.rotary) {
-        const along = Math.abs(new three.Vector3(...axis.direction).dot(up)) > 0.99;
-        const point = new three.Vector3(...axis.point);
-        const middle = along ? tip.clone().add(up.clone().multiplyScalar(height + 0.04 * this.size)).sub(point).projectOnVector(up).add(point) : nose.clone();
-        if (along) {
-          this.ring(k, axis, middle, 0.11 * this.size, 0.08 * this.size);
+        const pivot = this.nearSpindle(axis, tip, up);
+        if (parallel(axis, up)) {
+          this.ring(k, axis, pivot.add(up.clone().multiplyScalar(tip.dot(up) + height + 0.04 * this.size - pivot.dot(up))), 0.11 * this.size, 0.08 * this.size);
           height += 0.1 * this.size;
-        } else this.bearing(k, axis, middle, 0.16 * this.size, 0.07 * this.size);
+        } else {
+          this.bearing(k, axis, pivot, 0.16 * this.size, 0.07 * this.size);
+          height = Math.max(height, pivot.sub(tip).dot(up) + 0.08 * this.size);
+        }
       } else {
         const place = tip.clone().add(up.clone().multiplyScalar(height + 0.06 * this.size)).applyMatrix4(this.middleOf(last));
         this.slide(k, axis, place.applyMatrix4(this.middleOf(k).invert()), 0.12 * this.size);
@@ -204,6 +208,16 @@ export class MachineModel {
         height += 0.14 * this.size + Math.max(0, ...ends);
       }
     }
+  }
+
+  /** The point on the line of a rotary axis that is nearest to the line of the spindle. */
+  private nearSpindle(axis: AxisSketch, tip: three.Vector3, up: three.Vector3): three.Vector3 {
+    const direction = new three.Vector3(...axis.direction).normalize();
+    const point = new three.Vector3(...axis.point);
+    const between = tip.clone().sub(point);
+    const skew = direction.dot(up);
+    const share = parallel(axis, up) ? between.dot(direction) : (between.dot(direction) - skew * between.dot(up)) / (1 - skew * skew);
+    return point.addScaledVector(direction, share);
   }
 
   /** A rotary axis along the tool: a ring about its line. */
@@ -216,7 +230,7 @@ export class MachineModel {
     body.group.add(label(axis.letter, middle.clone().add(across.multiplyScalar(1.7 * radius)), this.size, this.ink));
   }
 
-  /** A rotary axis across the tool: two bearings on its line, on both sides of the place nearest to `about`. */
+  /** A rotary axis that is not along the tool: two bearings on its line, on both sides of the place nearest to `about`. */
   private bearing(index: number, axis: AxisSketch, about: three.Vector3, reach: number, radius: number, under?: three.Vector3): void {
     const direction = new three.Vector3(...axis.direction).normalize();
     const point = new three.Vector3(...axis.point);
@@ -304,6 +318,8 @@ export class MachineModel {
 const hasFeed = (path: Path): boolean => path.flags.some((flags) => (flags & 3) === FEED);
 
 const mean = ([low, high]: [number, number]): number => (low + high) / 2;
+
+const parallel = (axis: AxisSketch, up: three.Vector3): boolean => Math.abs(new three.Vector3(...axis.direction).normalize().dot(up)) > 0.99;
 
 const steel = (): three.MeshPhongMaterial => new three.MeshPhongMaterial({ color: STEEL });
 

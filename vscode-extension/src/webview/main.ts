@@ -183,6 +183,10 @@ machine.addEventListener('change', () => {
   note();
 });
 
+get('view').addEventListener('keydown', (event) => {
+  if (view.key(event.key)) event.preventDefault();
+});
+
 let pressed: [number, number] | undefined;
 get('view').addEventListener('pointerdown', (event) => (pressed = [event.offsetX, event.offsetY]));
 get('view').addEventListener('pointerup', (event) => {

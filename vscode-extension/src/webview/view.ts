@@ -206,6 +206,30 @@ export class View {
     this.fitCanvas();
   }
 
+  /** Turns and zooms by keys; false for a key that means nothing here. */
+  key(key: string): boolean {
+    const step = Math.PI / 18;
+    const turns: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+    const turn = turns[key];
+    if (turn) {
+      // Y of spherical coordinates is up
+      const off = this.camera.position.clone().sub(this.controls.target);
+      const round = new three.Spherical().setFromVector3(new three.Vector3(off.x, off.z, -off.y));
+      round.theta += turn[0];
+      round.phi += turn[1];
+      round.makeSafe();
+      const back = new three.Vector3().setFromSpherical(round);
+      this.camera.position.copy(this.controls.target).add(new three.Vector3(back.x, -back.z, back.y));
+      this.controls.update();
+    } else if (key === '+' || key === '=' || key === '-') {
+      this.camera.zoom *= key === '-' ? 1 / 1.2 : 1.2;
+      this.camera.updateProjectionMatrix();
+    } else if (key === 'Home') this.look('iso');
+    else return false;
+    this.draw();
+    return true;
+  }
+
   private fitCanvas(): void {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     if (clientWidth === 0 || clientHeight === 0) return;

@@ -35,6 +35,20 @@ test('Neovim takes the same files for programs', () => {
   for (const { id } of contributes.languages) assert.ok(server.includes(`'${id}'`), `${id} is not in lsp/trunnion.lua`);
 });
 
+test('the configurations in docs/editors.md name the same files', () => {
+  const text = readFileSync(here('../docs/editors.md'), 'utf8');
+  const [emacs] = /```elisp[^]*?```/.exec(text);
+  const [helix] = /```toml[^]*?```/.exec(text);
+  for (const { id, extensions } of contributes.languages) {
+    // .h belongs to C there, unless the text says otherwise
+    for (const extension of extensions.filter((one) => one !== '.h').map((one) => one.slice(1))) {
+      assert.match(emacs, new RegExp(`[(|]${extension}\\\\\\\\[|)]`), `${extension} in the configuration of Emacs`);
+      assert.ok(helix.includes(`"${extension}"`), `${extension} in the configuration of Helix`);
+    }
+    assert.ok(helix.includes(`language-id = "${id}"`) && emacs.includes(`:language-id "${id}"`), id);
+  }
+});
+
 test('no file extension belongs to two languages', () => {
   const all = contributes.languages.flatMap((language) => language.extensions);
   assert.deepEqual([...new Set(all)], all);

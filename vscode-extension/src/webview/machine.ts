@@ -172,7 +172,7 @@ export class MachineModel {
         this.bearing(k, axis, centre, 1.25 * radius, 0.09 * this.size, rest.clone().addScaledVector(up, -0.9 * thick));
       } else {
         place.add(up.clone().multiplyScalar(-0.09 * this.size)).applyMatrix4(this.middleOf(0));
-        this.slide(k, axis, place.applyMatrix4(this.middleOf(k).invert()), 0.5 * radius);
+        this.slide(k, axis, place.applyMatrix4(this.middleOf(k).invert()), 0.5 * radius, 2.3 * radius);
         level += 0.2 * this.size;
       }
     }
@@ -252,8 +252,8 @@ export class MachineModel {
     }
   }
 
-  /** A linear axis: a slide, and the rail that it runs on over the travel that the program uses. */
-  private slide(index: number, axis: AxisSketch, at: three.Vector3, wide: number): void {
+  /** A linear axis: a slide, and its rail, as long as the travel that the program uses and `beyond`. */
+  private slide(index: number, axis: AxisSketch, at: three.Vector3, wide: number, beyond = wide): void {
     const direction = new three.Vector3(...axis.direction).normalize();
     const [low, high] = this.used(index);
     const body = this.body(index, this.colour(index));
@@ -263,7 +263,7 @@ export class MachineModel {
     const rail = new three.Group();
     // in the frame of the rail the slide is at sense * value
     const sense = axis.sign * (index < this.table ? -1 : 1);
-    const long = high - low + wide;
+    const long = high - low + beyond;
     const bar = new three.Mesh(new three.BoxGeometry(0.025 * this.size, long, 0.025 * this.size), steel());
     bar.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), direction);
     bar.position.copy(at).add(direction.clone().multiplyScalar(sense * (low + high) * 0.5));

@@ -38,6 +38,7 @@ export class View {
   private size = 1;
   /** The size of what is looked at, mm. */
   private shownSize = 1;
+  private shownBox: three.Box3 | undefined;
   private waiting = false;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -198,6 +199,7 @@ export class View {
       size = box.getSize(new three.Vector3()).length();
     } else if (this.path) box.setFromArray(cuts(this.path));
     this.shownSize = size;
+    this.shownBox = this.model?.setUp ? box : undefined;
     const centre = box.isEmpty() ? new three.Vector3() : box.getCenter(new three.Vector3());
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).add(new three.Vector3(...SIDES[side]).normalize().multiplyScalar(size));
@@ -230,13 +232,22 @@ export class View {
     return true;
   }
 
+  /** Half of the shorter side of a picture that holds a box as it is seen now. */
+  private halfSeen(box: three.Box3, wide: number): number {
+    this.camera.updateMatrixWorld();
+    const seen = new three.Box3();
+    for (const x of [box.min.x, box.max.x]) for (const y of [box.min.y, box.max.y]) for (const z of [box.min.z, box.max.z]) seen.expandByPoint(new three.Vector3(x, y, z).applyMatrix4(this.camera.matrixWorldInverse));
+    const [across, high] = [Math.max(-seen.min.x, seen.max.x), Math.max(-seen.min.y, seen.max.y)];
+    return 1.05 * (wide > 1 ? Math.max(high, across / wide) : Math.max(across, high * wide));
+  }
+
   private fitCanvas(): void {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(window.devicePixelRatio);
     this.renderer.setSize(clientWidth, clientHeight, false);
-    const half = this.shownSize * 0.55;
     const wide = clientWidth / clientHeight;
+    const half = this.shownBox ? this.halfSeen(this.shownBox, wide) : this.shownSize * 0.55;
     Object.assign(this.camera, { left: -half * Math.max(wide, 1), right: half * Math.max(wide, 1), top: half / Math.min(wide, 1), bottom: -half / Math.min(wide, 1) });
     this.camera.near = -100 * this.shownSize;
     this.camera.far = 100 * this.shownSize;

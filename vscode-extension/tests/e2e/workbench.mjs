@@ -171,8 +171,12 @@ await test('the backplot draws the path, follows the cursor, and a click on it g
   assert.match(await frame.locator('#legend').innerText(), /Feed that the axes allow/);
   await page.screenshot({ path: `${shots}/backplot-feed.png` });
   // the machine: its bodies are far more than the lines of the path
+  const lines = (await frame.evaluate(coloured)).count;
   await frame.locator('#machine').check();
-  await until('machine', async () => (await frame.evaluate(coloured)).count > 5000 || JSON.stringify(await frame.evaluate(coloured)));
+  await until('machine', async () => {
+    const { count } = await frame.evaluate(coloured);
+    return count > 3 * lines + 1000 || `${count} after ${lines}`;
+  });
   await page.screenshot({ path: `${shots}/backplot-machine.png` });
   await page.locator('.tab', { hasText: /^strategy-2\.mpf/ }).first().click();
 });

@@ -16,9 +16,11 @@ export function motion(axis: AxisSketch, value: number): Matrix4 {
   return new Matrix4().makeTranslation(point).multiply(turn).multiply(new Matrix4().makeTranslation(point.clone().negate()));
 }
 
-/** The joints of a vertex; undefined where one of them is not known. */
-export function jointsAt(path: Path, at: number): number[] | undefined {
-  const values = Array.from(path.joints.subarray(at * path.axes, (at + 1) * path.axes));
+/** The joints of a vertex, or at a share of the way to the next one; undefined where one of them is not known. */
+export function jointsAt(path: Path, at: number, share = 0): number[] | undefined {
+  const of = (vertex: number): number[] => Array.from(path.joints.subarray(vertex * path.axes, (vertex + 1) * path.axes));
+  const here = of(at);
+  const values = share > 0 ? of(at + 1).map((next, k) => here[k]! + share * (next - here[k]!)) : here;
   return values.length > 0 && values.every(Number.isFinite) ? values : undefined;
 }
 

@@ -52,9 +52,9 @@ export class MachineModel {
     this.build(home, summary.tool?.length ?? 0);
   }
 
-  /** Puts part and bodies where the axes are at a vertex; false where the axes are not known there. */
-  place(at: number, part: three.Object3D): boolean {
-    const joints = this.setUp && jointsAt(this.path, at);
+  /** Puts part and bodies where the axes are at a vertex, or behind it; false where the axes are not known there. */
+  place(at: number, part: three.Object3D, share = 0): boolean {
+    const joints = this.setUp && jointsAt(this.path, at, share);
     this.group.visible = joints !== undefined;
     if (!joints || !this.setUp) return false;
     part.matrix.copy(this.partAt(joints));

@@ -2,7 +2,7 @@
 import type { FromPage, Summary, ToPage } from '../messages';
 import { axisPlane, ink, joints } from './charts';
 import { type Legend, type Mode, colours, short } from './colour';
-import { FEED, type Path, kindOf, read, vertexOfLine } from './path';
+import { FEED, type Path, START, kindOf, read, vertexOfLine } from './path';
 import { type Side, View } from './view';
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void; getState(): unknown; setState(state: unknown): void };
@@ -44,13 +44,13 @@ function explain(meaning: Legend): void {
   );
 }
 
-/** Puts everything on a vertex. */
-function go(vertex: number): void {
+/** Puts everything on a vertex; `share`: of the way to the next one, for what moves. */
+function go(vertex: number, share = 0): void {
   if (!shown) return;
   const { path, summary } = shown;
   at = Math.max(0, Math.min(path.count - 1, vertex));
   slider.value = String(at);
-  view.place(at);
+  view.place(at, share);
   const tip = [0, 1, 2].map((k) => path.tip[3 * at + k]! + path.origin[k]!);
   const parts = [`line ${path.line[at]}`, ...tip.map((value, k) => `${'XYZ'[k]} ${value.toFixed(3)}`)];
   if (Number.isFinite(path.time[at])) parts.push(clock(path.time[at]!));
@@ -123,10 +123,12 @@ function toggle(): void {
   const step = (now: number) => {
     clockwork += ((now - last) / 1000) * pace;
     last = now;
+    const clockAt = (vertex: number) => (timed ? path.time[vertex]! : vertex);
     let next = at;
-    if (timed) while (next < path.count - 1 && path.time[next]! < clockwork) next += 1;
-    else next = Math.floor(clockwork);
-    go(next);
+    while (next < path.count - 1 && !(clockAt(next + 1) > clockwork)) next += 1;
+    // between two pieces of the path nothing is known to move
+    const moves = next < path.count - 1 && kindOf(path, next + 1) !== START;
+    go(next, moves ? Math.max(0, (clockwork - clockAt(next)) / (clockAt(next + 1) - clockAt(next))) : 0);
     if (at >= path.count - 1) return halt();
     running = requestAnimationFrame(step);
   };

@@ -142,15 +142,16 @@ export class View {
     if (this.model.setUp) this.makeTool(this.model.tool);
   }
 
-  /** Puts the tool on a vertex and marks the block that leads there. */
-  place(at: number): void {
+  /** Puts the tool on a vertex, or at a share of the way to the next one, and marks the block that leads there. */
+  place(from: number, share = 0): void {
     const path = this.path;
-    if (!path || at >= path.count) return;
-    this.at = at;
-    this.model?.place(at, this.part);
-    const tip = new three.Vector3().fromArray(path.tip, 3 * at);
-    this.tool.position.copy(tip);
-    this.tool.quaternion.setFromUnitVectors(new three.Vector3(0, 0, 1), new three.Vector3().fromArray(path.axis, 3 * at).normalize());
+    if (!path || from >= path.count) return;
+    this.at = from;
+    this.model?.place(from, this.part, share);
+    const at = share > 0 ? from + 1 : from;
+    const between = (values: Float32Array) => new three.Vector3().fromArray(values, 3 * from).lerp(new three.Vector3().fromArray(values, 3 * at), share);
+    this.tool.position.copy(between(path.tip));
+    this.tool.quaternion.setFromUnitVectors(new three.Vector3(0, 0, 1), between(path.axis).normalize());
     const line = path.line[at];
     let first = at;
     while (first > 0 && kindOf(path, first) !== START && path.line[first - 1] === line) first -= 1;

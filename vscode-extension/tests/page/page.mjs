@@ -65,7 +65,7 @@ export async function show(page, title, { summary, bytes }) {
 /** Two frames: what was asked for is on the canvas. */
 export const settled = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 
-/** The colours of the canvas in three dimensions, as one string per pixel row of a coarse grid. */
+/** What is on the canvas in three dimensions: how often each colour, a sum over all, and the pixels of a rotary axis (ochre). */
 export const pixels = (page) =>
   page.evaluate(() => {
     const canvas = document.getElementById('view');
@@ -74,10 +74,12 @@ export const pixels = (page) =>
     gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
     const count = {};
     let sum = 0;
+    const ochre = [];
     for (let k = 0; k < all.length; k += 4) {
       const colour = (all[k] << 16) | (all[k + 1] << 8) | all[k + 2];
       count[colour] = (count[colour] ?? 0) + 1;
       sum = (Math.imul(sum, 31) + colour) | 0;
+      if (all[k] > 100 && all[k] > 1.2 * all[k + 1] && all[k + 1] > 3 * all[k + 2]) ochre.push(k / 4);
     }
-    return { count, sum };
+    return { count, sum, ochre };
   });

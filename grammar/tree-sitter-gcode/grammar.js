@@ -90,7 +90,8 @@ module.exports = grammar({
     _value_name: identifier,
     _variable_name: identifier,
     system_variable: () => /\$[A-Za-z_][A-Za-z0-9_]*/,
-    number: () => token(seq(optional(/[+-][ \t]*/), choice(/[0-9]+(\.[0-9]*)?/, /\.[0-9]+/), optional(/[Ee][Xx][+-]?[0-9]+/))),
+    // LinuxCNC and grbl read blanks inside a number: X 1 . 5
+    number: () => token(seq(optional(/[+-][ \t]*/), choice(/[0-9]+(\.[0-9]*|[ \t]*\.[ \t]*[0-9]+)?/, /\.[ \t]*[0-9]+/), optional(/[Ee][Xx][+-]?[0-9]+/))),
 
     variable: ($) =>
       prec.right(seq('#', choice(alias(/[0-9]+/, $.number), $.variable, $.parameter, $.brackets, alias($._variable_name, $.name), alias($._variable_indexed, $.indexed)))),

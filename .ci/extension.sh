@@ -1,5 +1,5 @@
 #!/bin/bash
-# The VS Code extension: types, manifest, grammars, the packaged .vsix, and the .vsix in a real VS Code.
+# The VS Code extension: types, manifest, grammars, the page of the backplot, the packaged .vsix, and the .vsix in a real VS Code.
 # Needs Node 20 or newer, Python 3 with pip, and a built `trunnion` (TRUNNION_BIN, else the newer of target/release and
 # target/debug; built here when there is none). Installs Debian packages when they are missing, and VS Code into
 # ${TRUNNION_VSCODE_LAB:-$HOME/.cache/trunnion-vscode}, which is used again next time.
@@ -72,6 +72,7 @@ if step "npm ci" 180 npm ci --no-audit --no-fund; then
   step "types" 60 npm run --silent typecheck
   step "manifest" 60 npm run --silent test:manifest
   step "grammars" 60 npm run --silent test:grammar
+  step "page of the backplot" 180 npm run --silent test:page
   # waits here; run.sh then finds it there, or says what is wrong with it
   wait "$installing" || cat "$scratch/lab"
   installing=

@@ -6,6 +6,7 @@ import * as vscode from 'vscode';
 import type { LanguageClient } from 'vscode-languageclient/node';
 import { isProgram } from './languages';
 import type { FromPage, Summary, ToPage } from './messages';
+import { page } from './page';
 
 /** Points that are drawn first, at once, and then. */
 const COARSE = 20_000;
@@ -34,14 +35,14 @@ export class Backplot implements vscode.Disposable {
 
   /** Opens the backplot beside the editor in front. */
   async open(): Promise<void> {
-    const editor = vscode.window.activeTextEditor;
-    if (!editor || !isProgram(editor.document)) {
-      void vscode.window.showInformationMessage('Open a program first: the backplot shows the program in front.');
+    const document = inFront();
+    if (!document) {
+      void vscode.window.showInformationMessage('Open a program first: the backplot shows the path of the program in front.');
       return;
     }
     this.panel ??= this.make();
     this.panel.reveal(vscode.ViewColumn.Beside, true);
-    await this.show(editor.document);
+    await this.show(document);
   }
 
   /** Draws a second program over the one that is shown: before and after. */
@@ -142,7 +143,13 @@ export class Backplot implements vscode.Disposable {
       retainContextWhenHidden: true,
       localResourceRoots: [dist, media],
     });
-    panel.webview.html = page(panel.webview, vscode.Uri.joinPath(dist, 'backplot.js'), vscode.Uri.joinPath(media, 'backplot.css'));
+    const uri = (folder: vscode.Uri, file: string) => panel.webview.asWebviewUri(vscode.Uri.joinPath(folder, file)).toString();
+    panel.webview.html = page({
+      script: uri(dist, 'backplot.js'),
+      style: uri(media, 'backplot.css'),
+      source: panel.webview.cspSource,
+      nonce: randomBytes(16).toString('base64url'),
+    });
     panel.webview.onDidReceiveMessage((message: FromPage) => this.heard(message));
     panel.onDidDispose(() => {
       this.panel = undefined;
@@ -152,39 +159,11 @@ export class Backplot implements vscode.Disposable {
   }
 }
 
-const name = (document: vscode.TextDocument): string => document.uri.path.split('/').pop() ?? '';
-
-function page(webview: vscode.Webview, script: vscode.Uri, style: vscode.Uri): string {
-  const nonce = randomBytes(16).toString('base64url');
-  return `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src ${webview.cspSource} 'unsafe-inline'; script-src 'nonce-${nonce}'; img-src ${webview.cspSource} data:">
-<link rel="stylesheet" href="${webview.asWebviewUri(style)}">
-<title>Backplot</title>
-</head>
-<body>
-<header>
-<label>Colours <select id="mode">
-<option value="finding">findings</option><option value="deviation">deviation</option><option value="feed">feed</option><option value="posture">posture</option>
-</select></label>
-<span role="group" aria-label="View from"><button id="iso">Iso</button> <button id="top">Top</button> <button id="front">Front</button> <button id="right">Right</button></span>
-<label><input type="checkbox" id="rapids" checked> rapids</label>
-<label><input type="checkbox" id="normals" checked> tool axis</label>
-<label><input type="checkbox" id="tool" checked> tool</label>
-</header>
-<div id="notice" role="status" hidden></div>
-<main>
-<div id="space"><canvas id="view" aria-label="Path of the tool tip" tabindex="0"></canvas><div id="legend"></div></div>
-<aside><canvas id="plane" aria-label="Tool axis seen along Z"></canvas><canvas id="joints" aria-label="Positions of the axes over the path"></canvas></aside>
-</main>
-<footer>
-<button id="play">Play</button>
-<input type="range" id="time" min="0" max="0" value="0" aria-label="Place in the program">
-<span id="readout"></span>
-</footer>
-<script nonce="${nonce}" src="${webview.asWebviewUri(script)}"></script>
-</body>
-</html>`;
+/** The program in front; where something else is in front, such as the walkthrough, one that is open. */
+function inFront(): vscode.TextDocument | undefined {
+  const { activeTextEditor, visibleTextEditors } = vscode.window;
+  const shown = [activeTextEditor, ...visibleTextEditors].flatMap((editor) => editor?.document ?? []);
+  return [...shown, ...vscode.workspace.textDocuments].find(isProgram);
 }
+
+const name = (document: vscode.TextDocument): string => document.uri.path.split('/').pop() ?? '';

@@ -18,8 +18,20 @@ export interface Summary {
 export interface Machine {
   id: string;
   name: string;
-  axes: { letter: string; rotary: boolean; limits: [number, number] | null }[];
+  /** From workpiece to tool. */
+  axes: AxisSketch[];
   tipToleranceMm: number;
+}
+
+/** One axis: limits in mm or deg; direction and point (mm) in the machine with all axes at zero; `table`: it carries the part. */
+export interface AxisSketch {
+  letter: string;
+  rotary: boolean;
+  table: boolean;
+  direction: [number, number, number];
+  point: [number, number, number];
+  sign: number;
+  limits: [number, number] | null;
 }
 
 /** To the page. */

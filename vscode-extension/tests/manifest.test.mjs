@@ -25,6 +25,30 @@ test('every file extension of a dialect table belongs to a language', () => {
   }
 });
 
+test('Neovim takes the same files for programs', () => {
+  const lua = readFileSync(here('../integrations/neovim/lua/trunnion/filetypes.lua'), 'utf8');
+  const server = readFileSync(here('../integrations/neovim/lsp/trunnion.lua'), 'utf8');
+  const tables = [...lua.matchAll(/^  (\w+) = \{\n    extensions = \{([^}]*)\}/gm)];
+  const read = tables.map(([, id, list]) => [id, [...list.matchAll(/'([^']+)'/g)].map(([, extension]) => `.${extension}`).sort()]);
+  const expected = contributes.languages.map(({ id, extensions }) => [id, [...extensions].sort()]);
+  assert.deepEqual(Object.fromEntries(read), Object.fromEntries(expected));
+  for (const { id } of contributes.languages) assert.ok(server.includes(`'${id}'`), `${id} is not in lsp/trunnion.lua`);
+});
+
+test('the configurations in docs/editors.md name the same files', () => {
+  const text = readFileSync(here('../docs/editors.md'), 'utf8');
+  const [emacs] = /```elisp[^]*?```/.exec(text);
+  const [helix] = /```toml[^]*?```/.exec(text);
+  for (const { id, extensions } of contributes.languages) {
+    // .h belongs to C there, unless the text says otherwise
+    for (const extension of extensions.filter((one) => one !== '.h').map((one) => one.slice(1))) {
+      assert.match(emacs, new RegExp(`[(|]${extension}\\\\\\\\[|)]`), `${extension} in the configuration of Emacs`);
+      assert.ok(helix.includes(`"${extension}"`), `${extension} in the configuration of Helix`);
+    }
+    assert.ok(helix.includes(`language-id = "${id}"`) && emacs.includes(`:language-id "${id}"`), id);
+  }
+});
+
 test('no file extension belongs to two languages', () => {
   const all = contributes.languages.flatMap((language) => language.extensions);
   assert.deepEqual([...new Set(all)], all);
@@ -38,6 +62,25 @@ test('each thing that is shown in addition can be switched off', () => {
 test('every file the manifest names exists', () => {
   const named = [manifest.icon, ...contributes.grammars.map((grammar) => grammar.path), ...contributes.languages.map((language) => language.configuration)];
   for (const path of named) assert.ok(existsSync(here(path)), path);
+});
+
+test('the walkthrough names commands, texts and events that exist', () => {
+  const own = new Set(contributes.commands.map(({ command }) => command));
+  // those of VS Code itself, https://code.visualstudio.com/api/references/contribution-points#contributes.walkthroughs
+  const known = (command) => own.has(command) || /^(workbench\.action(s)?\.|editor\.action\.)/.test(command);
+  const shipped = readFileSync(here('.vscodeignore'), 'utf8');
+  assert.ok(shipped.includes('!media/walkthrough/*'));
+  const { steps } = contributes.walkthroughs[0];
+  assert.deepEqual(steps.map(({ id }) => id), ['program', 'machine', 'findings', 'fix', 'backplot']);
+  for (const { id, title, description, media, completionEvents } of steps) {
+    const buttons = [...description.matchAll(/\]\(command:([^)]+)\)/g)].map(([, command]) => command);
+    assert.ok(title && buttons.length > 0 && completionEvents.length > 0, id);
+    for (const command of [...buttons, ...completionEvents.map((event) => event.replace('onCommand:', ''))]) assert.ok(known(command), `${id}: ${command}`);
+    const text = readFileSync(here(media.markdown), 'utf8');
+    for (const [, picture] of text.matchAll(/!\[[^\]]+\]\(([^)]+)\)/g)) assert.ok(existsSync(here(`media/walkthrough/${picture}`)), picture);
+    // commands that a text names in italics are those of the palette
+    for (const [, name] of text.matchAll(/\*Trunnion: ([^*]+)\*/g)) assert.ok(contributes.commands.some((command) => command.title === name), name);
+  }
 });
 
 test('dependencies are pinned exactly', () => {

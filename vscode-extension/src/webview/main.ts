@@ -2,7 +2,7 @@
 import type { FromPage, Summary, ToPage } from '../messages';
 import { axisPlane, ink, joints } from './charts';
 import { type Legend, type Mode, colours, short } from './colour';
-import { FEED, type Path, kindOf, read, vertexOfLine } from './path';
+import { FEED, type Path, START, kindOf, read, vertexOfLine } from './path';
 import { type Side, View } from './view';
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void; getState(): unknown; setState(state: unknown): void };
@@ -17,8 +17,13 @@ let shown: { path: Path; summary: Summary; title: string } | undefined;
 let at = 0;
 let running: number | undefined;
 
-const kept = (code.getState() ?? {}) as { mode?: Mode };
+const kept = (code.getState() ?? {}) as { mode?: Mode; machine?: boolean };
 if (kept.mode) mode.value = kept.mode;
+if (kept.machine) {
+  get<HTMLInputElement>('machine').checked = true;
+  view.showMachine(true);
+}
+const keep = () => code.setState({ mode: mode.value, machine: get<HTMLInputElement>('machine').checked });
 
 function paint(): Float32Array {
   const { values, legend: meaning } = colours(shown!.path, mode.value as Mode, shown!.summary.machine?.tipToleranceMm ?? 0.01);
@@ -39,13 +44,13 @@ function explain(meaning: Legend): void {
   );
 }
 
-/** Puts everything on a vertex. */
-function go(vertex: number): void {
+/** Puts everything on a vertex; `share`: of the way to the next one, for what moves. */
+function go(vertex: number, share = 0): void {
   if (!shown) return;
   const { path, summary } = shown;
   at = Math.max(0, Math.min(path.count - 1, vertex));
   slider.value = String(at);
-  view.place(at);
+  view.place(at, share);
   const tip = [0, 1, 2].map((k) => path.tip[3 * at + k]! + path.origin[k]!);
   const parts = [`line ${path.line[at]}`, ...tip.map((value, k) => `${'XYZ'[k]} ${value.toFixed(3)}`)];
   if (Number.isFinite(path.time[at])) parts.push(clock(path.time[at]!));
@@ -74,9 +79,9 @@ function show(title: string, summary: Summary, bytes: ArrayBuffer): void {
   shown = { path, summary, title };
   document.body.classList.toggle('with-machine', summary.machine !== null);
   slider.max = String(Math.max(path.count - 1, 0));
-  warn(remarks(summary).join(' '));
   if (path.count === 0) return warn('No path is known in this program: see its findings.');
-  view.show(path, paint(), summary.tool?.diameter ?? null, fresh);
+  view.show(path, paint(), summary, fresh);
+  note();
   go(line === undefined ? 0 : (vertexOfLine(path, line) ?? 0));
   code.postMessage({ type: 'drawn', vertices: path.count });
 }
@@ -89,6 +94,13 @@ function remarks(summary: Summary): string[] {
   else if (summary.leftOutMm > 0) said.push(`${summary.vertices} of ${summary.whole} points are drawn; the others lie within ${short(summary.leftOutMm)} mm.`);
   if (!summary.machine) said.push('No machine is chosen: this is the programmed path.');
   return said;
+}
+
+/** Says what is not drawn, and why. */
+function note(): void {
+  if (!shown) return;
+  const machine = view.machineRemark();
+  warn([...remarks(shown.summary), ...(machine ? [machine] : [])].join(' '));
 }
 
 function warn(text: string): void {
@@ -111,10 +123,12 @@ function toggle(): void {
   const step = (now: number) => {
     clockwork += ((now - last) / 1000) * pace;
     last = now;
+    const clockAt = (vertex: number) => (timed ? path.time[vertex]! : vertex);
     let next = at;
-    if (timed) while (next < path.count - 1 && path.time[next]! < clockwork) next += 1;
-    else next = Math.floor(clockwork);
-    go(next);
+    while (next < path.count - 1 && !(clockAt(next + 1) > clockwork)) next += 1;
+    // between two pieces of the path nothing is known to move
+    const moves = next < path.count - 1 && kindOf(path, next + 1) !== START;
+    go(next, moves ? Math.max(0, (clockwork - clockAt(next)) / (clockAt(next + 1) - clockAt(next))) : 0);
     if (at >= path.count - 1) return halt();
     running = requestAnimationFrame(step);
   };
@@ -149,7 +163,7 @@ window.addEventListener('message', ({ data }: MessageEvent<ToPage>) => {
 });
 
 mode.addEventListener('change', () => {
-  code.setState({ mode: mode.value });
+  keep();
   if (shown) view.paint(paint());
 });
 slider.addEventListener('input', () => {
@@ -163,6 +177,17 @@ for (const what of ['rapids', 'normals', 'tool'] as const) {
   const box = get<HTMLInputElement>(what);
   box.addEventListener('change', () => view.toggle(what, box.checked));
 }
+
+const machine = get<HTMLInputElement>('machine');
+machine.addEventListener('change', () => {
+  keep();
+  view.showMachine(machine.checked);
+  note();
+});
+
+get('view').addEventListener('keydown', (event) => {
+  if (view.key(event.key)) event.preventDefault();
+});
 
 let pressed: [number, number] | undefined;
 get('view').addEventListener('pointerdown', (event) => (pressed = [event.offsetX, event.offsetY]));

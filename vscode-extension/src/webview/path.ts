@@ -30,6 +30,15 @@ export const levelOf = (path: Path, at: number): number => (path.flags[at]! >> 8
 /** 0 none, 1 at the pole, 2 plus, 3 minus. */
 export const postureOf = (path: Path, at: number): number => (path.flags[at]! >> 4) & 3;
 
+/** The tips of the cuts, or of all motions where nothing is cut. */
+export function cuts(path: Path): number[] | Float32Array {
+  const points: number[] = [];
+  for (let at = 0; at < path.count; at += 1) {
+    if (kindOf(path, at) !== RAPID && kindOf(path, at) !== START) points.push(path.tip[3 * at]!, path.tip[3 * at + 1]!, path.tip[3 * at + 2]!);
+  }
+  return points.length > 0 ? points : path.tip;
+}
+
 /** Reads the bytes; throws where they are not what docs/scene.md says. */
 export function read(bytes: ArrayBuffer): Path {
   const view = new DataView(bytes);

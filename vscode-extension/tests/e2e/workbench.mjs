@@ -170,6 +170,37 @@ await test('the backplot draws the path, follows the cursor, and a click on it g
   await frame.locator('#mode').selectOption('feed');
   assert.match(await frame.locator('#legend').innerText(), /Feed that the axes allow/);
   await page.screenshot({ path: `${shots}/backplot-feed.png` });
+  // the machine: its bodies are far more than the lines of the path
+  const lines = (await frame.evaluate(coloured)).count;
+  await frame.locator('#machine').check();
+  await until('machine', async () => {
+    const { count } = await frame.evaluate(coloured);
+    return count > 3 * lines + 1000 || `${count} after ${lines}`;
+  });
+  await page.screenshot({ path: `${shots}/backplot-machine.png` });
+  await page.locator('.tab', { hasText: /^strategy-2\.mpf/ }).first().click();
+});
+
+await test('the walkthrough leads to the machine and to the backplot', async () => {
+  await page.locator('.view-line').first().click();
+  await page.keyboard.press('F1');
+  await page.locator('.quick-input-widget input').first().waitFor();
+  await page.keyboard.type('Welcome: Open Walkthrough');
+  await page.locator('.quick-input-list .monaco-list-row', { hasText: 'Open Walkthrough' }).first().click();
+  await page.locator('.quick-input-list .monaco-list-row', { hasText: 'Get started with Trunnion' }).first().click();
+  const steps = page.locator('.gettingStartedContainer .step-title');
+  await until('steps', async () => (await steps.allInnerTexts()).length >= 5 || JSON.stringify(await steps.allInnerTexts()));
+  assert.deepEqual((await steps.allInnerTexts()).slice(-5), ['Open a program', 'Choose your machine', 'Read the findings', 'Fix one with the light bulb', 'Look at the path']);
+  await page.locator('.gettingStartedContainer .getting-started-step', { hasText: 'Choose your machine' }).click();
+  await page.locator('.gettingStartedContainer .getting-started-step.expanded', { hasText: 'Choose Machine' }).waitFor();
+  await page.screenshot({ path: `${shots}/walkthrough-machine.png` });
+  await page.locator('.gettingStartedContainer .getting-started-step', { hasText: 'Look at the path' }).click();
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: `${shots}/walkthrough-backplot.png` });
+  // the program is not in front now, and is found all the same
+  await page.locator('.gettingStartedContainer .getting-started-step.expanded .monaco-button', { hasText: 'Show Backplot' }).click();
+  await until('page of the backplot', backplotPage);
+  await page.locator('.notification-list-item', { hasText: 'Open a program first' }).waitFor({ state: 'detached', timeout: 1000 });
   await page.locator('.tab', { hasText: /^strategy-2\.mpf/ }).first().click();
 });
 

@@ -138,7 +138,7 @@ fn what_cannot_be_carried_over_is_named() {
         ("L M19", "M19", "angle"),
         ("L X+5 F100 M77", "M77", "depends on the machine"),
         ("/L X+5 F100", "block delete", "switch"),
-        ("FN 14: ERROR = 1000", "FN 14", "operator"),
+        ("FN 14: ERROR = 1000", "FN 14", "alarm"),
         (
             "CYCL DEF 247 DATUM SETTING ~\nQ339=1 ;NUMBER\nL X+0 Y+0 Z+50 FMAX\nCYCL DEF 247 DATUM SETTING ~\nQ339=2 ;NUMBER\nL X+0 Y+0 Z+50 FMAX",
             "preset 2",
@@ -193,7 +193,7 @@ fn blocks_that_move_nothing_are_left_out() {
         "{:?}",
         converted.left_out
     );
-    for line in ["X7.", "Z-5. F150.", "M8", "M9"] {
+    for line in ["G1 X7. F100.", "Z-5. F150.", "M8", "M9"] {
         assert!(
             converted.text.lines().any(|found| found.ends_with(line)),
             "{line} in {}",

@@ -60,7 +60,9 @@ impl Writer<'_> {
         let turn = arc.sweep * arc.normal[normal].signum();
         let direction = if turn < 0.0 { "DR-" } else { "DR+" };
         let height = coordinate(self, normal, one.xyz[normal]);
-        let turns = if arc.height().abs() < FLAT {
+        // a full circle says its angle: C would depend on an end that is exactly the start
+        let full = arc.sweep.abs() > core::f64::consts::TAU - 1e-9;
+        let turns = if arc.height().abs() < FLAT && !full {
             words.push("C".to_owned());
             // the start is there already
             self.modal.set(WORDS[normal], height);
@@ -68,8 +70,11 @@ impl Writer<'_> {
         } else {
             let angle = self.signed(crate::number::number(deg(turn), self.post.angle, self.post.point));
             words.push(format!("CP IPA{angle}"));
-            words.push(height.clone());
-            self.modal.set(WORDS[normal], height);
+            if arc.height().abs() < FLAT {
+                self.modal.set(WORDS[normal], height);
+            } else {
+                words.extend(self.modal.change(WORDS[normal], height));
+            }
             self.modal.forget(WORDS[first]);
             self.modal.forget(WORDS[second]);
             0

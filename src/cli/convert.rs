@@ -39,6 +39,9 @@ pub(crate) struct Convert {
     /// How far the tip may deviate from the original inside a cut, in mm. Default: the tolerance of the machine.
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     tolerance_mm: Option<f64>,
+    /// How far the tool axis may deviate from the original inside a cut, in degrees. Default: 0.5
+    #[arg(long, value_name = "DEG")]
+    tolerance_deg: Option<f64>,
     /// Allow cuts to change to the other posture or to wind back; each place is reported.
     #[arg(long)]
     allow_swap: bool,
@@ -191,7 +194,11 @@ fn certified(loaded: &Loaded, target: Option<&Machine>, converted: &Converted) -
 }
 
 fn options(command: &Convert) -> Result<Options, Failure> {
-    for (name, value) in [("--tolerance-mm", command.tolerance_mm), ("--feed", command.feed)] {
+    for (name, value) in [
+        ("--tolerance-mm", command.tolerance_mm),
+        ("--tolerance-deg", command.tolerance_deg),
+        ("--feed", command.feed),
+    ] {
         if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
             return Err(Failure::new(format!("{name} must be a positive number")));
         }
@@ -207,6 +214,7 @@ fn options(command: &Convert) -> Result<Options, Failure> {
         },
         tcp: !command.no_tcp,
         tolerance_mm: command.tolerance_mm,
+        tolerance_deg: command.tolerance_deg,
         allow_swap: command.allow_swap,
         insert_is_remark: command.insert_is_remark,
         drop: command.drop.clone(),
@@ -278,11 +286,12 @@ fn summary(name: &str, converted: &Converted) -> Vec<String> {
         claim.end_deg
     )];
     lines.push(format!(
-        "{name}: at every moment of a cut the tip is proved within {:.6} mm (allowed {:.6} mm) and the tool axis within {:.4} deg; feeds \
+        "{name}: at every moment of a cut the tip is proved within {:.6} mm (allowed {:.6} mm) and the tool axis within {:.4} deg{}; feeds \
          within {:.6} mm/min, times within {:.4} %",
         proof.path_mm,
         claim.path_mm,
         proof.path_deg,
+        claim.path_deg.map_or(String::new(), |limit| format!(" (allowed {limit} deg)")),
         proof.feed_mm_min,
         proof.time_share * 100.0
     ));

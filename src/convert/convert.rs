@@ -76,6 +76,12 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     if !(tolerance_mm.is_finite() && tolerance_mm > 0.0) {
         return Err(Refused::new("the tolerance must be a positive number of millimetres"));
     }
+    let axis_deg = setting.axis_deg(machine, options);
+    if axis_deg.is_some_and(|axis_deg| !(axis_deg.is_finite() && axis_deg > 0.0)) {
+        return Err(Refused::new(
+            "the tolerance of the tool axis must be a positive number of degrees",
+        ));
+    }
     let planner = Planner {
         reading: &reading,
         source: machine,
@@ -88,6 +94,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         setup: source.setup,
         options,
         tolerance_mm,
+        axis_deg,
         known: OnceCell::new(),
         kept: OnceCell::new(),
     };
@@ -96,7 +103,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let Written {
         text: written, moved, ..
     } = setting.write(&reading, &job, &outs, source.setup, options)?;
-    let claim = setting.claim(options, tolerance_mm);
+    let claim = setting.claim(options, tolerance_mm, axis_deg);
     let (proof, turned, travel, told) = prove(
         source,
         (&reading, machine),

@@ -229,6 +229,9 @@ impl EventCollector<'_> {
             } else {
                 name.to_owned()
             };
+            if self.post.is_some_and(|post| post.template("work-offset") == Some("")) {
+                self.job.renamed_offset = Some((name.to_owned(), "the active preset".to_owned()));
+            }
             self.job.push(Event::WorkOffset(written), block);
         }
         Ok(())

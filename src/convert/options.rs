@@ -57,6 +57,8 @@ pub struct Options {
     pub tcp: bool,
     /// At every moment of a feed motion the tip stays within this of where it was, mm; `None`: the tolerance of the machine, or 0.01.
     pub tolerance_mm: Option<f64>,
+    /// How far the tool axis may be from where it was inside a cut, deg; `None`: 0.5. Judged between programs that name rotary axes.
+    pub tolerance_deg: Option<f64>,
     /// A cut may turn the table to the other posture, or wind back a rotary axis.
     pub allow_swap: bool,
     /// INSERT records are treated as remarks.
@@ -80,6 +82,7 @@ impl Default for Options {
             orientation: OrientationWords::Rotary,
             tcp: true,
             tolerance_mm: None,
+            tolerance_deg: None,
             allow_swap: false,
             insert_is_remark: false,
             drop: Vec::new(),

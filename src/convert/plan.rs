@@ -87,6 +87,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) options: &'a Options,
     pub(crate) tolerance_mm: f64,
+    /// How far the tool axis may be from where it was inside a cut, deg, where that is judged.
+    pub(crate) axis_deg: Option<f64>,
     /// Where the known poses are, once it was asked.
     pub(crate) known: OnceCell<Known>,
     /// [`Planner::keeps`], once it was asked: it looks at all motions, and is asked at each.
@@ -237,7 +239,15 @@ impl Planner<'_> {
                 .ok_or_else(|| self.refuse(posed, why.to_owned()));
         }
         if let Err(why) = &posed.end {
-            if self.may_leave(index) {
+            let motions = &self.reading.motions;
+            if self.known().is_outside(motions, index) {
+                if self.known().leaves_a_cut(motions, index) {
+                    let message = format!(
+                        "this rapid leaves a cut, and its end is unknown: {why}. Without it the tool would stay in the cut: declare what is missing, or \
+                         program a rapid to a known position before it"
+                    );
+                    return Err(self.refuse(posed, message));
+                }
                 return self.partial(index, posed, frame);
             }
             return Err(self.refuse(posed, format!("the end of this motion is unknown: {why}")));
@@ -269,24 +279,13 @@ impl Planner<'_> {
         self.lines(posed, &track, (q.0, &ends), frame).map(Out::Moves)
     }
 
-    /// As the proof will see it: a rapid to an unknown position may be dropped only before all known poses of its tool, or after the last.
-    fn may_leave(&self, index: usize) -> bool {
-        let motions = &self.reading.motions;
-        let posed = &motions[index];
-        let tool = posed.motion.tool;
-        let known = self.known();
-        let first = known.none_before(index, tool);
-        let next = known.next_from(index).map(|next| &motions[next]);
-        posed.motion.kind == MotionKind::Rapid && (first || next.is_none_or(|next| next.motion.tool != tool))
-    }
-
     pub(crate) fn known(&self) -> &Known {
         self.known.get_or_init(|| Known::of(&self.reading.motions))
     }
 
     fn parts(&self, posed: &Posed, track: &Track<'_>, between: &Between<'_>) -> Result<Vec<PartEnd>, String> {
         let Mode::Joints(machine) = self.mode else {
-            return between.chords(track, self.tolerance_mm);
+            return between.chords(track, self.tolerance_mm, self.axis_deg);
         };
         if between.keep && !posed.tip_words() && !matches!(posed.motion.kind, MotionKind::Arc(_)) {
             // the same joints, which move as they did

@@ -9,9 +9,18 @@ use trunnion_interp::LengthOf;
 impl Planner<'_> {
     /// What becomes of a rapid with an unknown end that may be left out.
     pub(crate) fn partial(&self, index: usize, posed: &Posed, frame: &Frame) -> Result<Out, Refused> {
-        let Some(moved) = moved_axes(posed).filter(|moved| !moved.is_empty()) else {
+        let Some(moved) = moved_axes(posed) else {
+            // in a tilted plane its words cannot be repeated
+            if self.is_approach(index) && self.joins_the_next(index) {
+                let message = "this rapid turns or approaches in a tilted plane before the position of the tool is known. In the output it would be \
+                               joined with the next rapid, in all axes at once: program all axes before the plane (G0 with the rotary axes, too)";
+                return Err(self.refuse(posed, message.to_owned()));
+            }
             return Ok(Out::Left);
         };
+        if moved.is_empty() {
+            return Ok(Out::Left);
+        }
         if !self.is_approach(index) {
             return Ok(Out::Left);
         }
@@ -39,6 +48,15 @@ impl Planner<'_> {
         let message = "this rapid moves some axes before the others are known. In the output it would be joined with the next rapid, in \
              all axes at once: program a complete position here, or remove the block";
         Err(self.refuse(posed, message.to_owned()))
+    }
+
+    /// Whether a rapid that is not in machine coordinates moves axes to known places, and the tool comes to a known position later.
+    fn joins_the_next(&self, index: usize) -> bool {
+        let motions = &self.reading.motions;
+        let motion = &motions[index].motion;
+        let moves = (0..6).any(|axis| motion.end.get(axis).is_some() && motion.start.get(axis) != motion.end.get(axis));
+        let next = self.known().next_from(index).map(|next| motions[next].motion.tool);
+        !self.apt && !motion.machine_coordinates && moves && next == Some(motion.tool)
     }
 
     /// Whether no position of the tool is known before.

@@ -1,8 +1,9 @@
 //! Poses along a motion as words of the target: how many equal parts keep the tip within tolerance, and what each ends with.
 use crate::posture::nearest;
 use trunnion_certify::conversion::{Track, joint_bend};
-use trunnion_geometry::Vec3;
-use trunnion_machine::{Joints, MAX_AXES, Machine, inverse};
+use trunnion_geometry::math::angle_between;
+use trunnion_geometry::{Vec3, deg};
+use trunnion_machine::{Joints, MAX_AXES, Machine, inverse, tool_axis_at};
 
 /// What turns joints into words: zero point and active tool length in the output program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,9 @@ const MOST_PARTS: usize = 20_000;
 
 /// Share of the tolerance that linearisation may use; the rest is for rounding.
 const SHARE: f64 = 0.8;
+
+/// Share of the tolerance of the tool axis: the bound of the proof is wider than what is found halfway.
+const AXIS_SHARE: f64 = 0.4;
 
 /// All joints of a pose: rotary ones given, linear ones solved for the tip (programmed coordinates).
 pub(crate) fn joints(machine: &Machine, q: [f64; 2], tip: &Vec3, frame: &Frame) -> Option<Joints> {
@@ -106,13 +110,42 @@ impl Between<'_> {
         Ok(ends)
     }
 
-    /// Parts after which the tip, straight between their ends, stays within tolerance of a curved path.
-    pub(crate) fn chords(&self, track: &Track<'_>, tolerance_mm: f64) -> Result<Vec<PartEnd>, String> {
-        let wanted = (track.bend().0 / (8.0 * SHARE * tolerance_mm)).sqrt().ceil().max(1.0);
-        if wanted > MOST_PARTS as f64 {
-            return Err(too_many(wanted));
+    /// Parts after which the tip, straight between their ends, stays within tolerance of a curved path, and the tool axis, turned by another
+    /// machine, within its tolerance (deg) halfway between them; the proof bounds it everywhere.
+    pub(crate) fn chords(
+        &self,
+        track: &Track<'_>,
+        tolerance_mm: f64,
+        axis_deg: Option<f64>,
+    ) -> Result<Vec<PartEnd>, String> {
+        let mut wanted = (track.bend().0 / (8.0 * SHARE * tolerance_mm)).sqrt().ceil().max(1.0);
+        loop {
+            if wanted > MOST_PARTS as f64 {
+                return Err(too_many(wanted));
+            }
+            let ends = self.ends(track, wanted as usize, false)?;
+            let worst = self.axis_apart(track, &ends);
+            let Some(room) = axis_deg.map(|limit| AXIS_SHARE * limit).filter(|room| worst > *room) else {
+                return Ok(ends);
+            };
+            wanted = (wanted * (worst / room).sqrt().min(8.0)).ceil().max(wanted + 1.0);
         }
-        self.ends(track, wanted as usize, false)
+    }
+
+    /// How far the tool axis is from that of the track halfway through each part, where the rotary joints run linearly: the worst, deg.
+    fn axis_apart(&self, track: &Track<'_>, ends: &[PartEnd]) -> f64 {
+        let Some(machine) = self.machine.filter(|_| !self.keep) else {
+            return 0.0;
+        };
+        let mut before = self.from;
+        let mut worst = 0.0f64;
+        for (index, end) in ends.iter().enumerate() {
+            let half = [0, 1].map(|joint| 0.5 * (before[joint] + end.q[joint]));
+            let share = (index as f64 + 0.5) / ends.len() as f64;
+            worst = worst.max(deg(angle_between(&tool_axis_at(machine, half), &track.at(share).axis)));
+            before = end.q;
+        }
+        worst
     }
 
     /// Parts in which the joints run linearly and the tip stays within tolerance: the bound Q h^2 / 8 of both paths (kinematics notes 3).
@@ -123,7 +156,7 @@ impl Between<'_> {
         tolerance_mm: f64,
     ) -> Result<Vec<PartEnd>, String> {
         let Some(machine) = self.machine else {
-            return self.chords(track, tolerance_mm);
+            return self.chords(track, tolerance_mm, None);
         };
         let room = SHARE * tolerance_mm;
         let mut count = 1;

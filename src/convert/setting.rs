@@ -16,6 +16,9 @@ use trunnion_syntax::Format;
 /// Tolerance where neither machine nor user names one, mm.
 const TOLERANCE_MM: f64 = 0.01;
 
+/// Tolerance of the tool axis inside a cut where the user names none, deg.
+const TOLERANCE_DEG: f64 = 0.5;
+
 /// What is written, and how.
 pub(crate) struct Setting<'a> {
     pub(crate) mode: Mode<'a>,
@@ -202,7 +205,14 @@ impl<'a> Setting<'a> {
     }
 
     /// The precision of the digits of the output.
-    pub(crate) fn claim(&self, options: &Options, path_mm: f64) -> ConversionClaim {
+    /// How far the tool axis may be from where it was inside a cut, deg. `None`: CL data, which say nothing of it between their points, or tool
+    /// vectors, which the control interpolates.
+    pub(crate) fn axis_deg(&self, source: Option<&Machine>, options: &Options) -> Option<f64> {
+        let judged = source.is_some() && self.post.is_some() && self.mode.machine().is_some();
+        judged.then(|| options.tolerance_deg.unwrap_or(TOLERANCE_DEG))
+    }
+
+    pub(crate) fn claim(&self, options: &Options, path_mm: f64, axis_deg: Option<f64>) -> ConversionClaim {
         let unit = options.units.mm();
         let (length, angle, vector, feed) = match self.post {
             None => (
@@ -228,7 +238,7 @@ impl<'a> Setting<'a> {
             },
             end_deg: end_deg + 1e-7,
             path_mm: path_mm.max(end_mm),
-            path_deg: None,
+            path_deg: axis_deg,
             feed_mm_min: rounding(feed) * unit * (1.0 + 1e-9) + 1e-9,
             time_share: 1e-4,
         }

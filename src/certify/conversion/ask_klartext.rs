@@ -42,7 +42,18 @@ pub(super) fn sentence_asks(block: &Block<'_>) -> Found {
         held if HELD.contains(&held) => {}
         _ => found.own(range, first.name.clone(), whole(), Why::Machine),
     }
-    for word in words.iter().filter(|word| word.name == "M") {
+    // in these a name may be M
+    if matches!(
+        first.name.as_str(),
+        "BEGIN" | "END" | "LBL" | "CALL" | "SEL" | "BLK" | "FN" | ""
+    ) {
+        return found;
+    }
+    let stops = first.name == "STOP";
+    for word in words
+        .iter()
+        .filter(|word| word.name == "M" && !(stops && word.number == Some(0.0)))
+    {
         match word.number {
             Some(code) => by_code(code as u32, range, &mut found),
             None => found.own(range, "M", whole(), Why::Machine),

@@ -142,14 +142,9 @@ impl Proof<'_> {
     fn left(&mut self, was: usize) -> Result<(), Outcome> {
         let motions = &self.before.0.motions;
         let posed = self.motion(was)?;
-        let tool = posed.motion.tool;
-        let rapid = matches!(posed.motion.kind, MotionKind::Rapid | MotionKind::Unknown);
         let known = self.known.get_or_init(|| Known::of(motions));
-        let first = known.none_before(was, tool);
-        let last = known
-            .next_from(was)
-            .is_none_or(|next| motions[next].motion.tool != tool);
-        if posed.end.is_ok() || !rapid || !(first || last) {
+        let may = known.is_outside(motions, was) && !known.leaves_a_cut(motions, was);
+        if posed.end.is_ok() || !may {
             return self.refute(usize::MAX, format!("motion {was} of the original must not be left out"));
         }
         self.found.left_out += 1;

@@ -228,10 +228,9 @@ impl Sink for Collector<'_> {
                 pose
             };
             let start = leg.start.as_ref().map(|stance| pose(&stance.joints));
-            let undeclared = state
-                .zero
-                .offset()
-                .filter(|name| self.setup.work_offset(name).is_none());
+            // without a work offset the zero point is the base that the operator set: G500, the active preset
+            let undeclared =
+                Some(state.zero.offset().unwrap_or("G500")).filter(|name| self.setup.work_offset(name).is_none());
             let end = match &leg.end {
                 Ok(_) if motion.machine_coordinates && undeclared.is_some() => Err(format!(
                     "where machine coordinates are in the part depends on {}: declare it in [work_offsets]",

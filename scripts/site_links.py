@@ -2,7 +2,7 @@
 """A preprocessor of mdBook: links that leave docs/ lead to the repository, or become plain text.
 
 The pages of docs/ are read in two places. In the repository a link such as ../grammar/README.md works as it stands. The site holds docs/ only:
-with TRUNNION_REPOSITORY=https://host/owner/trunnion/blob/main such a link leads there, and without it the text remains and no dead link is made.
+with TRUNNION_REPOSITORY=https://host/owner/trunnion/blob/main such a link leads there; without it the text remains, with the path behind it.
 """
 
 import json
@@ -12,6 +12,7 @@ import re
 import sys
 
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s]+)\)")
+README = re.compile(r"(^|/)README\.md(?=#|$)")
 FENCE = re.compile(r"^(```.*?^```)", re.S | re.M)
 
 
@@ -31,10 +32,12 @@ def rewrite(page: str, text: str, repository: str) -> str:
         image, words, target = match.groups()
         full = outside(page, target)
         if full is None:
-            return match.group(0)
+            # mdBook writes README.md as index.html, and leaves links to it as they are
+            inside = README.sub(r"\1index.md", target) if "://" not in target else target
+            return f"{image}[{words}]({inside})"
         if repository:
             return f"{image}[{words}]({repository.rstrip('/')}/{full})"
-        return words if words.startswith("`") or "/" not in words else f"`{words}`"
+        return f"`{full}`" if words.strip("`") == full else f"{words} (`{full}`)"
 
     # code stays as it is
     parts = FENCE.split(text)

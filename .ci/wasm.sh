@@ -29,7 +29,7 @@ if [ -z "${TRUNNION_BIN:-}" ] && [ ! -x target/debug/trunnion ]; then
 fi
 # hardly optimised, like the build that the tests run: compiling takes a third of the time so
 CARGO_PROFILE_RELEASE_OPT_LEVEL=1 PROFILE=release bash scripts/wasm.sh
-(cd npm && node --test test/)
+(cd npm && node --test test/node.test.mjs)
 if command -v "${CHROMIUM:-chromium}" >/dev/null; then
   node npm/test/page.mjs
 else

@@ -87,9 +87,9 @@ export interface Lists {
   rules: { name: string; summary: string; page: string }[];
 }
 
-/** The checker, loaded once. */
+/** The checker, loaded once: `load()` makes one. */
 export class Checker {
-  constructor(module: WebAssembly.Module);
+  constructor(module: WebAssembly.Module, instance: WebAssembly.Instance);
   check(text: string | Uint8Array, name: string, machine?: string | null, options?: Options): Report;
   lists(): Lists;
 }

@@ -5,18 +5,14 @@ const FIELDS = new Map([
   ["scope", "scope"], ["deny", "deny"], ["files", "files"],
 ]);
 
-/** The checker, loaded once. */
+/** The checker, loaded once: `load()` makes one. */
 export class Checker {
   #module;
   #exports;
 
-  constructor(module) {
+  constructor(module, instance) {
     this.#module = module;
-    this.#start();
-  }
-
-  #start() {
-    this.#exports = new WebAssembly.Instance(this.#module, {}).exports;
+    this.#exports = instance.exports;
   }
 
   #push(to, bytes) {
@@ -40,7 +36,7 @@ export class Checker {
       return work();
     } catch (error) {
       // after a trap the memory of an instance is in no known state
-      this.#start();
+      this.#exports = new WebAssembly.Instance(this.#module, {}).exports;
       if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) {
         throw new Error(`the program was not checked: ${error.message}; the command line may still check it`, { cause: error });
       }
@@ -77,16 +73,21 @@ export class Checker {
 
 /** Loads the checker: from bytes, a compiled module, a Response or an address; without any, the module beside this file. */
 export async function load(source) {
-  if (source instanceof WebAssembly.Module) return new Checker(source);
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return new Checker(await WebAssembly.compile(source));
+  const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(await bytesOf(source));
+  // browsers refuse to do this at once on a page if the module is large
+  return new Checker(module, await WebAssembly.instantiate(module, {}));
+}
+
+async function bytesOf(source) {
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return source;
   const from = source ?? new URL("trunnion.wasm", import.meta.url);
   if (from instanceof URL && from.protocol === "file:") {
     const { readFile } = await import("node:fs/promises");
-    return new Checker(await WebAssembly.compile(await readFile(from)));
+    return readFile(from);
   }
   const response = from instanceof Response ? from : await fetch(from);
   if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
-  return new Checker(await WebAssembly.compile(await response.arrayBuffer()));
+  return response.arrayBuffer();
 }
 
 let shared;

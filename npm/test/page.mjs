@@ -1,25 +1,18 @@
 // In headless Chromium: the playground from a file, all samples on a page, and the package from a small server on this computer.
-// Prints `N passed, N failed`. CHROMIUM names the browser; PICTURES=FOLDER keeps pictures of the playground.
-import { execFile } from "node:child_process";
+// Prints `N passed, N failed`. PICTURES=FOLDER keeps pictures of the playground.
 import { createServer } from "node:http";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
-import { promisify } from "node:util";
+import { Browser } from "./browser.mjs";
 import { cases } from "./samples.mjs";
 
 const here = fileURLToPath(new URL("..", import.meta.url));
 const scratch = mkdtempSync(join(tmpdir(), "trunnion-page-"));
-const browser = process.env.CHROMIUM ?? "chromium";
+const browser = new Browser();
 let passed = 0;
 let failed = 0;
-
-async function chromium(url, ...more) {
-  const words = ["--headless", "--no-sandbox", "--disable-gpu", `--user-data-dir=${join(scratch, "profile")}`, "--virtual-time-budget=60000", "--timeout=120000"];
-  const { stdout } = await promisify(execFile)(browser, [...words, ...more, url], { maxBuffer: 1 << 28, timeout: 240_000 });
-  return stdout;
-}
 
 async function step(name, work) {
   try {
@@ -28,21 +21,35 @@ async function step(name, work) {
     console.log(`ok ${name}`);
   } catch (error) {
     failed += 1;
-    console.log(`not ok ${name}: ${String(error.message).slice(0, 2000)}`);
+    console.log(`not ok ${name}: ${error.message}`);
   }
 }
 
-function holds(text, pattern) {
-  if (!pattern.test(text)) throw new Error(`no ${pattern} in ${text.replace(/<script id="module"[\s\S]*?<\/script>/, "").slice(0, 6000)}`);
+function keep(name, picture) {
+  if (process.env.PICTURES) writeFileSync(join(process.env.PICTURES, name), picture);
 }
 
 const playground = pathToFileURL(join(here, "playground.html")).href;
 
-await step("the playground checks its example, opened as a file", async () => {
-  const page = await chromium(playground, "--dump-dom");
-  holds(page, /<p id="verdict" class="fail">FAIL first\.nc on mill-3axis: 10 of 10 blocks run, 4 motions/);
-  holds(page, /error\[missing-feed\]/);
-  holds(page, /<option value="mikron-ucp710">/);
+await step("the playground, opened as a file, checks, follows the editor and explains", async () => {
+  const page = await browser.page(playground);
+  const first = await page.shows(/FAIL first\.nc on mill-3axis: 10 of 10 blocks run, 4 motions/);
+  if (!/error\[missing-feed\] line 7/.test(first)) throw new Error(first);
+  keep("playground.png", await page.picture());
+  // an edit, as from the keyboard
+  await page.value(`program.value = program.value.replace("G1 X10.\\n", ""); program.dispatchEvent(new Event("input"))`.replaceAll("program.", 'document.getElementById("program").'));
+  await page.shows(/UNKNOWN first\.nc on mill-3axis: 9 of 9 blocks run/);
+  await page.value(`document.getElementById("assume").click()`);
+  await page.shows(/PASS first\.nc on mill-3axis[^]*Assumed: G54 = 0/);
+  // another example, and a finding that leads to its line
+  await page.value(`const e = document.getElementById("example"); e.value = "1"; e.dispatchEvent(new Event("change"))`);
+  await page.shows(/FAIL vane\.mpf on mikron-ucp710/);
+  await page.value(`[...document.querySelectorAll("button.place")].find((b) => b.textContent.includes("pole-flip")).click()`);
+  const chosen = await page.value(`(() => { const p = document.getElementById("program"); return p.value.slice(p.selectionStart, p.selectionEnd); })()`);
+  if (!chosen.startsWith("N2930 ")) throw new Error(`the finding leads to ${chosen}`);
+  keep("playground-five-axis.png", await page.picture());
+  await page.dark();
+  keep("playground-dark.png", await page.picture());
 });
 
 await step("all samples in the browser: the document of the command line", async () => {
@@ -62,16 +69,17 @@ await step("all samples in the browser: the document of the command line", async
       if (JSON.stringify(ordered(found)) === JSON.stringify(ordered(one.wanted))) same += 1;
       else other.push(one.name + " on " + one.machine);
     }
-    document.body.replaceChildren("same: " + same + " of " + all.length + "; other: " + other.join(", "));`;
+    document.body.textContent = "done: " + same + " of " + all.length + " the same; other: " + (other.join(", ") || "none");`;
   const data = (id, text) => `<script id="${id}" type="application/octet-stream">${text}</script>`;
   const module = readFileSync(join(here, "trunnion.wasm")).toString("base64");
   const packed = Buffer.from(JSON.stringify(all)).toString("base64");
+  const own = library.replace('new URL("trunnion.wasm", import.meta.url)', "undefined");
   const file = join(scratch, "samples.html");
-  writeFileSync(file, `<!doctype html><body>${data("module", module)}${data("cases", packed)}<script type="module">${library.replace(
-    'new URL("trunnion.wasm", import.meta.url)', "undefined")}${script}</script></body>`);
-  const page = await chromium(pathToFileURL(file).href, "--dump-dom");
-  holds(page, new RegExp(`same: ${all.length} of ${all.length}; other: <`));
-  console.log(`  ${all.length} documents`);
+  writeFileSync(file, `<!doctype html><meta charset="utf-8"><body>${data("module", module)}${data("cases", packed)}<script type="module">${own}${script}</script></body>`);
+  const page = await browser.page(pathToFileURL(file).href);
+  const said = await page.shows(/done: /);
+  if (all.length < 60 || !said.includes(`done: ${all.length} of ${all.length} the same; other: none`)) throw new Error(said);
+  console.log(`  ${said}`);
 });
 
 await step("the package, served from this computer", async () => {
@@ -88,17 +96,20 @@ await step("the package, served from this computer", async () => {
   });
   await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
   try {
-    holds(await chromium(`http://127.0.0.1:${server.address().port}/`, "--dump-dom"), /verdict: fail/);
+    const page = await browser.page(`http://127.0.0.1:${server.address().port}/`);
+    await page.shows(/verdict: fail/);
   } finally {
+    server.closeAllConnections();
     server.close();
   }
 });
 
 if (process.env.PICTURES) {
-  await chromium(playground, "--window-size=1280,800", `--screenshot=${join(process.env.PICTURES, "playground.png")}`);
-  await chromium(playground, "--window-size=1280,800", "--blink-settings=preferredColorScheme=0", `--screenshot=${join(process.env.PICTURES, "playground-dark.png")}`);
-  await chromium(playground, "--window-size=480,900", `--screenshot=${join(process.env.PICTURES, "playground-narrow.png")}`);
+  const page = await browser.page(playground, 480, 900);
+  await page.shows(/FAIL first/);
+  keep("playground-narrow.png", await page.picture());
 }
+await browser.close();
 rmSync(scratch, { recursive: true, force: true });
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);

@@ -65,7 +65,7 @@ function shown(finding, pages) {
   if (finding.count) place.append(` (${finding.count} times, to line ${finding.last_line})`);
   place.addEventListener("click", () => go(finding.line));
   item.append(place);
-  for (const also of finding.also ?? []) item.append(element("p", "more", `${weight(also)}[${also.rule}] ${also.message}`));
+  // the findings that it leads stand in its notes
   for (const note of finding.notes) item.append(element("p", "more", note));
   if (finding.help) item.append(element("p", "more", finding.help));
   const page = element("details", "", "");

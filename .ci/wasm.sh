@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 target=wasm32-unknown-unknown
-floors="syntax geometry pieces formula vocabulary dialect flow ngc interp machine same servo planner stats certify diff surface check layout plot scene ide rewrite convert files workspace document"
+floors="syntax geometry pieces formula vocabulary dialect flow ngc interp machine same servo planner stats certify diff surface check layout plot scene ide rewrite convert document wasm"
 
 installed() { [ -d "$(rustc --print sysroot)/lib/rustlib/$target/lib" ]; }
 if ! installed && command -v rustup >/dev/null; then

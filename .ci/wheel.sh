@@ -13,13 +13,15 @@ pip="pip --quiet --disable-pip-version-check"
 
 python3 -m venv "$scratch/build"
 "$scratch/build/bin/python" -m $pip install 'maturin>=1.7,<2'
+[ -x "target/$folder/trunnion" ] || cargo build --locked --profile "$profile" --bin trunnion
+# maturin links it anew, stripped, in the same place
+cp "target/$folder/trunnion" "$scratch/trunnion"
 (cd python && "$scratch/build/bin/maturin" build --locked --profile "$profile" --target-dir "$root/target" --out "$scratch/wheels")
-cargo build --locked --profile "$profile" --bin trunnion
 
 python3 -m venv "$scratch/clean"
 "$scratch/clean/bin/python" -m $pip install "$scratch"/wheels/*.whl mypy
 mkdir "$scratch/empty" && cd "$scratch/empty"
 "$scratch/clean/bin/trunnion" --version
 "$scratch/clean/bin/mypy" --strict "$root/python/tests/typed.py" "$root/python/tests/check_wheel.py"
-"$scratch/clean/bin/python" -B "$root/python/tests/check_wheel.py" "$root" "$root/target/$folder/trunnion"
+"$scratch/clean/bin/python" -B "$root/python/tests/check_wheel.py" "$root" "$scratch/trunnion"
 ls -sh "$scratch"/wheels/*.whl | sed 's/^/wheel: /'

@@ -22,6 +22,6 @@ python3 -m venv "$scratch/clean"
 "$scratch/clean/bin/python" -m $pip install "$scratch"/wheels/*.whl mypy
 mkdir "$scratch/empty" && cd "$scratch/empty"
 "$scratch/clean/bin/trunnion" --version
-"$scratch/clean/bin/mypy" --strict "$root/python/tests/typed.py" "$root/python/tests/check_wheel.py"
+"$scratch/clean/bin/mypy" --strict "$root/python/src/trunnion" "$root/python/tests/typed.py" "$root/python/tests/check_wheel.py"
 "$scratch/clean/bin/python" -B "$root/python/tests/check_wheel.py" "$root" "$scratch/trunnion"
 ls -sh "$scratch"/wheels/*.whl | sed 's/^/wheel: /'

@@ -28,11 +28,24 @@ if command -v maturin >/dev/null; then
 else
   rest+=("Python wheel: maturin is not installed (pip install maturin; then: cd python && maturin build --release)")
 fi
+if [ -d "$(rustc --print sysroot)/lib/rustlib/wasm32-unknown-unknown/lib" ] && command -v npm >/dev/null; then
+  # a debug module is too large for a page
+  PROFILE=$([ "$profile" = dev ] && echo release || echo "$profile") bash scripts/wasm.sh &&
+    (cd npm && npm pack --silent --pack-destination "$out" >/dev/null) && cp npm/playground.html "$out/" ||
+    rest+=("npm package: scripts/wasm.sh failed (see above)")
+else
+  rest+=("npm package: needs npm and the target wasm32-unknown-unknown (rustup target add wasm32-unknown-unknown)")
+fi
 if command -v npm >/dev/null; then
   (cd vscode-extension && npm ci --no-audit --no-fund >/dev/null && npm run --silent package >/dev/null) &&
     cp vscode-extension/*.vsix "$out/" || rest+=("VS Code package: npm failed in vscode-extension")
 else
   rest+=("VS Code package: npm is not installed")
+fi
+if command -v mdbook >/dev/null; then
+  bash scripts/site.sh "$out/site" >/dev/null && tar -C "$out" -czf "$out/trunnion-$version-site.tar.gz" site && rm -r "$out/site" || rest+=("documentation site: scripts/site.sh failed")
+else
+  rest+=("documentation site: mdBook is not installed (cargo install mdbook --locked; then: bash scripts/site.sh)")
 fi
 for target in x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu x86_64-apple-darwin aarch64-apple-darwin x86_64-pc-windows-msvc; do
   [ "$target" = "$host" ] || rest+=("binary for $target: build it on such a computer with this script")

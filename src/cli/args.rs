@@ -289,6 +289,9 @@ pub(crate) enum MachineCommand {
     Show {
         /// The name of an embedded machine, or a TOML file.
         name: String,
+        /// In words, or as the machine file itself: a start for your own.
+        #[arg(long, value_enum, default_value = "text")]
+        format: ShowFormat,
     },
     /// Test the kinematics: on random poses, forward after inverse kinematics must return the same pose.
     Check {
@@ -331,6 +334,13 @@ pub(crate) enum MachineCommand {
         #[arg(long, value_name = "PIN=VALUE")]
         set: Vec<String>,
     },
+}
+
+/// Formats of `machine show`.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ShowFormat {
+    Text,
+    Toml,
 }
 
 /// What `machine import` reads.

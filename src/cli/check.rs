@@ -2,7 +2,6 @@
 mod baseline;
 mod cache;
 mod document;
-mod fingerprint;
 mod github;
 mod junit;
 mod one;

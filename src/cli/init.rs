@@ -40,10 +40,11 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
         format!("programs found: {}", each.join(", "))
     };
     remark(global.quiet, &format!("{}: written; {read}", file.display()));
-    let next = format!(
-        "next: set the machine in it, then run `trunnion check {}`",
-        folder.display()
-    );
+    let first = match global.machine {
+        Some(_) => "",
+        None => "set the machine in it, then ",
+    };
+    let next = format!("next: {first}run `trunnion check {}`", folder.display());
     remark(global.quiet, &next);
     Ok(Done::Clean)
 }

@@ -48,11 +48,7 @@ impl Loaded {
     }
     /// The name of the dialect, or of the control that is not supported; none for a file that is not a program.
     pub(crate) fn dialect_name(&self) -> Option<&str> {
-        match self.resolved.foreign {
-            Some(Foreign::Control(control)) => Some(control.name),
-            Some(Foreign::NotAProgram(_)) => None,
-            None => Some(&self.resolved.dialect.name),
-        }
+        self.resolved.dialect_name()
     }
     /// Undeclared work offsets and tool lengths that the program uses, as `check` lists them: the joints of the machine are computed
     /// with zero. Empty without a machine.
@@ -128,6 +124,7 @@ pub(crate) fn overrides(global: &Global) -> Overrides {
         port_to: global.port_to.clone(),
         assume: global.assume.clone(),
         block_delete: global.block_delete.map(|switch| switch == Switch::On),
+        ..Overrides::default()
     }
 }
 

@@ -4,13 +4,14 @@ mod import;
 
 use super::{
     Done,
-    args::{Global, Machine, MachineCommand},
+    args::{Global, Machine, MachineCommand, ShowFormat},
     failure::Failure,
+    load,
 };
 use crate::cli::out::Out;
 use std::io::Write;
-use trunnion_machine::{BUILTIN_MACHINES, builtin, describe, self_test};
-use trunnion_workspace::find_machine;
+use trunnion_machine::{BUILTIN_MACHINES, builtin, builtin_source, describe, self_test};
+use trunnion_workspace::{FoundMachine, find_machine};
 
 /// Residuals of `machine check` must stay below this: mm and rad.
 const TOLERANCE: f64 = 1e-9;
@@ -19,7 +20,7 @@ const TOLERANCE: f64 = 1e-9;
 pub(super) fn run(global: &Global, command: &Machine) -> Result<Done, Failure> {
     match &command.command {
         MachineCommand::List => list(),
-        MachineCommand::Show { name } => show(name),
+        MachineCommand::Show { name, format } => show(name, *format),
         MachineCommand::Check { name, poses } => check(name, *poses),
         MachineCommand::Compare {
             believed,
@@ -57,9 +58,17 @@ fn list() -> Result<Done, Failure> {
     Ok(Done::Clean)
 }
 
-fn show(name: &str) -> Result<Done, Failure> {
-    let machine = find_machine(name, None)?.machine;
+fn show(name: &str, format: ShowFormat) -> Result<Done, Failure> {
+    let FoundMachine { machine, file } = find_machine(name, None)?;
     let mut out = Out::standard();
+    if format == ShowFormat::Toml {
+        let text = match &file {
+            Some(file) => load::read(file)?,
+            None => builtin_source(name).unwrap_or_default().as_bytes().to_vec(),
+        };
+        out.write_all(&text)?;
+        return Ok(Done::Clean);
+    }
     for line in describe(&machine).lines() {
         out.text(&format!("{line}\n"));
     }

@@ -2,6 +2,7 @@
 use super::load::Loaded;
 use std::fmt::Write;
 use trunnion_check::{Diagnostic, Report, Severity, Status};
+pub(super) use trunnion_document::{severity, weight};
 use trunnion_syntax::LineIndex;
 
 /// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
@@ -41,14 +42,6 @@ pub(super) fn worst(report: &Report, limit: usize) -> Vec<&Diagnostic> {
     found
 }
 
-/// The word before a finding: its severity, or `unknown` where the rule could not decide. The last line counts them by the same words.
-pub(super) fn weight(d: &Diagnostic) -> &'static str {
-    match d.status {
-        Status::Fail => severity(d.severity),
-        Status::Unknown => "unknown",
-    }
-}
-
 /// How often a finding was found, where that was more than once: again and again in one place (a loop, a subprogram), or in one
 /// block after another.
 pub(super) fn repeats(loaded: &Loaded, lines: &LineIndex, d: &Diagnostic) -> String {
@@ -68,14 +61,5 @@ pub(super) fn rest(report: &Report, shown: usize, name: &str) -> String {
     match report.diagnostics.len().checked_sub(shown) {
         Some(more @ 1..) => format!("{name}: {more} more findings; --limit 0 shows them all\n"),
         _ => String::new(),
-    }
-}
-
-/// Lower-case word of a severity.
-pub(super) fn severity(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Info => "info",
     }
 }

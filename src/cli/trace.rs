@@ -68,13 +68,12 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
     let problems = tracer.faults + loaded.program.errors().len();
     tracer.writer.finish()?;
     if problems > 0 {
-        remark(
-            global.quiet,
-            &format!(
-                "{}: {problems} problems in the program; see `trunnion check`",
-                loaded.name
-            ),
+        let noun = if problems == 1 { "problem" } else { "problems" };
+        let text = format!(
+            "{}: {problems} {noun} in the program; see `trunnion check`",
+            loaded.name
         );
+        remark(global.quiet, &text);
     }
     if let Some(why) = tracer.given_up {
         remark(false, &why);

@@ -47,17 +47,15 @@ impl Found {
         self.files.extend(files);
     }
 
-    /// Reports what was left out: each with `verbose`, otherwise how many.
+    /// Reports what was left out: each with `verbose`, otherwise how many. Settings are read with the programs: they are not counted.
     pub(crate) fn remark(&self, quiet: bool, verbose: bool) {
-        if self.left_out.is_empty() {
-            return;
-        }
+        let is_settings = |path: &Path| path.ends_with("trunnion.toml");
+        let count = self.left_out.iter().filter(|(path, _)| !is_settings(path)).count();
         if verbose {
             for (path, why) in &self.left_out {
                 remark(false, &format!("{}: left out: {why}", path.display()));
             }
-        } else {
-            let count = self.left_out.len();
+        } else if count > 0 {
             let what = if count == 1 {
                 "1 file or folder was"
             } else {

@@ -3,11 +3,15 @@
 //! It knows no programs. Source of the promises: docs/files.md.
 mod error;
 mod identity;
+#[cfg(not(target_family = "wasm"))]
 mod output;
 mod read;
+#[cfg(not(target_family = "wasm"))]
 mod temporary;
 
 pub use error::FileError;
+#[cfg(not(target_family = "wasm"))]
 pub use output::{Outputs, Target};
 pub use read::{Input, Seen, read, read_text};
+#[cfg(not(target_family = "wasm"))]
 pub use temporary::{sweep_beside, write_kept};

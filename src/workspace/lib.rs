@@ -10,8 +10,10 @@ mod obstacles;
 mod resolve;
 mod subprograms;
 mod table;
+mod texts;
 
 pub use error::LoadError;
 pub use machine::{FoundMachine, find_machine};
 pub use resolve::{Overrides, Resolved, resolve};
 pub use subprograms::Subprograms;
+pub use texts::Texts;

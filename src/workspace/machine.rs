@@ -1,5 +1,5 @@
 //! A machine by name or file.
-use crate::LoadError;
+use crate::{LoadError, Texts};
 use std::path::{Path, PathBuf};
 use trunnion_machine::Machine;
 
@@ -18,6 +18,11 @@ pub struct FoundMachine {
 /// # Errors
 /// No such machine or file; or the file is not a valid machine, with line and column.
 pub fn find_machine(name: &str, folder: Option<&Path>) -> Result<FoundMachine, LoadError> {
+    find_in(name, folder, &Texts::default())
+}
+
+/// [`find_machine`] where some texts take the place of files.
+pub(crate) fn find_in(name: &str, folder: Option<&Path>, texts: &Texts) -> Result<FoundMachine, LoadError> {
     if let Some(machine) = trunnion_machine::builtin(name) {
         let machine = machine.clone();
         return Ok(FoundMachine { machine, file: None });
@@ -26,7 +31,7 @@ pub fn find_machine(name: &str, folder: Option<&Path>) -> Result<FoundMachine, L
     if !is_toml(&path) && !path.is_file() {
         return Err(unknown(name));
     }
-    load(&path)
+    load(&path, texts)
 }
 
 /// The machine that a comment of a program names: an embedded one, or a `.toml` file in the program's folder or below one of the folders of
@@ -49,14 +54,14 @@ pub(crate) fn machine_of_comment(
     let beside = std::fs::canonicalize(program_folder.join(name)).ok();
     let home = std::fs::canonicalize(program_folder).ok();
     if let Some(file) = beside.filter(|file| is_toml(file) && file.parent() == home.as_deref()) {
-        return load(&file);
+        return load(&file, &Texts::default());
     }
     for folder in machine_path {
         let file = std::fs::canonicalize(folder.join(name)).ok();
         let home = std::fs::canonicalize(folder).ok();
         let inside = |file: &PathBuf| is_toml(file) && home.as_ref().is_some_and(|home| file.starts_with(home));
         if let Some(file) = file.filter(inside) {
-            return load(&file);
+            return load(&file, &Texts::default());
         }
     }
     Err(LoadError::new(format!(
@@ -74,8 +79,8 @@ fn unknown(name: &str) -> LoadError {
     LoadError::new(format!("unknown machine `{name}`{hint}"))
 }
 
-fn load(path: &Path) -> Result<FoundMachine, LoadError> {
-    let text = trunnion_files::read_text(path)?;
+fn load(path: &Path, texts: &Texts) -> Result<FoundMachine, LoadError> {
+    let text = texts.read(path)?;
     let id = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("machine");
     let machine = trunnion_machine::load(id, &text)
         .map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message))?;

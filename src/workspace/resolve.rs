@@ -1,5 +1,9 @@
 //! Which settings, machine and dialect a program is checked with, and why.
-use crate::{FoundMachine, LoadError, Subprograms, find_machine, machine::machine_of_comment, obstacles};
+use crate::{
+    FoundMachine, LoadError, Subprograms, Texts,
+    machine::{find_in, machine_of_comment},
+    obstacles,
+};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FixSettings, FormatSettings, parse_tool_flag};
@@ -27,6 +31,8 @@ pub struct Overrides {
     pub block_delete: Option<bool>,
     /// What is taken as zero although it is not declared (`--assume`), in addition to the settings.
     pub assume: Vec<String>,
+    /// Texts of settings, machine files and dialect tables that take the place of files, by their paths: for a caller without a disk.
+    pub texts: Texts,
 }
 
 /// Everything a check needs in addition to the program.
@@ -68,6 +74,14 @@ impl Resolved {
     /// Whether a run looked for a program in another file: then its result depends on the folders that were searched.
     pub fn looked_for_subprograms(&self) -> bool {
         self.subprograms.as_ref().is_some_and(|found| found.looked())
+    }
+    /// The name of the dialect, or of the control that is not supported; none for a file that is not a program.
+    pub fn dialect_name(&self) -> Option<&str> {
+        match self.foreign {
+            Some(Foreign::Control(control)) => Some(control.name),
+            Some(Foreign::NotAProgram(_)) => None,
+            None => Some(&self.dialect.name),
+        }
     }
     /// In the form of the check floor.
     pub fn settings(&self) -> Settings<'_> {
@@ -232,7 +246,7 @@ fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Opt
     let Some(file) = found else {
         return Ok((Config::default(), None));
     };
-    let text = trunnion_files::read_text(&file)?;
+    let text = overrides.texts.read(&file)?;
     let config =
         Config::parse(&text).map_err(|error| LoadError::at(&file, &text, error.span.as_ref(), &error.message))?;
     Ok((config, Some((file, text))))
@@ -259,7 +273,7 @@ fn machine_for(
     config_file: Option<&(PathBuf, String)>,
 ) -> Result<(Option<FoundMachine>, String), LoadError> {
     if let Some(name) = &overrides.machine {
-        return Ok((Some(find_machine(name, None)?), "named by the user".into()));
+        return Ok((Some(find_in(name, None, &overrides.texts)?), "named by the user".into()));
     }
     if let Some(name) = &mode.machine {
         let home = config_file.and_then(|(file, _)| file.parent()).unwrap_or(Path::new(""));
@@ -280,7 +294,7 @@ fn machine_for(
     }
     if let Some(name) = &config.machine {
         let folder = config_file.and_then(|(path, _)| path.parent());
-        let machine = find_machine(name, folder)?;
+        let machine = find_in(name, folder, &overrides.texts)?;
         if let (Err(error), Some((path, text))) = (config.check_axes(&machine.machine), config_file) {
             return Err(LoadError::at(path, text, error.span.as_ref(), &error.message));
         }
@@ -315,11 +329,11 @@ fn dialect_for(
     }
     if let (Some((name, span)), Some((file, text))) = (&config.dialect_table, config_file) {
         let path = file.parent().unwrap_or(Path::new("")).join(name);
-        if !path.is_file() {
+        if !overrides.texts.has(&path) && !path.is_file() {
             let message = format!("file {} does not exist", path.display());
             return Err(LoadError::at(file, text, Some(span), message));
         }
-        let dialect = crate::table::table(&path)?;
+        let dialect = crate::table::table(&path, &overrides.texts)?;
         let detected = Detected {
             dialect,
             reason: format!("the table {name} of trunnion.toml"),

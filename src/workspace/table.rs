@@ -1,5 +1,5 @@
 //! A dialect table of your own (`dialect_table` in `trunnion.toml`): what the machine builder has added to a control.
-use crate::LoadError;
+use crate::{LoadError, Texts};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use trunnion_dialect::Dialect;
@@ -12,8 +12,8 @@ static TABLES: Mutex<Vec<(String, &'static Dialect)>> = Mutex::new(Vec::new());
 ///
 /// # Errors
 /// The file cannot be read, or is not a dialect table: with line and column.
-pub(crate) fn table(path: &Path) -> Result<&'static Dialect, LoadError> {
-    let text = trunnion_files::read_text(path)?;
+pub(crate) fn table(path: &Path, texts: &Texts) -> Result<&'static Dialect, LoadError> {
+    let text = texts.read(path)?;
     let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = tables.iter().find(|(known, _)| *known == text) {
         return Ok(known);

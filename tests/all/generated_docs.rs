@@ -221,7 +221,15 @@ fn links_between_documents_resolve() {
     let mut pages: Vec<PathBuf> = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"]
         .map(|name| root().join(name))
         .into();
-    for folder in ["docs", "docs/rules", "docs/decisions", "docs/rewrites"] {
+    for folder in [
+        "docs",
+        "docs/rules",
+        "docs/decisions",
+        "docs/rewrites",
+        "docs/tutorials",
+        "grammar",
+        "samples",
+    ] {
         let entries = std::fs::read_dir(root().join(folder))
             .expect("the folder is there")
             .flatten();

@@ -31,5 +31,6 @@ mod rewrites;
 mod rules;
 mod same;
 mod samples;
+mod site;
 mod tidy;
 mod wild;

@@ -35,6 +35,8 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-rewrite", 7),
     ("trunnion-convert", 7),
     ("trunnion-workspace", 7),
+    ("trunnion-document", 7),
+    ("trunnion-wasm", 8),
     ("trunnion-lsp", 8),
     ("trunnion", 9),
 ];

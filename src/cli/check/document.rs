@@ -29,7 +29,8 @@ impl<'o> Document<'o> {
         match self.format {
             CheckFormat::Json => write!(
                 self.out,
-                "{{\n  \"schema\": \"trunnion-check/1\",\n  \"version\": \"{}\",\n  \"files\": [",
+                "{{\n  \"schema\": \"{}\",\n  \"version\": \"{}\",\n  \"files\": [",
+                trunnion_document::SCHEMA,
                 env!("CARGO_PKG_VERSION")
             ),
             CheckFormat::Sarif => self.out.write_all(sarif::head().as_bytes()),

@@ -2,7 +2,7 @@
 use super::{
     baseline::{self, Baseline, Entry},
     cache::{self, Cache},
-    fingerprint, github, junit, sarif, statistics,
+    github, junit, sarif, statistics,
 };
 use crate::cli::{
     args::{Check, CheckFormat, Global},
@@ -15,6 +15,7 @@ use crate::cli::{
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::Path};
 use trunnion_check::{Diagnostic, Report, Severity, Status, Summary, Verdict};
+use trunnion_document::{Subject, fingerprints};
 use trunnion_syntax::LineIndex;
 
 /// How files are checked and in which form they are wanted.
@@ -146,7 +147,7 @@ impl Job<'_> {
         let mut settings = loaded.resolved.settings();
         settings.scope = self.command.scope.map(super::CheckScope::scope);
         let mut report = trunnion_check::check(&loaded.program, &settings);
-        let marks = fingerprint::of_all(loaded, &report);
+        let marks = fingerprints(loaded.program.source(), &report);
         let entries = self.entries(loaded, &report, &marks);
         let known = self
             .baseline
@@ -228,7 +229,15 @@ impl Job<'_> {
         }
         let accepted = (split.accepted.as_slice(), split.accepted_marks.as_slice());
         let outcome = (judged.verdict, judged.scope);
-        let file = json::file(loaded, &lines, (report, &split.marks), accepted, outcome);
+        let subject = Subject {
+            name: &loaded.name,
+            program: &loaded.program,
+            lines: &lines,
+            dialect: loaded.dialect_name(),
+            dialect_reason: &loaded.resolved.dialect_reason,
+            machine: judged.machine,
+        };
+        let file = trunnion_document::file(&subject, (report, &split.marks), accepted, outcome);
         let deny = self.global.deny.severity();
         let denied = |item: &json::Item| is_denied(item.severity, item.status, deny, self.global.strict);
         match self.format {

@@ -1,15 +1,15 @@
 //! What recognises a finding in a later text of the same program: rule, level and the text of its block, not its line or block number.
-use crate::cli::{load::Loaded, short};
+use crate::weight;
 use sha2::{Digest, Sha256};
 use std::{collections::BTreeMap, fmt::Write};
 use trunnion_check::{Diagnostic, Report, ValueKey};
 
 /// A fingerprint for each finding of the list. Findings that look alike are numbered in the order of the file.
-pub(super) fn of_all(loaded: &Loaded, report: &Report) -> Vec<String> {
+pub fn fingerprints(source: &[u8], report: &Report) -> Vec<String> {
     let mut alike = BTreeMap::<String, u32>::new();
     let mut marks = Vec::with_capacity(report.diagnostics.len());
     for d in &report.diagnostics {
-        let mut mark = of(loaded.program.source(), d);
+        let mut mark = of(source, d);
         let count = alike.entry(mark.clone()).or_default();
         let _ = write!(mark, "/{count}");
         *count += 1;
@@ -26,7 +26,7 @@ fn of(source: &[u8], d: &Diagnostic) -> String {
     };
     add(b"trunnion-fingerprint/1");
     add(d.rule.as_bytes());
-    add(short::weight(d).as_bytes());
+    add(weight(d).as_bytes());
     add(&plain(line_at(source, d.range.start as usize)));
     // two axes in one block are two findings
     for (key, value) in &d.values {

@@ -206,6 +206,9 @@ impl<'d> Iso<'d> {
             }
             return None;
         }
+        if self.memory.pole.is_some() {
+            self.at_last_pole();
+        }
         let block = self.apply(codes, words, report);
         let replaced;
         let words = if self.memory.own.path.any() {
@@ -297,7 +300,13 @@ impl<'d> Iso<'d> {
         if block.takes_coordinates || !(words.axes.any() || by_vector || circle) {
             return None;
         }
-        let unmodelled = block.not_modelled || words.unknown_code || words.forgets_all;
+        let unmodelled = block.not_modelled || words.unknown_code || words.forgets_all || words.polynomial;
+        if modal == Some(Action::NotModelled)
+            && let Some(spline) = self.spline(codes, words, block)
+        {
+            return Some(self.spline_motion(spline, words, block, report));
+        }
+        self.memory.pole = None;
         match modal {
             Some(
                 Action::Rapid

@@ -50,6 +50,7 @@ mod values;
 mod words;
 mod written;
 
+pub use apt::{IgnoredRecords, ignored_records};
 pub use deleted::{deleted_levels, slash};
 pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
 pub use effects::Situation;

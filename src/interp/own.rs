@@ -5,6 +5,7 @@
 //! [`trunnion_formula::sinumerik`].
 mod field;
 mod named;
+mod prepared;
 mod words;
 
 use crate::Argument;
@@ -59,6 +60,8 @@ pub(crate) struct Scope {
     pub(crate) sorts: BTreeMap<Box<str>, Sort>,
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
+    /// Variables of the type FRAME; `None`: what they hold is not known.
+    pub(crate) frames: BTreeMap<Box<str>, Option<crate::sinumerik::FrameValue>>,
 }
 
 /// See the module.
@@ -102,6 +105,14 @@ pub(crate) struct Own {
     pub(crate) path: crate::sinumerik::PathWords,
     /// What path words of blocks before leave behind.
     pub(crate) contour: crate::sinumerik::Contour,
+    /// What the control knows, for blocks that ask for it: `$p_f`, `$p_ep[x]`.
+    pub(crate) system: BTreeMap<Box<str>, f64>,
+    /// Frames that the current block writes: the name, and the text of the value.
+    pub(crate) written_frames: Vec<(TextRange, TextRange)>,
+    /// The letters of the axes of the plane in effect, in its order.
+    pub(crate) plane_letters: [u8; 3],
+    /// How deep indices inside indices are being evaluated.
+    nesting: std::cell::Cell<u32>,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
 }
@@ -109,6 +120,8 @@ pub(crate) struct Own {
 /// The source of variables for formulas, and the first name whose value was not known.
 struct View<'a> {
     own: &'a Own,
+    /// Values of names with indices that are read before the formula.
+    elements: &'a [prepared::Element],
     unknown: RefCell<Option<String>>,
 }
 
@@ -138,8 +151,18 @@ impl trunnion_formula::Variables for View<'_> {
         Ok(self.give(value, || format!("R{index}: {reason}")))
     }
     fn named(&self, name: &str) -> Result<f64, ValueError> {
+        if let Some(element) = prepared::element(self.elements, name) {
+            return Ok(self.give(element.value, || match element.name.as_bytes() {
+                [b'$', ..] => format!("{}: a variable of the control", element.name),
+                _ => format!("{}: its value is unknown here", element.name),
+            }));
+        }
         let shown = || name.trim_end_matches(['[', '(']).to_ascii_uppercase();
-        let value = self.own.read(name);
+        let value = if name.starts_with('$') {
+            self.own.system.get(name).copied()
+        } else {
+            self.own.read(name)
+        };
         Ok(self.give(value, || match name.as_bytes() {
             _ if self.own.is_task && !self.own.is_fresh(name) => crate::osp::why_unknown(name),
             [b'$', ..] => format!("{}: a variable of the control", shown()),
@@ -152,7 +175,8 @@ impl trunnion_formula::Variables for View<'_> {
         }))
     }
     fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
-        let value = self.own.element(name, index);
+        let one = self.own.is_task || self.own.is_one_row(name);
+        let value = self.own.element(name, index).filter(|_| one);
         Ok(self.give(value, || {
             if self.own.is_task {
                 return crate::osp::why_unknown(name);
@@ -169,6 +193,7 @@ impl Own {
     /// A block begins.
     pub(crate) fn begin_block(&mut self) {
         self.fresh.clear();
+        self.written_frames.clear();
         if self.path.any() {
             self.path = crate::sinumerik::PathWords::default();
         }
@@ -183,6 +208,7 @@ impl Own {
         self.parameters.clear();
         self.others.clear();
         self.scope.values.clear();
+        self.scope.frames.values_mut().for_each(|frame| *frame = None);
         self.lose_fields();
     }
     fn known(&self) -> BTreeMap<Box<str>, f64> {
@@ -287,6 +313,11 @@ impl Own {
                 None => (one, Some(0.0)),
                 Some((name, value)) => (name, self.value(value)),
             };
+            if kind.eq_ignore_ascii_case("FRAME") && !name.contains('[') {
+                let name = name.trim().to_ascii_lowercase();
+                let is_plain = value.is_some() && !one.contains('=');
+                self.scope.frames.insert(name.into(), is_plain.then(Default::default));
+            }
             let is_field = one.split('=').next().is_some_and(|name| name.contains('['));
             let known = if is_field {
                 self.define_field(sort, one)
@@ -319,6 +350,8 @@ impl Own {
         from: usize,
     ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
         let range = TextRange::new(from as u32, text.len() as u32);
+        let prepared = self.prepared(text, from);
+        let text = prepared.as_ref().map_or(text, |(text, _)| text);
         let read = if self.is_task {
             trunnion_formula::osp
         } else {
@@ -327,6 +360,7 @@ impl Own {
         let (formula, end) = read(text, range).map_err(|error| error.kind)?;
         let view = View {
             own: self,
+            elements: prepared.as_ref().map_or(&[][..], |(_, elements)| elements),
             unknown: RefCell::default(),
         };
         let end = end as usize;

@@ -150,6 +150,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         if name.first() == Some(&b'#') && self.macro_assignment(range, word) {
             return;
         }
+        if self.frame_word(range, word) || self.polynomial(name, word) {
+            return;
+        }
         self.system_word(name, word.range);
         let variable = self.dialect.quirks.user_names() || matches!(name.first(), Some(b'#' | b'$'));
         // FL[X]= and PO[X]= are FL and PO of an axis
@@ -189,6 +192,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 digits += 1;
             }
             divisor /= 10;
+        }
+        if self.own_frame_word(&name[..digits], word) {
+            return;
         }
         if let Some(role) = self.dialect.named_role(&name[..digits]) {
             if role == Role::Variable {

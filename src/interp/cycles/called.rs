@@ -45,8 +45,10 @@ enum Sort {
     Drill,
     /// CYCLE83: in steps.
     Deep,
-    /// CYCLE84: rigid tap; CYCLE840: with a compensating chuck.
+    /// CYCLE84: rigid tap.
     Tap,
+    /// CYCLE840: tap with a compensating chuck.
+    FloatingTap,
     /// CYCLE85: feed of its own in and out.
     Ream,
     /// CYCLE86: oriented, lifted off, out.
@@ -58,11 +60,12 @@ enum Sort {
 }
 
 /// The cycles, and how many of their numbers are known here.
-const CYCLES: [(&str, Sort, usize); 9] = [
+const CYCLES: [(&str, Sort, usize); 10] = [
     ("CYCLE81", Sort::Drill, 6),
     ("CYCLE82", Sort::Drill, 6),
     ("CYCLE83", Sort::Deep, 17),
     ("CYCLE84", Sort::Tap, 18),
+    ("CYCLE840", Sort::FloatingTap, 12),
     ("CYCLE85", Sort::Ream, 8),
     ("CYCLE86", Sort::Bore, 11),
     ("CYCLE87", Sort::BoreStop, 6),
@@ -100,6 +103,10 @@ impl HoleCall {
             modes,
             said,
         })
+    }
+    /// Where _AXN is.
+    fn axis_place(&self) -> usize {
+        if self.sort == Sort::FloatingTap { 11 } else { 12 }
     }
     pub(super) fn number(&self, place: usize) -> Given {
         self.numbers.get(place).copied().unwrap_or(Given::Nothing)
@@ -192,7 +199,7 @@ impl Iso<'_> {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
             // _AXN 3 is the third geometry axis, as 0 is: Z
-            Sort::Deep | Sort::Tap => !match call.number(12).or_zero() {
+            Sort::Deep | Sort::Tap | Sort::FloatingTap => !match call.number(call.axis_place()).or_zero() {
                 Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.coordinates.plane() == Plane::Xy,
                 None => false,
             },
@@ -232,9 +239,9 @@ impl Iso<'_> {
         self.call_spindle(call);
         self.down(&plan, MotionKind::Rapid, plan.r, report);
         self.in_hole(call, &plan, report);
-        if call.sort == Sort::Tap {
+        if matches!(call.sort, Sort::Tap | Sort::FloatingTap) {
             // direction after the cycle: 3, 4, otherwise the spindle is off
-            let after = call.number(6).or_zero();
+            let after = call.number(if call.sort == Sort::Tap { 6 } else { 7 }).or_zero();
             match after {
                 Some(code) => self.core.state.spindle.switch(code == 3.0 || code == 4.0),
                 None => self.core.state.spindle.lose(),
@@ -266,6 +273,18 @@ impl Iso<'_> {
                     report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 }
                 pitch.map_or(Feed::Unknown, Feed::PerRevolution)
+            }
+            // ENC 1: F gives the lead; else PIT does, and MPIT names a thread
+            Sort::FloatingTap if call.number(8).or_zero() != Some(1.0) => {
+                let lead = match (call.number(9).or_zero(), call.number(10)) {
+                    (Some(0.0), Given::Number(pitch)) if pitch != 0.0 => Some((pitch * unit).abs()),
+                    _ => None,
+                };
+                if lead.is_none() {
+                    let what = format!("{}: the pitch", call.id);
+                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                }
+                lead.map_or(Feed::Unknown, Feed::PerRevolution)
             }
             _ => self.feed_of(MotionKind::Linear, words, report),
         }
@@ -335,7 +354,7 @@ impl Iso<'_> {
         }
         match call.sort {
             Sort::Drill | Sort::Deep => {}
-            Sort::Tap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
+            Sort::Tap | Sort::FloatingTap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
             Sort::Ream => {
                 let out = Plan {
                     feed: self.own_feed(call.number(7)),

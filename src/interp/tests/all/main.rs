@@ -2,6 +2,7 @@
 #![expect(clippy::print_stderr, reason = "a test that finds no data says so")]
 #![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
+mod apt_forms;
 mod apt_holes;
 mod arcs;
 mod by_hand;
@@ -39,6 +40,7 @@ mod silent;
 mod sinumerik_calls;
 mod sinumerik_flow;
 mod sinumerik_paths;
+mod sinumerik_values;
 mod steady;
 mod support;
 mod threads;

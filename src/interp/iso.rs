@@ -307,6 +307,10 @@ impl<'d> Iso<'d> {
             return Some(self.spline_motion(spline, words, block, report));
         }
         self.memory.pole = None;
+        if words.polynomial {
+            let what = "PO: a polynomial where POLY is not in effect".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
         match modal {
             Some(
                 Action::Rapid

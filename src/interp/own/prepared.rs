@@ -14,7 +14,7 @@ pub(super) struct Element {
 
 /// The element that a name in a prepared text means.
 pub(super) fn element<'e>(elements: &'e [Element], name: &str) -> Option<&'e Element> {
-    let place: usize = name.strip_prefix("__e")?.parse().ok()?;
+    let place: usize = name.strip_prefix("__e")?.trim_end_matches('_').parse().ok()?;
     elements.get(place)
 }
 
@@ -72,7 +72,7 @@ impl Own {
                         if mark.len() > after - at {
                             return None;
                         }
-                        out[at..after].fill(b' ');
+                        out[at..after].fill(b'_');
                         out[at..at + mark.len()].copy_from_slice(mark.as_bytes());
                         let shown = String::from_utf8_lossy(&text[at..after]).to_ascii_uppercase();
                         elements.push(Element { name: shown, value });

@@ -160,7 +160,7 @@ impl Iso<'_> {
             let (text, value) = (report.program.text(name).trim().to_owned(), report.program.text(value).into_owned());
             self.memory.own.changes += 1;
             self.memory.own.note_text(&text, &value);
-            let whole = TextRange::new(name.start, name.end);
+            let whole = TextRange::new(name.start, value.end.max(name.end));
             if self.write_frame(&text, &value).is_none() {
                 let what = format!("{text}={}", value.trim());
                 report.fault(whole, FaultKind::NotModelled { what });

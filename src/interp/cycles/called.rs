@@ -162,6 +162,17 @@ impl Iso<'_> {
             }
             return;
         }
+        if motion.is_none() && self.core.dialect.quirks.declares_names() {
+            let acts = self.memory.cycle.call.is_some() || self.memory.own.modal.is_some();
+            if acts && self.acts_without_motion(codes, words) {
+                self.memory.own.acts_again = true;
+                if let Some(call) = self.memory.cycle.call.clone() {
+                    self.memory.own.acts_again = false;
+                    self.run_call(&call, words, report);
+                }
+                return;
+            }
+        }
         let moved = motion
             .as_ref()
             .filter(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));

@@ -160,6 +160,28 @@ fn fields_of_more_dimensions() {
     }
 }
 
+/// A variable may be named like an address; what is written to it counts.
+#[test]
+fn variables_that_are_named_like_addresses() {
+    for (define, text) in [
+        ("DEF REAL H2=5", "H2 = 7\nX=H2"),
+        ("DEF REAL H2", "H2=7\nX=H2"),
+        ("DEF REAL S3=2", "S3=7\nX=S3"),
+        ("DEF INT Q", "Q=7\nX=Q"),
+        ("DEF REAL H2=5", "R1=7\nH2=R1\nX=H2"),
+    ] {
+        let text = format!("{define}\n{HEAD}{text}\n");
+        assert_eq!(
+            lines("sinumerik-840d", &text).last().map(String::as_str),
+            Some("L X7 Y0 Z0 F100"),
+            "{text}"
+        );
+        assert_eq!(faults("sinumerik-840d", &text), [""; 0], "{text}");
+    }
+    // without the declaration it is the address
+    assert!(trouble("S3=7")[0].contains("S3=7"));
+}
+
 #[test]
 fn splines_have_known_ends() {
     let ends = |text: &str| -> Vec<(bool, Option<[f64; 3]>)> {
@@ -317,4 +339,23 @@ fn an_offset_that_is_declared_is_known() {
     let text = format!("{HEAD}X=$P_UIFR[1,X,TR]\nM30\n");
     let log = crate::support::run_bytes("sinumerik-840d", text.as_bytes(), &setup).1;
     assert_eq!(log.motions[1].end.get(0), Some(10.0));
+}
+
+/// A colon chains frames inside an expression, and is a label or a mistake elsewhere.
+#[test]
+fn where_a_colon_may_stand() {
+    let dialect = builtin("sinumerik-840d").expect("built in");
+    let errors = |text: &str| parse(text.as_bytes().to_vec(), dialect.lex).errors().len();
+    for text in [
+        "$P_PFRAME=CTRANS(X,10):CROT(Z,90)\n",
+        "$P_UIFR[1]=$P_UIFR[2] : CTRANS(X,1)\n",
+        "SHIFT=ONE:TWO:THREE\n",
+        "LABEL: X=R1\n",
+        ":10 X5\n",
+    ] {
+        assert_eq!(errors(text), 0, "{text}");
+    }
+    for text in ["X=5:6\n", "X5 : Y6\n", "SHIFT=ONE:\n"] {
+        assert!(errors(text) > 0, "{text}");
+    }
 }

@@ -191,7 +191,13 @@ impl Apt<'_> {
     }
 
     /// The motion to a point.
-    pub(crate) fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Option<Motion> {
+    pub(crate) fn go(
+        &mut self,
+        target: Vec3,
+        vector: Option<Vec3>,
+        range: TextRange,
+        report: &mut Report<'_>,
+    ) -> Option<Motion> {
         let rapid = std::mem::take(&mut self.kept.rapid);
         let circle = self.kept.circle.take();
         let start = self.core.state.position;

@@ -73,8 +73,17 @@ impl Scan<'_> {
     /// Whether a colon stands between a bracket or a name and another name.
     fn chains(&self, at: TokenId, next: TokenKind) -> bool {
         let before = self.trim(0, at);
-        let is_frame = |kind| matches!(kind, TokenKind::ParenClose | TokenKind::BracketClose | TokenKind::Name | TokenKind::Word);
-        let next = if next == TokenKind::Blank { self.kind(self.skip_blank(at + 1)) } else { next };
+        let is_frame = |kind| {
+            matches!(
+                kind,
+                TokenKind::ParenClose | TokenKind::BracketClose | TokenKind::Name | TokenKind::Word
+            )
+        };
+        let next = if next == TokenKind::Blank {
+            self.kind(self.skip_blank(at + 1))
+        } else {
+            next
+        };
         before > 0 && is_frame(self.kind(before - 1)) && matches!(next, TokenKind::Name | TokenKind::Word)
     }
 

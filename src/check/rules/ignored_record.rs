@@ -43,7 +43,11 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let what = match (total, list.as_slice()) {
         (1, [only]) => format!("one record has no effect here: {only}"),
         (_, [_]) => format!("{total} records have no effect here: {}", list[0]),
-        _ => format!("{total} records of {} kinds have no effect here: {}", list.len(), list.join(", ")),
+        _ => format!(
+            "{total} records of {} kinds have no effect here: {}",
+            list.len(),
+            list.join(", ")
+        ),
     };
     out.report(first.first, what)
         .note("they are words for the post-processor; the path does not depend on them as it is computed here")

@@ -61,14 +61,20 @@ fn apt_source(line: &str, votes: &mut Votes) {
         Some((label, rest)) if label.bytes().all(|byte| byte.is_ascii_alphanumeric()) => rest.trim_start(),
         _ => line,
     };
-    let major = |text: &str| text.split(['/', ',', ' ', '(', '$']).next().unwrap_or_default().to_owned();
+    let major = |text: &str| {
+        text.split(['/', ',', ' ', '(', '$'])
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
     let is_name = |text: &str| {
         let text = text.split('(').next().unwrap_or_default().trim();
-        text.starts_with(|first: char| first.is_ascii_uppercase()) && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
+        text.starts_with(|first: char| first.is_ascii_uppercase())
+            && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
     };
     let shapes = [
-        "POINT", "LINE", "CIRCLE", "PLANE", "VECTOR", "PATERN", "CYLNDR", "SPHERE", "CONE", "ELLIPS", "HYPERB", "PARAB", "LCONIC",
-        "GCONIC", "TABCYL", "RLDSRF", "QADRIC", "POLCON", "SCURV", "SSURF", "MATRIX", "MACRO",
+        "POINT", "LINE", "CIRCLE", "PLANE", "VECTOR", "PATERN", "CYLNDR", "SPHERE", "CONE", "ELLIPS", "HYPERB",
+        "PARAB", "LCONIC", "GCONIC", "TABCYL", "RLDSRF", "QADRIC", "POLCON", "SCURV", "SSURF", "MATRIX", "MACRO",
     ];
     if let Some((name, rest)) = statement.split_once('=')
         && let Some(shape) = shapes.into_iter().find(|shape| *shape == major(rest.trim_start()))
@@ -78,14 +84,22 @@ fn apt_source(line: &str, votes: &mut Votes) {
         votes.add("apt-source", 10, &format!("a definition of {shape}"));
     }
     let words = [
-        "TERMAC", "RESERV", "LOOPST", "LOOPND", "JUMPTO", "ZSURF", "GOLFT", "GORGT", "GOFWD", "GOBACK", "TLLFT", "TLRGT", "INDIRP",
+        "TERMAC", "RESERV", "LOOPST", "LOOPND", "JUMPTO", "ZSURF", "GOLFT", "GORGT", "GOFWD", "GOBACK", "TLLFT",
+        "TLRGT", "INDIRP",
     ];
     let first = major(statement);
     if let Some(word) = words.into_iter().find(|word| *word == first) {
         votes.add("apt-source", 10, word);
     }
-    let to_a_name = |rest: &str| rest.trim_start().strip_prefix('/').is_some_and(|rest| is_name(rest.split(',').next().unwrap_or_default()));
-    if ["GOTO", "FROM", "GO"].iter().any(|word| statement.strip_prefix(word).is_some_and(to_a_name)) {
+    let to_a_name = |rest: &str| {
+        rest.trim_start()
+            .strip_prefix('/')
+            .is_some_and(|rest| is_name(rest.split(',').next().unwrap_or_default()))
+    };
+    if ["GOTO", "FROM", "GO"]
+        .iter()
+        .any(|word| statement.strip_prefix(word).is_some_and(to_a_name))
+    {
         votes.add("apt-source", 10, "a motion to a name");
     }
 }

@@ -236,8 +236,14 @@ fn controls_that_are_not_read() {
             "PARTNO TEST\nCUTTER/10\nP1=POINT/1,2,3\nL1 = LINE/P1,P2\nFROM/P1\nGO/TO,L1\nTLLFT,GOLFT/L1,PAST,L2\nFINI\n",
             "apt-source",
         ),
-        ("PARTNO A\nMAC1=MACRO/X=5\nGOTO/X,0,0\nTERMAC\nCALL/MAC1,X=3\nFINI\n", "apt-source"),
-        ("PARTNO A\nC1=CIRCLE/0,0,5\nID1)GOTO/P5\nJUMPTO/ID1\nFINI\n", "apt-source"),
+        (
+            "PARTNO A\nMAC1=MACRO/X=5\nGOTO/X,0,0\nTERMAC\nCALL/MAC1,X=3\nFINI\n",
+            "apt-source",
+        ),
+        (
+            "PARTNO A\nC1=CIRCLE/0,0,5\nID1)GOTO/P5\nJUMPTO/ID1\nFINI\n",
+            "apt-source",
+        ),
         (";FLAVOR:Marlin\nM104 S200\nG28\nG92 E0\nG1 X5 E0.2 F1200\n", "marlin"),
     ] {
         let found = detect(Some("a.nc"), text.as_bytes(), None);
@@ -258,7 +264,11 @@ fn cl_data_are_no_apt_source() {
         "TOOL PATH/A,TOOL,B\nGOTO/8.,0,0\nEND-OF-PATH\n",
     ] {
         let found = detect(Some("a.apt"), text.as_bytes(), None);
-        assert!(found.foreign.is_none() && found.dialect.name == "apt", "{text}: {}", found.reason);
+        assert!(
+            found.foreign.is_none() && found.dialect.name == "apt",
+            "{text}: {}",
+            found.reason
+        );
     }
 }
 

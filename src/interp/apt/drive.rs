@@ -25,7 +25,10 @@ struct Drive {
 fn packed(record: &Record<'_>) -> String {
     let text = record.program.text(record.range).to_ascii_uppercase();
     let lines = text.lines().map(|line| line.split('$').next().unwrap_or_default());
-    lines.flat_map(str::chars).filter(|sign| !sign.is_whitespace()).collect()
+    lines
+        .flat_map(str::chars)
+        .filter(|sign| !sign.is_whitespace())
+        .collect()
 }
 
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
@@ -59,7 +62,9 @@ impl Apt<'_> {
     /// TLON: an arc to where the circle meets the line.
     pub(crate) fn drive_circle(&mut self, record: &Record<'_>, report: &mut Report<'_>) -> Option<Motion> {
         let direction = self.kept.direction.take();
-        let end = Drive::read(record).zip(direction).and_then(|(drive, direction)| self.drive_end(&drive, direction));
+        let end = Drive::read(record)
+            .zip(direction)
+            .and_then(|(drive, direction)| self.drive_end(&drive, direction));
         let Some((end, circle)) = end else {
             let what = "TLON: a motion along a surface, or one whose end does not follow from a circle and a line";
             report.fault(record.range, FaultKind::NotModelled { what: what.to_owned() });
@@ -102,13 +107,17 @@ impl Apt<'_> {
         let side = normal.cross(&arm);
         let mut crossings = [foot + along * half, foot - along * half].map(|point| {
             let turned = atan2(point.dot(&side), point.dot(&arm));
-            let turned = if turned <= 0.0 { turned + std::f64::consts::TAU } else { turned };
+            let turned = if turned <= 0.0 {
+                turned + std::f64::consts::TAU
+            } else {
+                turned
+            };
             (turned, point)
         });
         crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let starts_on_it = crossings.iter().any(|crossing| {
-            crossing.0 < SAME || crossing.0 > std::f64::consts::TAU - SAME
-        });
+        let starts_on_it = crossings
+            .iter()
+            .any(|crossing| crossing.0 < SAME || crossing.0 > std::f64::consts::TAU - SAME);
         if starts_on_it {
             return None;
         }

@@ -145,7 +145,9 @@ impl Apt<'_> {
             let in_part = is_csys && frame.world;
             let unclear = placed.filter(|placed| is_csys && !in_part && placed.shift != Vec3::zeros());
             frame.unread = placed.is_none() || unclear.is_some();
-            frame.axes = placed.filter(|_| in_part).map_or_else(Mat3::identity, |placed| placed.turn);
+            frame.axes = placed
+                .filter(|_| in_part)
+                .map_or_else(Mat3::identity, |placed| placed.turn);
             frame.system = placed.filter(|_| !in_part).unwrap_or_default();
             if frame.unread {
                 let shift = if unclear.is_some() {
@@ -196,9 +198,8 @@ impl Apt<'_> {
     pub(crate) fn creo_system(&mut self, numbers: Option<&[f64]>) -> bool {
         let before = self.kept.frame.tool();
         let placed = numbers.and_then(|numbers| rows(numbers, 1.0));
-        let is_plain = placed.is_some_and(|placed| {
-            (placed.turn - Mat3::identity()).norm() <= 1e-9 && placed.shift.norm() <= 1e-9
-        });
+        let is_plain =
+            placed.is_some_and(|placed| (placed.turn - Mat3::identity()).norm() <= 1e-9 && placed.shift.norm() <= 1e-9);
         self.kept.frame.remark_unread = !is_plain;
         self.turned_frame(before);
         is_plain

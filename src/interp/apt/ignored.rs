@@ -15,8 +15,23 @@ pub struct IgnoredRecords {
 
 /// Records without a motion that are read, that report themselves, or that are texts and names for people.
 const READ: [&str; 17] = [
-    "CUTTER", "TLDATA", "CSYS", "MSYS", "TRNTYP", "COOLNT", "INSERT", "PARTNO", "PPRINT", "REMARK", "TITLES", "DISPLY", "LETTER", "TOOL PATH",
-    "END-OF-PATH", "MFGNO", "FEATNO",
+    "CUTTER",
+    "TLDATA",
+    "CSYS",
+    "MSYS",
+    "TRNTYP",
+    "COOLNT",
+    "INSERT",
+    "PARTNO",
+    "PPRINT",
+    "REMARK",
+    "TITLES",
+    "DISPLY",
+    "LETTER",
+    "TOOL PATH",
+    "END-OF-PATH",
+    "MFGNO",
+    "FEATNO",
 ];
 
 /// The records of an APT / CL program that are recognised and not read, each major word once, in the order of their first.

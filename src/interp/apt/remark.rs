@@ -27,14 +27,21 @@ impl Apt<'_> {
     pub(crate) fn frame_remarks(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         for comment in block.comments() {
             let text = block.program().text(comment.range).trim().to_ascii_uppercase();
-            let Some(inside) = text.strip_prefix("$$") else { continue };
+            let Some(inside) = text.strip_prefix("$$") else {
+                continue;
+            };
             let why = self.frame_remark(inside);
             self.say_remark(why, comment.range, block, sink);
         }
         if self.kept.remark.is_some() && block.record().is_some() {
             self.kept.remark = None;
             self.machining_axis(None);
-            self.say_remark(Some("$$*CATIA0 without its three rows of four numbers"), block.range(), block, sink);
+            self.say_remark(
+                Some("$$*CATIA0 without its three rows of four numbers"),
+                block.range(),
+                block,
+                sink,
+            );
         }
     }
 
@@ -55,7 +62,11 @@ impl Apt<'_> {
             self.kept.remark = Some(Started::default());
             return None;
         }
-        if let Some(system) = text.strip_prefix("->").map(str::trim).and_then(|text| text.strip_prefix("CSYS")) {
+        if let Some(system) = text
+            .strip_prefix("->")
+            .map(str::trim)
+            .and_then(|text| text.strip_prefix("CSYS"))
+        {
             let system = system.trim_start().strip_prefix('/').and_then(numbers);
             let plain = self.creo_system(system.as_deref());
             return (!plain).then_some("$$-> CSYS: whether the points after it are in this system or in the machine's");

@@ -35,7 +35,8 @@ impl Own {
         let sizes = index.trim().strip_suffix(']').map(arguments).unwrap_or_default();
         let size = |text: &&str| {
             let size = self.value(text).filter(|size| size.fract() == 0.0);
-            size.filter(|size| (1.0..=MOST as f64).contains(size)).map(|size| size as usize)
+            size.filter(|size| (1.0..=MOST as f64).contains(size))
+                .map(|size| size as usize)
         };
         let sizes: Option<Vec<usize>> = sizes.iter().map(size).collect();
         let sizes = sizes.filter(|sizes| (1..=3).contains(&sizes.len()) && sizes.iter().product::<usize>() <= MOST);
@@ -54,7 +55,10 @@ impl Own {
     /// An element gets a value; any may have it where the index is unknown.
     pub(super) fn assign_element(&mut self, stem: &str, index: &str, value: Option<f64>) {
         let stem = stem.trim();
-        let place = index.trim_end().strip_suffix(']').and_then(|index| self.place_in(stem, &arguments(index)));
+        let place = index
+            .trim_end()
+            .strip_suffix(']')
+            .and_then(|index| self.place_in(stem, &arguments(index)));
         let Some(field) = self.scope.fields.get_mut(stem) else {
             return;
         };
@@ -110,7 +114,9 @@ impl Own {
             }
             // `REP(v,n)`: n elements
             Some((true, values, from)) if values.len() == 2 => {
-                let times = values[1].flatten().filter(|times| times.fract() == 0.0 && *times >= 0.0);
+                let times = values[1]
+                    .flatten()
+                    .filter(|times| times.fract() == 0.0 && *times >= 0.0);
                 let times = times.map(|times| times as usize).filter(|times| from + times <= count);
                 let value = values[0].and_then(takes);
                 match times {
@@ -142,7 +148,9 @@ impl Own {
         }
         let mut place = 0usize;
         for (size, index) in sizes.iter().zip(indices) {
-            let index = self.value(index).filter(|index| index.fract() == 0.0 && *index >= 0.0)?;
+            let index = self
+                .value(index)
+                .filter(|index| index.fract() == 0.0 && *index >= 0.0)?;
             let index = (index < *size as f64).then_some(index as usize)?;
             place = place * size + index;
         }
@@ -165,7 +173,12 @@ impl Own {
     pub(super) fn held_element(&self, name: &str) -> Option<f64> {
         let (stem, index) = name.split_once('[')?;
         let place = self.place_in(stem, &arguments(index.strip_suffix(']')?))?;
-        *self.scope.fields.get(stem)?.elements.get(usize::try_from(place).ok()?)?
+        *self
+            .scope
+            .fields
+            .get(stem)?
+            .elements
+            .get(usize::try_from(place).ok()?)?
     }
 
     /// All that are known, by name.

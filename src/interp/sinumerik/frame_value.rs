@@ -64,7 +64,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// `$P_PFRAME=`, `$P_UIFR[..]=`, or a variable of the type FRAME; false: another word.
     pub(crate) fn frame_word(&mut self, name: TextRange, word: &Word) -> bool {
         let text = self.text(name);
-        let Some(own) = self.own.as_mut().filter(|own| !own.is_task) else { return false };
+        let Some(own) = self.own.as_mut().filter(|own| !own.is_task) else {
+            return false;
+        };
         let is_frame = is_control_frame(&text) || own.scope.frames.contains_key(text.to_ascii_lowercase().as_str());
         if is_frame {
             self.words.has_values = true;
@@ -76,7 +78,11 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// The same for a variable that is named like an address: `F1`.
     pub(crate) fn own_frame_word(&mut self, name: &[u8], word: &Word) -> bool {
         let key = String::from_utf8_lossy(name).to_ascii_lowercase();
-        if !self.own.as_ref().is_some_and(|own| own.scope.frames.contains_key(key.as_str())) {
+        if !self
+            .own
+            .as_ref()
+            .is_some_and(|own| own.scope.frames.contains_key(key.as_str()))
+        {
             return false;
         }
         let range = TextRange::new(word.range.start, word.range.start + name.len() as u32);
@@ -122,22 +128,44 @@ impl Iso<'_> {
             put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
             let linear_frame = self.memory.frames.shape.linear.is_some();
             let local = self.memory.frames.local[axis] / scale;
-            put(format!("$p_pframe[{letter},tr]"), Some(local).filter(|_| plain && !linear_frame));
+            put(
+                format!("$p_pframe[{letter},tr]"),
+                Some(local).filter(|_| plain && !linear_frame),
+            );
         }
         for number in 1..=99u32 {
-            let Some(values) = self.offset_values(&offset_name(number)) else { continue };
+            let Some(values) = self.offset_values(&offset_name(number)) else {
+                continue;
+            };
             for axis in 0..9 {
-                let scale = if crate::core::LINEAR & (1 << axis) != 0 { unit } else { 1.0 };
+                let scale = if crate::core::LINEAR & (1 << axis) != 0 {
+                    unit
+                } else {
+                    1.0
+                };
                 let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
                 let value = values.values[axis] / scale;
                 let is_known = values.known & (1 << axis) != 0;
-                put(format!("$p_uifr[{number},{letter},tr]"), Some(value).filter(|_| is_known));
+                put(
+                    format!("$p_uifr[{number},{letter},tr]"),
+                    Some(value).filter(|_| is_known),
+                );
             }
         }
-        let feed = self.core.state.feed.value().map(|feed| feed / self.core.state.feed.unit_mm());
+        let feed = self
+            .core
+            .state
+            .feed
+            .value()
+            .map(|feed| feed / self.core.state.feed.unit_mm());
         put("$p_f".to_owned(), feed);
         let spindle = &self.core.state.spindle;
-        put("$p_s".to_owned(), spindle.rpm().filter(|_| !spindle.surface_speed() && spindle.speed_programmed()));
+        put(
+            "$p_s".to_owned(),
+            spindle
+                .rpm()
+                .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
+        );
         put("$p_toolno".to_owned(), self.core.state.tool.number().map(f64::from));
         put("$p_tool".to_owned(), self.memory.edge.map(f64::from));
         let plane = match self.core.state.coordinates.plane() {
@@ -146,7 +174,10 @@ impl Iso<'_> {
             trunnion_dialect::Plane::Yz => 3.0,
         };
         put("$p_gg[6]".to_owned(), Some(plane));
-        put("$p_mc".to_owned(), Some(f64::from(u8::from(self.memory.cycle.call.is_some()))));
+        put(
+            "$p_mc".to_owned(),
+            Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
+        );
         for name in ["$p_sim", "$p_istest", "$p_search", "$p_dryrun"] {
             // in a run that cuts the part
             put(name.to_owned(), Some(0.0));
@@ -157,7 +188,10 @@ impl Iso<'_> {
     /// Frames that a block writes; those that are not known make positions unknown from there on.
     pub(crate) fn write_frames(&mut self, words: &mut Words, report: &mut Report<'_>) {
         for (name, range) in std::mem::take(&mut self.memory.own.written_frames) {
-            let (text, value) = (report.program.text(name).trim().to_owned(), report.program.text(range).into_owned());
+            let (text, value) = (
+                report.program.text(name).trim().to_owned(),
+                report.program.text(range).into_owned(),
+            );
             self.memory.own.changes += 1;
             self.memory.own.note_text(&text, &value);
             let whole = TextRange::new(name.start, range.end.max(name.end));
@@ -231,7 +265,12 @@ impl Iso<'_> {
 
     /// A work offset that is in effect changes when it is programmed again; until then nothing says which one acts.
     fn write_offset_value(&mut self, name: &str, values: OffsetValues) -> Option<()> {
-        let in_effect = self.core.state.zero.offset().is_some_and(|known| known.eq_ignore_ascii_case(name));
+        let in_effect = self
+            .core
+            .state
+            .zero
+            .offset()
+            .is_some_and(|known| known.eq_ignore_ascii_case(name));
         if in_effect || self.memory.frames.tilt.is_some() {
             return None;
         }
@@ -250,7 +289,9 @@ impl Iso<'_> {
     fn set_programmable(&mut self, frame: FrameValue) -> Option<()> {
         let plane = crate::arc::plane_axes(self.core.state.coordinates.plane());
         let [a, b, c] = plane;
-        let apart = [(a, c), (b, c), (c, a), (c, b)].into_iter().all(|place| frame.turn[place] == 0.0);
+        let apart = [(a, c), (b, c), (c, a), (c, b)]
+            .into_iter()
+            .all(|place| frame.turn[place] == 0.0);
         let plain = self.memory.frames.tilt.is_none()
             && !self.core.unknown.any()
             && !self.core.state.tool_axis.tcp()
@@ -270,9 +311,9 @@ impl Iso<'_> {
         if parts.len() > LONGEST {
             return None;
         }
-        parts
-            .into_iter()
-            .try_fold(FrameValue::default(), |chain, part| Some(chain.then(&self.frame_link(part)?)))
+        parts.into_iter().try_fold(FrameValue::default(), |chain, part| {
+            Some(chain.then(&self.frame_link(part)?))
+        })
     }
 
     fn frame_link(&self, text: &str) -> Option<FrameValue> {
@@ -366,7 +407,9 @@ fn links(text: &str) -> Vec<&str> {
 
 fn axis_of(text: &str) -> Option<usize> {
     let &[letter] = text.trim().as_bytes() else { return None };
-    crate::AXIS_LETTERS.iter().position(|known| *known == letter.to_ascii_uppercase())
+    crate::AXIS_LETTERS
+        .iter()
+        .position(|known| *known == letter.to_ascii_uppercase())
 }
 
 fn whole(value: f64) -> Option<u32> {

@@ -2,8 +2,8 @@
 //! path is not followed: a motion of unknown shape between ends that are known where they are.
 //!
 //! Sources: Sinumerik 840D sl Programming Manual, Job Planning (07/2010, p. 234: spline interpolation; 12/2019, p. 610: polynomials).
-use crate::core::{LINEAR, Report};
 use crate::codes::{BlockCodes, Found};
+use crate::core::{LINEAR, Report};
 use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::words::{Number, Reading, WordValue, Words, put};
@@ -38,8 +38,14 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// `PO[X]=(10,2,1)`: the end of X and the coefficients of its polynomial; `PO[]=(..)`: the common denominator. False: another word.
     pub(crate) fn polynomial(&mut self, name: &[u8], word: &Word) -> bool {
         let name = String::from_utf8_lossy(name).to_ascii_uppercase();
-        let Some(inside) = name.strip_prefix("PO").map(str::trim) else { return false };
-        let Some(axis) = inside.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')).map(str::trim) else {
+        let Some(inside) = name.strip_prefix("PO").map(str::trim) else {
+            return false;
+        };
+        let Some(axis) = inside
+            .strip_prefix('[')
+            .and_then(|rest| rest.strip_suffix(']'))
+            .map(str::trim)
+        else {
             return false;
         };
         if self.own.is_none() {
@@ -78,7 +84,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 impl Iso<'_> {
     /// The spline to which the motion of a block belongs.
     pub(crate) fn spline(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes) -> Option<Spline> {
-        let spline = self.memory.spline.filter(|_| self.core.state.motion == Some(Action::NotModelled))?;
+        let spline = self
+            .memory
+            .spline
+            .filter(|_| self.core.state.motion == Some(Action::NotModelled))?;
         let other = |found: &Found<'_>| {
             found.code.action == Action::NotModelled && found.code.group.as_deref() != self.motion_group()
         };

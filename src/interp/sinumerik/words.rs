@@ -148,7 +148,8 @@ impl<'d> Iso<'d> {
             (None, None) => return,
         };
         let key = program_key(&name);
-        let is_modal = matches!(codes.as_slice(), [found] if found.code.action == Action::CannedCycle && !found.with_arguments);
+        let is_modal =
+            matches!(codes.as_slice(), [found] if found.code.action == Action::CannedCycle && !found.with_arguments);
         if is_modal && self.modal_call_of(block, &key, (range, arguments), words) {
             codes.clear();
             return;
@@ -201,8 +202,12 @@ impl<'d> Iso<'d> {
         words: &mut Words,
     ) -> bool {
         let program = block.program();
-        let text = arguments.map(|inside| program.text(inside).into_owned()).unwrap_or_default();
-        let plain = text.bytes().all(|byte| byte.is_ascii_digit() || b".,+- ".contains(&byte));
+        let text = arguments
+            .map(|inside| program.text(inside).into_owned())
+            .unwrap_or_default();
+        let plain = text
+            .bytes()
+            .all(|byte| byte.is_ascii_digit() || b".,+- ".contains(&byte));
         let beside = words.letters & !(1 << (b'N' - b'A')) != 0 || words.axes.any() || words.forgets_all;
         if beside || !plain || !self.is_program(key, program) {
             return false;

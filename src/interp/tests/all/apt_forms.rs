@@ -63,20 +63,26 @@ fn a_circle_of_nx_has_eleven_numbers() {
     assert_eq!(lines("apt", arc)[1], "A(0 0 0; 90) X0 Y30 Z0 F9 tcp <0 0 1>");
     assert_eq!(faults("apt", arc), [""; 0]);
     let off = arc.replace(",30,0.06", ",31,0.06");
-    assert!(faults("apt", &off)[0].contains("ArcRadiusMismatch"), "{:?}", faults("apt", &off));
+    assert!(
+        faults("apt", &off)[0].contains("ArcRadiusMismatch"),
+        "{:?}",
+        faults("apt", &off)
+    );
 }
 
 /// TLON,GOFWD/(CIRCLE/...): the direction is that of INDIRV, the end where the line crosses.
 #[test]
 fn arcs_as_catia_writes_them() {
-    let arc = |direction: &str, drive: &str| {
-        format!("FEDRAT/9\nGOTO/40,20,5\nINDIRV/{direction}\n{drive}\nGODLTA/0,0,1\n")
-    };
+    let arc =
+        |direction: &str, drive: &str| format!("FEDRAT/9\nGOTO/40,20,5\nINDIRV/{direction}\n{drive}\nGODLTA/0,0,1\n");
     let up = "TLON,GOFWD/ (CIRCLE/   10.,   20.,    5.,$\n   30.),ON,(LINE/  10.,20.,5.,$\n  10.,50.,5.)";
     let found = lines("apt", &arc("0,1,0", up));
     assert_eq!(
         found[1..],
-        ["A(10 20 5; 90) X10 Y50 Z5 F9 tcp <0 0 1>", "L X10 Y50 Z6 F9 tcp <0 0 1>"]
+        [
+            "A(10 20 5; 90) X10 Y50 Z5 F9 tcp <0 0 1>",
+            "L X10 Y50 Z6 F9 tcp <0 0 1>"
+        ]
     );
     assert_eq!(faults("apt", &arc("0,1,0", up)), [""; 0]);
     // the other way round the first crossing is below the centre
@@ -101,7 +107,14 @@ fn arcs_as_catia_writes_them() {
         ("0,1,0", "TLLFT,GOLFT/L1"),
     ] {
         let text = arc(direction, drive);
-        assert_eq!(run_text("apt", &text).motions.last().and_then(|motion| motion.end.xyz()), None, "{drive}");
+        assert_eq!(
+            run_text("apt", &text)
+                .motions
+                .last()
+                .and_then(|motion| motion.end.xyz()),
+            None,
+            "{drive}"
+        );
         assert!(!faults("apt", &text).is_empty(), "{drive}");
     }
     let alone = "FEDRAT/9\nGOTO/40,20,5\nTLON,GOFWD/(CIRCLE/10,20,5,30),ON,(LINE/10,20,5,10,50,5)\n";
@@ -114,9 +127,15 @@ fn tool_data_of_nx() {
         let text = format!("{text}\nLOAD/TOOL,2\nFEDRAT/9\nGOTO/1,2,3\n");
         run_text("apt", &text).state.expect("a record ran").tool.shape()
     };
-    assert_eq!(shape("TLDATA/MILL,10.0000,0.0000,75.0000,0.0000,0.0000"), Some((ToolShape::Flat, 10.0)));
+    assert_eq!(
+        shape("TLDATA/MILL,10.0000,0.0000,75.0000,0.0000,0.0000"),
+        Some((ToolShape::Flat, 10.0))
+    );
     assert_eq!(shape("TLDATA/MILL,10,5,75,0,0"), Some((ToolShape::Ball, 10.0)));
-    assert_eq!(shape("UNITS/INCHES\nTLDATA/MILL,1,.25,3,0,0"), Some((ToolShape::Bull(6.35), 25.4)));
+    assert_eq!(
+        shape("UNITS/INCHES\nTLDATA/MILL,1,.25,3,0,0"),
+        Some((ToolShape::Bull(6.35), 25.4))
+    );
     assert_eq!(shape("TLDATA/MILL,10,1,75,15,0"), None, "tapered");
     assert_eq!(shape("CUTTER/10\nTLDATA/DRILL,MILL,6,0,50,59,40"), None, "another tool");
 }
@@ -154,7 +173,9 @@ fn milling(text: &str, system: &str) -> String {
         }
         hole = (hole || line.starts_with("CYCLE/")) && !line.starts_with("CYCLE/OFF");
         let moves = line.starts_with("GOTO") || line.starts_with("CIRCLE");
-        if here && !hole && !line.starts_with("CYCLE") || !moves && !line.starts_with("CYCLE") && !line.starts_with("CSYS/") {
+        if here && !hole && !line.starts_with("CYCLE")
+            || !moves && !line.starts_with("CYCLE") && !line.starts_with("CSYS/")
+        {
             own += &line.replace("INSERT/", "PPRINT/");
             own.push('\n');
         }
@@ -166,7 +187,10 @@ fn milling(text: &str, system: &str) -> String {
 fn turned(posted: &str) -> [f64; 2] {
     let words: Vec<&str> = posted.split_whitespace().collect();
     let after = |name: &str| {
-        let at = words.iter().position(|word| *word == name).expect("the line with the axis");
+        let at = words
+            .iter()
+            .position(|word| *word == name)
+            .expect("the line with the axis");
         words[at + 1].parse::<f64>().unwrap_or(0.0)
     };
     [after("rot"), after("tilt")]
@@ -185,7 +209,9 @@ fn cl_data_have_the_targets_of_the_programs_posted_from_them() {
         ("Dem-target2", &["11"]),
     ] {
         let folder = format!("apt/solidworks-cam/{part}");
-        let Some(records) = shared(&format!("{folder}/{part}.apt")) else { return };
+        let Some(records) = shared(&format!("{folder}/{part}.apt")) else {
+            return;
+        };
         let text = String::from_utf8_lossy(&records).replace("\r\n", "\n");
         let mut systems: Vec<&str> = text.lines().filter(|line| line.starts_with("CSYS/")).collect();
         systems.dedup();
@@ -212,8 +238,15 @@ fn cl_data_have_the_targets_of_the_programs_posted_from_them() {
             let theirs = places(&klartext);
             if own.len() != theirs.len() {
                 // a hole that the post writes in another way
-                println!("{part} {setup}: {} and {} places, not compared", own.len(), theirs.len());
-                assert!(!matches!((part, *setup), ("boss", _) | ("wall-holes", "12")), "{part} {setup}");
+                println!(
+                    "{part} {setup}: {} and {} places, not compared",
+                    own.len(),
+                    theirs.len()
+                );
+                assert!(
+                    !matches!((part, *setup), ("boss", _) | ("wall-holes", "12")),
+                    "{part} {setup}"
+                );
                 continue;
             }
             for (at, (a, b)) in own.iter().zip(&theirs).enumerate() {

@@ -172,10 +172,20 @@ fn a_system_turns_points_and_the_tool() {
     // under TRNTYP/WORLD the records are in the part, and the system only turns a tool without a vector
     let world = "TRNTYP/WORLD,0,0,0\nCSYS/0,0,1.,0,1.,0,0,7,0,1.,0,0\n";
     assert_eq!(
-        lines("apt", &format!("FEDRAT/9\n{world}GOTO/1,2,3\nGODLTA/4\nGOTO/1,2,3,0,0,1\n")),
-        ["L X1 Y2 Z3 F9 tcp <1 0 0>", "L X5 Y2 Z3 F9 tcp <1 0 0>", "L X1 Y2 Z3 F9 tcp <0 0 1>"]
+        lines(
+            "apt",
+            &format!("FEDRAT/9\n{world}GOTO/1,2,3\nGODLTA/4\nGOTO/1,2,3,0,0,1\n")
+        ),
+        [
+            "L X1 Y2 Z3 F9 tcp <1 0 0>",
+            "L X5 Y2 Z3 F9 tcp <1 0 0>",
+            "L X1 Y2 Z3 F9 tcp <0 0 1>"
+        ]
     );
-    assert_eq!(faults("apt", &format!("FEDRAT/9\n{world}GOTO/1,2,3\n")), [] as [String; 0]);
+    assert_eq!(
+        faults("apt", &format!("FEDRAT/9\n{world}GOTO/1,2,3\n")),
+        [] as [String; 0]
+    );
     let other = format!("FEDRAT/9\n{}GOTO/1,2,3\n", world.replace("WORLD", "LOCAL"));
     assert!(faults("apt", &other)[0].contains("TRNTYP/LOCAL"));
     assert_eq!(

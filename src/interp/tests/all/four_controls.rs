@@ -25,7 +25,9 @@ impl Hole {
         match self {
             Self { open: true, .. } => "not known",
             Self { feed_out: true, .. } => "out at the feed",
-            Self { broken: 0, cleared: 0, .. } => "one stroke",
+            Self {
+                broken: 0, cleared: 0, ..
+            } => "one stroke",
             Self { broken: 0, .. } => "cleared",
             Self { cleared: 0, .. } => "chips broken",
             _ => "chips broken and cleared",
@@ -52,7 +54,9 @@ fn holes(dialect: &str, text: &str, surface: f64) -> BTreeMap<(i64, i64), Hole> 
         let key = |value: f64| (value * 100.0).round() as i64;
         let place = (key(to.x), key(to.y));
         at = Some(place);
-        let Some(from) = from.filter(|from| (key(from.x), key(from.y)) == place) else { continue };
+        let Some(from) = from.filter(|from| (key(from.x), key(from.y)) == place) else {
+            continue;
+        };
         let hole = found.entry(place).or_default();
         match motion.kind {
             MotionKind::Unknown => {
@@ -98,7 +102,10 @@ fn the_holes_are_those_of_the_other_control() {
     for (place, hole) in &siemens {
         let other = klartext.get(place).unwrap_or_else(|| panic!("no hole at {place:?}"));
         if !hole.open && !other.open {
-            assert!((hole.bottom - other.bottom).abs() < 2e-3, "{place:?}: {hole:?} and {other:?}");
+            assert!(
+                (hole.bottom - other.bottom).abs() < 2e-3,
+                "{place:?}: {hole:?} and {other:?}"
+            );
         }
         *kinds.entry(format!("{} / {}", hole.kind(), other.kind())).or_default() += 1;
     }
@@ -110,13 +117,29 @@ fn the_holes_are_those_of_the_other_control() {
 #[test]
 fn each_plane_of_the_shared_programs_has_the_same_matrix() {
     let mut planes = 0;
-    for file in ["four-controls/siemens/Demo_1.mpf", "sinumerik/CAM_TEST.MPF", "five-axis-pairs/sinumerik_cycle800.mpf"] {
+    for file in [
+        "four-controls/siemens/Demo_1.mpf",
+        "sinumerik/CAM_TEST.MPF",
+        "five-axis-pairs/sinumerik_cycle800.mpf",
+    ] {
         let Some(bytes) = shared(file) else { return };
         let text = String::from_utf8_lossy(&bytes).into_owned();
         for line in text.lines() {
-            let Some((_, call)) = line.split_once("CYCLE800(") else { continue };
-            let numbers: Vec<&str> = call.trim_end().trim_end_matches(')').split(',').map(str::trim).collect();
-            let number = |place: usize| numbers.get(place).and_then(|text| text.parse::<f64>().ok()).unwrap_or(0.0);
+            let Some((_, call)) = line.split_once("CYCLE800(") else {
+                continue;
+            };
+            let numbers: Vec<&str> = call
+                .trim_end()
+                .trim_end_matches(')')
+                .split(',')
+                .map(str::trim)
+                .collect();
+            let number = |place: usize| {
+                numbers
+                    .get(place)
+                    .and_then(|text| text.parse::<f64>().ok())
+                    .unwrap_or(0.0)
+            };
             // the axes of the three angles by the mode
             let order: [usize; 3] = match number(3) as u32 {
                 57 => [0, 1, 2],
@@ -147,7 +170,13 @@ fn each_plane_of_the_shared_programs_has_the_same_matrix() {
                 motions
                     .iter()
                     .filter(|motion| motion.is_feed())
-                    .map(|motion| motion.end.xyz().unwrap_or_else(|| panic!("{text}: an unknown end")).into())
+                    .map(|motion| {
+                        motion
+                            .end
+                            .xyz()
+                            .unwrap_or_else(|| panic!("{text}: an unknown end"))
+                            .into()
+                    })
                     .collect()
             };
             let (own, other) = (ends("sinumerik-840d", &own), ends("heidenhain-klartext", &other));

@@ -221,18 +221,34 @@ fn a_modal_subprogram_runs_after_each_motion() {
         ["R X0", "R X0 Z4", "R X1 Z4"]
     );
     // a cycle takes its place, and so does another subprogram
-    assert_eq!(called("G0 X0\nMCALL CUT(1,2)\nMCALL PLAIN\nX5\nMCALL\nX1\n"), ["R X0", "R X5", "R X5 Y1", "R X1 Y1"]);
+    assert_eq!(
+        called("G0 X0\nMCALL CUT(1,2)\nMCALL PLAIN\nX5\nMCALL\nX1\n"),
+        ["R X0", "R X5", "R X5 Y1", "R X1 Y1"]
+    );
     // when an argument that is no number is evaluated, no source says
-    assert!(run("G0 X0\nR1=3\nMCALL CUT(R1)\nX5\n").1.iter().any(|said| said.contains("CUT")));
+    assert!(
+        run("G0 X0\nR1=3\nMCALL CUT(R1)\nX5\n")
+            .1
+            .iter()
+            .any(|said| said.contains("CUT"))
+    );
     // whether it acts in a subprogram that is called meanwhile, no source says
-    assert!(run("G0 X0\nMCALL PLAIN\nL20\n").1.iter().any(|said| said.contains("MCALL of another program")));
+    assert!(
+        run("G0 X0\nMCALL PLAIN\nL20\n")
+            .1
+            .iter()
+            .any(|said| said.contains("MCALL of another program"))
+    );
 }
 
 #[test]
 fn a_modal_cycle_acts_after_a_block_with_only_a_feed() {
     let holes = |text: &str| {
         let text = format!("G17 G0 X0 Y0 Z50 F100 S100 M3\nMCALL CYCLE81(10,0,2,-5)\n{text}\nMCALL\n");
-        lines(SINUMERIK, &text).iter().filter(|line| line.starts_with('L')).count()
+        lines(SINUMERIK, &text)
+            .iter()
+            .filter(|line| line.starts_with('L'))
+            .count()
     };
     assert_eq!(holes("X5"), 1);
     assert_eq!(holes("X5\nF200"), 2);

@@ -8,8 +8,17 @@ const NAME: &str = "sinumerik-840d";
 /// X of the last motion of a program, and whether all is known.
 fn x_of(program: &str) -> (Option<f64>, usize) {
     let text = format!("G90 G71 G1 X-999 F100\n{program}\n");
-    let end = run_text(NAME, &text).motions.last().and_then(|motion| motion.end.get(0));
-    (end, faults(NAME, &text).iter().filter(|fault| fault.contains("NotModelled")).count())
+    let end = run_text(NAME, &text)
+        .motions
+        .last()
+        .and_then(|motion| motion.end.get(0));
+    (
+        end,
+        faults(NAME, &text)
+            .iter()
+            .filter(|fault| fault.contains("NotModelled"))
+            .count(),
+    )
 }
 
 /// Priority of the operations: a comparison binds weakest (five editions of the programming manual, 2000 to 2019).
@@ -31,7 +40,10 @@ fn priority_of_the_operations() {
         (".1EX1", 1.0),
     ] {
         let (x, unknown) = x_of(&format!("R1={expression}\nX=R1"));
-        assert!(x.is_some_and(|x| (x - value).abs() < 1e-12) && unknown == 0, "{expression}: {x:?}");
+        assert!(
+            x.is_some_and(|x| (x - value).abs() < 1e-12) && unknown == 0,
+            "{expression}: {x:?}"
+        );
     }
     // an interpreter says -3; the manuals do not
     assert_eq!(x_of("R1=ROUND(-2.5)\nX=R1").0, None);
@@ -49,7 +61,10 @@ fn loops_and_jumps() {
         // a target that is missing matters only where it is jumped to
         ("IF 0 GOTOF NOWHERE\nX4", 4.0),
         ("GOTOC NOWHERE\nX5", 5.0),
-        ("R1=2\nCASE(R1) OF 1 GOTOF AA 2 GOTOF BB DEFAULT GOTOF CC\nAA: X1\nBB: X2\nCC: Y1", 2.0),
+        (
+            "R1=2\nCASE(R1) OF 1 GOTOF AA 2 GOTOF BB DEFAULT GOTOF CC\nAA: X1\nBB: X2\nCC: Y1",
+            2.0,
+        ),
         ("R1=9\nCASE(R1) OF 1 GOTOF AA\nX6\nGOTOF CC\nAA: X1\nCC: Y1", 6.0),
         // ENDLABEL ends the section; once more by default
         ("R1=0\nAA: R1=R1+1\nENDLABEL:\nR2=1\nREPEAT AA P=3\nX=R1", 4.0),
@@ -101,7 +116,10 @@ fn swivelled_planes() {
         let own = format!("G17 G90 G71 F100\nG0 X0 Y0 Z0\nCYCLE800(0,\"T\",0,{cycle},0,0,0,-1)\n");
         let fanuc = format!("G17 G90 G21 G54 F100.\nG0 X0. Y0. Z0.\nG68.2 X0. Y0. Z0. {euler}\n");
         let ends = |dialect: &str, start: &str| -> Vec<[f64; 3]> {
-            let moves: String = points.iter().map(|[x, y, z]| format!("G1 X{x:.1} Y{y:.1} Z{z:.1}\n")).collect();
+            let moves: String = points
+                .iter()
+                .map(|[x, y, z]| format!("G1 X{x:.1} Y{y:.1} Z{z:.1}\n"))
+                .collect();
             let motions = run_text(dialect, &format!("{start}{moves}")).motions;
             motions
                 .iter()
@@ -112,7 +130,10 @@ fn swivelled_planes() {
         let (one, two) = (ends(NAME, &own), ends("fanuc-30i", &fanuc));
         assert_eq!(one.len(), 4);
         for (one, two) in one.iter().zip(&two) {
-            assert!((0..3).all(|i| (one[i] - two[i]).abs() < 1e-9), "{cycle}: {one:?} and {two:?}");
+            assert!(
+                (0..3).all(|i| (one[i] - two[i]).abs() < 1e-9),
+                "{cycle}: {one:?} and {two:?}"
+            );
         }
     }
 }
@@ -125,7 +146,14 @@ fn bits_of_turns() {
         let motions = run_text(NAME, &text).motions;
         let tilt = &motions.last().expect("a motion").tilt;
         assert_eq!(tilt.swivel, Swivel::PointToPoint, "{tu}");
-        assert_eq!(tilt.posture, Posture::Bits { status: None, turn: Some(19) }, "{tu}");
+        assert_eq!(
+            tilt.posture,
+            Posture::Bits {
+                status: None,
+                turn: Some(19)
+            },
+            "{tu}"
+        );
     }
 }
 
@@ -173,10 +201,18 @@ fn drilling_cycles() {
             "R X0 Y0 Z10",
         ]
     );
-    let circle = lines(NAME, "G17 G90 G71 G0 X0 Y0 Z50 F100\nMCALL CYCLE81(10,0,2,-5)\nHOLES2(0,0,10,0,0,4)\nMCALL\n");
+    let circle = lines(
+        NAME,
+        "G17 G90 G71 G0 X0 Y0 Z50 F100\nMCALL CYCLE81(10,0,2,-5)\nHOLES2(0,0,10,0,0,4)\nMCALL\n",
+    );
     let bottoms: Vec<&String> = circle.iter().filter(|line| line.starts_with('L')).collect();
     assert_eq!(
         bottoms,
-        ["L X10 Y0 Z-5 F100", "L X0 Y10 Z-5 F100", "L X-10 Y0 Z-5 F100", "L X0 Y-10 Z-5 F100"]
+        [
+            "L X10 Y0 Z-5 F100",
+            "L X0 Y10 Z-5 F100",
+            "L X-10 Y0 Z-5 F100",
+            "L X0 Y-10 Z-5 F100"
+        ]
     );
 }

@@ -21,7 +21,12 @@ impl Sink for Zeroed {
 fn zeroed(text: &str) -> Vec<(Motion, [f64; 9])> {
     let dialect = builtin("sinumerik-840d").expect("built in");
     let mut sink = Zeroed::default();
-    run(&parse(text.as_bytes().to_vec(), dialect.lex), dialect, &Setup::default(), &mut sink);
+    run(
+        &parse(text.as_bytes().to_vec(), dialect.lex),
+        dialect,
+        &Setup::default(),
+        &mut sink,
+    );
     sink.0
 }
 
@@ -50,12 +55,18 @@ fn what_the_control_knows_of_its_state() {
         ("MCALL CYCLE81(9,0,1,-1)\nR1=$P_MC\nMCALL\nX=R1", "1"),
         ("T7 D2 M6\nX=$P_TOOLNO*10+$P_TOOL", "72"),
         ("$P_UIFR[2,X,TR]=25\nX=$P_UIFR[2,X,TR]", "25"),
-        ("R2=2\n$P_UIFR[R2]=CTRANS(X,25)\nX=$P_UIFR[R2,X,TR]+$P_UIFR[2,Y,TR]", "25"),
+        (
+            "R2=2\n$P_UIFR[R2]=CTRANS(X,25)\nX=$P_UIFR[R2,X,TR]+$P_UIFR[2,Y,TR]",
+            "25",
+        ),
         ("G70\nX1\nX=$P_EP[X]+1", "50.8"),
     ] {
         let found = after(text);
         let last = found.last().expect("a motion");
-        assert!(last.contains(&format!(" X{x} ")) || last.contains(&format!("X{x} ")), "{text}: {last}");
+        assert!(
+            last.contains(&format!(" X{x} ")) || last.contains(&format!("X{x} ")),
+            "{text}: {last}"
+        );
         assert_eq!(trouble(text), [""; 0], "{text}");
     }
     for text in [
@@ -70,7 +81,12 @@ fn what_the_control_knows_of_its_state() {
         "X=$TC_DP3[1,1]",
     ] {
         assert!(!trouble(text).is_empty(), "{text}");
-        assert!(!after(text).iter().any(|line| line.contains("X0 ") && line.starts_with("L X")), "{text}");
+        assert!(
+            !after(text)
+                .iter()
+                .any(|line| line.contains("X0 ") && line.starts_with("L X")),
+            "{text}"
+        );
     }
 }
 
@@ -80,7 +96,12 @@ fn a_loop_until_a_position_is_reached() {
     let text = "REPEAT\nX=IC(10)\nUNTIL $AA_IW[X]>25\nY1";
     assert_eq!(
         after(text),
-        ["L X10 Y0 Z0 F100", "L X20 Y0 Z0 F100", "L X30 Y0 Z0 F100", "L X30 Y1 Z0 F100"]
+        [
+            "L X10 Y0 Z0 F100",
+            "L X20 Y0 Z0 F100",
+            "L X30 Y0 Z0 F100",
+            "L X30 Y1 Z0 F100"
+        ]
     );
     assert_eq!(trouble(text), [""; 0]);
 }
@@ -102,16 +123,28 @@ fn frames_are_values() {
         ("$P_PFRAME=CTRANS(X,10,Y,5)", "TRANS X10 Y5"),
         ("$P_PFRAME=CTRANS(X,10):CROT(Z,90)", "TRANS X10\nAROT Z90"),
         ("$P_PFRAME=CROT(Z,90):CTRANS(X,10)", "ROT Z90\nATRANS X10"),
-        ("$P_PFRAME = CROT(Z,90) : CTRANS(X,10) : CSCALE(X,2)", "ROT Z90\nATRANS X10\nASCALE X2"),
+        (
+            "$P_PFRAME = CROT(Z,90) : CTRANS(X,10) : CSCALE(X,2)",
+            "ROT Z90\nATRANS X10\nASCALE X2",
+        ),
         ("$P_PFRAME=CMIRROR(X)", "MIRROR X0"),
         ("$P_PFRAME=CMIRROR(X,1,Y)", "MIRROR X0 Y0"),
-        ("DEF FRAME F1\nF1=CTRANS(X,3):CROT(Z,30)\n$P_PFRAME=F1", "TRANS X3\nAROT Z30"),
-        ("DEF FRAME SHIFT\nSHIFT=CTRANS(X,3)\n$P_PFRAME=SHIFT:CROT(Z,30):SHIFT", "TRANS X3\nAROT Z30\nATRANS X3"),
+        (
+            "DEF FRAME F1\nF1=CTRANS(X,3):CROT(Z,30)\n$P_PFRAME=F1",
+            "TRANS X3\nAROT Z30",
+        ),
+        (
+            "DEF FRAME SHIFT\nSHIFT=CTRANS(X,3)\n$P_PFRAME=SHIFT:CROT(Z,30):SHIFT",
+            "TRANS X3\nAROT Z30\nATRANS X3",
+        ),
         ("TRANS X10\n$P_PFRAME=$P_PFRAME:CROT(Z,90)", "TRANS X10\nAROT Z90"),
         ("TRANS X10\n$P_PFRAME[Y,TR]=4", "TRANS X10 Y4"),
         ("$P_PFRAME=CTRANS()", "TRANS"),
         ("$P_UIFR[1]=CTRANS(X,10,Y,5)\nG54", "TRANS X10 Y5"),
-        ("$P_UIFR[5,X,TR]=10\n$P_UIFR[5,Y,TR]=0\n$P_UIFR[5,Z,TR]=0\nG505", "TRANS X10"),
+        (
+            "$P_UIFR[5,X,TR]=10\n$P_UIFR[5,Y,TR]=0\n$P_UIFR[5,Z,TR]=0\nG505",
+            "TRANS X10",
+        ),
     ] {
         let value = framed(&format!("{value}\nX2 Y1"));
         assert_eq!(value, framed(&format!("{words}\nX2 Y1")), "{words}");
@@ -136,7 +169,13 @@ fn frames_that_are_not_known_make_positions_unknown() {
     ] {
         let text = format!("{text}\nX1 Y1");
         assert!(!trouble(&text).is_empty(), "{text}");
-        assert!(run_text("sinumerik-840d", &format!("{HEAD}{text}\n")).motions[1].end.xyz().is_none(), "{text}");
+        assert!(
+            run_text("sinumerik-840d", &format!("{HEAD}{text}\n")).motions[1]
+                .end
+                .xyz()
+                .is_none(),
+            "{text}"
+        );
     }
 }
 
@@ -151,10 +190,18 @@ fn fields_of_more_dimensions() {
         ("DEF REAL A[2,2]\nA[0,1]=SET(3,4)\nX=A[1,0]", "4"),
     ] {
         let found = after(text);
-        assert_eq!(found.last().map(String::as_str), Some(format!("L X{x} Y0 Z0 F100").as_str()), "{text}");
+        assert_eq!(
+            found.last().map(String::as_str),
+            Some(format!("L X{x} Y0 Z0 F100").as_str()),
+            "{text}"
+        );
         assert_eq!(trouble(text), [""; 0], "{text}");
     }
-    for text in ["DEF REAL A[2,3]\nX=A[2,0]", "DEF REAL A[2,3]\nX=A[1]", "DEF REAL A[2,3]\nA[R9,0]=1\nX=A[0,0]"] {
+    for text in [
+        "DEF REAL A[2,3]\nX=A[2,0]",
+        "DEF REAL A[2,3]\nX=A[1]",
+        "DEF REAL A[2,3]\nA[R9,0]=1\nX=A[0,0]",
+    ] {
         assert!(after(text).iter().all(|line| !line.starts_with("L X0")), "{text}");
         assert!(!trouble(text).is_empty(), "{text}");
     }
@@ -187,7 +234,9 @@ fn splines_have_known_ends() {
     let ends = |text: &str| -> Vec<(bool, Option<[f64; 3]>)> {
         let log = run_text("sinumerik-840d", &format!("{HEAD}{text}\n"));
         let moves = log.motions[1..].iter();
-        moves.map(|motion| (motion.kind == MotionKind::Unknown, motion.end.xyz().map(Into::into))).collect()
+        moves
+            .map(|motion| (motion.kind == MotionKind::Unknown, motion.end.xyz().map(Into::into)))
+            .collect()
     };
     for code in ["ASPLINE", "CSPLINE"] {
         assert_eq!(
@@ -225,11 +274,22 @@ fn splines_have_known_ends() {
         assert_eq!(trouble(code).len(), 1, "{code}");
         assert!(trouble(code)[0].contains(name), "{code}");
     }
-    assert_eq!(ends("PO[X]=(10,2)\nG1 X3"), [(true, None), (false, Some([3.0, 0.0, 0.0]))]);
+    assert_eq!(
+        ends("PO[X]=(10,2)\nG1 X3"),
+        [(true, None), (false, Some([3.0, 0.0, 0.0]))]
+    );
     assert!(trouble("PO[X]=(10,2)")[0].contains("where POLY is not in effect"));
     // the direction at the end of a spline is not known
-    assert!(ends("CSPLINE X1 Y2\nCT X3 Y4").last().is_some_and(|end| end.1.is_some()));
-    assert!(trouble("CSPLINE X1 Y2\nCT X3 Y4").iter().any(|fault| fault.contains("CT")));
+    assert!(
+        ends("CSPLINE X1 Y2\nCT X3 Y4")
+            .last()
+            .is_some_and(|end| end.1.is_some())
+    );
+    assert!(
+        trouble("CSPLINE X1 Y2\nCT X3 Y4")
+            .iter()
+            .any(|fault| fault.contains("CT"))
+    );
 }
 
 #[test]
@@ -237,7 +297,13 @@ fn cycle840_taps_with_a_floating_chuck() {
     let text = "S500 M3\nG0 Z10\nCYCLE840(10,0,2,-12,,0,4,3,0,0,1.25)\nX5";
     assert_eq!(
         after(text)[1..],
-        ["R X0 Y0 Z2", "L X0 Y0 Z-12 F1.25/rev", "L X0 Y0 Z2 F1.25/rev", "R X0 Y0 Z10", "R X5 Y0 Z10"]
+        [
+            "R X0 Y0 Z2",
+            "L X0 Y0 Z-12 F1.25/rev",
+            "L X0 Y0 Z2 F1.25/rev",
+            "R X0 Y0 Z10",
+            "R X5 Y0 Z10"
+        ]
     );
     assert_eq!(trouble(text), [""; 0]);
     // ENC 1: the lead is that of F
@@ -252,7 +318,10 @@ fn stat_and_tu_act_point_to_point_only() {
     let with = |travel: &str| trouble(&format!("TRAORI\n{travel}\nG1 X1 A10 STAT=1 TU=2\nTRAFOOF"));
     assert_eq!(with("CP"), [""; 0]);
     assert_eq!(with(";"), [""; 0]);
-    assert!(!trouble("G1 X1 STAT=1").is_empty(), "without a transformation no source says what it is");
+    assert!(
+        !trouble("G1 X1 STAT=1").is_empty(),
+        "without a transformation no source says what it is"
+    );
 }
 
 /// What an oracle computes that models expressions, fields, loops, jumps and TRANS; its traces are places with the programmable shift added.
@@ -310,7 +379,9 @@ fn programs_with_traces_of_another_interpreter() {
             .iter()
             .map(|(motion, zero)| {
                 let known = columns.iter().filter(|column| motion.end.known & (1 << column.0) != 0);
-                known.map(|&(axis, _)| (axis, motion.end.values[axis] + zero[axis])).collect()
+                known
+                    .map(|&(axis, _)| (axis, motion.end.values[axis] + zero[axis]))
+                    .collect()
             })
             .collect();
         own.dedup();
@@ -319,7 +390,11 @@ fn programs_with_traces_of_another_interpreter() {
                 a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() <= 6e-4)
             });
         println!("{name}: {} and {} places", own.len(), theirs.len());
-        assert!(same, "{name}: {own:?}\n{theirs:?}\n{:?}", log.faults.iter().take(3).collect::<Vec<_>>());
+        assert!(
+            same,
+            "{name}: {own:?}\n{theirs:?}\n{:?}",
+            log.faults.iter().take(3).collect::<Vec<_>>()
+        );
         compared += own.len();
     }
     println!("{compared} places");

@@ -26,6 +26,7 @@ mod iso;
 mod klartext;
 mod macro_b;
 mod memory;
+mod named_words;
 mod offsets;
 mod orientation;
 mod osp;

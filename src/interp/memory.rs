@@ -17,10 +17,6 @@ pub(crate) struct Memory<'d> {
     pub(crate) tcp_group: Option<&'d str>,
     /// How the axes run between positions under a transformation.
     pub(crate) travel: crate::travel::Travel,
-    /// The kind of spline, where the motion in effect is one.
-    pub(crate) spline: Option<crate::sinumerik::Spline>,
-    /// The last pole of a B-spline, where it ends if it does not go on.
-    pub(crate) pole: Option<crate::Position>,
     /// STAT in effect.
     pub(crate) status: Option<u16>,
     /// A turning cycle's block and the last of its contour, which the cycle has run.

@@ -12,6 +12,7 @@ mod path;
 mod pole;
 mod spline;
 mod statement;
+mod system_values;
 mod text;
 mod words;
 

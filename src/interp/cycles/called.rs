@@ -11,7 +11,7 @@ use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, FaultKind, Feed, FeedMode, Motion, MotionKind};
+use crate::{Argument, FaultKind, Feed, Motion, MotionKind};
 use std::sync::Arc;
 use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
@@ -40,7 +40,7 @@ impl Given {
 
 /// What a cycle does in the hole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sort {
+pub(super) enum Sort {
     /// CYCLE81, CYCLE82: down, dwell, rapid out.
     Drill,
     /// CYCLE83: in steps.
@@ -76,8 +76,8 @@ const CYCLES: [(&str, Sort, usize); 10] = [
 /// A cycle with its numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct HoleCall {
-    id: &'static str,
-    sort: Sort,
+    pub(super) id: &'static str,
+    pub(super) sort: Sort,
     numbers: Vec<Given>,
     /// It has numbers that have no meaning here.
     further: bool,
@@ -257,86 +257,6 @@ impl Iso<'_> {
                 Some(code) => self.core.state.spindle.switch(code == 3.0 || code == 4.0),
                 None => self.core.state.spindle.lose(),
             }
-        }
-    }
-
-    /// The feed that a cycle goes down with.
-    fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
-        let unit = self.core.state.coordinates.unit_mm();
-        match call.sort {
-            Sort::Ream => self.own_feed(call.number(6)),
-            Sort::Tap => {
-                // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
-                let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
-                    (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
-                        let mm = match unit_of_pitch as i64 {
-                            0 => Some(pitch * unit),
-                            1 => Some(pitch),
-                            3 => Some(pitch * 25.4),
-                            _ => None,
-                        };
-                        mm.map(f64::abs).filter(|mm| *mm > 0.0)
-                    }
-                    _ => None,
-                };
-                if pitch.is_none() {
-                    let what = format!("{}: the pitch", call.id);
-                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                }
-                pitch.map_or(Feed::Unknown, Feed::PerRevolution)
-            }
-            // ENC 1: F gives the lead; else PIT does, and MPIT names a thread
-            Sort::FloatingTap if call.number(8).or_zero() != Some(1.0) => {
-                let lead = match (call.number(9).or_zero(), call.number(10)) {
-                    (Some(0.0), Given::Number(pitch)) if pitch != 0.0 => Some((pitch * unit).abs()),
-                    _ => None,
-                };
-                if lead.is_none() {
-                    let what = format!("{}: the pitch", call.id);
-                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                }
-                lead.map_or(Feed::Unknown, Feed::PerRevolution)
-            }
-            _ => self.feed_of(MotionKind::Linear, words, report),
-        }
-    }
-
-    /// A feed that the call itself gives.
-    fn own_feed(&self, given: Given) -> Feed {
-        let Given::Number(number) = given else {
-            return Feed::Unknown;
-        };
-        let feed = number * self.core.state.feed.unit_mm();
-        match self.core.state.feed.mode() {
-            _ if feed <= 0.0 => Feed::Unknown,
-            FeedMode::PerMinute => Feed::PerMinute(feed),
-            FeedMode::PerRevolution => Feed::PerRevolution(feed),
-            FeedMode::InverseTime => Feed::Unknown,
-        }
-    }
-
-    /// Cycles that switch the spindle on themselves.
-    fn call_spindle(&mut self, call: &HoleCall) {
-        match call.sort {
-            Sort::Tap => {
-                self.core.state.spindle.switch(true);
-                let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
-                self.core.state.spindle.set_rpm(speed);
-            }
-            Sort::Bore | Sort::BoreStop => {
-                let place = match (call.sort, call.id) {
-                    (Sort::BoreStop, "CYCLE87") => 5,
-                    _ => 6,
-                };
-                if let Some(code) = call.number(place).or_zero() {
-                    if code == 3.0 || code == 4.0 {
-                        self.core.state.spindle.switch(true);
-                    }
-                } else {
-                    self.core.state.spindle.lose();
-                }
-            }
-            _ => {}
         }
     }
 

@@ -49,10 +49,14 @@ impl Own {
         }
         let mut out = text.to_vec();
         let mut elements = Vec::new();
-        let mut at = from;
+        let (mut at, mut deep) = (from, 0u32);
         while at < text.len() {
             match text[at] {
                 b';' => break,
+                b']' => {
+                    deep = deep.saturating_sub(1);
+                    at += 1;
+                }
                 b'"' => {
                     let end = text[at + 1..].iter().position(|&byte| byte == b'"')?;
                     at += end + 2;
@@ -61,10 +65,12 @@ impl Own {
                     let end = at + text[at..].iter().take_while(|byte| is_name(**byte)).count();
                     let blanks = text[end..].iter().take_while(|byte| **byte == b' ').count();
                     let open = end + blanks;
-                    let Some(after) = (text.get(open) == Some(&b'[')).then(|| closed(text, open)).flatten() else {
+                    if text.get(open) != Some(&b'[') {
                         at = end;
                         continue;
-                    };
+                    }
+                    // each bracket is looked through once for every name around it
+                    let after = closed(text, open).filter(|_| deep < DEEPEST)?;
                     let name = String::from_utf8_lossy(&text[at..end]).to_ascii_lowercase();
                     let inside = String::from_utf8_lossy(&text[open + 1..after - 1]).into_owned();
                     if let Some(value) = self.indexed(&name, &inside) {
@@ -78,6 +84,7 @@ impl Own {
                         elements.push(Element { name: shown, value });
                         at = after;
                     } else {
+                        deep += 1;
                         at = open + 1;
                     }
                 }

@@ -13,7 +13,7 @@ use crate::own::arguments;
 use crate::reader::Reader;
 use crate::words::Words;
 use trunnion_geometry::{Mat3, Vec3};
-use trunnion_syntax::{Block, TextRange, Word};
+use trunnion_syntax::{TextRange, Word};
 
 /// Frames in one chain.
 const LONGEST: usize = 64;
@@ -91,100 +91,6 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 }
 
 impl Iso<'_> {
-    /// What the control knows, for a block that may ask for it.
-    pub(crate) fn note_system(&mut self, block: &Block<'_>) {
-        let range = block.range();
-        if block.program().bytes(range).contains(&b'$') {
-            let known = self.system_values();
-            let own = &mut self.memory.own;
-            if known != own.system {
-                own.changes += 1;
-                own.system = known;
-            }
-            let axes = crate::arc::plane_axes(self.core.state.coordinates.plane());
-            own.plane_letters = axes.map(|axis| crate::AXIS_LETTERS[axis].to_ascii_lowercase());
-        }
-    }
-
-    /// System variables with a value that follows from the program; all others are unknown by name.
-    fn system_values(&mut self) -> std::collections::BTreeMap<Box<str>, f64> {
-        let mut known: std::collections::BTreeMap<Box<str>, f64> = std::collections::BTreeMap::new();
-        let mut put = |name: String, value: Option<f64>| {
-            if let Some(value) = value {
-                known.insert(name.into(), value);
-            }
-        };
-        let position = self.core.state.position;
-        let here = self.memory.frames.programmed(&position);
-        let unit = self.core.state.coordinates.unit_mm();
-        let plain = !self.core.unknown.any() && !self.core.state.zero.is_lost() && self.memory.frames.tilt.is_none();
-        let cutting_on_path = self.core.state.compensation == 0 && !self.memory.corners.is_busy();
-        for (axis, letter) in crate::AXIS_LETTERS.iter().enumerate() {
-            let linear = crate::core::LINEAR & (1 << axis) != 0;
-            let scale = if linear { unit } else { 1.0 };
-            let letter = char::from(letter.to_ascii_lowercase());
-            let value = here.get(axis).filter(|_| plain).map(|value| value / scale);
-            put(format!("$p_ep[{letter}]"), value);
-            put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
-            let linear_frame = self.memory.frames.shape.linear.is_some();
-            let local = self.memory.frames.local[axis] / scale;
-            put(
-                format!("$p_pframe[{letter},tr]"),
-                Some(local).filter(|_| plain && !linear_frame),
-            );
-        }
-        for number in 1..=99u32 {
-            let Some(values) = self.offset_values(&offset_name(number)) else {
-                continue;
-            };
-            for axis in 0..9 {
-                let scale = if crate::core::LINEAR & (1 << axis) != 0 {
-                    unit
-                } else {
-                    1.0
-                };
-                let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
-                let value = values.values[axis] / scale;
-                let is_known = values.known & (1 << axis) != 0;
-                put(
-                    format!("$p_uifr[{number},{letter},tr]"),
-                    Some(value).filter(|_| is_known),
-                );
-            }
-        }
-        let feed = self
-            .core
-            .state
-            .feed
-            .value()
-            .map(|feed| feed / self.core.state.feed.unit_mm());
-        put("$p_f".to_owned(), feed);
-        let spindle = &self.core.state.spindle;
-        put(
-            "$p_s".to_owned(),
-            spindle
-                .rpm()
-                .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
-        );
-        put("$p_toolno".to_owned(), self.core.state.tool.number().map(f64::from));
-        put("$p_tool".to_owned(), self.memory.edge.map(f64::from));
-        let plane = match self.core.state.coordinates.plane() {
-            trunnion_dialect::Plane::Xy => 1.0,
-            trunnion_dialect::Plane::Zx => 2.0,
-            trunnion_dialect::Plane::Yz => 3.0,
-        };
-        put("$p_gg[6]".to_owned(), Some(plane));
-        put(
-            "$p_mc".to_owned(),
-            Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
-        );
-        for name in ["$p_sim", "$p_istest", "$p_search", "$p_dryrun"] {
-            // in a run that cuts the part
-            put(name.to_owned(), Some(0.0));
-        }
-        known
-    }
-
     /// Frames that a block writes; those that are not known make positions unknown from there on.
     pub(crate) fn write_frames(&mut self, words: &mut Words, report: &mut Report<'_>) {
         for (name, range) in std::mem::take(&mut self.memory.own.written_frames) {
@@ -417,7 +323,7 @@ fn whole(value: f64) -> Option<u32> {
 }
 
 /// The code of a settable frame: 1 to 4 are G54 to G57, 5 to 99 G505 to G599.
-fn offset_name(number: u32) -> String {
+pub(super) fn offset_name(number: u32) -> String {
     match number {
         1..=4 => format!("G{}", 53 + number),
         _ => format!("G{}", 500 + number),

@@ -24,7 +24,7 @@ pub(crate) enum Spline {
 
 impl Spline {
     /// The one that a code begins.
-    pub(crate) fn of(id: &str) -> Option<Self> {
+    fn of(id: &str) -> Option<Self> {
         match id {
             "ASPLINE" | "CSPLINE" => Some(Self::Through),
             "BSPLINE" => Some(Self::Poles),
@@ -82,10 +82,16 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 }
 
 impl Iso<'_> {
+    /// A code of the motion group that is not followed: a spline, or another.
+    pub(crate) fn spline_begins(&mut self, id: &str) {
+        self.memory.own.spline = Spline::of(id);
+    }
+
     /// The spline to which the motion of a block belongs.
     pub(crate) fn spline(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes) -> Option<Spline> {
         let spline = self
             .memory
+            .own
             .spline
             .filter(|_| self.core.state.motion == Some(Action::NotModelled))?;
         let other = |found: &Found<'_>| {
@@ -98,7 +104,7 @@ impl Iso<'_> {
 
     /// Before a block: a B-spline that ended there is at its last pole.
     pub(crate) fn at_last_pole(&mut self) {
-        if let Some(pole) = self.memory.pole {
+        if let Some(pole) = self.memory.own.pole {
             self.core.state.position = pole;
         }
     }
@@ -111,7 +117,7 @@ impl Iso<'_> {
         block: &BlockCodes,
         report: &mut Report<'_>,
     ) -> Motion {
-        let goes_on = self.memory.pole.take().is_some();
+        let goes_on = self.memory.own.pole.take().is_some();
         self.core.state.motion = Some(Action::Linear);
         let mut motion = self.modelled_motion(words, block, report);
         self.core.state.motion = Some(Action::NotModelled);
@@ -121,7 +127,7 @@ impl Iso<'_> {
             if goes_on {
                 motion.start.known &= !LINEAR;
             }
-            self.memory.pole = Some(self.core.state.position);
+            self.memory.own.pole = Some(self.core.state.position);
             motion.end.known &= !LINEAR;
             self.core.state.position.known &= !LINEAR;
         }

@@ -42,6 +42,7 @@ mod sinumerik_calls;
 mod sinumerik_examples;
 mod sinumerik_flow;
 mod sinumerik_paths;
+mod sinumerik_traces;
 mod sinumerik_values;
 mod steady;
 mod support;

@@ -125,8 +125,6 @@ pub(crate) struct Own {
     pub(crate) written_frames: Vec<(TextRange, TextRange)>,
     /// The letters of the axes of the plane in effect, in its order.
     pub(crate) plane_letters: [u8; 3],
-    /// How deep indices inside indices are being evaluated.
-    nesting: std::cell::Cell<u32>,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
 }
@@ -281,7 +279,11 @@ impl Own {
     }
     /// The value of an expression; `None`: it is not known, or not of this language.
     pub(crate) fn value(&self, text: &str) -> Option<f64> {
-        let (value, _, end) = self.evaluate(text.as_bytes(), 0).ok()?;
+        self.value_in(text, 0)
+    }
+    /// The same for an index, `deep` brackets inside others.
+    fn value_in(&self, text: &str, deep: u32) -> Option<f64> {
+        let (value, _, end) = self.evaluate_in(text.as_bytes(), 0, deep).ok()?;
         let whole = text.get(end..).is_some_and(|rest| rest.trim().is_empty());
         value.filter(|value| whole && value.is_finite())
     }
@@ -291,8 +293,16 @@ impl Own {
         text: &[u8],
         from: usize,
     ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
+        self.evaluate_in(text, from, 0)
+    }
+    fn evaluate_in(
+        &self,
+        text: &[u8],
+        from: usize,
+        deep: u32,
+    ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
         let range = TextRange::new(from as u32, text.len() as u32);
-        let prepared = self.prepared(text, from);
+        let prepared = self.prepared(text, from, deep);
         let text = prepared.as_ref().map_or(text, |(text, _)| text);
         let read = if self.is_task {
             trunnion_formula::osp

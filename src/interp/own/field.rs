@@ -58,7 +58,7 @@ impl Own {
         let place = index
             .trim_end()
             .strip_suffix(']')
-            .and_then(|index| self.place_in(stem, &arguments(index)));
+            .and_then(|index| self.place_in(stem, &arguments(index), 0));
         let Some(field) = self.scope.fields.get_mut(stem) else {
             return;
         };
@@ -87,7 +87,7 @@ impl Own {
         // `0` at the definition: from its first element on
         let from = match index {
             "0" => Some(0),
-            index => self.place_in(stem, &arguments(index)),
+            index => self.place_in(stem, &arguments(index), 0),
         };
         let parts = list(text).map(|(repeats, inside)| (repeats, arguments(inside)));
         let filled = match (&parts, from) {
@@ -141,7 +141,7 @@ impl Own {
     }
 
     /// Where an element is in the order of a field, row by row.
-    pub(super) fn place_in(&self, stem: &str, indices: &[&str]) -> Option<i64> {
+    pub(super) fn place_in(&self, stem: &str, indices: &[&str], nested: u32) -> Option<i64> {
         let sizes = &self.scope.fields.get(stem)?.sizes;
         if sizes.len() != indices.len() {
             return None;
@@ -172,7 +172,7 @@ impl Own {
     /// The same by `name[index]` in lower case, also in the block that writes it.
     pub(super) fn held_element(&self, name: &str) -> Option<f64> {
         let (stem, index) = name.split_once('[')?;
-        let place = self.place_in(stem, &arguments(index.strip_suffix(']')?))?;
+        let place = self.place_in(stem, &arguments(index.strip_suffix(']')?), 0)?;
         *self
             .scope
             .fields

@@ -43,8 +43,8 @@ fn closed(text: &[u8], open: usize) -> Option<usize> {
 
 impl Own {
     /// The text with all such names replaced, and their values; `None`: there are none.
-    pub(super) fn prepared(&self, text: &[u8], from: usize) -> Option<(Vec<u8>, Vec<Element>)> {
-        if self.is_task || !text[from.min(text.len())..].contains(&b'[') || self.nesting.get() >= DEEPEST {
+    pub(super) fn prepared(&self, text: &[u8], from: usize, nested: u32) -> Option<(Vec<u8>, Vec<Element>)> {
+        if self.is_task || !text[from.min(text.len())..].contains(&b'[') || nested >= DEEPEST {
             return None;
         }
         let mut out = text.to_vec();
@@ -73,7 +73,7 @@ impl Own {
                     let after = closed(text, open).filter(|_| deep < DEEPEST)?;
                     let name = String::from_utf8_lossy(&text[at..end]).to_ascii_lowercase();
                     let inside = String::from_utf8_lossy(&text[open + 1..after - 1]).into_owned();
-                    if let Some(value) = self.indexed(&name, &inside) {
+                    if let Some(value) = self.indexed(&name, &inside, nested + 1) {
                         let mark = format!("__e{}", elements.len());
                         if mark.len() > after - at {
                             return None;
@@ -95,27 +95,25 @@ impl Own {
     }
 
     /// The value of a name with indices that is evaluated here; `None`: the formula reads it itself.
-    fn indexed(&self, name: &str, inside: &str) -> Option<Option<f64>> {
+    fn indexed(&self, name: &str, inside: &str, nested: u32) -> Option<Option<f64>> {
         let parts = arguments(inside);
         if name.starts_with('$') {
-            return Some(self.of_control(name, &parts));
+            return Some(self.of_control(name, &parts, nested));
         }
         if parts.len() < 2 || !self.scope.sorts.contains_key(name) {
             return None;
         }
-        self.nesting.set(self.nesting.get() + 1);
-        let place = self.place_in(name, &parts);
-        self.nesting.set(self.nesting.get() - 1);
+        let place = self.place_in(name, &parts, nested);
         Some(place.and_then(|place| self.element(name, place)))
     }
 
     /// What the control knows under a name with indices: axes and words as they are, numbers evaluated.
-    fn of_control(&self, name: &str, parts: &[&str]) -> Option<f64> {
-        self.system.get(self.key_of_control(name, parts)?.as_str()).copied()
+    fn of_control(&self, name: &str, parts: &[&str], nested: u32) -> Option<f64> {
+        self.system.get(self.key_of_control(name, parts, nested)?.as_str()).copied()
     }
 
     /// `$P_UIFR[R1, x, tr]` as `$p_uifr[2,x,tr]`.
-    pub(crate) fn key_of_control(&self, name: &str, parts: &[&str]) -> Option<String> {
+    fn key_of_control(&self, name: &str, parts: &[&str], nested: u32) -> Option<String> {
         let mut words = Vec::new();
         for part in parts {
             let lower = part.to_ascii_lowercase();
@@ -130,9 +128,7 @@ impl Own {
                 words.push(char::from(*self.plane_letters.get(place.checked_sub(1)?)?).to_string());
                 continue;
             }
-            self.nesting.set(self.nesting.get() + 1);
-            let value = self.value(part);
-            self.nesting.set(self.nesting.get() - 1);
+            let value = self.value_in(part, nested);
             let value = value.filter(|value| value.fract() == 0.0 && value.abs() < 1e6)?;
             words.push(format!("{value:.0}"));
         }

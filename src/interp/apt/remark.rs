@@ -31,28 +31,17 @@ impl Apt<'_> {
                 continue;
             };
             let why = self.frame_remark(inside);
-            self.say_remark(why, comment.range, block, sink);
+            say_remark(why, comment.range, block, sink);
         }
         if self.kept.remark.is_some() && block.record().is_some() {
             self.kept.remark = None;
             self.machining_axis(None);
-            self.say_remark(
+            say_remark(
                 Some("$$*CATIA0 without its three rows of four numbers"),
                 block.range(),
                 block,
                 sink,
             );
-        }
-    }
-
-    fn say_remark(&mut self, why: Option<&str>, range: TextRange, block: &Block<'_>, sink: &mut impl Sink) {
-        if let Some(why) = why {
-            let what = why.to_owned();
-            sink.fault(Fault {
-                block: block.id(),
-                range,
-                kind: FaultKind::NotModelled { what },
-            });
         }
     }
 
@@ -87,5 +76,17 @@ impl Apt<'_> {
             return (!known).then_some("$$*CATIA0: its rows are no right-handed system");
         }
         None
+    }
+}
+
+/// Reports what of a remark is not known.
+fn say_remark(why: Option<&str>, range: TextRange, block: &Block<'_>, sink: &mut impl Sink) {
+    if let Some(why) = why {
+        let what = why.to_owned();
+        sink.fault(Fault {
+            block: block.id(),
+            range,
+            kind: FaultKind::NotModelled { what },
+        });
     }
 }

@@ -103,22 +103,21 @@ impl Own {
         match filled {
             Some((false, values, from)) if from + values.len() <= count => {
                 for (element, value) in field.elements[from..].iter_mut().zip(values) {
-                    if let Some(value) = value {
+                    if let (true, value) = value {
                         *element = takes(value);
                     }
                 }
             }
             Some((true, values, from)) if values.len() == 1 && from < count => {
-                let value = values[0].and_then(takes);
+                let value = takes(values[0].1);
                 field.elements[from..].fill(value);
             }
             // `REP(v,n)`: n elements
             Some((true, values, from)) if values.len() == 2 => {
-                let times = values[1]
-                    .flatten()
+                let times = values[1].1
                     .filter(|times| times.fract() == 0.0 && *times >= 0.0);
                 let times = times.map(|times| times as usize).filter(|times| from + times <= count);
-                let value = values[0].and_then(takes);
+                let value = takes(values[0].1);
                 match times {
                     Some(times) => field.elements[from..from + times].fill(value),
                     None => field.elements.fill(None),
@@ -128,10 +127,10 @@ impl Own {
         }
     }
 
-    /// The values of a list; `None` where nothing is between its commas. The number of repetitions is the second of REP.
-    fn listed(&self, repeats: bool, parts: &[&str]) -> Vec<Option<Option<f64>>> {
+    /// The values of a list, and whether anything is between its commas. The number of repetitions is the second of REP.
+    fn listed(&self, repeats: bool, parts: &[&str]) -> Vec<(bool, Option<f64>)> {
         let most = if repeats { 2 } else { MOST };
-        let value = |part: &&str| (!part.is_empty()).then(|| self.value(part));
+        let value = |part: &&str| (!part.is_empty(), self.value(part));
         parts.iter().take(most + 1).map(value).collect()
     }
 
@@ -149,7 +148,7 @@ impl Own {
         let mut place = 0usize;
         for (size, index) in sizes.iter().zip(indices) {
             let index = self
-                .value(index)
+                .value_in(index, nested)
                 .filter(|index| index.fract() == 0.0 && *index >= 0.0)?;
             let index = (index < *size as f64).then_some(index as usize)?;
             place = place * size + index;

@@ -12,6 +12,9 @@ pub(super) struct Element {
     pub(super) value: Option<f64>,
 }
 
+/// What the name with its indices is worth, if that is known.
+struct Evaluated(Option<f64>);
+
 /// The element that a name in a prepared text means.
 pub(super) fn element<'e>(elements: &'e [Element], name: &str) -> Option<&'e Element> {
     let place: usize = name.strip_prefix("__e")?.trim_end_matches('_').parse().ok()?;
@@ -73,7 +76,7 @@ impl Own {
                     let after = closed(text, open).filter(|_| deep < DEEPEST)?;
                     let name = String::from_utf8_lossy(&text[at..end]).to_ascii_lowercase();
                     let inside = String::from_utf8_lossy(&text[open + 1..after - 1]).into_owned();
-                    if let Some(value) = self.indexed(&name, &inside, nested + 1) {
+                    if let Some(Evaluated(value)) = self.indexed(&name, &inside, nested + 1) {
                         let mark = format!("__e{}", elements.len());
                         if mark.len() > after - at {
                             return None;
@@ -95,21 +98,23 @@ impl Own {
     }
 
     /// The value of a name with indices that is evaluated here; `None`: the formula reads it itself.
-    fn indexed(&self, name: &str, inside: &str, nested: u32) -> Option<Option<f64>> {
+    fn indexed(&self, name: &str, inside: &str, nested: u32) -> Option<Evaluated> {
         let parts = arguments(inside);
         if name.starts_with('$') {
-            return Some(self.of_control(name, &parts, nested));
+            return Some(Evaluated(self.of_control(name, &parts, nested)));
         }
         if parts.len() < 2 || !self.scope.sorts.contains_key(name) {
             return None;
         }
         let place = self.place_in(name, &parts, nested);
-        Some(place.and_then(|place| self.element(name, place)))
+        Some(Evaluated(place.and_then(|place| self.element(name, place))))
     }
 
     /// What the control knows under a name with indices: axes and words as they are, numbers evaluated.
     fn of_control(&self, name: &str, parts: &[&str], nested: u32) -> Option<f64> {
-        self.system.get(self.key_of_control(name, parts, nested)?.as_str()).copied()
+        self.system
+            .get(self.key_of_control(name, parts, nested)?.as_str())
+            .copied()
     }
 
     /// `$P_UIFR[R1, x, tr]` as `$p_uifr[2,x,tr]`.

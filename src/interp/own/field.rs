@@ -114,8 +114,7 @@ impl Own {
             }
             // `REP(v,n)`: n elements
             Some((true, values, from)) if values.len() == 2 => {
-                let times = values[1].1
-                    .filter(|times| times.fract() == 0.0 && *times >= 0.0);
+                let times = values[1].1.filter(|times| times.fract() == 0.0 && *times >= 0.0);
                 let times = times.map(|times| times as usize).filter(|times| from + times <= count);
                 let value = takes(values[0].1);
                 match times {

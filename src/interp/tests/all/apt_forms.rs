@@ -222,7 +222,7 @@ fn cl_data_have_the_targets_of_the_programs_posted_from_them() {
             let motions = run_text("apt", &milling(&text, system)).motions;
             let posted = shared(&format!("{folder}/{setup}.h")).expect("posted beside its records");
             let posted = String::from_utf8_lossy(&posted).into_owned();
-            let [rot, tilt] = turned(&posted).map(f64::to_radians);
+            let [rot, tilt] = turned(&posted).map(|degrees| trunnion_geometry::math::sin_cos(degrees.to_radians()));
             let posted: Vec<&str> = posted
                 .lines()
                 .filter(|line| !line.contains("CYCL") && !line.contains("M99"))
@@ -231,14 +231,14 @@ fn cl_data_have_the_targets_of_the_programs_posted_from_them() {
             let own: Vec<[f64; 3]> = places(&motions)
                 .into_iter()
                 .map(|[x, y, z]| {
-                    let (x, y) = (rot.cos() * x - rot.sin() * y, rot.sin() * x + rot.cos() * y);
-                    [tilt.cos() * x - tilt.sin() * z, y, tilt.sin() * x + tilt.cos() * z]
+                    let (x, y) = (rot.1 * x - rot.0 * y, rot.0 * x + rot.1 * y);
+                    [tilt.1 * x - tilt.0 * z, y, tilt.0 * x + tilt.1 * z]
                 })
                 .collect();
             let theirs = places(&klartext);
             if own.len() != theirs.len() {
                 // a hole that the post writes in another way
-                println!(
+                eprintln!(
                     "{part} {setup}: {} and {} places, not compared",
                     own.len(),
                     theirs.len()
@@ -257,6 +257,6 @@ fn cl_data_have_the_targets_of_the_programs_posted_from_them() {
             compared += own.len();
         }
     }
-    println!("{compared} places of posted programs");
+    eprintln!("{compared} places of posted programs");
     assert!(compared > 9_000, "{compared}");
 }

@@ -109,7 +109,7 @@ fn the_holes_are_those_of_the_other_control() {
         }
         *kinds.entry(format!("{} / {}", hole.kind(), other.kind())).or_default() += 1;
     }
-    println!("{} and {} holes: {kinds:#?}", siemens.len(), klartext.len());
+    eprintln!("{} and {} holes: {kinds:#?}", siemens.len(), klartext.len());
 }
 
 /// Each plane of a 3+2 program of the Siemens, written once more in Klartext: CYCLE800 mode 27 turns about Z, the new Y, the new X, as PLANE
@@ -188,6 +188,6 @@ fn each_plane_of_the_shared_programs_has_the_same_matrix() {
             planes += 1;
         }
     }
-    println!("{planes} planes");
+    eprintln!("{planes} planes");
     assert!(planes >= 5, "{planes}");
 }

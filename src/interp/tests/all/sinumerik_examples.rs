@@ -116,10 +116,10 @@ fn swivelled_planes() {
         let own = format!("G17 G90 G71 F100\nG0 X0 Y0 Z0\nCYCLE800(0,\"T\",0,{cycle},0,0,0,-1)\n");
         let fanuc = format!("G17 G90 G21 G54 F100.\nG0 X0. Y0. Z0.\nG68.2 X0. Y0. Z0. {euler}\n");
         let ends = |dialect: &str, start: &str| -> Vec<[f64; 3]> {
-            let moves: String = points
-                .iter()
-                .map(|[x, y, z]| format!("G1 X{x:.1} Y{y:.1} Z{z:.1}\n"))
-                .collect();
+            let mut moves = String::new();
+            for [x, y, z] in points {
+                moves += &format!("G1 X{x:.1} Y{y:.1} Z{z:.1}\n");
+            }
             let motions = run_text(dialect, &format!("{start}{moves}")).motions;
             motions
                 .iter()

@@ -67,7 +67,7 @@ fn programs_with_traces_of_another_interpreter() {
             && own.iter().zip(&theirs).all(|(a, b)| {
                 a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() <= 6e-4)
             });
-        println!("{name}: {} and {} places", own.len(), theirs.len());
+        eprintln!("{name}: {} and {} places", own.len(), theirs.len());
         assert!(
             same,
             "{name}: {own:?}\n{theirs:?}\n{:?}",
@@ -75,6 +75,6 @@ fn programs_with_traces_of_another_interpreter() {
         );
         compared += own.len();
     }
-    println!("{compared} places");
+    eprintln!("{compared} places");
     assert!(compared > 270, "{compared}");
 }

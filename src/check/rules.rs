@@ -32,6 +32,7 @@ mod fast_pole;
 mod feed_drop;
 mod feed_mode;
 mod feed_oscillation;
+mod ignored_record;
 mod machine_not_used;
 mod machine_unset;
 mod missing_axis;
@@ -133,6 +134,7 @@ static RULES: &[&Rule] = table![
     feed_drop,
     feed_mode,
     feed_oscillation,
+    ignored_record,
     machine_not_used,
     machine_unset,
     missing_axis,

@@ -32,6 +32,10 @@ pub const UNSUPPORTED: &[Unsupported] = &[
         title: "wire EDM (Accutex, Agie, Charmilles, Fanuc, Sodick and the like)",
     },
     Unsupported {
+        name: "apt-source",
+        title: "APT source: a part program before the APT processor, whose CL data can be checked",
+    },
+    Unsupported {
         name: "marlin",
         title: "Marlin and other 3D printers",
     },

@@ -2,9 +2,13 @@
 mod args;
 pub(crate) mod cycle;
 mod drill;
+mod drive;
 mod frame;
+mod ignored;
+mod remark;
 
 pub(crate) use args::{Args, is};
+pub use ignored::{IgnoredRecords, ignored_records};
 
 use crate::Sink;
 use crate::core::{Core, Report};
@@ -31,6 +35,10 @@ pub(crate) struct AptState {
     pub(crate) hole: Option<cycle::Hole>,
     /// What is not known of this cycle was reported.
     pub(crate) cycle_said: bool,
+    /// INDIRV: the direction in which the next TLON begins.
+    pub(crate) direction: Option<Vec3>,
+    /// A frame in `$$` remarks of which the last lines are still to come.
+    pub(crate) remark: Option<remark::Started>,
 }
 
 /// An arc that waits for its end.
@@ -122,6 +130,7 @@ impl<'d> Apt<'d> {
 impl Apt<'_> {
     /// Runs one APT record.
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
+        self.frame_remarks(block, sink);
         let Some(record) = block.record() else { return };
         self.core.last_content = Some(block.id());
         let mut has_other_effects = false;
@@ -159,6 +168,11 @@ impl Apt<'_> {
             b"FROM" => self.from(&args, report),
             b"RAPID" => self.rapid(report),
             b"CIRCLE" => self.circle(&args, report),
+            b"INDIRV" if matches!(args.numbers(), [_, _, _]) && !args.odd => {
+                let &[i, j, k] = args.numbers() else { return None };
+                self.kept.direction = Some(self.kept.frame.vector(Vec3::new(i, j, k)));
+            }
+            b"TLON" => return self.drive_circle(record, report),
             b"DELAY" => return Some(self.delay(&args, report)),
             b"FEDRAT" => self.fedrat(&args, report),
             b"UNITS" | b"UNIT" => self.units(&args, report),
@@ -166,6 +180,7 @@ impl Apt<'_> {
             b"TLAXIS" => self.tool_axis(&args, report),
             b"SPINDL" => self.spindl(&args, report),
             b"CUTTER" => self.cutter(&args, report),
+            b"TLDATA" => self.tool_data(&args, program),
             b"LOADTL" => self.load_tool(&args, report),
             b"LOAD" | b"TOOLNO" if args.has(program, "TOOL") || record.is("TOOLNO") => self.load_tool(&args, report),
             b"CUTCOM" => self.cutcom(&args, report),
@@ -213,7 +228,7 @@ impl Apt<'_> {
         self.core
             .state
             .zero
-            .lose(self.core.unknown.any() || self.kept.frame.unread);
+            .lose(self.core.unknown.any() || self.kept.frame.is_lost());
     }
 
     /// An unknown record may move the tool or the coordinates: neither is known until the end of the program.

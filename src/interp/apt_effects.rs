@@ -118,7 +118,7 @@ impl Apt<'_> {
             ) || motion.end.xyz().is_none()
         });
         let modelled = [
-            "GODLTA", "CIRCLE", "DELAY", "UNITS", "UNIT", "TLAXIS", "CUTCOM", "CYCLE", "CSYS", "LOAD",
+            "GODLTA", "CIRCLE", "DELAY", "UNITS", "UNIT", "TLAXIS", "CUTCOM", "CYCLE", "CSYS", "LOAD", "INDIRV", "TLON",
         ];
         let known = held.iter().chain(&modelled).chain(&NEUTRAL).any(|name| record.is(name));
         let cutcom = record.is("CUTCOM") || record.is("CYCLE");

@@ -41,7 +41,7 @@ impl Apt<'_> {
                     .vector(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit),
             ),
             (1, Orientation::Vector(_, axis)) => Some(axis * (numbers[0] * unit)),
-            (1, Orientation::Words) => Some(self.kept.frame.vector(Vec3::new(0.0, 0.0, numbers[0] * unit))),
+            (1, Orientation::Words) => Some(self.kept.frame.tool() * (numbers[0] * unit)),
             _ => None,
         };
         match (delta, self.core.state.position.xyz()) {
@@ -76,7 +76,7 @@ impl Apt<'_> {
             && !self.kept.axis_lost
         {
             // as for GOTO: straight along Z while MULTAX is off
-            self.core.state.orientation = Orientation::Vector(None, self.kept.frame.vector(Vec3::z()));
+            self.core.state.orientation = Orientation::Vector(None, self.kept.frame.tool());
         }
     }
 
@@ -98,11 +98,12 @@ impl Apt<'_> {
         }
     }
 
-    /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends.
+    /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends. NX writes eleven numbers: two
+    /// tolerances, the diameter of the tool and its corner radius follow, which do not change the arc.
     pub(crate) fn circle(&mut self, args: &Args, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let numbers = args.numbers();
-        let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 6 | 7);
+        let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 6 | 7 | 11);
         let axis = if readable {
             Vec3::new(numbers[3], numbers[4], numbers[5])
         } else {
@@ -185,12 +186,18 @@ impl Apt<'_> {
             (Some(orientation), _) => orientation,
             (None, Orientation::Vector(_, vector)) => Orientation::Vector(Some(vector), vector),
             (None, Orientation::Words) if self.kept.axis_lost => Orientation::Words,
-            (None, Orientation::Words) => Orientation::Vector(None, self.kept.frame.vector(Vec3::z())),
+            (None, Orientation::Words) => Orientation::Vector(None, self.kept.frame.tool()),
         }
     }
 
     /// The motion to a point.
-    fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Option<Motion> {
+    pub(crate) fn go(
+        &mut self,
+        target: Vec3,
+        vector: Option<Vec3>,
+        range: TextRange,
+        report: &mut Report<'_>,
+    ) -> Option<Motion> {
         let rapid = std::mem::take(&mut self.kept.rapid);
         let circle = self.kept.circle.take();
         let start = self.core.state.position;

@@ -1,10 +1,10 @@
-//! APT tools: CUTTER and LOADTL.
+//! APT tools: CUTTER, TLDATA and LOADTL.
 use crate::apt::Apt;
 use crate::apt::Args;
 use crate::core::Report;
 use crate::tools::Chosen;
 use crate::{FaultKind, LengthOf, Tool, ToolShape};
-use trunnion_syntax::TextRange;
+use trunnion_syntax::{Program, TextRange};
 
 /// Two lengths of a tool that are written with this difference are the same, mm.
 const SAME: f64 = 1e-4;
@@ -53,6 +53,24 @@ impl Apt<'_> {
             }
         };
         self.core.tools.shape_by_cutter(cutter);
+        self.core.merge_tool();
+    }
+
+    /// TLDATA/MILL,d,r,l,taper,tip of NX: the shape of the tool that is loaded next. Of other kinds the shape is not known.
+    pub(crate) fn tool_data(&mut self, args: &Args, program: &Program) {
+        let unit = self.core.state.coordinates.unit_mm();
+        let is_mill = matches!(args.words(), [kind] if crate::apt::is(program, *kind, "MILL"));
+        let tool = match args.numbers() {
+            &[diameter, corner, _, taper, tip, ..] if is_mill && !args.odd && diameter > 0.0 => Some(Tool {
+                number: 0,
+                shape: shape(&[diameter, corner], diameter * unit, unit).filter(|_| taper == 0.0 && tip == 0.0),
+                diameter_mm: Some(diameter * unit),
+                length_mm: None,
+                holder_mm: None,
+            }),
+            _ => None,
+        };
+        self.core.tools.shape_by_cutter(tool);
         self.core.merge_tool();
     }
 

@@ -206,6 +206,7 @@ impl<'d> Iso<'d> {
                 // MCALL followed by a cycle begins, MCALL alone ends
                 let alone = block.count == 1 && !words.forgets_all;
                 let ends = found.code.kind == CodeKind::Name && !found.with_arguments && alone;
+                self.memory.own.modal = None;
                 if ends {
                     self.cycle_off(found.code);
                 } else if block.hole_call.is_some() {

@@ -1,5 +1,6 @@
 //! Canned cycles, expanded into the motions that a control makes of them.
 mod called;
+mod called_feed;
 mod contour;
 mod data;
 mod deep;

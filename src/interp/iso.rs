@@ -1,6 +1,7 @@
 //! ISO blocks to motions.
 
 mod engine;
+mod whole;
 
 pub(crate) use engine::Iso;
 
@@ -9,8 +10,8 @@ use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::words::Words;
 use crate::{FaultKind, Motion};
-use trunnion_dialect::{Action, Role};
-use trunnion_syntax::{Address, Block, BlockId, Item, Value};
+use trunnion_dialect::Action;
+use trunnion_syntax::{Block, BlockId, Item};
 
 /// Whether a block begins with `/`.
 fn is_deleted(block: &Block<'_>) -> bool {
@@ -206,6 +207,9 @@ impl<'d> Iso<'d> {
             }
             return None;
         }
+        if self.memory.own.pole.is_some() {
+            self.at_last_pole();
+        }
         let block = self.apply(codes, words, report);
         let replaced;
         let words = if self.memory.own.path.any() {
@@ -297,7 +301,17 @@ impl<'d> Iso<'d> {
         if block.takes_coordinates || !(words.axes.any() || by_vector || circle) {
             return None;
         }
-        let unmodelled = block.not_modelled || words.unknown_code || words.forgets_all;
+        let unmodelled = block.not_modelled || words.unknown_code || words.forgets_all || words.polynomial;
+        if modal == Some(Action::NotModelled)
+            && let Some(spline) = self.spline(codes, words, block)
+        {
+            return Some(self.spline_motion(spline, words, block, report));
+        }
+        self.memory.own.pole = None;
+        if words.polynomial {
+            let what = "PO: a polynomial where POLY is not in effect".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
         match modal {
             Some(
                 Action::Rapid
@@ -354,41 +368,5 @@ impl<'d> Iso<'d> {
             self.pocket(words, report);
         }
         None
-    }
-
-    /// Reports the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
-    fn whole_numbers(&mut self, words: &Words, report: &mut Report<'_>) {
-        if self.core.setup.control.implicit_decimals.is_some() {
-            return;
-        }
-        let cycle = self.core.state.motion.is_some_and(Action::is_hole_cycle);
-        let radius = words.radius.number().is_some_and(|r| !r.has_point);
-        if !cycle && !radius && words.axes.all_pointed() && words.centre.all_pointed() {
-            return;
-        }
-        let size = |word: &trunnion_syntax::Word| {
-            let Address::Letter(letter) = word.address else {
-                return false;
-            };
-            let role = self.core.dialect.role(letter);
-            let Value::Number(number) = word.value else {
-                return false;
-            };
-            let sized = match role {
-                Some(Role::Axis | Role::Increment | Role::ArcRadius) => true,
-                // under G43.5 I J K are a direction; K of a cycle counts
-                Some(Role::ArcCentre) => !self.core.state.tool_axis.vectors() && (!cycle || letter != b'K'),
-                Some(Role::Parameter) => cycle && letter == b'Q',
-                _ => false,
-            };
-            sized && !number.has_point && number.mantissa != 0
-        };
-        let found = report.program.block(report.block).words().find(size);
-        if let Some(word) = found {
-            report.fault(word.range, FaultKind::AmbiguousDecimal);
-            // before the motions whose size it decides
-            let block = self.core.main_block(report.block);
-            self.core.effects.ambiguous_number(block);
-        }
     }
 }

@@ -26,6 +26,7 @@ mod iso;
 mod klartext;
 mod macro_b;
 mod memory;
+mod named_words;
 mod offsets;
 mod orientation;
 mod osp;
@@ -50,6 +51,7 @@ mod values;
 mod words;
 mod written;
 
+pub use apt::{IgnoredRecords, ignored_records};
 pub use deleted::{deleted_levels, slash};
 pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
 pub use effects::Situation;

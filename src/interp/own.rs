@@ -5,6 +5,8 @@
 //! [`trunnion_formula::sinumerik`].
 mod field;
 mod named;
+mod prepared;
+mod view;
 mod words;
 
 use crate::Argument;
@@ -12,8 +14,9 @@ use crate::flow::Transfer;
 use field::{Field, rounded};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use trunnion_formula::{FormulaErrorKind, ValueError};
+use trunnion_formula::FormulaErrorKind;
 use trunnion_syntax::{Call, TextRange};
+use view::View;
 
 /// The type of a variable in DEF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +62,8 @@ pub(crate) struct Scope {
     pub(crate) sorts: BTreeMap<Box<str>, Sort>,
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
+    /// Variables of the type FRAME; `None`: what they hold is not known.
+    pub(crate) frames: BTreeMap<Box<str>, Option<crate::sinumerik::FrameValue>>,
 }
 
 /// See the module.
@@ -102,73 +107,33 @@ pub(crate) struct Own {
     pub(crate) path: crate::sinumerik::PathWords,
     /// What path words of blocks before leave behind.
     pub(crate) contour: crate::sinumerik::Contour,
+    /// The kind of spline, where the motion in effect is one.
+    pub(crate) spline: Option<crate::sinumerik::Spline>,
+    /// The last pole of a B-spline, where it ends if it does not go on.
+    pub(crate) pole: Option<crate::Position>,
+    /// The subprogram of MCALL, and how many calls were open there.
+    pub(crate) modal: Option<(crate::flow::Calling, usize)>,
+    /// How many calls are open.
+    pub(crate) levels: usize,
+    /// The subprogram of MCALL runs.
+    pub(crate) in_modal: bool,
+    /// The block has only F or S, after which MCALL acts too.
+    pub(crate) acts_again: bool,
+    /// What the control knows, for blocks that ask for it: `$p_f`, `$p_ep[x]`.
+    pub(crate) system: BTreeMap<Box<str>, f64>,
+    /// Frames that the current block writes: the name, and the text of the value.
+    pub(crate) written_frames: Vec<(TextRange, TextRange)>,
+    /// The letters of the axes of the plane in effect, in its order.
+    pub(crate) plane_letters: [u8; 3],
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
-}
-
-/// The source of variables for formulas, and the first name whose value was not known.
-struct View<'a> {
-    own: &'a Own,
-    unknown: RefCell<Option<String>>,
-}
-
-impl View<'_> {
-    fn give(&self, value: Option<f64>, why: impl FnOnce() -> String) -> f64 {
-        value.unwrap_or_else(|| {
-            let mut unknown = self.unknown.borrow_mut();
-            unknown.get_or_insert_with(why);
-            f64::NAN
-        })
-    }
-}
-
-impl trunnion_formula::Variables for View<'_> {
-    fn numbered(&self, index: i64) -> Result<f64, ValueError> {
-        if index < 0 {
-            return Err(ValueError::OutOfRange);
-        }
-        let name = format!("r{index}");
-        let fresh = self.own.is_fresh(&name);
-        let value = self.own.parameters.get(&index).copied().filter(|_| !fresh);
-        let reason = if fresh {
-            "written in the same block"
-        } else {
-            "its value is unknown here"
-        };
-        Ok(self.give(value, || format!("R{index}: {reason}")))
-    }
-    fn named(&self, name: &str) -> Result<f64, ValueError> {
-        let shown = || name.trim_end_matches(['[', '(']).to_ascii_uppercase();
-        let value = self.own.read(name);
-        Ok(self.give(value, || match name.as_bytes() {
-            _ if self.own.is_task && !self.own.is_fresh(name) => crate::osp::why_unknown(name),
-            [b'$', ..] => format!("{}: a variable of the control", shown()),
-            [.., b'['] => format!("{}[]: array elements are not followed", shown()),
-            [.., b'('] => format!("{}(): the function is not modelled", shown()),
-            [b'"'] => "strings are not followed".to_owned(),
-            _ if self.own.is_fresh(name) => format!("{}: written in the same block", shown()),
-            _ if self.own.is_declared(name) => format!("{}: its value is unknown here", shown()),
-            _ => format!("{}: not declared in this program", shown()),
-        }))
-    }
-    fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
-        let value = self.own.element(name, index);
-        Ok(self.give(value, || {
-            if self.own.is_task {
-                return crate::osp::why_unknown(name);
-            }
-            format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
-        }))
-    }
-    fn exists(&self, name: &str) -> bool {
-        self.own.read(name).is_some()
-    }
 }
 
 impl Own {
     /// A block begins.
     pub(crate) fn begin_block(&mut self) {
         self.fresh.clear();
+        self.written_frames.clear();
         if self.path.any() {
             self.path = crate::sinumerik::PathWords::default();
         }
@@ -183,6 +148,7 @@ impl Own {
         self.parameters.clear();
         self.others.clear();
         self.scope.values.clear();
+        self.scope.frames.values_mut().for_each(|frame| *frame = None);
         self.lose_fields();
     }
     fn known(&self) -> BTreeMap<Box<str>, f64> {
@@ -287,6 +253,11 @@ impl Own {
                 None => (one, Some(0.0)),
                 Some((name, value)) => (name, self.value(value)),
             };
+            if kind.eq_ignore_ascii_case("FRAME") && !name.contains('[') {
+                let name = name.trim().to_ascii_lowercase();
+                let is_plain = value.is_some() && !one.contains('=');
+                self.scope.frames.insert(name.into(), is_plain.then(Default::default));
+            }
             let is_field = one.split('=').next().is_some_and(|name| name.contains('['));
             let known = if is_field {
                 self.define_field(sort, one)
@@ -308,7 +279,11 @@ impl Own {
     }
     /// The value of an expression; `None`: it is not known, or not of this language.
     pub(crate) fn value(&self, text: &str) -> Option<f64> {
-        let (value, _, end) = self.evaluate(text.as_bytes(), 0).ok()?;
+        self.value_in(text, 0)
+    }
+    /// The same for an index, `deep` brackets inside others.
+    fn value_in(&self, text: &str, deep: u32) -> Option<f64> {
+        let (value, _, end) = self.evaluate_in(text.as_bytes(), 0, deep).ok()?;
         let whole = text.get(end..).is_some_and(|rest| rest.trim().is_empty());
         value.filter(|value| whole && value.is_finite())
     }
@@ -318,7 +293,17 @@ impl Own {
         text: &[u8],
         from: usize,
     ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
+        self.evaluate_in(text, from, 0)
+    }
+    fn evaluate_in(
+        &self,
+        text: &[u8],
+        from: usize,
+        deep: u32,
+    ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
         let range = TextRange::new(from as u32, text.len() as u32);
+        let prepared = self.prepared(text, from, deep);
+        let text = prepared.as_ref().map_or(text, |(text, _)| text);
         let read = if self.is_task {
             trunnion_formula::osp
         } else {
@@ -327,6 +312,7 @@ impl Own {
         let (formula, end) = read(text, range).map_err(|error| error.kind)?;
         let view = View {
             own: self,
+            elements: prepared.as_ref().map_or(&[][..], |(_, elements)| elements),
             unknown: RefCell::default(),
         };
         let end = end as usize;

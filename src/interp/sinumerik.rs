@@ -5,18 +5,23 @@
 //! there (a jump into a loop, out of a repeated section, which of two labels REPEAT takes) is not decided here.
 mod call;
 mod curve;
+mod frame_value;
 mod index;
 mod names;
 mod path;
 mod pole;
+mod spline;
 mod statement;
+mod system_values;
 mod text;
 mod words;
 
 pub(crate) use call::{Level, With, too_deep};
+pub(crate) use frame_value::FrameValue;
 pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
+pub(crate) use spline::Spline;
 pub(crate) use text::Text;
 
 use crate::flow::Index;

@@ -1,6 +1,7 @@
 //! Point-to-point travel of a Sinumerik under TRAORI (PTP, PTPG0, CP) and its words STAT and TU: the position is programmed as usual, the
 //! axes move there synchronously and linearly (840D sl Programming Manual, Job Planning, 03/2013, section 6.9). STAT is modal, TU applies
-//! to its block; with continuous-path travel the posture does not change, and neither is followed.
+//! to its block; with continuous-path travel the posture does not change, and
+//! neither acts (SINUMERIK ONE Programming Manual, 12/2019, p. 708; Function Manual Transformations, 06/2019, p. 104).
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::reader::Reader;
@@ -94,7 +95,10 @@ impl Iso<'_> {
         if let Some((status, _)) = said.status {
             self.memory.status = status;
         }
-        let lost = |value: Option<(Option<u16>, TextRange)>| value.filter(|(bits, _)| !applies || bits.is_none());
+        // with continuous-path travel the control does not read them
+        let unread = under && mode == Travel::Continuous;
+        let lost =
+            |value: Option<(Option<u16>, TextRange)>| value.filter(|(bits, _)| !unread && (!applies || bits.is_none()));
         for (name, word) in [("STAT", lost(said.status)), ("TU", lost(said.turn))] {
             if let Some((_, range)) = word {
                 let what = name.to_owned();

@@ -25,6 +25,7 @@ impl<'d> Iso<'d> {
         let group = found.code.group.as_deref();
         if group.is_some() && group == self.motion_group() {
             self.core.state.motion = Some(Action::NotModelled);
+            self.spline_begins(&found.code.id);
         } else if group.is_some() && self.gives_meaning(group) {
             self.core.unknown.begin(found.code, true);
             self.core.forget_position();

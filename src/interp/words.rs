@@ -147,6 +147,8 @@ pub(crate) struct Words {
     pub(crate) vector: Places<3>,
     pub(crate) radius: WordValue,
     pub(crate) turns: WordValue,
+    /// PO[X]= is in the block.
+    pub(crate) polynomial: bool,
     /// STAT and TU.
     pub(crate) posture: crate::travel::PostureWords,
     pub(crate) feed: WordValue,

@@ -63,9 +63,28 @@ impl Scan<'_> {
                 _,
             ) => 1,
             (TokenKind::Name, _) if is_one_of(self.text(at), &BINARY) => 1,
+            // frames of a Sinumerik are chained: `CTRANS(X,10):CROT(Z,30)`, `F1:$P_PFRAME`
+            (TokenKind::Colon, next) if self.chains(at, next) => 1,
             _ => return None,
         };
         Some(at + length)
+    }
+
+    /// Whether a colon stands between a bracket or a name and another name.
+    fn chains(&self, at: TokenId, next: TokenKind) -> bool {
+        let before = self.trim(0, at);
+        let is_frame = |kind| {
+            matches!(
+                kind,
+                TokenKind::ParenClose | TokenKind::BracketClose | TokenKind::Name | TokenKind::Word
+            )
+        };
+        let next = if next == TokenKind::Blank {
+            self.kind(self.skip_blank(at + 1))
+        } else {
+            next
+        };
+        before > 0 && is_frame(self.kind(before - 1)) && matches!(next, TokenKind::Name | TokenKind::Word)
     }
 
     /// The token after the parameter that starts with `#` at `at`: `#1`, `##2`, `#[1+2]`, `#<name>`.

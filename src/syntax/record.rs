@@ -1,5 +1,6 @@
 //! APT records: the major word of a statement and its arguments.
 use crate::error::SyntaxErrorKind;
+use crate::expression::is_one_of;
 use crate::scan::Scan;
 use crate::sink::{Quiet, Sink};
 use crate::{Decimal, Program, SyntaxError, TextRange, TokenId, TokenKind};
@@ -87,6 +88,9 @@ impl<'p> Record<'p> {
     }
 }
 
+/// Where the tool is beside its drive surface; a motion word may follow after a comma (ISO 4342).
+const SIDES: [&str; 3] = ["TLON", "TLLFT", "TLRGT"];
+
 /// The next token from `at` on that is neither blank nor comment nor continuation.
 fn significant(scan: &Scan<'_>, mut at: TokenId) -> TokenId {
     while matches!(
@@ -140,6 +144,13 @@ fn head(scan: &Scan<'_>, first: TokenId, sink: &mut impl Sink) -> Option<Head> {
     }
     match scan.kind(next) {
         TokenKind::Slash => next += 1,
+        // `TLON,GOFWD/(CIRCLE/...)`: a word for the tool's side, then the motion.
+        TokenKind::Comma
+            if is_one_of(scan.bytes(scan.span(first, end)), &SIDES)
+                && scan.kind(significant(scan, next + 1)) == TokenKind::Name =>
+        {
+            next = significant(scan, next + 1);
+        }
         // Text words may do without the slash; a number may not.
         TokenKind::Number => sink.report(SyntaxErrorKind::BadRecord, scan.range(next)),
         _ => {}

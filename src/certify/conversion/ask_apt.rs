@@ -6,7 +6,7 @@ use trunnion_syntax::{AptArg, Block, Record, TextRange};
 const HELD: &[&str] = &[
     "GOTO", "GODLTA", "FROM", "RAPID", "CIRCLE", "DELAY", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "CUTTER",
     "TLDATA", "CUTCOM", "CSYS", "MSYS", "TRANS", "ORIGIN", "TRACUT", "END", "FINI", "LOADTL", "LOAD", "TOOLNO",
-    "REWIND",
+    "INDIRV", "TLON", "AUTOPS", "REWIND",
 ];
 
 /// Records for people, for other programs or for the listing: no control reads them. Names of planes and tolerances are used by records

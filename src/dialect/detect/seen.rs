@@ -23,7 +23,7 @@ const GROUPS: &[&[&str]] = &[
     &["fanuc-30i", "haas-ngc"],
     &["linuxcnc"],
     &["sinumerik-840d"],
-    &["apt"],
+    &["apt", "apt-source"],
     &["grbl"],
     &["heidenhain-klartext"],
     &["heidenhain-iso"],
@@ -185,6 +185,8 @@ impl Seen {
                 }
                 Some((name, reason))
             }
+            // definitions and motions along surfaces: the text that an APT processor reads, not what it writes
+            "apt" if self.votes.weight(&["apt-source"]) >= 20 => Some(("apt-source", strongest(&["apt-source"])?)),
             "okuma-osp" => Some((self.okuma_name(known), strongest(group)?)),
             name => Some((name, strongest(group)?)),
         }

@@ -29,6 +29,7 @@ pub(super) fn raw(line: &str, votes: &mut Votes) {
             votes.add("apt", 10, major);
         }
     }
+    apt_source(line, votes);
     if line.starts_with("%_N_") {
         votes.add("sinumerik-840d", 20, "%_N_");
     }
@@ -50,6 +51,56 @@ pub(super) fn raw(line: &str, votes: &mut Votes) {
     }
     if line.starts_with(";PY,") {
         votes.add("linuxcnc", 10, ";py,");
+    }
+}
+
+/// Definitions, control of the flow and motions along surfaces: an APT processor reads them, and writes CL data without them.
+fn apt_source(line: &str, votes: &mut Votes) {
+    let statement = match line.split_once(')') {
+        // a label: `LAB1)`
+        Some((label, rest)) if label.bytes().all(|byte| byte.is_ascii_alphanumeric()) => rest.trim_start(),
+        _ => line,
+    };
+    let major = |text: &str| {
+        text.split(['/', ',', ' ', '(', '$'])
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let is_name = |text: &str| {
+        let text = text.split('(').next().unwrap_or_default().trim();
+        text.starts_with(|first: char| first.is_ascii_uppercase())
+            && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    };
+    let shapes = [
+        "POINT", "LINE", "CIRCLE", "PLANE", "VECTOR", "PATERN", "CYLNDR", "SPHERE", "CONE", "ELLIPS", "HYPERB",
+        "PARAB", "LCONIC", "GCONIC", "TABCYL", "RLDSRF", "QADRIC", "POLCON", "SCURV", "SSURF", "MATRIX", "MACRO",
+    ];
+    if let Some((name, rest)) = statement.split_once('=')
+        && let Some(shape) = shapes.into_iter().find(|shape| *shape == major(rest.trim_start()))
+        && is_name(name)
+        && rest.contains('/')
+    {
+        votes.add("apt-source", 10, &format!("a definition of {shape}"));
+    }
+    let words = [
+        "TERMAC", "RESERV", "LOOPST", "LOOPND", "JUMPTO", "ZSURF", "GOLFT", "GORGT", "GOFWD", "GOBACK", "TLLFT",
+        "TLRGT", "INDIRP",
+    ];
+    let first = major(statement);
+    if let Some(word) = words.into_iter().find(|word| *word == first) {
+        votes.add("apt-source", 10, word);
+    }
+    let to_a_name = |rest: &str| {
+        rest.trim_start()
+            .strip_prefix('/')
+            .is_some_and(|rest| is_name(rest.split(',').next().unwrap_or_default()))
+    };
+    if ["GOTO", "FROM", "GO"]
+        .iter()
+        .any(|word| statement.strip_prefix(word).is_some_and(to_a_name))
+    {
+        votes.add("apt-source", 10, "a motion to a name");
     }
 }
 

@@ -205,6 +205,8 @@ fn said(items: &[Item], kind: &str, unit: f64) -> Result<WordValue, String> {
                 Some(Item::Word(auto)) if auto == "AUTO" => said.back = Some(Back::Before),
                 _ => return Err("RTRCTO without a number".to_owned()),
             },
+            // NX: the distance is the user's, not the one that NX works out
+            ("MANUAL", None) if matches!(said.back, Some(Back::To(_))) => {}
             ("STEP" | "INCR" | "SUBPECK", Some(_)) => said.step = value,
             ("1STPECK", Some(_)) => said.first = value,
             ("DWELL", Some(value)) => said.stay = (value > 0.0).then_some(Stay::Seconds(value)),

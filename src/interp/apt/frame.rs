@@ -1,9 +1,15 @@
 //! Coordinate systems of APT records: CSYS, MSYS, TRACUT, TRANS and ORIGIN put points and vectors into the frame of the part.
 //!
-//! A point p of a record is at R p + t there. CSYS/ holds the rows of [R | t] (12 numbers), and so does a TRACUT with numbers; MSYS/ holds
-//! the origin, the x axis and the y axis (9 numbers). TRANS/x,y,z adds, and ORIGIN/x,y,z takes off, what follows them; each replaces the
-//! one before. Sources: SolidWorks CAM output with the programs that were posted from it (the tool axes of seven set-ups, and two set-ups
-//! of one plate whose features fall together); NX CLSF; trade knowledge of post-processors for TRANS and ORIGIN.
+//! Under TRNTYP/WORLD (SolidWorks CAM) points and vectors are in the part already, and CSYS/ (rows of [R | t], 12 numbers) only says along
+//! which axis the tool is where no vector is written: the third column of R. Without it a point p of a record is at R p in the part; what
+//! t is then, no source says. MSYS/ holds the origin, the x axis and the y axis (9 numbers): R p + t. So do the three rows of [R | t] after
+//! `$$*CATIA0` and a name, and a TRACUT with numbers. TRANS/x,y,z adds, and ORIGIN/x,y,z takes off, what follows them; each replaces the one
+//! before. What `$$-> CSYS` of a Pro/CLfile means for the points is in no source that was found: if it is not the unit frame, they are not
+//! known.
+//!
+//! Sources: SolidWorks CAM output with the programs that were posted from it (all places of two set-ups each of two parts, and the tool axes
+//! of seven set-ups); CATIA V5 help, Machining Axis Change (one path written in two systems); NX CLSF; trade knowledge of post-processors for
+//! TRANS and ORIGIN.
 use crate::apt::{Apt, Args};
 use crate::core::Report;
 use crate::{FaultKind, Orientation};
@@ -30,17 +36,42 @@ impl Default for Placed {
 }
 
 /// Where the coordinates of the records are in the part.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     system: Placed,
     cut: Placed,
     trans: Vec3,
     origin: Vec3,
+    /// TRNTYP/WORLD: the records are in the part, whatever CSYS says.
+    world: bool,
+    /// Under TRNTYP/WORLD: where the axes of CSYS point in the part.
+    axes: Mat3,
     /// One of them could not be read.
     pub(crate) unread: bool,
+    /// A `$$->` remark names a system, and what it means for the points is not known.
+    remark_unread: bool,
+}
+
+impl Default for Frame {
+    fn default() -> Self {
+        Self {
+            system: Placed::default(),
+            cut: Placed::default(),
+            trans: Vec3::zeros(),
+            origin: Vec3::zeros(),
+            world: false,
+            axes: Mat3::identity(),
+            unread: false,
+            remark_unread: false,
+        }
+    }
 }
 
 impl Frame {
+    /// Where the records are is not known.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.unread || self.remark_unread
+    }
     /// A point of a record, mm, in the part.
     pub(crate) fn point(&self, point: Vec3) -> Vec3 {
         self.cut.turn * (self.system.turn * point + self.system.shift) + self.cut.shift + self.trans - self.origin
@@ -51,6 +82,10 @@ impl Frame {
     }
     fn turn(&self) -> Mat3 {
         self.cut.turn * self.system.turn
+    }
+    /// Where a tool points that is along Z, and for which no vector is written.
+    pub(crate) fn tool(&self) -> Vec3 {
+        self.turn() * self.axes * Vec3::z()
     }
 }
 
@@ -104,12 +139,31 @@ impl Apt<'_> {
             _ => None,
         };
         if record.is("CSYS") || record.is("MSYS") {
-            let read = if record.is("CSYS") { rows } else { origin_and_axes };
+            let is_csys = record.is("CSYS");
+            let read = if is_csys { rows } else { origin_and_axes };
             let placed = read(numbers, unit);
-            frame.unread = placed.is_none();
-            frame.system = placed.unwrap_or_default();
-            if placed.is_none() {
-                let what = report.program.text(record.major).to_ascii_uppercase();
+            let in_part = is_csys && frame.world;
+            let unclear = placed.filter(|placed| is_csys && !in_part && placed.shift != Vec3::zeros());
+            frame.unread = placed.is_none() || unclear.is_some();
+            frame.axes = placed
+                .filter(|_| in_part)
+                .map_or_else(Mat3::identity, |placed| placed.turn);
+            frame.system = placed.filter(|_| !in_part).unwrap_or_default();
+            if frame.unread {
+                let shift = if unclear.is_some() {
+                    " with a shift, without TRNTYP/WORLD: where its origin is"
+                } else {
+                    ""
+                };
+                let what = report.program.text(record.major).to_ascii_uppercase() + shift;
+                report.fault(record.range, FaultKind::NotModelled { what });
+            }
+        } else if record.is("TRNTYP") {
+            let plain = args.numbers().iter().all(|number| *number == 0.0) && !args.odd;
+            frame.world = plain && args.words().len() == 1 && args.has(report.program, "WORLD");
+            if !frame.world {
+                frame.unread = true;
+                let what = report.program.text(record.range).into_owned();
                 report.fault(record.range, FaultKind::NotModelled { what });
             }
         } else if record.is("TRANS") && point.is_some() {
@@ -125,27 +179,49 @@ impl Apt<'_> {
         } else {
             return false;
         }
-        self.turned_frame(before.turn());
+        self.turned_frame(before.tool());
         true
     }
 
+    /// The machining axis of CATIA, three rows of [R | t]; `None`: it could not be read.
+    pub(crate) fn machining_axis(&mut self, numbers: Option<&[f64]>) -> bool {
+        let unit = self.core.state.coordinates.unit_mm();
+        let before = self.kept.frame.tool();
+        let placed = numbers.and_then(|numbers| rows(numbers, unit));
+        self.kept.frame.unread = placed.is_none();
+        self.kept.frame.system = placed.unwrap_or_default();
+        self.turned_frame(before);
+        placed.is_some()
+    }
+
+    /// `$$-> CSYS` of Creo: whether it is the one in which the records are anyway.
+    pub(crate) fn creo_system(&mut self, numbers: Option<&[f64]>) -> bool {
+        let before = self.kept.frame.tool();
+        let placed = numbers.and_then(|numbers| rows(numbers, 1.0));
+        let is_plain =
+            placed.is_some_and(|placed| (placed.turn - Mat3::identity()).norm() <= 1e-9 && placed.shift.norm() <= 1e-9);
+        self.kept.frame.remark_unread = !is_plain;
+        self.turned_frame(before);
+        is_plain
+    }
+
     /// In a frame that is turned, a tool along Z points elsewhere in the part. Where vectors are written (MULTAX), the last one holds.
-    fn turned_frame(&mut self, before: Mat3) {
-        let now = self.kept.frame.turn();
-        let unread = self.kept.frame.unread;
+    fn turned_frame(&mut self, before: Vec3) {
+        let now = self.kept.frame.tool();
+        let unread = self.kept.frame.is_lost();
         if unread {
             self.core.forget_position();
         }
         self.core.state.zero.lose(self.core.unknown.any() || unread);
         // a system that is named again says where Z is, also after the tool axis was lost
-        let told = (now - before).norm() > 0.0 || self.kept.axis_lost;
+        let told = now != before || self.kept.axis_lost;
         if told && !self.core.state.tool_axis.multax() && !unread {
             self.kept.axis_lost = false;
             let last = match self.core.state.orientation {
                 Orientation::Vector(_, last) => Some(last),
                 Orientation::Words => None,
             };
-            self.kept.axis = Some(Orientation::Vector(last, now * Vec3::z()));
+            self.kept.axis = Some(Orientation::Vector(last, now));
         }
     }
 }

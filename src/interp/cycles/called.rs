@@ -11,7 +11,7 @@ use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, FaultKind, Feed, FeedMode, Motion, MotionKind};
+use crate::{Argument, FaultKind, Feed, Motion, MotionKind};
 use std::sync::Arc;
 use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
@@ -40,13 +40,15 @@ impl Given {
 
 /// What a cycle does in the hole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sort {
+pub(super) enum Sort {
     /// CYCLE81, CYCLE82: down, dwell, rapid out.
     Drill,
     /// CYCLE83: in steps.
     Deep,
-    /// CYCLE84: rigid tap; CYCLE840: with a compensating chuck.
+    /// CYCLE84: rigid tap.
     Tap,
+    /// CYCLE840: tap with a compensating chuck.
+    FloatingTap,
     /// CYCLE85: feed of its own in and out.
     Ream,
     /// CYCLE86: oriented, lifted off, out.
@@ -58,11 +60,12 @@ enum Sort {
 }
 
 /// The cycles, and how many of their numbers are known here.
-const CYCLES: [(&str, Sort, usize); 9] = [
+const CYCLES: [(&str, Sort, usize); 10] = [
     ("CYCLE81", Sort::Drill, 6),
     ("CYCLE82", Sort::Drill, 6),
     ("CYCLE83", Sort::Deep, 17),
     ("CYCLE84", Sort::Tap, 18),
+    ("CYCLE840", Sort::FloatingTap, 12),
     ("CYCLE85", Sort::Ream, 8),
     ("CYCLE86", Sort::Bore, 11),
     ("CYCLE87", Sort::BoreStop, 6),
@@ -73,8 +76,8 @@ const CYCLES: [(&str, Sort, usize); 9] = [
 /// A cycle with its numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct HoleCall {
-    id: &'static str,
-    sort: Sort,
+    pub(super) id: &'static str,
+    pub(super) sort: Sort,
     numbers: Vec<Given>,
     /// It has numbers that have no meaning here.
     further: bool,
@@ -100,6 +103,10 @@ impl HoleCall {
             modes,
             said,
         })
+    }
+    /// Where _AXN is.
+    fn axis_place(&self) -> usize {
+        if self.sort == Sort::FloatingTap { 11 } else { 12 }
     }
     pub(super) fn number(&self, place: usize) -> Given {
         self.numbers.get(place).copied().unwrap_or(Given::Nothing)
@@ -155,6 +162,17 @@ impl Iso<'_> {
             }
             return;
         }
+        if motion.is_none() && self.core.dialect.quirks.declares_names() {
+            let acts = self.memory.cycle.call.is_some() || self.memory.own.modal.is_some();
+            if acts && self.acts_without_motion(codes, words) {
+                self.memory.own.acts_again = true;
+                if let Some(call) = self.memory.cycle.call.clone() {
+                    self.memory.own.acts_again = false;
+                    self.run_call(&call, words, report);
+                }
+                return;
+            }
+        }
         let moved = motion
             .as_ref()
             .filter(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
@@ -192,7 +210,7 @@ impl Iso<'_> {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
             // _AXN 3 is the third geometry axis, as 0 is: Z
-            Sort::Deep | Sort::Tap => !match call.number(12).or_zero() {
+            Sort::Deep | Sort::Tap | Sort::FloatingTap => !match call.number(call.axis_place()).or_zero() {
                 Some(axis) => axis == 0.0 || axis == 3.0 && self.core.state.coordinates.plane() == Plane::Xy,
                 None => false,
             },
@@ -232,81 +250,13 @@ impl Iso<'_> {
         self.call_spindle(call);
         self.down(&plan, MotionKind::Rapid, plan.r, report);
         self.in_hole(call, &plan, report);
-        if call.sort == Sort::Tap {
+        if matches!(call.sort, Sort::Tap | Sort::FloatingTap) {
             // direction after the cycle: 3, 4, otherwise the spindle is off
-            let after = call.number(6).or_zero();
+            let after = call.number(if call.sort == Sort::Tap { 6 } else { 7 }).or_zero();
             match after {
                 Some(code) => self.core.state.spindle.switch(code == 3.0 || code == 4.0),
                 None => self.core.state.spindle.lose(),
             }
-        }
-    }
-
-    /// The feed that a cycle goes down with.
-    fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
-        let unit = self.core.state.coordinates.unit_mm();
-        match call.sort {
-            Sort::Ream => self.own_feed(call.number(6)),
-            Sort::Tap => {
-                // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
-                let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
-                    (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
-                        let mm = match unit_of_pitch as i64 {
-                            0 => Some(pitch * unit),
-                            1 => Some(pitch),
-                            3 => Some(pitch * 25.4),
-                            _ => None,
-                        };
-                        mm.map(f64::abs).filter(|mm| *mm > 0.0)
-                    }
-                    _ => None,
-                };
-                if pitch.is_none() {
-                    let what = format!("{}: the pitch", call.id);
-                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                }
-                pitch.map_or(Feed::Unknown, Feed::PerRevolution)
-            }
-            _ => self.feed_of(MotionKind::Linear, words, report),
-        }
-    }
-
-    /// A feed that the call itself gives.
-    fn own_feed(&self, given: Given) -> Feed {
-        let Given::Number(number) = given else {
-            return Feed::Unknown;
-        };
-        let feed = number * self.core.state.feed.unit_mm();
-        match self.core.state.feed.mode() {
-            _ if feed <= 0.0 => Feed::Unknown,
-            FeedMode::PerMinute => Feed::PerMinute(feed),
-            FeedMode::PerRevolution => Feed::PerRevolution(feed),
-            FeedMode::InverseTime => Feed::Unknown,
-        }
-    }
-
-    /// Cycles that switch the spindle on themselves.
-    fn call_spindle(&mut self, call: &HoleCall) {
-        match call.sort {
-            Sort::Tap => {
-                self.core.state.spindle.switch(true);
-                let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
-                self.core.state.spindle.set_rpm(speed);
-            }
-            Sort::Bore | Sort::BoreStop => {
-                let place = match (call.sort, call.id) {
-                    (Sort::BoreStop, "CYCLE87") => 5,
-                    _ => 6,
-                };
-                if let Some(code) = call.number(place).or_zero() {
-                    if code == 3.0 || code == 4.0 {
-                        self.core.state.spindle.switch(true);
-                    }
-                } else {
-                    self.core.state.spindle.lose();
-                }
-            }
-            _ => {}
         }
     }
 
@@ -335,7 +285,7 @@ impl Iso<'_> {
         }
         match call.sort {
             Sort::Drill | Sort::Deep => {}
-            Sort::Tap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
+            Sort::Tap | Sort::FloatingTap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
             Sort::Ream => {
                 let out = Plan {
                     feed: self.own_feed(call.number(7)),

@@ -123,7 +123,8 @@ impl Iso<'_> {
         moved: bool,
         sink: &mut impl Sink,
     ) -> Option<Transfer> {
-        match self.modal_task().filter(|_| moved)? {
+        let again = std::mem::take(&mut self.memory.own.acts_again);
+        match self.modal_task().filter(|_| moved || again)? {
             Ok(calling) => Some(Transfer::Call(calling)),
             Err(what) => {
                 let range = running.program().block(BlockId(from)).range();

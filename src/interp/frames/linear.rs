@@ -32,6 +32,13 @@ impl Linear {
     pub(crate) fn then(&self, inner: &Self) -> Self {
         Self(self.0 * inner.0)
     }
+    pub(crate) fn matrix(&self) -> Mat3 {
+        self.0
+    }
+    /// A matrix that does not mix the plane's third axis with the other two.
+    pub(crate) fn from_matrix(matrix: Mat3) -> Self {
+        Self(matrix)
+    }
     pub(crate) fn apply(&self, point: [f64; 3]) -> [f64; 3] {
         (self.0 * Vec3::from(point)).into()
     }

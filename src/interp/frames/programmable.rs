@@ -2,6 +2,7 @@
 //! is there, each word alone ends all (Sinumerik 840D sl Programming Manual, Fundamentals, frames). The shift is part of the zero point, what
 //! turns, scales and mirrors is a [`super::Shape`]. Turns about another axis than the plane's third are not followed.
 use super::Linear;
+use crate::Position;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
 use crate::core::{LINEAR, ROTARY, Report};
@@ -22,21 +23,25 @@ impl<'d> Iso<'d> {
         let coupled = self.is_coupled();
         self.change_frame(found, words, block, report);
         if coupled || self.is_coupled() {
-            // an axis that the next block does not name: in a turned plane the sources do not say which of its positions stays
-            let position = self.core.state.position;
-            let now = self.memory.frames.programmed(&position);
-            let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
-            let stays = |axis: usize| {
-                before
-                    .get(axis)
-                    .zip(now.get(axis))
-                    .is_some_and(|(old, new)| (old - new).abs() <= 1e-9)
-            };
-            for axis in [a, b].into_iter().filter(|axis| !stays(*axis)) {
-                self.memory.frames.fresh |= 1 << axis;
-            }
-            self.memory.frames.refresh(&position);
+            self.unsay_moved(&before);
         }
+    }
+
+    /// An axis that the next block does not name: in a turned plane the sources do not say which of its positions stays.
+    fn unsay_moved(&mut self, before: &Position) {
+        let position = self.core.state.position;
+        let now = self.memory.frames.programmed(&position);
+        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
+        let stays = |axis: usize| {
+            before
+                .get(axis)
+                .zip(now.get(axis))
+                .is_some_and(|(old, new)| (old - new).abs() <= 1e-9)
+        };
+        for axis in [a, b].into_iter().filter(|axis| !stays(*axis)) {
+            self.memory.frames.fresh |= 1 << axis;
+        }
+        self.memory.frames.refresh(&position);
     }
 
     fn is_coupled(&self) -> bool {
@@ -123,6 +128,22 @@ impl<'d> Iso<'d> {
                 Some(FrameStep::Linear(Linear::diagonal(diagonal)))
             }
             _ => None,
+        }
+    }
+
+    /// The whole programmable frame gets another matrix, its shift being set already. As for its codes, a coordinate that the next block does
+    /// not name is not known where the plane is turned.
+    pub(crate) fn replace_linear(&mut self, to: Option<Linear>) {
+        let position = self.core.state.position;
+        let before = self.memory.frames.programmed(&position);
+        let coupled = self.is_coupled();
+        self.set_linear(to);
+        self.memory.frames.must_be_absolute |= LINEAR;
+        self.refresh_zero();
+        let position = self.core.state.position;
+        self.memory.frames.refresh(&position);
+        if coupled || self.is_coupled() {
+            self.unsay_moved(&before);
         }
     }
 

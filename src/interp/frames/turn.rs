@@ -183,9 +183,13 @@ impl<'d> Iso<'d> {
             frames.fresh &= !named;
         }
         if frames.must_be_absolute & named != 0 {
-            if !absolute {
-                end.known &= !(frames.must_be_absolute & named);
-            }
+            let directed = words.axes.shortest | words.axes.positive | words.axes.negative;
+            let added = if absolute {
+                words.axes.incremental
+            } else {
+                !(words.axes.absolute | directed)
+            };
+            end.known &= !(frames.must_be_absolute & named & added);
             frames.must_be_absolute &= !named;
         }
     }

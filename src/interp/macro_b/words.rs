@@ -27,6 +27,9 @@ impl<'d> Iso<'d> {
     ) {
         if self.core.dialect.quirks.user_names() {
             self.sinumerik_begins();
+            if !self.memory.own.is_task {
+                self.note_system(block);
+            }
         }
         let mode = if self.flow.follows { Mode::Follow } else { Mode::Step };
         let mut clamps = self.core.state.clamps;
@@ -74,6 +77,9 @@ impl<'d> Iso<'d> {
         let calls = |found: &Found<'_>| found.code.action == Action::SubprogramCall;
         if words.forgets_all || self.core.dialect.quirks.user_names() && codes.iter().any(calls) {
             self.memory.own.lose();
+        }
+        if !self.memory.own.written_frames.is_empty() {
+            self.write_frames(words, report);
         }
         if self.core.dialect.quirks.declares_names() {
             self.sinumerik_words(block, codes, words, report);

@@ -71,6 +71,9 @@ impl Iso<'_> {
 
     /// The call of MODIN after a block that has moved; else why it cannot be followed.
     pub(crate) fn modal_task(&self) -> Option<Result<Calling, String>> {
+        if !self.memory.own.is_task {
+            return self.modal_subprogram();
+        }
         let task = &self.memory.own.task;
         let (calling, depth) = task.modal.as_ref().filter(|_| !task.in_modal)?;
         if *depth != task.outer.len() {

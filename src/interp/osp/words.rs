@@ -107,7 +107,8 @@ fn wrong_head(block: &Block<'_>) -> Option<(TextRange, String)> {
     }
     let head = super::index::head(block)?;
     let from = range.start + start as u32;
-    let place = TextRange::new(from, from + head.len() as u32);
+    // a text that is no UTF-8 is longer when it is read
+    let place = TextRange::new(from, (from + head.len() as u32).min(range.end));
     let letter = char::from(letter);
     if letter == 'N' && head.len() == digits + 1 && digits > 4 {
         // numbers of more digits are in programs that posts write

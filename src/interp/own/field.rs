@@ -1,5 +1,5 @@
-//! Fields of one dimension: `DEF REAL A[3]=SET(1,2,3)`. SET fills in order and keeps what it leaves out, REP repeats one value (Sinumerik
-//! 840D sl Programming Manual, Job Planning, fields). Fields of more dimensions, and those of texts, axes and frames, are not followed.
+//! Fields of one to three dimensions: `DEF REAL A[3,2]=SET(1,2,3)`. SET fills row by row and keeps what it leaves out, REP repeats one value
+//! (Sinumerik 840D sl Programming Manual, Job Planning, fields). Fields of texts, axes and frames are not followed.
 use super::{Own, Sort, arguments};
 
 /// A longer field is not followed.
@@ -9,6 +9,8 @@ const MOST: usize = 1000;
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     sort: Sort,
+    /// The number of elements in each dimension.
+    sizes: Vec<usize>,
     elements: Vec<Option<f64>>,
 }
 
@@ -30,13 +32,20 @@ impl Own {
         let (stem, index) = name.split_once('[').unwrap_or((name, ""));
         let stem = stem.trim().to_ascii_lowercase();
         self.declare(&stem, Sort::Other, None);
-        let count = index.trim().strip_suffix(']').and_then(|count| self.value(count));
-        let count = count.filter(|count| count.fract() == 0.0 && (1.0..=MOST as f64).contains(count));
-        let Some(count) = count.filter(|_| sort != Sort::Other) else {
+        let sizes = index.trim().strip_suffix(']').map(arguments).unwrap_or_default();
+        let size = |text: &&str| {
+            let size = self.value(text).filter(|size| size.fract() == 0.0);
+            size.filter(|size| (1.0..=MOST as f64).contains(size))
+                .map(|size| size as usize)
+        };
+        let sizes: Option<Vec<usize>> = sizes.iter().map(size).collect();
+        let sizes = sizes.filter(|sizes| (1..=3).contains(&sizes.len()) && sizes.iter().product::<usize>() <= MOST);
+        let Some(sizes) = sizes.filter(|_| sort != Sort::Other) else {
             return false;
         };
-        let elements = vec![Some(0.0); count as usize];
-        self.scope.fields.insert(stem.as_str().into(), Field { sort, elements });
+        let elements = vec![Some(0.0); sizes.iter().product()];
+        let field = Field { sort, sizes, elements };
+        self.scope.fields.insert(stem.as_str().into(), field);
         if let Some(values) = values {
             self.fill(&stem, "0", values);
         }
@@ -45,13 +54,15 @@ impl Own {
 
     /// An element gets a value; any may have it where the index is unknown.
     pub(super) fn assign_element(&mut self, stem: &str, index: &str, value: Option<f64>) {
-        let index = index.trim_end().strip_suffix(']').and_then(|index| self.value(index));
         let stem = stem.trim();
+        let place = index
+            .trim_end()
+            .strip_suffix(']')
+            .and_then(|index| self.place_in(stem, &arguments(index), 0));
         let Some(field) = self.scope.fields.get_mut(stem) else {
             return;
         };
-        let place = index.filter(|index| index.fract() == 0.0 && *index >= 0.0);
-        match place.and_then(|place| field.elements.get_mut(place as usize)) {
+        match place.and_then(|place| field.elements.get_mut(usize::try_from(place).ok()?)) {
             Some(element) => *element = value.and_then(|value| field.sort.takes(value)),
             None => field.elements.fill(None),
         }
@@ -73,14 +84,14 @@ impl Own {
     }
 
     fn fill(&mut self, stem: &str, index: &str, text: &str) {
-        let from = self.value(index).filter(|index| index.fract() == 0.0 && *index >= 0.0);
-        let parts = list(text).map(|(repeats, inside)| (repeats, arguments(inside)));
-        let values = |own: &Self, parts: &[&str]| -> Vec<Option<Option<f64>>> {
-            let value = |part: &&str| (!part.is_empty()).then(|| own.value(part));
-            parts.iter().map(value).collect()
+        // `0` at the definition: from its first element on
+        let from = match index {
+            "0" => Some(0),
+            index => self.place_in(stem, &arguments(index), 0),
         };
+        let parts = list(text).map(|(repeats, inside)| (repeats, arguments(inside)));
         let filled = match (&parts, from) {
-            (Some((repeats, parts)), Some(from)) => Some((*repeats, values(self, parts), from as usize)),
+            (Some((repeats, parts)), Some(from)) => Some((*repeats, self.listed(*repeats, parts), from as usize)),
             _ => None,
         };
         self.fresh.push(stem.into());
@@ -92,17 +103,56 @@ impl Own {
         match filled {
             Some((false, values, from)) if from + values.len() <= count => {
                 for (element, value) in field.elements[from..].iter_mut().zip(values) {
-                    if let Some(value) = value {
+                    if let (true, value) = value {
                         *element = takes(value);
                     }
                 }
             }
             Some((true, values, from)) if values.len() == 1 && from < count => {
-                let value = values[0].and_then(takes);
+                let value = takes(values[0].1);
                 field.elements[from..].fill(value);
+            }
+            // `REP(v,n)`: n elements
+            Some((true, values, from)) if values.len() == 2 => {
+                let times = values[1].1.filter(|times| times.fract() == 0.0 && *times >= 0.0);
+                let times = times.map(|times| times as usize).filter(|times| from + times <= count);
+                let value = takes(values[0].1);
+                match times {
+                    Some(times) => field.elements[from..from + times].fill(value),
+                    None => field.elements.fill(None),
+                }
             }
             _ => field.elements.fill(None),
         }
+    }
+
+    /// The values of a list, and whether anything is between its commas. The number of repetitions is the second of REP.
+    fn listed(&self, repeats: bool, parts: &[&str]) -> Vec<(bool, Option<f64>)> {
+        let most = if repeats { 2 } else { MOST };
+        let value = |part: &&str| (!part.is_empty(), self.value(part));
+        parts.iter().take(most + 1).map(value).collect()
+    }
+
+    /// Whether a field has one dimension.
+    pub(super) fn is_one_row(&self, stem: &str) -> bool {
+        self.scope.fields.get(stem).is_some_and(|field| field.sizes.len() == 1)
+    }
+
+    /// Where an element is in the order of a field, row by row.
+    pub(super) fn place_in(&self, stem: &str, indices: &[&str], nested: u32) -> Option<i64> {
+        let sizes = &self.scope.fields.get(stem)?.sizes;
+        if sizes.len() != indices.len() {
+            return None;
+        }
+        let mut place = 0usize;
+        for (size, index) in sizes.iter().zip(indices) {
+            let index = self
+                .value_in(index, nested)
+                .filter(|index| index.fract() == 0.0 && *index >= 0.0)?;
+            let index = (index < *size as f64).then_some(index as usize)?;
+            place = place * size + index;
+        }
+        i64::try_from(place).ok()
     }
 
     /// Whether every element of a field is known.
@@ -120,8 +170,13 @@ impl Own {
     /// The same by `name[index]` in lower case, also in the block that writes it.
     pub(super) fn held_element(&self, name: &str) -> Option<f64> {
         let (stem, index) = name.split_once('[')?;
-        let index: usize = index.strip_suffix(']')?.parse().ok()?;
-        *self.scope.fields.get(stem)?.elements.get(index)?
+        let place = self.place_in(stem, &arguments(index.strip_suffix(']')?), 0)?;
+        *self
+            .scope
+            .fields
+            .get(stem)?
+            .elements
+            .get(usize::try_from(place).ok()?)?
     }
 
     /// All that are known, by name.

@@ -31,6 +31,25 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         self.own_value(&name, word);
     }
 
+    /// `H2=6`, `Q=6` where the program declares a variable with that name (DEF REAL H2): it is no address then. False: it is one.
+    pub(crate) fn declared_word(&mut self, name: &[u8], word: &Word) -> bool {
+        let Some(own) = self
+            .own
+            .as_ref()
+            .filter(|own| !own.is_task && !own.scope.sorts.is_empty())
+        else {
+            return false;
+        };
+        let name = String::from_utf8_lossy(name).into_owned();
+        let assigns = self.text(word.range).contains('=');
+        if !assigns || !own.is_declared(&name) {
+            return false;
+        }
+        self.words.has_values = true;
+        self.own_value(&name, word);
+        true
+    }
+
     /// Gives a variable the value of a word.
     pub(crate) fn own_value(&mut self, name: &str, word: &Word) {
         let number = match word.value {

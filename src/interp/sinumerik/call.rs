@@ -24,6 +24,8 @@ struct Argument {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct With {
     arguments: Vec<Argument>,
+    /// By MCALL, after a motion.
+    pub(super) is_modal: bool,
 }
 
 impl With {
@@ -36,7 +38,10 @@ impl With {
         };
         let text = text.map(str::trim).filter(|text| !text.is_empty());
         let arguments = text.map_or_else(Vec::new, |text| arguments(text).into_iter().map(read).collect());
-        Self { arguments }
+        Self {
+            arguments,
+            is_modal: false,
+        }
     }
 }
 
@@ -57,6 +62,8 @@ pub(crate) struct Level {
     parameters: Vec<(Box<str>, Sort)>,
     /// SAVE: modal codes come back at the return.
     saves: bool,
+    /// The caller is the subprogram of MCALL, or is called by it.
+    in_modal: bool,
 }
 
 impl Level {
@@ -177,7 +184,11 @@ impl Iso<'_> {
             ));
         }
         let scope = own.begin_scope();
+        let in_modal = own.in_modal;
+        own.in_modal |= with.is_modal;
+        own.levels += 1;
         let mut level = Level {
+            in_modal,
             scope,
             references: Vec::new(),
             parameters: Vec::new(),
@@ -202,6 +213,8 @@ impl Iso<'_> {
     pub(crate) fn leave_subprogram(&mut self, level: Level) -> Option<FaultKind> {
         let own = &mut self.memory.own;
         let used = own.end_scope(level.scope);
+        own.levels = own.levels.saturating_sub(1);
+        own.in_modal = level.in_modal;
         for (here, there) in &level.references {
             own.assign(there, used.value(here));
         }

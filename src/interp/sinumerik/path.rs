@@ -81,6 +81,10 @@ pub(crate) struct Contour {
 }
 
 impl Contour {
+    /// The direction in which the last motion ended is not known.
+    pub(crate) fn heading_is_lost(&mut self) {
+        self.heading = None;
+    }
     /// The pole and the last polar coordinates, which a program that is missing could use.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let pole = self.pole.map(|pole| pole.centre);

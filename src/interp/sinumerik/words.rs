@@ -132,7 +132,13 @@ impl<'d> Iso<'d> {
 
     /// A name that is not a code, or `L20`: a subprogram, if there is one.
     #[cold]
-    fn sinumerik_call(&mut self, block: &Block<'_>, codes: &[Found<'d>], words: &mut Words, report: &mut Report<'_>) {
+    fn sinumerik_call(
+        &mut self,
+        block: &Block<'_>,
+        codes: &mut Vec<Found<'d>>,
+        words: &mut Words,
+        report: &mut Report<'_>,
+    ) {
         let program = block.program();
         let own = &mut self.memory.own;
         let (called, number) = (own.called.take(), own.called_by_number.take());
@@ -142,6 +148,13 @@ impl<'d> Iso<'d> {
             (None, None) => return,
         };
         let key = program_key(&name);
+        let is_modal =
+            matches!(codes.as_slice(), [found] if found.code.action == Action::CannedCycle && !found.with_arguments);
+        if is_modal && self.modal_call_of(block, &key, (range, arguments), words) {
+            codes.clear();
+            return;
+        }
+        let own = &self.memory.own;
         let alone = only(BESIDE_CALL, codes, words) && !(called.is_some() && number.is_some());
         let repeats = words.letters & (1 << (b'P' - b'A')) != 0;
         let declared = matches!(&key, Key::Name(name) if own.declared.contains(name));
@@ -177,6 +190,67 @@ impl<'d> Iso<'d> {
             range,
             with: Handed::Sinumerik(with),
         }));
+    }
+
+    /// MCALL with a subprogram: it runs after each block that moves. Where its arguments are not plain numbers no source says when they are
+    /// evaluated; false: it is not followed.
+    fn modal_call_of(
+        &mut self,
+        block: &Block<'_>,
+        key: &Key,
+        (range, arguments): (TextRange, Option<TextRange>),
+        words: &mut Words,
+    ) -> bool {
+        let program = block.program();
+        let text = arguments
+            .map(|inside| program.text(inside).into_owned())
+            .unwrap_or_default();
+        let plain = text
+            .bytes()
+            .all(|byte| byte.is_ascii_digit() || b".,+- ".contains(&byte));
+        let beside = words.letters & !(1 << (b'N' - b'A')) != 0 || words.axes.any() || words.forgets_all;
+        if beside || !plain || !self.is_program(key, program) {
+            return false;
+        }
+        words.declares = true;
+        let mut with = With::read(Some(&text), &self.memory.own);
+        with.is_modal = true;
+        let calling = Calling {
+            program: key.clone(),
+            times: 1,
+            range,
+            with: Handed::Sinumerik(with),
+        };
+        self.memory.cycle.call = None;
+        let own = &mut self.memory.own;
+        own.changes += 1;
+        own.modal = Some((calling, own.levels));
+        // from here on the flow is followed
+        own.pending = Some(Transfer::Next);
+        true
+    }
+
+    /// The call of MCALL after a block that has moved; else why it cannot be followed.
+    pub(crate) fn modal_subprogram(&self) -> Option<Result<Calling, String>> {
+        let own = &self.memory.own;
+        let (calling, levels) = own.modal.as_ref().filter(|_| !own.in_modal)?;
+        if *levels != own.levels {
+            return Some(Err("whether MCALL of another program acts here".to_owned()));
+        }
+        Some(Ok(calling.clone()))
+    }
+
+    /// MCALL acts after a block with only F or S too, under G0 and G1 (840D sl Programming Manual, 06/2019, modal calls).
+    pub(crate) fn acts_without_motion(&self, codes: &[Found<'_>], words: &Words) -> bool {
+        let letter = |letter: u8| 1u32 << (letter - b'A');
+        let (speeds, others) = (letter(b'F') | letter(b'S'), letter(b'N'));
+        matches!(self.core.state.motion, Some(Action::Rapid | Action::Linear))
+            && codes.is_empty()
+            && words.letters & speeds != 0
+            && words.letters & !(speeds | others) == 0
+            && !words.axes.any()
+            && !words.declares
+            && !words.forgets_all
     }
 
     /// Whether a program with this name exists: in this file, or in the library.

@@ -23,6 +23,7 @@ fn a_drilled_hole_in_every_spelling() {
         "CYCLE/DRILL,DEPTH,20,MMPM,80,CLEAR,3",
         "CYCLE / DRILL, DEPTH, 20., $\n MMPM, 80, CLEAR, 3",
         "CYCLE/DRILL,FEDTO,-20,RAPTO,3,RTRCTO,3,MMPM,80",
+        "CYCLE/DRILL,RAPTO,3.,FEDTO,-20.,RTRCTO,3.,MANUAL,MMPM,80.",
         "CYCLE/FACE,DEPTH,20,MMPM,80,CLEAR,5,RAPTO,2,RETURN,3",
         "CYCLE/CSINK,FEDTO,20,MMPM,80,RAPTO,3,DWELL,0",
         "CYCLE/DRILL,20,MMPM,80,3",
@@ -164,10 +165,29 @@ fn a_system_turns_points_and_the_tool() {
             assert!((found[i] - wanted).abs() < 1e-5, "{csys}: {found}");
         }
     }
+    // what the shift is, no source says
+    let shifted = "FEDRAT/9\nCSYS/-1,0,0,144,0,-1,0,745,0,0,1,0\nGOTO/100,300,5\n";
+    assert_eq!(lines("apt", shifted), ["L - F9 tcp"]);
+    assert!(faults("apt", shifted)[0].contains("CSYS with a shift"));
+    // under TRNTYP/WORLD the records are in the part, and the system only turns a tool without a vector
+    let world = "TRNTYP/WORLD,0,0,0\nCSYS/0,0,1.,0,1.,0,0,7,0,1.,0,0\n";
     assert_eq!(
-        lines("apt", "FEDRAT/9\nCSYS/-1,0,0,144,0,-1,0,745,0,0,1,0\nGOTO/100,300,5\n"),
-        ["L X44 Y445 Z5 F9 tcp <0 0 1>"]
+        lines(
+            "apt",
+            &format!("FEDRAT/9\n{world}GOTO/1,2,3\nGODLTA/4\nGOTO/1,2,3,0,0,1\n")
+        ),
+        [
+            "L X1 Y2 Z3 F9 tcp <1 0 0>",
+            "L X5 Y2 Z3 F9 tcp <1 0 0>",
+            "L X1 Y2 Z3 F9 tcp <0 0 1>"
+        ]
     );
+    assert_eq!(
+        faults("apt", &format!("FEDRAT/9\n{world}GOTO/1,2,3\n")),
+        [] as [String; 0]
+    );
+    let other = format!("FEDRAT/9\n{}GOTO/1,2,3\n", world.replace("WORLD", "LOCAL"));
+    assert!(faults("apt", &other)[0].contains("TRNTYP/LOCAL"));
     assert_eq!(
         lines(
             "apt",

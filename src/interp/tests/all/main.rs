@@ -2,6 +2,7 @@
 #![expect(clippy::print_stderr, reason = "a test that finds no data says so")]
 #![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
+mod apt_forms;
 mod apt_holes;
 mod arcs;
 mod by_hand;
@@ -18,6 +19,7 @@ mod drawing;
 mod faults;
 mod files;
 mod fold_samples;
+mod four_controls;
 mod frames;
 mod klartext;
 mod klartext_more;
@@ -37,8 +39,11 @@ mod roughing;
 mod roughing_unknown;
 mod silent;
 mod sinumerik_calls;
+mod sinumerik_examples;
 mod sinumerik_flow;
 mod sinumerik_paths;
+mod sinumerik_traces;
+mod sinumerik_values;
 mod steady;
 mod support;
 mod threads;

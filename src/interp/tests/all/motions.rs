@@ -319,8 +319,8 @@ fn trans_moves_the_zero_point() {
 #[test]
 fn writing_zero_points_and_tools_of_the_control_hides_the_position() {
     for write in [
-        "$P_PFRAME=CTRANS(X,1000)",
-        "$P_UIFR[1,X,TR]=200",
+        "$P_PFRAME=CFRAME(X,1000)",
+        "$P_UIFR[1,X,FI]=200",
         "$TC_DP3[1,1]=350",
         "$AA_OFF[X]=1",
     ] {

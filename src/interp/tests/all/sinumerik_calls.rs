@@ -198,3 +198,61 @@ fn a_motion_of_a_subprogram_belongs_to_the_block_of_its_call() {
         [0, 1]
     );
 }
+
+/// MCALL with a subprogram: after each block that moves, and after one with only F or S under G0 and G1.
+#[test]
+fn a_modal_subprogram_runs_after_each_motion() {
+    assert_eq!(
+        called("G0 X0 Y0 Z50\nMCALL CUT(-3,5)\nX5\nG4 F1\nY6\nMCALL\nX9\n"),
+        [
+            "R X0 Y0 Z50",
+            "R X5 Y0 Z50",
+            "R X5 Y0 Z-3",
+            "R X5 Y0 Z5",
+            "D1 X5 Y0 Z5",
+            "R X5 Y6 Z5",
+            "R X5 Y6 Z-3",
+            "R X5 Y6 Z5",
+            "R X9 Y6 Z5",
+        ]
+    );
+    assert_eq!(
+        called("G0 X0\nMCALL L140(4)\nF500\nM8\nMCALL\nX1\n"),
+        ["R X0", "R X0 Z4", "R X1 Z4"]
+    );
+    // a cycle takes its place, and so does another subprogram
+    assert_eq!(
+        called("G0 X0\nMCALL CUT(1,2)\nMCALL PLAIN\nX5\nMCALL\nX1\n"),
+        ["R X0", "R X5", "R X5 Y1", "R X1 Y1"]
+    );
+    // when an argument that is no number is evaluated, no source says
+    assert!(
+        run("G0 X0\nR1=3\nMCALL CUT(R1)\nX5\n")
+            .1
+            .iter()
+            .any(|said| said.contains("CUT"))
+    );
+    // whether it acts in a subprogram that is called meanwhile, no source says
+    assert!(
+        run("G0 X0\nMCALL PLAIN\nL20\n")
+            .1
+            .iter()
+            .any(|said| said.contains("MCALL of another program"))
+    );
+}
+
+#[test]
+fn a_modal_cycle_acts_after_a_block_with_only_a_feed() {
+    let holes = |text: &str| {
+        let text = format!("G17 G0 X0 Y0 Z50 F100 S100 M3\nMCALL CYCLE81(10,0,2,-5)\n{text}\nMCALL\n");
+        lines(SINUMERIK, &text)
+            .iter()
+            .filter(|line| line.starts_with('L'))
+            .count()
+    };
+    assert_eq!(holes("X5"), 1);
+    assert_eq!(holes("X5\nF200"), 2);
+    assert_eq!(holes("X5\nN10 S200"), 2);
+    assert_eq!(holes("X5\nM8"), 1);
+    assert_eq!(holes("X5 F200"), 1);
+}

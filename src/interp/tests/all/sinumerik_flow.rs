@@ -206,7 +206,7 @@ fn what_depends_on_the_unknown_is_not_decided() {
         ),
         (
             "IF $AA_IM[X]>1\nX2\nENDIF\nM30\n",
-            "2 `$AA_IM[X]>1` not decided: $AA_IM: a variable of the control",
+            "2 `$AA_IM[X]>1` not decided: $AA_IM[X]: a variable of the control",
         ),
         (
             "WHILE GUD<2\nX2\nENDWHILE\nM30\n",

@@ -192,6 +192,10 @@ fn an_increment_after_a_frame_is_not_known() {
     ] {
         let first = after_zero(&format!("{frame}\nG91 G1 X10\nG90 X3 Y3")).remove(0);
         assert_eq!(first, format!("L {axis}0 Z0 F100"), "{frame}");
+        let first = after_zero(&format!("{frame}\nG1 X=IC(10)\nX3 Y3")).remove(0);
+        assert_eq!(first, format!("L {axis}0 Z0 F100"), "{frame}");
+        let first = after_zero(&format!("{frame}\nG91 G1 X=AC(10) Y=AC(5)")).remove(0);
+        assert!(first.contains('X') && first.contains('Y'), "{frame}: {first}");
     }
 }
 
@@ -212,6 +216,6 @@ fn fields_have_values() {
     }
     assert_eq!(
         lines(DIALECT, "DEF REAL A_1[2,2]=SET(1,2,3,4)\nG0 X=A_1[0,1]\n"),
-        ["R -"]
+        ["R X2"]
     );
 }

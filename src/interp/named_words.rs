@@ -1,0 +1,82 @@
+//! Words whose address is a name, or a letter with a number: `CR=`, `A3=`, `S2=`, `PO[X]=`, variables.
+use crate::FaultKind;
+use crate::reader::Reader;
+use crate::system::{SystemWrite, system_write};
+use crate::words::WordValue;
+use trunnion_dialect::Role;
+use trunnion_syntax::{TextRange, Word};
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// `CR=`, `TURN=`; `#1=` and names of the program's own are variables, which move nothing; `,R` and `,C` are corners.
+    pub(crate) fn named_word(&mut self, name: TextRange, word: &Word) {
+        let (range, name) = (name, self.program.source().get(name.as_usize()).unwrap_or_default());
+        if name.first() == Some(&b'#') && self.macro_assignment(range, word) {
+            return;
+        }
+        if self.frame_word(range, word) || self.polynomial(name, word) {
+            return;
+        }
+        self.system_word(name, word.range);
+        let variable = self.dialect.quirks.user_names() || matches!(name.first(), Some(b'#' | b'$'));
+        // FL[X]= and PO[X]= are FL and PO of an axis
+        let stem = name.split(|byte| *byte == b'[').next().unwrap_or_default().trim_ascii();
+        match (self.dialect.named_role(stem), name.first()) {
+            (Some(Role::NotFollowed), _) => {
+                let what = String::from_utf8_lossy(stem).to_ascii_uppercase();
+                self.words.has_values = true;
+                (self.report)(word.range, FaultKind::NotModelled { what });
+            }
+            (Some(role), _) => self.role_word(role, b' ', word),
+            (None, Some(b',')) if self.corner(stem, word) => {}
+            (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
+            _ if variable => self.own_assignment(range, word),
+            _ => (self.report)(word.range, FaultKind::UnknownWord),
+        }
+    }
+
+    /// An assignment to a variable of the control.
+    pub(crate) fn system_word(&mut self, name: &[u8], range: TextRange) {
+        let write = system_write(self.dialect, name);
+        if write != SystemWrite::Nothing {
+            self.words.writes_system |= write == SystemWrite::Meaning;
+            self.not_modelled(range);
+        }
+    }
+
+    /// `A3=`, `S2=`, `R1=`: first as a name, then as a further spindle, tool or function, else as a variable.
+    pub(crate) fn indexed_word(&mut self, letter: u8, index: u16, word: &Word) {
+        let mut name = [0u8; 6];
+        name[0] = letter;
+        let mut digits = 1;
+        let mut divisor = 10_000;
+        while divisor > 0 {
+            if index >= divisor || divisor == 1 {
+                name[digits] = b'0' + (index / divisor % 10) as u8;
+                digits += 1;
+            }
+            divisor /= 10;
+        }
+        if self.own_frame_word(&name[..digits], word) || self.declared_word(&name[..digits], word) {
+            return;
+        }
+        if let Some(role) = self.dialect.named_role(&name[..digits]) {
+            if role == Role::Variable {
+                self.own_value(&String::from_utf8_lossy(&name[..digits]), word);
+            }
+            self.role_word(role, letter, word);
+            return;
+        }
+        match self.dialect.role(letter) {
+            Some(Role::Speed) => self.words.speed = WordValue::Unread,
+            Some(Role::Tool) => self.words.tool = WordValue::Unread,
+            Some(Role::M) => self.words.other_spindle = true,
+            Some(Role::ArcRadius | Role::Parameter | Role::Variable) => {
+                self.words.has_values = true;
+                return;
+            }
+            _ => {}
+        }
+        self.words.has_values = true;
+        self.not_modelled(word.range);
+    }
+}

@@ -1,0 +1,76 @@
+//! The variables of a program as formulas read them.
+use super::{Own, prepared};
+use std::cell::RefCell;
+use trunnion_formula::ValueError;
+
+/// The source of variables for formulas, and the first name whose value was not known.
+pub(super) struct View<'a> {
+    pub(super) own: &'a Own,
+    /// Values of names with indices that are read before the formula.
+    pub(super) elements: &'a [prepared::Element],
+    pub(super) unknown: RefCell<Option<String>>,
+}
+
+impl View<'_> {
+    fn give(&self, value: Option<f64>, why: impl FnOnce() -> String) -> f64 {
+        value.unwrap_or_else(|| {
+            let mut unknown = self.unknown.borrow_mut();
+            unknown.get_or_insert_with(why);
+            f64::NAN
+        })
+    }
+}
+
+impl trunnion_formula::Variables for View<'_> {
+    fn numbered(&self, index: i64) -> Result<f64, ValueError> {
+        if index < 0 {
+            return Err(ValueError::OutOfRange);
+        }
+        let name = format!("r{index}");
+        let fresh = self.own.is_fresh(&name);
+        let value = self.own.parameters.get(&index).copied().filter(|_| !fresh);
+        let reason = if fresh {
+            "written in the same block"
+        } else {
+            "its value is unknown here"
+        };
+        Ok(self.give(value, || format!("R{index}: {reason}")))
+    }
+    fn named(&self, name: &str) -> Result<f64, ValueError> {
+        if let Some(element) = prepared::element(self.elements, name) {
+            return Ok(self.give(element.value, || match element.name.as_bytes() {
+                [b'$', ..] => format!("{}: a variable of the control", element.name),
+                _ => format!("{}: its value is unknown here", element.name),
+            }));
+        }
+        let shown = || name.trim_end_matches(['[', '(']).to_ascii_uppercase();
+        let value = if name.starts_with('$') {
+            self.own.system.get(name).copied()
+        } else {
+            self.own.read(name)
+        };
+        Ok(self.give(value, || match name.as_bytes() {
+            _ if self.own.is_task && !self.own.is_fresh(name) => crate::osp::why_unknown(name),
+            [b'$', ..] => format!("{}: a variable of the control", shown()),
+            [.., b'['] => format!("{}[]: array elements are not followed", shown()),
+            [.., b'('] => format!("{}(): the function is not modelled", shown()),
+            [b'"'] => "strings are not followed".to_owned(),
+            _ if self.own.is_fresh(name) => format!("{}: written in the same block", shown()),
+            _ if self.own.is_declared(name) => format!("{}: its value is unknown here", shown()),
+            _ => format!("{}: not declared in this program", shown()),
+        }))
+    }
+    fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
+        let one = self.own.is_task || self.own.is_one_row(name);
+        let value = self.own.element(name, index).filter(|_| one);
+        Ok(self.give(value, || {
+            if self.own.is_task {
+                return crate::osp::why_unknown(name);
+            }
+            format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
+        }))
+    }
+    fn exists(&self, name: &str) -> bool {
+        self.own.read(name).is_some()
+    }
+}

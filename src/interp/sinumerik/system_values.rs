@@ -1,0 +1,103 @@
+//! System variables of a Sinumerik with a value that follows from the program: `$P_EP[X]`, `$P_F`, `$P_GG[6]`.
+//!
+//! Sources: SINUMERIK lists of system variables; $P_EP, $P_F, $P_S, $P_TOOL, $P_TOOLNO, $P_GG, $P_MC, $P_UIFR, $P_PFRAME, $AA_IW.
+use super::frame_value::offset_name;
+use crate::iso::Iso;
+use std::collections::BTreeMap;
+use trunnion_syntax::Block;
+
+impl Iso<'_> {
+    /// What the control knows, for a block that may ask for it.
+    pub(crate) fn note_system(&mut self, block: &Block<'_>) {
+        let range = block.range();
+        if block.program().bytes(range).contains(&b'$') {
+            let known = self.system_values();
+            let own = &mut self.memory.own;
+            if known != own.system {
+                own.changes += 1;
+                own.system = known;
+            }
+            let axes = crate::arc::plane_axes(self.core.state.coordinates.plane());
+            own.plane_letters = axes.map(|axis| crate::AXIS_LETTERS[axis].to_ascii_lowercase());
+        }
+    }
+
+    /// System variables with a value that follows from the program; all others are unknown by name.
+    fn system_values(&mut self) -> BTreeMap<Box<str>, f64> {
+        let mut known: BTreeMap<Box<str>, f64> = BTreeMap::new();
+        let mut put = |name: String, value: Option<f64>| {
+            if let Some(value) = value {
+                known.insert(name.into(), value);
+            }
+        };
+        let position = self.core.state.position;
+        let here = self.memory.frames.programmed(&position);
+        let unit = self.core.state.coordinates.unit_mm();
+        let plain = !self.core.unknown.any() && !self.core.state.zero.is_lost() && self.memory.frames.tilt.is_none();
+        let cutting_on_path = self.core.state.compensation == 0 && !self.memory.corners.is_busy();
+        for (axis, letter) in crate::AXIS_LETTERS.iter().enumerate() {
+            let linear = crate::core::LINEAR & (1 << axis) != 0;
+            let scale = if linear { unit } else { 1.0 };
+            let letter = char::from(letter.to_ascii_lowercase());
+            let value = here.get(axis).filter(|_| plain).map(|value| value / scale);
+            put(format!("$p_ep[{letter}]"), value);
+            put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
+            let linear_frame = self.memory.frames.shape.linear.is_some();
+            let local = self.memory.frames.local[axis] / scale;
+            put(
+                format!("$p_pframe[{letter},tr]"),
+                Some(local).filter(|_| plain && !linear_frame),
+            );
+        }
+        for number in 1..=99u32 {
+            let Some(values) = self.offset_values(&offset_name(number)) else {
+                continue;
+            };
+            for axis in 0..9 {
+                let scale = if crate::core::LINEAR & (1 << axis) != 0 {
+                    unit
+                } else {
+                    1.0
+                };
+                let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
+                let value = values.values[axis] / scale;
+                let is_known = values.known & (1 << axis) != 0;
+                put(
+                    format!("$p_uifr[{number},{letter},tr]"),
+                    Some(value).filter(|_| is_known),
+                );
+            }
+        }
+        let feed = self
+            .core
+            .state
+            .feed
+            .value()
+            .map(|feed| feed / self.core.state.feed.unit_mm());
+        put("$p_f".to_owned(), feed);
+        let spindle = &self.core.state.spindle;
+        put(
+            "$p_s".to_owned(),
+            spindle
+                .rpm()
+                .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
+        );
+        put("$p_toolno".to_owned(), self.core.state.tool.number().map(f64::from));
+        put("$p_tool".to_owned(), self.memory.edge.map(f64::from));
+        let plane = match self.core.state.coordinates.plane() {
+            trunnion_dialect::Plane::Xy => 1.0,
+            trunnion_dialect::Plane::Zx => 2.0,
+            trunnion_dialect::Plane::Yz => 3.0,
+        };
+        put("$p_gg[6]".to_owned(), Some(plane));
+        put(
+            "$p_mc".to_owned(),
+            Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
+        );
+        for name in ["$p_sim", "$p_istest", "$p_search", "$p_dryrun"] {
+            // in a run that cuts the part
+            put(name.to_owned(), Some(0.0));
+        }
+        known
+    }
+}

@@ -18,6 +18,7 @@ pub use clock::{Listener, Modes, time};
 pub use corner::PathControl;
 pub use path::{Ramp, s_curve, trapezoid};
 pub use piece::{Bounds, Limit, Piece};
+pub use pieces::bend_limit;
 pub use planner::Planner;
 pub use run::{Planned, Run};
 pub use timed::Timed;

@@ -129,7 +129,11 @@ fn in_plane(machine: &Machine, sides: [&Side<'_>; 2], of: impl Fn(&trunnion_mach
 /// An arc that leaves the corner by no more than the tolerance and takes at most half of each leg.
 fn arc(machine: &Machine, sides: [&Side<'_>; 2], tolerance: Option<f64>, half: f64) -> Option<Round> {
     let turn = core::f64::consts::PI - 2.0 * half;
-    let least = if sides.iter().any(|side| side.bent) { BACK } else { SHARP };
+    let least = if sides.iter().any(|side| side.bent) {
+        BACK
+    } else {
+        SHARP
+    };
     if half < least || turn < SHARP {
         return None;
     }
@@ -142,7 +146,10 @@ fn arc(machine: &Machine, sides: [&Side<'_>; 2], tolerance: Option<f64>, half: f
         return None;
     }
     // the arc runs at the higher one of both feeds
-    let most = sides[0].cap.max(sides[1].cap).min(in_plane(machine, sides, |axis| axis.max_speed));
+    let most = sides[0]
+        .cap
+        .max(sides[1].cap)
+        .min(in_plane(machine, sides, |axis| axis.max_speed));
     let planned = (ACROSS * acceleration * radius).sqrt().min(most);
     // no larger than its speed needs, but as long as half of the acceleration would take for the corner
     let lazy = ALONG * acceleration;
@@ -183,5 +190,9 @@ fn overlap(sides: [&Side<'_>; 2], tolerance: Option<f64>, half: f64, reserved: f
     // as it runs
     let ([a, b], [slow, fast]) = run(0.5);
     let seconds = (a / slow).min(b / fast);
-    if seconds.is_finite() { [seconds, net] } else { [0.0, 0.0] }
+    if seconds.is_finite() {
+        [seconds, net]
+    } else {
+        [0.0, 0.0]
+    }
 }

@@ -72,6 +72,36 @@ const ROUND: f64 = 0.866_025_403_784_438_6;
 
 /// Adds the pieces of a leg.
 pub(crate) fn take(machine: &Machine, leg: &Leg, motion: u32, pieces: &mut Vec<Piece>) -> Taken {
+    take_at(machine, leg, &feed, motion, pieces)
+}
+
+/// The highest feed of the tip at which no axis needs more than its acceleration in the bends of a leg, mm/min, and the axis; `None` where bends do
+/// not limit it below the speeds of the axes, or the leg is not known.
+pub fn bend_limit(machine: &Machine, leg: &Leg) -> Option<(f64, usize)> {
+    // faster than any axis, but a number
+    const FREE: f64 = 1e12;
+    if leg.length <= 0.0 {
+        return None;
+    }
+    let mut pieces = Vec::new();
+    let Taken::Course(_) = take_at(machine, leg, &|_, _| Some(FREE), 0, &mut pieces) else {
+        return None;
+    };
+    let bends = pieces.iter().filter_map(|piece| match piece.optimistic.by {
+        Limit::Bend(joint) => Some((piece.optimistic.cap * 60.0, usize::from(joint))),
+        _ => None,
+    });
+    bends.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The same at any feed: `feed` gives it in mm/s.
+fn take_at(
+    machine: &Machine,
+    leg: &Leg,
+    feed: &dyn Fn(&Leg, f64) -> Option<f64>,
+    motion: u32,
+    pieces: &mut Vec<Piece>,
+) -> Taken {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return Taken::Unknown;
     };

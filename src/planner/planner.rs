@@ -323,6 +323,7 @@ impl Timed {
             limit: Limit::Stop,
             below: 0.0,
             crawls: 0.0,
+            crawls_out: 0.0,
             block_time_feed: None,
             bend_feed: None,
             engaged: false,
@@ -335,6 +336,7 @@ fn finished(open: Open, run: &Run, planned: &Planned, pieces: core::ops::Range<u
     let Open { timed, complete, .. } = open;
     let mut seconds = [0.0; 2];
     let (mut reached, mut lowest, mut below, mut crawls) = (0.0_f64, f64::INFINITY, 0.0, 0.0);
+    let mut crawls_out = 0.0;
     let mut slowest = pieces.start;
     for index in pieces.clone() {
         let (ramp, [own, free]) = (&planned.ramps[index], planned.seconds[index]);
@@ -347,7 +349,13 @@ fn finished(open: Open, run: &Run, planned: &Planned, pieces: core::ops::Range<u
             // what smooths the ends is time below F as well
             let more = own - ramp.seconds();
             below += ramp.seconds_below(SLOW * feed) + more.max(0.0);
-            crawls += ramp.seconds_below(CRAWL * feed);
+            let slow = ramp.seconds_below(CRAWL * feed);
+            crawls += slow;
+            crawls_out = if ramp.top < CRAWL * feed {
+                crawls_out + slow
+            } else {
+                ramp.seconds_to_end_below(CRAWL * feed)
+            };
         }
         if ramp.top < planned.ramps[slowest].top {
             slowest = index;
@@ -375,6 +383,7 @@ fn finished(open: Open, run: &Run, planned: &Planned, pieces: core::ops::Range<u
         limit,
         below,
         crawls,
+        crawls_out,
         ..timed
     }
 }

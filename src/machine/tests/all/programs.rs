@@ -248,7 +248,9 @@ fn the_boat_has_its_numbers() {
     blocks.dedup();
     assert_eq!(
         blocks,
-        [537, 662, 663, 787, 788, 924, 925, 1277, 1396, 1397, 1524, 1525, 1662, 1663]
+        [
+            537, 662, 663, 787, 788, 924, 925, 1277, 1396, 1397, 1524, 1525, 1662, 1663
+        ]
     );
     assert_eq!((over_inside, worst_inside.1), ([0, 5, 14, 11, 0], 1397));
     assert!((worst_inside.0 - 1.592).abs() < 0.0015, "{worst_inside:?}");

@@ -172,7 +172,12 @@ fn as_linuxcnc_measured() {
         .iter()
         .flat_map(|table| check(table.file_stem().and_then(|name| name.to_str()).expect("a name"), table))
         .collect();
-    assert!(problems.is_empty(), "{} places:\n{}", problems.len(), problems.join("\n"));
+    assert!(
+        problems.is_empty(),
+        "{} places:\n{}",
+        problems.len(),
+        problems.join("\n")
+    );
     assert!(tables.len() >= 7, "all programs");
 }
 

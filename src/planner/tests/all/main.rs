@@ -3,3 +3,4 @@
 mod closed;
 mod linuxcnc;
 mod programs;
+mod random;

@@ -12,8 +12,10 @@ number and the cycles of that line in each mode; with --samples also NAME-N.samp
 Exit status: 0 done, 2 it could not be done, 77 LinuxCNC is not installed.
 """
 import argparse
+import fcntl
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -123,6 +125,8 @@ def launch(options):
         return 77
     os.makedirs(options.output, exist_ok=True)
     letters = options.axis
+    # held until this process ends
+    alone()
     with tempfile.TemporaryDirectory(prefix="trunnion-linuxcnc-") as folder:
         configure(folder, letters, options.velocity.split(","), options.acceleration.split(","))
         modes = options.modes.split(",")
@@ -158,19 +162,18 @@ def launch(options):
                     break
                 with open(os.path.join(folder, "jobs"), "w", encoding="utf-8") as file:
                     file.write("\n".join(left) + "\n")
-                try:
-                    subprocess.run(
+                finish(
+                    subprocess.Popen(
                         command,
                         env=environment,
                         cwd=folder,
                         stdin=subprocess.DEVNULL,
                         stdout=log,
                         stderr=log,
-                        timeout=60.0 + PATIENCE * len(left),
-                        check=False,
-                    )
-                except subprocess.TimeoutExpired:
-                    print("LinuxCNC did not end", file=sys.stderr)
+                        start_new_session=True,
+                    ),
+                    60.0 + PATIENCE * len(left),
+                )
         good = True
         for number, program in enumerate(options.programs):
             own = names[number * len(modes) : (number + 1) * len(modes)]
@@ -187,6 +190,26 @@ def launch(options):
             with open(os.path.join(folder, "log"), encoding="utf-8", errors="replace") as log:
                 sys.stderr.write(log.read()[-6000:])
         return 0 if good else 2
+
+
+def finish(process, seconds):
+    """Waits for the end of LinuxCNC; after that time it is asked to clean up, and then stopped with all that it started."""
+    for limit, stop in ((seconds, signal.SIGTERM), (20.0, signal.SIGKILL)):
+        try:
+            process.wait(timeout=limit)
+            return
+        except subprocess.TimeoutExpired:
+            print("LinuxCNC did not end", file=sys.stderr)
+            os.killpg(process.pid, stop)
+    process.wait()
+
+
+def alone():
+    """One LinuxCNC at a time: it has one lock for the whole computer."""
+    name = os.path.join(tempfile.gettempdir(), "trunnion-linuxcnc.lock")
+    lock = os.open(name, os.O_RDONLY | os.O_CREAT, 0o666)
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    return lock
 
 
 def table(modes, parts, out):

@@ -155,7 +155,7 @@ impl<'m> Pace<'m> {
             let timed = Timed::at(leg.motion.block, leg.motion.chain, self.motions);
             self.seen.place(&timed, PaceKind::Mode, (feed[1], feed[0]), 0);
         }
-        let control = self.modes.next();
+        let control = self.modes.advance();
         let seen = &mut self.seen;
         self.planner.leg(leg, control, &mut |timed| seen.take(&timed));
         self.motions += 1;

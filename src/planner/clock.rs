@@ -61,7 +61,7 @@ impl<L: Listener> Sink for Clock<'_, '_, L> {
         let leg = self.follower.follow(motion);
         self.listener.leg(&leg, state, self.motions);
         self.motions += 1;
-        let control = self.modes.next();
+        let control = self.modes.advance();
         let listener = &mut *self.listener;
         self.planner
             .leg(&leg, control, &mut |timed| listener.timed(&timed, false));
@@ -117,7 +117,7 @@ impl Modes {
     }
 
     /// The mode at the corner between the last motion and the next one: that of the last one.
-    pub fn next(&mut self) -> PathControl {
+    pub fn advance(&mut self) -> PathControl {
         let now = if core::mem::take(&mut self.once) {
             PathControl::ExactStop
         } else {

@@ -1,4 +1,5 @@
 //! From a leg of the machine to pieces of path with constant limits.
+use crate::corner::{Passage, Side};
 use crate::{Bounds, Limit, Piece};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{arc::Arc, deg};
@@ -35,8 +36,21 @@ pub(crate) struct Course {
 }
 
 impl Course {
+    /// As a side of the corner at its start (0) or its end (1).
+    pub(crate) fn side(&self, end: usize) -> Side<'_> {
+        Side {
+            tangent: &self.tangents[end],
+            length: self.length,
+            cap: self.cap,
+            acceleration: self.acceleration,
+            turning: self.turning,
+            bent: self.bent,
+            rapid: self.feed.is_infinite(),
+        }
+    }
+
     /// Takes what a corner takes of the acceleration of its pieces.
-    pub(crate) fn lose(&mut self, passage: &crate::corner::Passage, pieces: &mut [Piece]) {
+    pub(crate) fn lose(&mut self, passage: &Passage, pieces: &mut [Piece]) {
         let share = |course: &Self| (1.0 - course.loss) * if course.halved { 0.5 } else { 1.0 };
         let before = share(self);
         self.loss = self.loss.max(passage.loss);

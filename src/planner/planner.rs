@@ -1,5 +1,5 @@
 //! The planner: legs in, times out, in order.
-use crate::corner::{Passage, Round, Side, passage};
+use crate::corner::{Passage, Round, passage};
 use crate::pieces::{Course, Taken, take};
 use crate::{Bounds, Limit, PathControl, Piece, Planned, Run, Timed, s_curve};
 use trunnion_dialect::RotaryFeed;
@@ -186,18 +186,7 @@ impl<'m> Planner<'m> {
         let Some(last) = self.last.as_ref().filter(|last| last.turns_only == course.turns_only) else {
             return Passage::STOP;
         };
-        fn side(course: &Course, end: usize) -> Side<'_> {
-            Side {
-                tangent: &course.tangents[end],
-                length: course.length,
-                cap: course.cap,
-                acceleration: course.acceleration,
-                turning: course.turning,
-                bent: course.bent,
-                rapid: course.feed.is_infinite(),
-            }
-        }
-        passage(self.machine, control, [&side(last, 1), &side(course, 0)])
+        passage(self.machine, control, [&last.side(1), &course.side(0)])
     }
 
     /// Nothing follows the last leg but a stop; what the program says about its end.
@@ -297,7 +286,7 @@ impl<'m> Planner<'m> {
             out(if open.count == 0 {
                 open.timed
             } else {
-                finished(open, &self.run, &planned, next..end)
+                finished(&open, &self.run, &planned, next..end)
             });
             next = end;
         }
@@ -332,8 +321,8 @@ impl Timed {
 }
 
 /// Puts the pieces of a motion together.
-fn finished(open: Open, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>) -> Timed {
-    let Open { timed, complete, .. } = open;
+fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>) -> Timed {
+    let Open { timed, complete, .. } = *open;
     let mut seconds = [0.0; 2];
     let (mut reached, mut lowest, mut below, mut crawls) = (0.0_f64, f64::INFINITY, 0.0, 0.0);
     let mut crawls_out = 0.0;

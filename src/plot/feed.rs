@@ -98,7 +98,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         let height = |feed: f64| value(feed.min(top)).max(upwards[0]);
         let mut before = None;
         let mut course = Vec::new();
-        for block in record.blocks.iter() {
+        for block in &record.blocks {
             let entry = before.filter(|_| block.joined).unwrap_or(0.0);
             before = block.planned.map(|[_, end]| end);
             let (Some([most, end]), false) = (block.planned, block.rapid) else {

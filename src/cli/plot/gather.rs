@@ -29,9 +29,19 @@ pub(crate) fn plan(loaded: &Loaded, machine: &Machine, record: &mut Record) {
         feeds: BTreeMap::new(),
     };
     let resolved = &loaded.resolved;
-    time(&loaded.program, resolved.dialect, &resolved.setup, machine, &mut planned);
+    time(
+        &loaded.program,
+        resolved.dialect,
+        &resolved.setup,
+        machine,
+        &mut planned,
+    );
     for block in &mut record.blocks {
-        block.planned = planned.feeds.get_mut(&block.line).and_then(VecDeque::pop_front).flatten();
+        block.planned = planned
+            .feeds
+            .get_mut(&block.line)
+            .and_then(VecDeque::pop_front)
+            .flatten();
     }
 }
 
@@ -59,7 +69,10 @@ impl Listener for Planned<'_> {
         }
         if let Some(Some(line)) = self.waiting.pop_front() {
             let feeds = timed.reached.zip(timed.leaves).filter(|_| !timed.turns_only);
-            self.feeds.entry(line).or_default().push_back(feeds.map(|(most, end)| [most, end]));
+            self.feeds
+                .entry(line)
+                .or_default()
+                .push_back(feeds.map(|(most, end)| [most, end]));
         }
     }
 }

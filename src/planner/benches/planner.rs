@@ -7,8 +7,8 @@ use trunnion_dialect::builtin;
 use trunnion_geometry::math::{cos, sin};
 use trunnion_interp::{Fault, ModalState, Motion, Setup, Sink, run};
 use trunnion_machine::{self as machine, Follower, Leg};
-use trunnion_syntax::parse;
 use trunnion_planner::{PathControl, Planner};
+use trunnion_syntax::parse;
 
 #[path = "../../../benches/support/cpu.rs"]
 mod cpu;
@@ -47,12 +47,19 @@ fn memory(machine: &machine::Machine, rotary_feed: trunnion_dialect::RotaryFeed,
         let mut planner = Planner::new(machine, rotary_feed);
         let before = peak();
         for leg in legs.iter().skip(1).cycle().take(rounds * legs.len()) {
-            planner.leg(black_box(leg), PathControl::ByMachine, &mut |timed| _ = black_box(timed));
+            planner.leg(black_box(leg), PathControl::ByMachine, &mut |timed| {
+                _ = black_box(timed);
+            });
         }
-        planner.finish(&mut |timed| _ = black_box(timed));
+        planner.finish(&mut |timed| {
+            _ = black_box(timed);
+        });
         (peak() - before) / (rounds * legs.len()) as f64
     });
-    format!("peak {:.0} and {:.0} bytes for each block of a quarter and of all", peaks[0], peaks[1])
+    format!(
+        "peak {:.0} and {:.0} bytes for each block of a quarter and of all",
+        peaks[0], peaks[1]
+    )
 }
 
 fn main() {

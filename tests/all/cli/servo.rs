@@ -106,14 +106,30 @@ fn as_its_schema_says() {
     for options in [
         &["--format", "json"][..],
         &["--format", "json", "--sample-ms", "1", "--tolerance-mm", "0.01"],
-        &["--format", "json", "--plant", "third", "--bandwidth-hz", "60", "--corner-gain", "300", "--delay", "4"],
+        &[
+            "--format",
+            "json",
+            "--plant",
+            "third",
+            "--bandwidth-hz",
+            "60",
+            "--corner-gain",
+            "300",
+            "--delay",
+            "4",
+        ],
     ] {
         let document = json(&servo(str(&file), "4", options));
-        for (part, schema) in [(&document, &schema), (&document["within"], &schema["properties"]["within"])] {
+        for (part, schema) in [
+            (&document, &schema),
+            (&document["within"], &schema["properties"]["within"]),
+        ] {
             let Some(object) = part.as_object() else { continue };
             let properties = schema["properties"].as_object().expect("properties");
             for (key, value) in object {
-                let own = properties.get(key).unwrap_or_else(|| panic!("{key} is not in the schema"));
+                let own = properties
+                    .get(key)
+                    .unwrap_or_else(|| panic!("{key} is not in the schema"));
                 fits(value, own, key);
             }
             for key in schema["required"].as_array().expect("required") {

@@ -85,12 +85,15 @@ fn a_bend_is_limited_by_acceleration() {
     };
     let acceleration = most(b'X').min(most(b'Y'));
     let allowed = (60.0 * (acceleration * 0.05).sqrt() + 1e-9).floor();
-    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X10 F9000\nG2 X10.1 I0.05 J0\nG1 X20\nG2 X40 I10 J0\nM30\n";
-    assert!(allowed < 9000.0 && 60.0 * (acceleration * 10.0).sqrt() > 9000.0, "{allowed}");
+    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X10 F8000\nG2 X10.1 I0.05 J0\nG1 X20\nG2 X40 I10 J0\nM30\n";
+    assert!(
+        allowed < 8000.0 && 60.0 * (acceleration * 10.0).sqrt() > 8000.0,
+        "{allowed}"
+    );
     let (after, certificate) = certified(adapt(text, &on_mill("fanuc-30i"), 0.0));
     let expected = text
         .replace("I0.05 J0", &format!("I0.05 J0 F{allowed}"))
-        .replace("G1 X20", "G1 X20 F9000");
+        .replace("G1 X20", "G1 X20 F8000");
     assert_eq!(after, expected);
     assert_eq!(certificate.motions.process_changed, 1);
     let settings = on_mill("fanuc-30i");
@@ -109,11 +112,15 @@ fn a_bend_is_limited_by_acceleration() {
         )
     };
     let faster = after.replace(&format!("F{allowed}"), &format!("F{}", allowed + 2.0));
-    for wrong in [faster, after.replace("G2 X40 I10 J0", "G2 X40 I10 J0 F8000")] {
-        assert!(matches!(judge(&wrong), Outcome::Refuted(_)), "{wrong}: {:?}", judge(&wrong));
+    for wrong in [faster, after.replace("G2 X40 I10 J0", "G2 X40 I10 J0 F7000")] {
+        assert!(
+            matches!(judge(&wrong), Outcome::Refuted(_)),
+            "{wrong}: {:?}",
+            judge(&wrong)
+        );
     }
     // asked for 20000, a slow arc gets no more than the bend allows
-    let slow = text.replace("F9000", "F50");
+    let slow = text.replace("F8000", "F50");
     let (after, _) = certified(adapt(&slow, &on_mill("fanuc-30i"), 20000.0));
     assert!(after.contains(&format!("I0.05 J0 F{allowed}")), "{after}");
 }

@@ -38,7 +38,10 @@ fn program(random: &mut Random) -> String {
                 x += random.between(0.1 * size, size);
                 let reach = 0.5 * (x - from);
                 let code = random.one_of(&["G2", "G3"]);
-                writeln!(text, "G1 X{from:.4} Y{y:.4} F{feed:.1}\n{code} X{x:.4} Y{y:.4} I{reach:.5} J0")
+                writeln!(
+                    text,
+                    "G1 X{from:.4} Y{y:.4} F{feed:.1}\n{code} X{x:.4} Y{y:.4} I{reach:.5} J0"
+                )
             }
             kind if kind < 0.25 => {
                 z += random.between(-size, size);
@@ -52,7 +55,13 @@ fn program(random: &mut Random) -> String {
             // straight on: no corner
             kind if kind < 0.65 => {
                 x += size;
-                writeln!(text, "G1 X{x:.4} F{feed:.1}\nX{:.4}\nX{:.4}", x + 0.3 * size, x + 0.5 * size).map(|()| x += 0.5 * size)
+                writeln!(
+                    text,
+                    "G1 X{x:.4} F{feed:.1}\nX{:.4}\nX{:.4}",
+                    x + 0.3 * size,
+                    x + 0.5 * size
+                )
+                .map(|()| x += 0.5 * size)
             }
             _ => writeln!(text, "G1 X{x:.4} Y{y:.4} F{feed:.1}"),
         };
@@ -63,10 +72,19 @@ fn program(random: &mut Random) -> String {
 fn machine(limits: [f64; 3], control: &str) -> Machine {
     let [v, a, j] = limits;
     let axis = |letter: &str, share: f64| {
-        format!("{{letter=\"{letter}\", sign=1, dyn={{vmax={}, amax={}, jmax={}}}}}", v * share, a * share, j * share)
+        format!(
+            "{{letter=\"{letter}\", sign=1, dyn={{vmax={}, amax={}, jmax={}}}}}",
+            v * share,
+            a * share,
+            j * share
+        )
     };
     let axes = [axis("X", 1.0), axis("Y", 0.8), axis("Z", 0.5)].join(", ");
-    load("m", &format!("schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"linuxcnc\"\n{control}\n")).expect("valid")
+    load(
+        "m",
+        &format!("schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"linuxcnc\"\n{control}\n"),
+    )
+    .expect("valid")
 }
 
 const CONTROLS: [&str; 7] = [
@@ -88,7 +106,10 @@ const MODES: [PathControl; 5] = [
 ];
 
 fn count() -> usize {
-    std::env::var("TRUNNION_PATHS").ok().and_then(|count| count.parse().ok()).unwrap_or(1500)
+    std::env::var("TRUNNION_PATHS")
+        .ok()
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(1500)
 }
 
 #[test]
@@ -97,7 +118,11 @@ fn optimistic_is_never_above_planned() {
     for index in 0..count() {
         let text = program(&mut random);
         let control = CONTROLS[index % CONTROLS.len()];
-        let limits = [random.between(20.0, 500.0), random.between(100.0, 9000.0), random.between(3000.0, 200_000.0)];
+        let limits = [
+            random.between(20.0, 500.0),
+            random.between(100.0, 9000.0),
+            random.between(3000.0, 200_000.0),
+        ];
         let mode = MODES[(index / CONTROLS.len()) % MODES.len()];
         for timed in plan(&machine(limits, control), &text, mode) {
             if let [Some(optimistic), Some(planned)] = timed.seconds {
@@ -121,7 +146,11 @@ fn a_higher_limit_is_never_slower() {
         if control.contains("g64") {
             continue;
         }
-        let limits = [random.between(20.0, 500.0), random.between(100.0, 9000.0), random.between(3000.0, 200_000.0)];
+        let limits = [
+            random.between(20.0, 500.0),
+            random.between(100.0, 9000.0),
+            random.between(3000.0, 200_000.0),
+        ];
         let mode = MODES[(index / CONTROLS.len()) % MODES.len()];
         let which = index % 3;
         let mut higher = limits;

@@ -70,8 +70,8 @@ pub enum Claim {
         assumed_zeros: bool,
     },
     /// All of [`Self::SameToolPath`] but the feeds of cuts. A feed that differs is no higher than the one before, or than the one asked for, and no
-    /// axis is faster than its highest speed with it; it is lower only where an axis would be too fast (`adapt-feed`). Under inverse time (G93)
-    /// the same holds for the time of the block.
+    /// axis is faster than its highest speed with it, nor needs more than its acceleration in a bend, as the planner sees it (docs/kinematics.md#time);
+    /// it is lower only where an axis would (`adapt-feed`). Under inverse time (G93) the same holds for the time of the block.
     AdaptedFeed {
         /// mm.
         tolerance_mm: f64,

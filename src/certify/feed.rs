@@ -1,8 +1,9 @@
-//! Feeds that differ: no higher than asked, lower only where an axis needs it, and no axis too fast.
+//! Feeds that differ: no higher than asked, lower only where an axis needs it, and no axis too fast or, in a bend, beyond its acceleration.
 use crate::Outcome;
 use trunnion_dialect::RotaryFeed;
 use trunnion_interp::Feed;
 use trunnion_machine::{Leg, Machine, feed_is_ambiguous, feed_limit_tight, shortest_time};
+use trunnion_planner::bend_limit;
 
 /// Why a feed is not proved.
 pub(crate) enum Wrong {
@@ -46,7 +47,7 @@ pub(crate) fn adapted(
                     "the highest feed of the axes is unknown here, so the feed must stay",
                 ));
             };
-            let limit = limit.feed_mm_min;
+            let limit = limit.feed_mm_min.min(bends(machine, is));
             judge([old, new], limit, asked_mm_min.max(old), "mm/min")
         }
         (Feed::InverseTime(old), Feed::InverseTime(new)) => {
@@ -57,10 +58,20 @@ pub(crate) fn adapted(
                 ));
             };
             let asked = if is.length > 0.0 { asked_mm_min / is.length } else { 0.0 };
-            judge([old, new], 60.0 / time.seconds, asked.max(old), "1/min")
+            let bends = if is.length > 0.0 {
+                bends(machine, is) / is.length
+            } else {
+                f64::INFINITY
+            };
+            judge([old, new], (60.0 / time.seconds).min(bends), asked.max(old), "1/min")
         }
         _ => Err(Wrong::Refuted("the kind of feed differs".to_owned())),
     }
+}
+
+/// What the bends of a leg allow in the planner's model, mm/min.
+fn bends(machine: &Machine, leg: &Leg) -> f64 {
+    bend_limit(machine, leg).map_or(f64::INFINITY, |(feed, _)| feed)
 }
 
 fn judge([old, new]: [f64; 2], limit: f64, most: f64, unit: &str) -> Result<(), Wrong> {

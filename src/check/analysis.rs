@@ -177,7 +177,10 @@ fn analyse(
         settings,
         directives: &directives,
     };
-    let interpreter = settings.interpreter();
+    let mut interpreter = settings.interpreter();
+    if pass.wants_effects() {
+        interpreter.watch_effects();
+    }
     if is_utf16(program.source()) {
         if !pass.report_unreadable() {
             pass.read_whole(&overview);

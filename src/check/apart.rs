@@ -5,7 +5,7 @@ use crate::analysis::Read;
 use crate::pass::Pass;
 use crate::view::InForce;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use trunnion_interp::{AXIS_LETTERS, ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
+use trunnion_interp::{AXIS_LETTERS, ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Placed, Sink};
 use trunnion_machine::{Lookahead, Machine, Sine};
 use trunnion_syntax::{BlockId, Program};
 
@@ -37,6 +37,8 @@ enum RunEvent {
     },
     /// The next of [`Batch::faults`].
     Fault,
+    /// The next of [`Batch::effects`].
+    Effect,
     /// A block has run.
     Ran(BlockId),
 }
@@ -93,6 +95,7 @@ struct Batch {
     places: Vec<f64>,
     sines: Vec<Sine>,
     faults: Vec<Fault>,
+    effects: Vec<Placed>,
 }
 
 /// Records what a run emits.
@@ -161,6 +164,10 @@ impl Sink for EventRecorder<'_> {
         self.batch.order.push(RunEvent::Fault);
         self.batch.faults.push(fault);
     }
+    fn effect(&mut self, effect: Placed) {
+        self.batch.order.push(RunEvent::Effect);
+        self.batch.effects.push(effect);
+    }
 }
 
 impl Batch {
@@ -169,6 +176,7 @@ impl Batch {
         let (mut motions, mut courses) = (self.motions.iter(), self.courses.iter());
         let (mut places, mut sines) = (self.places.iter(), self.sines.iter());
         let mut faults = self.faults.drain(..);
+        let mut effects = self.effects.drain(..);
         let mut course = None;
         for told in self.order.drain(..) {
             match told {
@@ -203,10 +211,12 @@ impl Batch {
                     }
                 }
                 RunEvent::Fault => faults.by_ref().take(1).for_each(|fault| pass.fault(fault)),
+                RunEvent::Effect => effects.by_ref().take(1).for_each(|effect| pass.effect(effect)),
                 RunEvent::Ran(block) => _ = pass.ran(block),
             }
         }
         drop(faults);
+        drop(effects);
         self.motions.clear();
         self.courses.clear();
         self.places.clear();

@@ -1,16 +1,18 @@
 //! How the machine runs the program: its time, and the places where it slows down, crawls, swings or cuts a corner.
+mod seen;
+
 use crate::pass::ask;
 use crate::sink::{Active, Reporter};
 use crate::view::LegView;
 use crate::wake::Wake;
-use std::collections::VecDeque;
+use seen::{Pending, Seen};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{ChainId, Feed};
+use trunnion_interp::{ChainId, Feed, Placed};
 use trunnion_machine::{BlockPath, Machine, leads_tip};
-use trunnion_planner::{PathControl, Planner, Timed};
-use trunnion_servo::{Corner, Profile, closed_form};
-use trunnion_syntax::BlockId;
+use trunnion_planner::{Modes, Planner, Timed};
+use trunnion_servo::Corner;
+use trunnion_syntax::{BlockId, Program};
 
 /// What a place is about; each is one rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +29,10 @@ pub(crate) enum PaceKind {
     Corner,
     /// F is not the speed of the tip: `value` the speed of the tip.
     Mode,
+    /// An axis that moves in a cut declares no acceleration: `joint`.
+    NoAcceleration,
+    /// The servo loops of some linear axes are declared, but not alike: corners are not judged.
+    UnlikeLoops,
 }
 
 /// A place: one block or several one after the other.
@@ -58,14 +64,6 @@ impl Place {
     }
 }
 
-/// The most places of a kind that are kept apart; later ones count as part of the last.
-const MOST: usize = 1000;
-/// Share of F below which a bend or a swing matters.
-const MATTERS: f64 = 0.7;
-/// Two dips within this path are a swing, mm.
-const WINDOW: f64 = 2.0;
-/// The tool crawls when it is below 5 % of F for this long, s.
-const CRAWLS: f64 = 0.05;
 /// A corner may be cut by this much where the machine file does not say otherwise, mm.
 pub(crate) const CORNER: f64 = 0.02;
 
@@ -76,9 +74,14 @@ pub(crate) struct Pace<'m> {
     seen: Seen<'m>,
     /// Linear axes whose servo loops are declared alike: joints, gain, feed forward.
     loops: Option<([usize; 3], f64, f64)>,
+    /// Corners wait for loops that are declared alike: said at the first one.
+    unlike: bool,
+    modes: Modes,
     motions: u32,
     tool: Option<u32>,
     before: Option<Tangent>,
+    /// Axes of which it was said that their acceleration is not declared: bits by joint.
+    bare: u32,
 }
 
 /// Direction of the linear axes at the end of a motion.
@@ -89,84 +92,49 @@ struct Tangent {
     feed: f64,
 }
 
-/// A corner whose speed is not planned yet.
-#[derive(Clone, Copy)]
-struct Pending {
-    /// The motion after it.
-    motion: u32,
-    corner: Corner,
-    feeds: [f64; 2],
-    acceleration: f64,
-}
-
-/// What came out of the planner.
-struct Seen<'m> {
-    machine: &'m Machine,
-    low: f64,
-    high: f64,
-    known: bool,
-    places: Vec<Place>,
-    corners: VecDeque<Pending>,
-    /// Motions in which rotary axes turn, whose time is not known yet.
-    turning: VecDeque<u32>,
-    /// Planned speed at the end of the last motion, mm/s.
-    leaves: f64,
-    swing: Swing,
-}
-
-/// The feed along the path in feed, as a run of dips.
-#[derive(Default)]
-struct Swing {
-    way: f64,
-    /// Highest since the last dip, lowest in it, and whether it is in one.
-    high: f64,
-    low: f64,
-    falling: bool,
-    dip: Option<f64>,
-}
-
-impl Swing {
-    /// The next feed after some way, both mm; the lowest feed of two dips that lie within the window.
-    fn next(&mut self, way: f64, feed: f64) -> Option<f64> {
-        self.way += way;
-        if self.falling {
-            self.low = self.low.min(feed);
-            if feed * MATTERS <= self.low {
-                return None;
-            }
-            let found = self.dip.is_some_and(|dip| self.way - dip <= WINDOW).then_some(self.low);
-            (self.dip, self.falling, self.high) = (Some(self.way), false, feed);
-            return found;
-        }
-        self.high = self.high.max(feed);
-        if feed < self.high * MATTERS {
-            (self.falling, self.low) = (true, feed);
-        }
-        None
-    }
-}
-
 impl<'m> Pace<'m> {
     pub(crate) fn new(machine: &'m Machine, dialect: &Dialect) -> Self {
         Self {
             machine,
             planner: Planner::new(machine, dialect.advice.rotary_feed),
-            seen: Seen {
-                machine,
-                low: 0.0,
-                high: 0.0,
-                known: true,
-                places: Vec::new(),
-                corners: VecDeque::new(),
-                turning: VecDeque::new(),
-                leaves: 0.0,
-                swing: Swing::default(),
-            },
+            seen: Seen::new(machine),
             loops: loops(machine),
+            unlike: loops(machine).is_none() && speaks_of_loops(machine),
+            modes: Modes::new(machine),
             motions: 0,
             tool: None,
             before: None,
+            bare: 0,
         }
+    }
+
+    /// Whether effects of this program may change times.
+    pub(crate) fn wants_effects(&self, program: &Program) -> bool {
+        let codes: &[&[u8]] = if self.machine.control.family == "linuxcnc" {
+            &[b"G61", b"G64"]
+        } else {
+            &[b"G60", b"G61", b"G9", b"G09"]
+        };
+        !self.machine.control.planning.m_times.is_empty() || codes.iter().any(|code| names(program.source(), code))
+    }
+
+    /// What the program does apart from its motions.
+    pub(crate) fn effect(&mut self, placed: &Placed) {
+        if let Some(seconds) = self.modes.take(&placed.effect, self.machine) {
+            self.wait(seconds);
+        }
+    }
+
+    /// The machine stands still.
+    fn wait(&mut self, seconds: f64) {
+        if seconds <= 0.0 {
+            return;
+        }
+        self.planner.end(self.modes.last());
+        let seen = &mut self.seen;
+        self.planner.finish(&mut |timed| seen.take(&timed));
+        seen.low += seconds;
+        seen.high += seconds;
     }
 
     /// The next leg.
@@ -175,10 +143,10 @@ impl<'m> Pace<'m> {
         if leg.motion.tool.is_some() && leg.motion.tool != self.tool {
             self.tool = leg.motion.tool;
             if let Some(seconds) = self.machine.control.planning.tool_change_time {
-                self.seen.low += seconds;
-                self.seen.high += seconds;
+                self.wait(seconds);
             }
         }
+        self.undeclared(view);
         self.corner(view);
         if view.rotary_turns() {
             self.seen.turning.push_back(self.motions);
@@ -187,14 +155,34 @@ impl<'m> Pace<'m> {
             let timed = Timed::at(leg.motion.block, leg.motion.chain, self.motions);
             self.seen.place(&timed, PaceKind::Mode, (feed[1], feed[0]), 0);
         }
+        let control = self.modes.advance();
         let seen = &mut self.seen;
-        self.planner
-            .leg(leg, PathControl::ByMachine, &mut |timed| seen.take(&timed));
+        self.planner.leg(leg, control, &mut |timed| seen.take(&timed));
         self.motions += 1;
+    }
+
+    /// Remembers axes of a cut whose acceleration is not declared, each once.
+    fn undeclared(&mut self, view: &LegView<'_>) {
+        let leg = view.leg;
+        if !leg.motion.is_feed() || leg.motion.spindle_on != Some(true) {
+            return;
+        }
+        let Some((start, end)) = view.stances() else { return };
+        for (joint, axis) in self.machine.axes.iter().enumerate().take(32) {
+            let bit = 1_u32 << joint;
+            let moves = (end.joints[joint] - start.joints[joint]).abs() > 1e-9;
+            if moves && axis.max_acceleration.is_none() && self.bare & bit == 0 {
+                self.bare |= bit;
+                let timed = Timed::at(leg.motion.block, leg.motion.chain, self.motions);
+                self.seen
+                    .place(&timed, PaceKind::NoAcceleration, (0.0, 0.0), joint as u8);
+            }
+        }
     }
 
     /// The end of the program: its lowest and highest time, s.
     pub(crate) fn finish(&mut self) -> Option<[f64; 2]> {
+        self.planner.end(self.modes.last());
         let seen = &mut self.seen;
         self.planner.finish(&mut |timed| seen.take(&timed));
         let Seen { low, high, known, .. } = seen;
@@ -217,8 +205,13 @@ impl<'m> Pace<'m> {
 
     /// Remembers the corner at the start of a feed motion, where the servo loops are declared.
     fn corner(&mut self, view: &LegView<'_>) {
-        let Some((joints, ..)) = self.loops else { return };
         let leg = view.leg;
+        if self.unlike && leg.motion.is_feed() && leg.motion.spindle_on == Some(true) {
+            self.unlike = false;
+            let timed = Timed::at(leg.motion.block, leg.motion.chain, self.motions);
+            self.seen.place(&timed, PaceKind::UnlikeLoops, (0.0, 0.0), 0);
+        }
+        let Some((joints, ..)) = self.loops else { return };
         let feed = match leg.motion.feed {
             Feed::PerMinute(feed) if leg.motion.is_feed() && leg.motion.spindle_on == Some(true) => feed / 60.0,
             _ => {
@@ -263,107 +256,6 @@ impl<'m> Pace<'m> {
     }
 }
 
-impl Seen<'_> {
-    fn take(&mut self, timed: &Timed) {
-        match timed.seconds {
-            [Some(low), Some(high)] => {
-                self.low += low;
-                self.high += high;
-            }
-            _ => self.known = false,
-        }
-        let turns = self.turning.front() == Some(&timed.motion);
-        if turns {
-            self.turning.pop_front();
-        }
-        self.corner(timed);
-        self.leaves = timed.leaves.unwrap_or(0.0) / 60.0;
-        let Some(feed) = timed.feed.filter(|_| timed.engaged && timed.seconds[1].is_some()) else {
-            self.swing = Swing::default();
-            return;
-        };
-        if let Some((bend, joint)) = timed.bend_feed {
-            self.place(timed, PaceKind::Bend, (bend, feed), joint);
-        }
-        if let Some(most) = timed.block_time_feed {
-            self.place(timed, PaceKind::Short, (most, feed), 0);
-        }
-        if timed.crawls > CRAWLS {
-            self.place(timed, PaceKind::Crawl, (timed.crawls, feed), 0);
-        }
-        if turns {
-            self.swing = Swing::default();
-        } else if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {
-            let half = 0.5 * timed.length;
-            let first = self.swing.next(half, reached);
-            if let Some(low) = self.swing.next(half, leaves).or(first) {
-                self.place(timed, PaceKind::Swing, (low, feed), 0);
-            }
-        }
-    }
-
-    /// A corner whose speed is known now.
-    fn corner(&mut self, timed: &Timed) {
-        while let Some(pending) = self
-            .corners
-            .front()
-            .copied()
-            .filter(|pending| pending.motion <= timed.motion)
-        {
-            self.corners.pop_front();
-            let Some((_, kv, forward)) = loops(self.machine).filter(|_| pending.motion == timed.motion) else {
-                continue;
-            };
-            let profile = Profile {
-                feeds: pending.feeds,
-                acceleration: pending.acceleration,
-                corner_speed: self.leaves,
-            };
-            let error = closed_form(&pending.corner, &profile, kv, forward);
-            let tolerance = self.machine.control.planning.corner_tolerance.unwrap_or(CORNER);
-            if error > tolerance {
-                self.place(timed, PaceKind::Corner, (error, self.leaves * 60.0), 0);
-            }
-        }
-    }
-
-    /// Adds a place, or extends the last one of its kind.
-    fn place(&mut self, timed: &Timed, kind: PaceKind, (value, feed): (f64, f64), joint: u8) {
-        let full = self.places.len() >= MOST;
-        let last = self.places.iter_mut().rev().take(8).find(|place| place.kind == kind);
-        if let Some(place) = last
-            && (full || place.last_motion + 1 == timed.motion && place.joint == joint)
-        {
-            let worse = match kind {
-                PaceKind::Crawl | PaceKind::Corner => value > place.value,
-                // the tip is fastest against F
-                PaceKind::Mode => value * place.feed > place.value * feed,
-                PaceKind::Bend | PaceKind::Swing | PaceKind::Short => value < place.value,
-            };
-            if worse {
-                (place.value, place.feed) = (value, feed);
-            }
-            (place.last, place.last_motion, place.count) = (timed.block, timed.motion, place.count + 1);
-            return;
-        }
-        if full {
-            return;
-        }
-        self.places.push(Place {
-            kind,
-            block: timed.block,
-            chain: timed.chain,
-            last: timed.block,
-            count: 1,
-            value,
-            feed,
-            turns_only: timed.turns_only,
-            joint,
-            last_motion: timed.motion,
-        });
-    }
-}
-
 /// The first three linear axes with the same position gain and feed forward; `None` where they are not declared so.
 fn loops(machine: &Machine) -> Option<([usize; 3], f64, f64)> {
     let joints: [usize; 3] = machine.linear.get(..3)?.try_into().ok()?;
@@ -376,6 +268,23 @@ fn loops(machine: &Machine) -> Option<([usize; 3], f64, f64)> {
         .iter()
         .all(|&joint| of(joint) == Some((kv, forward)))
         .then_some((joints, kv, forward))
+}
+
+/// Whether a linear axis declares its servo loop.
+fn speaks_of_loops(machine: &Machine) -> bool {
+    let joints = machine.linear.iter().take(3);
+    joints.clone().count() == 3
+        && joints
+            .into_iter()
+            .any(|&joint| machine.axes[joint].extra.position_gain.is_some())
+}
+
+/// Whether a text contains a code: not followed by a digit.
+fn names(text: &[u8], code: &[u8]) -> bool {
+    let mut at = text.windows(code.len()).enumerate();
+    at.any(|(from, window)| {
+        window.eq_ignore_ascii_case(code) && !text.get(from + code.len()).is_some_and(u8::is_ascii_digit)
+    })
 }
 
 /// F and the mean speed of the tip, mm/min, where linear and rotary axes move together, F is a speed along X Y Z and the tip's is clearly another one.

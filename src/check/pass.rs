@@ -18,7 +18,7 @@ use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use std::collections::BTreeSet;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, ProgramRun, Sink};
+use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, Placed, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program};
 
@@ -117,6 +117,13 @@ impl<'a> Pass<'a> {
         if !self.legs.rules.iter().any(objects) {
             self.pace = None;
         }
+    }
+
+    /// Whether the time depends on what the program does apart from its motions: path control, M codes.
+    pub(crate) fn wants_effects(&self) -> bool {
+        self.pace
+            .as_ref()
+            .is_some_and(|pace| pace.wants_effects(self.reporter.program()))
     }
 
     /// The current position of the machine.
@@ -270,6 +277,12 @@ impl Sink for Pass<'_> {
             return self.motion(motion, state);
         }
         self.take_line(motion);
+    }
+
+    fn effect(&mut self, effect: Placed) {
+        if let Some(pace) = &mut self.pace {
+            pace.effect(&effect);
+        }
     }
 
     fn fault(&mut self, fault: Fault) {

@@ -18,7 +18,7 @@ use trunnion_plot::{
 };
 use trunnion_syntax::LineIndex;
 
-pub(super) use gather::{gather, marks};
+pub(super) use gather::{gather, marks, plan};
 
 /// `plot`
 #[derive(clap::Args)]
@@ -59,7 +59,7 @@ enum Kind {
     AxisPlane,
     /// Deviation of the tip from the programmed segments.
     Deviation,
-    /// Programmed feed and the highest that the axes reach.
+    /// Programmed feed, the highest that the axes reach, and the planned one.
     Feed,
     /// The real path in space.
     Path,
@@ -101,7 +101,10 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         load::put(output.as_ref(), text.as_bytes())?;
         return Ok(Done::Clean);
     }
-    let record = gather(&loaded, machine, lines);
+    let mut record = gather(&loaded, machine, lines);
+    if command.kind == Kind::Feed {
+        plan(&loaded, machine, &mut record);
+    }
     if record.unknown > 0 {
         let count = record.unknown;
         remark(

@@ -135,7 +135,8 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
 /// The pictures and the replay of a program on a machine.
 #[allow(clippy::type_complexity, reason = "the fields of Part")]
 fn drawn(loaded: &Loaded, machine: &Machine) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
-    let record = plot::gather(loaded, machine, None);
+    let mut record = plot::gather(loaded, machine, None);
+    plot::plan(loaded, machine, &mut record);
     let marks = plot::marks(loaded, None);
     let head = |title: &str| plot::header(title, loaded, machine);
     let text = |drawn: Result<String, PlotError>| drawn.map_err(|error| error.0);

@@ -12,6 +12,8 @@ pub(crate) enum SchemaName {
     Trace,
     /// `fix --format json`.
     Fix,
+    /// `servo --format json`.
+    Servo,
     /// `stats --format json`.
     Stats,
     /// The file of `fix --certificate`.
@@ -30,6 +32,7 @@ impl SchemaName {
             Self::Check => include_str!("../../grammar/schemas/check.json"),
             Self::Trace => include_str!("../../grammar/schemas/trace.json"),
             Self::Fix => include_str!("../../grammar/schemas/fix.json"),
+            Self::Servo => include_str!("../../grammar/schemas/servo.json"),
             Self::Stats => include_str!("../../grammar/schemas/stats.json"),
             Self::Certificate => include_str!("../../grammar/schemas/certificate.json"),
             Self::Baseline => include_str!("../../grammar/schemas/baseline.json"),

@@ -33,8 +33,12 @@ pub fn time(program: &Program, dialect: &Dialect, setup: &Setup, machine: &Machi
         clock.block_done(block, &interpreter);
     }
     let Clock {
-        mut planner, listener, ..
+        mut planner,
+        modes,
+        listener,
+        ..
     } = clock;
+    planner.end(modes.last());
     planner.finish(&mut |timed| listener.timed(&timed, false));
 }
 
@@ -57,7 +61,7 @@ impl<L: Listener> Sink for Clock<'_, '_, L> {
         let leg = self.follower.follow(motion);
         self.listener.leg(&leg, state, self.motions);
         self.motions += 1;
-        let control = self.modes.next();
+        let control = self.modes.advance();
         let listener = &mut *self.listener;
         self.planner
             .leg(&leg, control, &mut |timed| listener.timed(&timed, false));
@@ -78,6 +82,7 @@ impl<L: Listener> Clock<'_, '_, L> {
             return;
         }
         // what comes out first belongs to motions before
+        self.planner.end(self.modes.last());
         let listener = &mut *self.listener;
         self.planner.finish(&mut |timed| listener.timed(&timed, false));
         self.planner
@@ -85,8 +90,8 @@ impl<L: Listener> Clock<'_, '_, L> {
     }
 }
 
-/// What the program says about corners.
-struct Modes {
+/// What the program says about corners, and the times of its M codes: a reader of its effects.
+pub struct Modes {
     linuxcnc: bool,
     now: PathControl,
     /// That of the motion before.
@@ -96,7 +101,8 @@ struct Modes {
 }
 
 impl Modes {
-    fn new(machine: &Machine) -> Self {
+    /// Before the first block.
+    pub fn new(machine: &Machine) -> Self {
         Self {
             linuxcnc: machine.control.family == "linuxcnc",
             now: PathControl::ByMachine,
@@ -105,8 +111,13 @@ impl Modes {
         }
     }
 
+    /// The mode at the end of the last motion.
+    pub fn last(&self) -> PathControl {
+        self.before
+    }
+
     /// The mode at the corner between the last motion and the next one: that of the last one.
-    fn next(&mut self) -> PathControl {
+    pub fn advance(&mut self) -> PathControl {
         let now = if core::mem::take(&mut self.once) {
             PathControl::ExactStop
         } else {
@@ -116,7 +127,7 @@ impl Modes {
     }
 
     /// Reads an effect; the time of its M codes, s.
-    fn take(&mut self, effect: &Effect, machine: &Machine) -> Option<f64> {
+    pub fn take(&mut self, effect: &Effect, machine: &Machine) -> Option<f64> {
         let arguments = match effect {
             Effect::Set { key, to } => {
                 if key == "path-control" {

@@ -1,5 +1,5 @@
 //! How fast a corner between two motions may be passed.
-use trunnion_geometry::math::{acos, cos, sin, tan};
+use trunnion_geometry::math::{acos, sin};
 use trunnion_machine::{Joints, Machine};
 use trunnion_servo::{Corner, slowest_corner_speed};
 
@@ -23,48 +23,115 @@ pub(crate) struct Side<'a> {
     pub(crate) tangent: &'a Joints,
     /// mm.
     pub(crate) length: f64,
+    /// Highest speed away from the corner, mm/s.
+    pub(crate) cap: f64,
+    /// Acceleration along the path, mm/s^2.
+    pub(crate) acceleration: f64,
+    /// Rotary axes turn.
+    pub(crate) turning: bool,
+    /// It is an arc.
+    pub(crate) bent: bool,
+    /// It is a rapid.
+    pub(crate) rapid: bool,
+}
+
+/// How a corner is passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Passage {
+    /// Highest speed at the corner, optimistic and planned, mm/s: infinite where it does not limit, 0 for a stop.
+    pub(crate) speed: [f64; 2],
+    /// The share of the acceleration of both legs that it takes.
+    pub(crate) loss: f64,
+    /// Both legs run at half of their acceleration.
+    pub(crate) halved: bool,
+    /// How long both legs run at once, s.
+    pub(crate) overlap: f64,
+    /// The speed in the middle of that, mm/s.
+    pub(crate) corner: f64,
+    /// An arc in place of the corner.
+    pub(crate) round: Option<Round>,
+}
+
+/// An arc that takes the same part of both legs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Round {
+    /// What it takes of each leg, and its own length, mm.
+    pub(crate) depth: f64,
+    pub(crate) length: f64,
+    /// Highest speed on it, planned and optimistic, mm/s.
+    pub(crate) cap: f64,
+    pub(crate) free: f64,
+    /// Acceleration along it, planned and optimistic, mm/s^2.
+    pub(crate) along: f64,
+    pub(crate) acceleration: f64,
+}
+
+impl Passage {
+    pub(crate) const SMOOTH: Self = Self {
+        speed: [f64::INFINITY; 2],
+        loss: 0.0,
+        halved: false,
+        overlap: 0.0,
+        corner: 0.0,
+        round: None,
+    };
+    pub(crate) const STOP: Self = Self {
+        speed: [0.0; 2],
+        ..Self::SMOOTH
+    };
+
+    fn at(speed: [f64; 2]) -> Self {
+        Self { speed, ..Self::SMOOTH }
+    }
 }
 
 /// Changes of direction below this are none, rad.
 const STRAIGHT: f64 = 1e-4;
 
-/// Highest speed at the corner, optimistic and planned, mm/s: infinite where it does not limit, 0 for a stop. `acceleration`: along the path, the
-/// lower one of both sides, mm/s^2.
-pub(crate) fn speed(machine: &Machine, control: PathControl, sides: [&Side<'_>; 2], acceleration: f64) -> [f64; 2] {
-    if control == PathControl::ExactStop || machine.control.corner_model.as_deref() == Some("exact-stop") {
-        return [0.0; 2];
+/// How a corner is passed.
+pub(crate) fn passage(machine: &Machine, control: PathControl, sides: [&Side<'_>; 2]) -> Passage {
+    let model = machine.control.corner_model.as_deref();
+    if control == PathControl::ExactStop || model == Some("exact-stop") {
+        return Passage::STOP;
+    }
+    if model == Some("linuxcnc-g64") {
+        return crate::linuxcnc::passage(machine, control, sides, angle(sides[0].tangent, sides[1].tangent));
     }
     let turn = turn(machine, sides[0].tangent, sides[1].tangent);
     if turn < STRAIGHT && smooth(sides[0].tangent, sides[1].tangent) {
-        return [f64::INFINITY; 2];
+        return Passage::SMOOTH;
     }
     if control == PathControl::ExactPath {
-        return [0.0; 2];
+        return Passage::STOP;
     }
     let planning = &machine.control.planning;
+    let acceleration = sides[0].acceleration.min(sides[1].acceleration);
     let half = 0.5 * (core::f64::consts::PI - turn);
     let junction = |deviation: f64| (acceleration * deviation * sin(half) / (1.0 - sin(half))).sqrt();
-    let speed = match machine.control.corner_model.as_deref() {
+    let speed = match model {
         Some("axis-jump") => axis_jump(machine, sides[0].tangent, sides[1].tangent),
         Some("grbl") => planning.corner_deviation.map(junction),
         Some("klipper") => planning
             .corner_speed
             .map(|speed| junction(speed * speed * (core::f64::consts::SQRT_2 - 1.0) / acceleration)),
-        Some("linuxcnc-g64") => {
-            let tolerance = match control {
-                PathControl::Blend(Some(tolerance)) => Some(tolerance),
-                _ => planning.corner_tolerance,
-            };
-            Some(blend(tolerance, half, sides, acceleration))
-        }
         Some("servo") => servo(machine, sides, planning.corner_tolerance),
         _ => None,
     };
-    match speed {
+    Passage::at(match speed {
         Some(speed) if !speed.is_nan() => [speed; 2],
         // nobody says: anything from full speed to a stop
         _ => [f64::INFINITY, 0.0],
+    })
+}
+
+/// Angle between two directions of the joints, rad.
+fn angle(before: &Joints, after: &Joints) -> f64 {
+    let product = |a: &Joints, b: &Joints| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let norms = (product(before, before) * product(after, after)).sqrt();
+    if norms == 0.0 {
+        return 0.0;
     }
+    acos((product(before, after) / norms).clamp(-1.0, 1.0))
 }
 
 /// Angle between two directions, each axis in units of its acceleration (equal units where none is declared), rad.
@@ -110,15 +177,6 @@ fn axis_jump(machine: &Machine, before: &Joints, after: &Joints) -> Option<f64> 
     Some(speed)
 }
 
-/// An arc that leaves the corner by no more than the tolerance and takes at most half of each leg; 3/4 of the acceleration squared are left to it.
-/// Source: docs/kinematics.md#time.
-fn blend(tolerance: Option<f64>, half: f64, sides: [&Side<'_>; 2], acceleration: f64) -> f64 {
-    let legs = 0.5 * sides[0].length.min(sides[1].length);
-    let depth = tolerance.map_or(f64::INFINITY, |tolerance| tolerance / (1.0 - sin(half)) * cos(half));
-    let radius = legs.min(depth) * tan(half);
-    (acceleration * 0.75_f64.sqrt() * radius).sqrt()
-}
-
 /// The speed at which the servo loops leave the corner by no more than the tolerance; in the space of the first three linear axes.
 fn servo(machine: &Machine, sides: [&Side<'_>; 2], tolerance: Option<f64>) -> Option<f64> {
     let joints: [usize; 3] = machine.linear.get(..3)?.try_into().ok()?;
@@ -148,17 +206,17 @@ corner = { CORNER }
         let machine = trunnion_machine::load("m", &text).expect("valid");
         let (mut x, mut y) = ([0.0; _], [0.0; _]);
         (x[0], y[1]) = (1.0, 1.0);
-        let sides = [
-            Side {
-                tangent: &x,
-                length: 10.0,
-            },
-            Side {
-                tangent: &y,
-                length: 10.0,
-            },
-        ];
-        speed(&machine, control, [&sides[0], &sides[1]], amax)
+        let sides = [&x, &y].map(|tangent| Side {
+            tangent,
+            length: 10.0,
+            cap: 100.0,
+            acceleration: amax,
+            turning: false,
+            bent: false,
+            rapid: false,
+        });
+        let passage = passage(&machine, control, [&sides[0], &sides[1]]);
+        passage.round.map_or(passage.speed, |round| [round.cap; 2])
     }
 
     /// Known values at 90 deg (docs/kinematics.md#time).

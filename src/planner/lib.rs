@@ -6,6 +6,7 @@ mod clock;
 mod corner;
 #[cfg(test)]
 mod limits_tests;
+mod linuxcnc;
 mod path;
 mod piece;
 mod pieces;
@@ -13,10 +14,11 @@ mod planner;
 mod run;
 mod timed;
 
-pub use clock::{Listener, time};
+pub use clock::{Listener, Modes, time};
 pub use corner::PathControl;
 pub use path::{Ramp, s_curve, trapezoid};
 pub use piece::{Bounds, Limit, Piece};
+pub use pieces::bend_limit;
 pub use planner::Planner;
 pub use run::{Planned, Run};
 pub use timed::Timed;

@@ -70,6 +70,11 @@ impl Ramp {
         self.change(a.min(speed), speed) + self.change(speed, b.min(speed))
     }
 
+    /// How long the speed is below `speed` at the end, where the highest is above it, s.
+    pub fn seconds_to_end_below(&self, speed: f64) -> f64 {
+        self.change(speed, self.ends[1].min(speed))
+    }
+
     /// Speed and acceleration at the way `s` from the start.
     pub fn at(&self, s: f64) -> (f64, f64) {
         let [a, b] = self.ends;

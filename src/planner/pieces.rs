@@ -1,4 +1,5 @@
 //! From a leg of the machine to pieces of path with constant limits.
+use crate::corner::{Passage, Side};
 use crate::{Bounds, Limit, Piece};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{arc::Arc, deg};
@@ -22,6 +23,45 @@ pub(crate) struct Course {
     pub(crate) bend: Option<(f64, u8)>,
     /// Where the time for a block sets a lower one, mm/s.
     pub(crate) block_time: Option<f64>,
+    /// The lowest of the highest planned speeds, mm/s.
+    pub(crate) cap: f64,
+    /// Rotary axes turn; it is an arc.
+    pub(crate) turning: bool,
+    pub(crate) bent: bool,
+    /// Its pieces.
+    pub(crate) count: usize,
+    /// What corners take of its acceleration: a share, and half of the rest.
+    pub(crate) loss: f64,
+    pub(crate) halved: bool,
+}
+
+impl Course {
+    /// As a side of the corner at its start (0) or its end (1).
+    pub(crate) fn side(&self, end: usize) -> Side<'_> {
+        Side {
+            tangent: &self.tangents[end],
+            length: self.length,
+            cap: self.cap,
+            acceleration: self.acceleration,
+            turning: self.turning,
+            bent: self.bent,
+            rapid: self.feed.is_infinite(),
+        }
+    }
+
+    /// Takes what a corner takes of the acceleration of its pieces.
+    pub(crate) fn lose(&mut self, passage: &Passage, pieces: &mut [Piece]) {
+        let share = |course: &Self| (1.0 - course.loss) * if course.halved { 0.5 } else { 1.0 };
+        let before = share(self);
+        self.loss = self.loss.max(passage.loss);
+        self.halved |= passage.halved;
+        let factor = share(self) / before;
+        if factor < 1.0 {
+            for piece in pieces {
+                piece.planned.acceleration *= factor;
+            }
+        }
+    }
 }
 
 /// What a leg becomes.
@@ -46,6 +86,36 @@ const ROUND: f64 = 0.866_025_403_784_438_6;
 
 /// Adds the pieces of a leg.
 pub(crate) fn take(machine: &Machine, leg: &Leg, motion: u32, pieces: &mut Vec<Piece>) -> Taken {
+    take_at(machine, leg, &feed, motion, pieces)
+}
+
+/// The highest feed of the tip at which no axis needs more than its acceleration in the bends of a leg, mm/min, and the axis; `None` where bends do
+/// not limit it below the speeds of the axes, or the leg is not known.
+pub fn bend_limit(machine: &Machine, leg: &Leg) -> Option<(f64, usize)> {
+    // faster than any axis, but a number
+    const FREE: f64 = 1e12;
+    if leg.length <= 0.0 {
+        return None;
+    }
+    let mut pieces = Vec::new();
+    let Taken::Course(_) = take_at(machine, leg, &|_, _| Some(FREE), 0, &mut pieces) else {
+        return None;
+    };
+    let bends = pieces.iter().filter_map(|piece| match piece.optimistic.by {
+        Limit::Bend(joint) => Some((piece.optimistic.cap * 60.0, usize::from(joint))),
+        _ => None,
+    });
+    bends.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The same at any feed: `feed` gives it in mm/s.
+fn take_at(
+    machine: &Machine,
+    leg: &Leg,
+    feed: &dyn Fn(&Leg, f64) -> Option<f64>,
+    motion: u32,
+    pieces: &mut Vec<Piece>,
+) -> Taken {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return Taken::Unknown;
     };
@@ -76,6 +146,12 @@ pub(crate) fn take(machine: &Machine, leg: &Leg, motion: u32, pieces: &mut Vec<P
         acceleration: f64::INFINITY,
         bend: None,
         block_time: None,
+        cap: f64::INFINITY,
+        turning: leg.rotary_change != [0.0; 2],
+        bent: matches!(leg.motion.kind, MotionKind::Arc(_)),
+        count: 0,
+        loss: 0.0,
+        halved: false,
     };
     let done = match &leg.motion.kind {
         MotionKind::Arc(Some(arc)) if leg.rotary_change == [0.0; 2] => {
@@ -106,6 +182,18 @@ pub(crate) fn take(machine: &Machine, leg: &Leg, motion: u32, pieces: &mut Vec<P
             }
         }
     }
+    if machine.control.corner_model.as_deref() == Some("linuxcnc-g64") {
+        // no block is shorter than a cycle
+        let most = length / crate::linuxcnc::cycle(machine);
+        for piece in &mut pieces[first..] {
+            if most < piece.planned.cap {
+                (piece.planned.cap, piece.planned.by) = (most, Limit::BlockTime);
+            }
+        }
+    }
+    course.count = pieces.len() - first;
+    let caps = pieces[first..].iter().map(|piece| piece.planned.cap);
+    course.cap = caps.fold(f64::INFINITY, f64::min);
     Taken::Course(Box::new(course))
 }
 
@@ -137,6 +225,12 @@ fn push(
     let (mut acceleration, mut jerk, mut jerk_time, mut slowest) = (f64::INFINITY, f64::INFINITY, 0.0_f64, 0);
     let mut limited = course.feed.is_finite();
     let (mut speed_cap, mut bend_cap) = (course.feed, (f64::INFINITY, 0));
+    // without F: LinuxCNC divides the acceleration of an arc for the fastest that its axes allow
+    let mut fastest = if machine.control.corner_model.as_deref() == Some("linuxcnc-g64") {
+        f64::INFINITY
+    } else {
+        course.feed
+    };
     for (joint, axis) in machine.axes.iter().enumerate() {
         let (rate, bend, number) = (rates[joint], bends[joint], joint as u8);
         if !(rate.is_finite() && bend.is_finite()) {
@@ -150,6 +244,7 @@ fn push(
             Some(speed) if rate > 0.0 => {
                 limited = true;
                 speed_cap = speed_cap.min(speed / rate);
+                fastest = fastest.min(speed / rate);
                 if speed / rate < cap {
                     (cap, by) = (speed / rate, Limit::Speed(number));
                 }
@@ -166,6 +261,7 @@ fn push(
         };
         if bend > 0.0 {
             let (shared, whole) = ((share * most / bend).sqrt(), (most / bend).sqrt());
+            fastest = fastest.min(shared);
             if shared < cap {
                 (cap, by) = (shared, Limit::Bend(number));
             }
@@ -197,7 +293,7 @@ fn push(
     let mut along = acceleration;
     for (joint, axis) in machine.axes.iter().enumerate() {
         if let (Some(most), true) = (axis.max_acceleration, bends[joint] > 0.0) {
-            let used = bends[joint] * cap * cap;
+            let used = bends[joint] * fastest * fastest;
             let left = if share == ROUND {
                 (most * most - used * used).max(0.0).sqrt()
             } else {

@@ -1,7 +1,7 @@
 //! The planner: legs in, times out, in order.
-use crate::corner::{Side, speed};
+use crate::corner::{Passage, Round, passage};
 use crate::pieces::{Course, Taken, take};
-use crate::{Limit, PathControl, Planned, Run, Timed, s_curve};
+use crate::{Bounds, Limit, PathControl, Piece, Planned, Run, Timed, s_curve};
 use trunnion_dialect::RotaryFeed;
 use trunnion_interp::{ChainId, Feed, MotionKind};
 use trunnion_machine::{Leg, Machine, RapidPath, feed_is_ambiguous};
@@ -12,14 +12,39 @@ pub struct Planner<'m> {
     machine: &'m Machine,
     rotary_feed: RotaryFeed,
     run: Run,
-    /// Motions since the last stop, in order, and how many pieces each has.
-    open: Vec<(Timed, u32, bool)>,
+    /// Motions since the last stop, in order.
+    open: Vec<Open>,
     /// The last motion with a path since the last stop.
     last: Option<Box<Course>>,
     motions: u32,
     /// For tests: every run with its plan.
     #[cfg(test)]
     pub(crate) seen: Vec<(Run, Planned)>,
+}
+
+/// A motion whose pieces are not planned yet.
+struct Open {
+    timed: Timed,
+    /// Its pieces.
+    count: usize,
+    /// Every axis that moves declares its acceleration.
+    complete: bool,
+    /// How long it runs at once with its neighbours, its own half, s.
+    overlap: f64,
+}
+
+impl Open {
+    fn still(timed: Timed) -> Self {
+        Self {
+            timed: Timed {
+                seconds: [Some(0.0); 2],
+                ..timed
+            },
+            count: 0,
+            complete: true,
+            overlap: 0.0,
+        }
+    }
 }
 
 /// Share of F below which a block is slow, and below which it crawls.
@@ -49,6 +74,9 @@ impl<'m> Planner<'m> {
     /// The next leg, and what the program says about the corner at its start. Times of earlier legs may come out.
     pub fn leg(&mut self, leg: &Leg, control: PathControl, out: &mut impl FnMut(Timed)) {
         let timed = self.open(leg);
+        if matches!(leg.motion.kind, MotionKind::Dwell(_)) {
+            self.end(control);
+        }
         match leg.motion.kind {
             MotionKind::Dwell(seconds) => {
                 return self.emit_alone(
@@ -87,30 +115,28 @@ impl<'m> Planner<'m> {
             );
         }
         let first = self.run.pieces.len();
-        let course = match take(self.machine, leg, timed.motion, &mut self.run.pieces) {
+        let mut course = match take(self.machine, leg, timed.motion, &mut self.run.pieces) {
             Taken::Course(course) => course,
             Taken::Still => {
-                self.open.push((
-                    Timed {
-                        seconds: [Some(0.0); 2],
-                        ..timed
-                    },
-                    0,
-                    true,
-                ));
+                self.open.push(Open::still(timed));
                 return;
             }
             Taken::Unknown => return self.emit_alone(timed, [None; 2], out),
         };
-        let entry = self.entry(&course, control);
-        let count = (self.run.pieces.len() - first) as u32;
-        if entry == [0.0; 2] {
+        let passage = self.passage(&course, control);
+        self.lose(&mut course, &passage, first);
+        if passage.speed == [0.0; 2] {
             // a stop: what came before is complete
             let own = self.run.pieces.split_off(first);
+            if let Some(open) = self.open.last_mut() {
+                open.overlap += 0.5 * passage.overlap;
+            }
             self.flush(out);
             self.run.pieces = own;
+        } else if let Some(round) = passage.round {
+            self.round(&mut course, &round, first);
         } else if let Some(piece) = self.run.pieces.get_mut(first) {
-            piece.entry = entry;
+            piece.entry = passage.speed;
         }
         let minute = |speed: f64| speed.is_finite().then_some(speed * 60.0);
         let timed = Timed {
@@ -121,7 +147,12 @@ impl<'m> Planner<'m> {
             bend_feed: course.bend.map(|(speed, joint)| (speed * 60.0, joint)),
             ..timed
         };
-        self.open.push((timed, count, course.complete));
+        self.open.push(Open {
+            timed,
+            count: course.count,
+            complete: course.complete,
+            overlap: 0.5 * passage.overlap,
+        });
         self.last = Some(course);
     }
 
@@ -150,26 +181,62 @@ impl<'m> Planner<'m> {
         timed
     }
 
-    /// Highest speed at the start of a course.
-    fn entry(&self, course: &Course, control: PathControl) -> [f64; 2] {
-        let Some(last) = &self.last else { return [0.0; 2] };
-        if last.turns_only != course.turns_only {
-            return [0.0; 2];
+    /// How the corner at the start of a course is passed.
+    fn passage(&self, course: &Course, control: PathControl) -> Passage {
+        let Some(last) = self.last.as_ref().filter(|last| last.turns_only == course.turns_only) else {
+            return Passage::STOP;
+        };
+        passage(self.machine, control, [&last.side(1), &course.side(0)])
+    }
+
+    /// Nothing follows the last leg but a stop; what the program says about its end.
+    pub fn end(&mut self, control: PathControl) {
+        let passage = crate::linuxcnc::end(self.machine, control);
+        if let Some(last) = &mut self.last {
+            let from = self.run.pieces.len().saturating_sub(last.count);
+            last.lose(&passage, &mut self.run.pieces[from..]);
         }
-        let before = Side {
-            tangent: &last.tangents[1],
-            length: last.length,
+    }
+
+    /// Takes what the corner takes of the acceleration of both legs.
+    fn lose(&mut self, course: &mut Course, passage: &Passage, first: usize) {
+        let (before, own) = self.run.pieces.split_at_mut(first);
+        if let Some(last) = &mut self.last {
+            let from = before.len().saturating_sub(last.count);
+            last.lose(passage, &mut before[from..]);
+        }
+        course.lose(passage, own);
+    }
+
+    /// Lays an arc in place of the corner at the start of a course: a piece of its own.
+    fn round(&mut self, course: &mut Course, round: &Round, first: usize) {
+        let Some([before, after]) = first
+            .checked_sub(1)
+            .and_then(|last| self.run.pieces.get_mut(last..=first))
+            .and_then(|pieces| <&mut [Piece; 2]>::try_from(pieces).ok())
+        else {
+            return;
         };
-        let after = Side {
-            tangent: &course.tangents[0],
-            length: course.length,
+        // legs of several pieces bend anyway: the arc stays within those at the corner
+        let depth = round.depth.min(0.9 * before.length).min(0.9 * after.length);
+        before.length -= depth;
+        after.length -= depth;
+        let arc = Piece {
+            length: round.length * depth / round.depth,
+            optimistic: Bounds {
+                cap: round.free,
+                by: Limit::Corner,
+                acceleration: round.acceleration,
+            },
+            planned: Bounds {
+                cap: round.cap * (depth / round.depth).sqrt(),
+                by: Limit::Corner,
+                acceleration: round.along,
+            },
+            ..*after
         };
-        speed(
-            self.machine,
-            control,
-            [&before, &after],
-            last.acceleration.min(course.acceleration),
-        )
+        self.run.pieces.insert(first, arc);
+        course.count += 1;
     }
 
     /// A rapid in which each axis runs at its own speed, from stop to stop: optimistic and planned time, s, and the speed of the tip, mm/min.
@@ -214,12 +281,12 @@ impl<'m> Planner<'m> {
         #[cfg(test)]
         self.seen.push((self.run.clone(), planned.clone()));
         let mut next = 0;
-        for (timed, count, complete) in self.open.drain(..) {
-            let end = next + count as usize;
-            out(if count == 0 {
-                timed
+        for open in self.open.drain(..) {
+            let end = next + open.count;
+            out(if open.count == 0 {
+                open.timed
             } else {
-                finished(timed, &self.run, &planned, next..end, complete)
+                finished(&open, &self.run, &planned, next..end)
             });
             next = end;
         }
@@ -245,6 +312,7 @@ impl Timed {
             limit: Limit::Stop,
             below: 0.0,
             crawls: 0.0,
+            crawls_out: 0.0,
             block_time_feed: None,
             bend_feed: None,
             engaged: false,
@@ -253,9 +321,11 @@ impl Timed {
 }
 
 /// Puts the pieces of a motion together.
-fn finished(timed: Timed, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>, complete: bool) -> Timed {
+fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>) -> Timed {
+    let Open { timed, complete, .. } = *open;
     let mut seconds = [0.0; 2];
     let (mut reached, mut lowest, mut below, mut crawls) = (0.0_f64, f64::INFINITY, 0.0, 0.0);
+    let mut crawls_out = 0.0;
     let mut slowest = pieces.start;
     for index in pieces.clone() {
         let (ramp, [own, free]) = (&planned.ramps[index], planned.seconds[index]);
@@ -268,12 +338,19 @@ fn finished(timed: Timed, run: &Run, planned: &Planned, pieces: core::ops::Range
             // what smooths the ends is time below F as well
             let more = own - ramp.seconds();
             below += ramp.seconds_below(SLOW * feed) + more.max(0.0);
-            crawls += ramp.seconds_below(CRAWL * feed);
+            let slow = ramp.seconds_below(CRAWL * feed);
+            crawls += slow;
+            crawls_out = if ramp.top < CRAWL * feed {
+                crawls_out + slow
+            } else {
+                ramp.seconds_to_end_below(CRAWL * feed)
+            };
         }
         if ramp.top < planned.ramps[slowest].top {
             slowest = index;
         }
     }
+    seconds[1] = (seconds[1] - open.overlap).max(seconds[0]);
     let (piece, ramp) = (&run.pieces[slowest], &planned.ramps[slowest]);
     let near = |a: f64, b: f64| a >= b * (1.0 - 1e-6);
     let limit = if near(ramp.top, piece.planned.cap) {
@@ -295,6 +372,7 @@ fn finished(timed: Timed, run: &Run, planned: &Planned, pieces: core::ops::Range
         limit,
         below,
         crawls,
+        crawls_out,
         ..timed
     }
 }

@@ -34,6 +34,8 @@ pub struct Timed {
     pub below: f64,
     /// Planned time below 5 % of F, s.
     pub crawls: f64,
+    /// The part of it at the end of the motion, without a break, s.
+    pub crawls_out: f64,
     /// The speed that the control's time for a block allows, where it is below F, mm/min.
     pub block_time_feed: Option<f64>,
     /// The speed that bends allow, where it is below F, mm/min, and the joint.

@@ -1,5 +1,5 @@
-//! Programmed feed and the highest feed that the axes reach, along the path.
-use crate::canvas::{BLUE, Entry, Header, PlotError, Swatch, VERMILION, sheet};
+//! Programmed feed, the highest feed that no axis limits, and the feed that is planned, along the path.
+use crate::canvas::{BLUE, Entry, GREEN, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
 use crate::scale::{decade, range};
@@ -45,11 +45,20 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         .iter()
         .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
         .count();
-    let legend: Vec<Entry> = vec![
+    let planned = cuts.iter().any(|block| block.planned.is_some());
+    let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
         (Swatch::Dashed(VERMILION), "programmed feed".into()),
         (Swatch::Dot(VERMILION), format!("{low} blocks do not reach it")),
     ];
+    if planned {
+        let slow = cuts
+            .iter()
+            .filter(|block| matches!((block.feed[0], block.planned), (Some(feed), Some([top, _])) if top < 0.8 * feed))
+            .count();
+        legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
+        legend.push((Swatch::Dot(GREEN), format!("{slow} blocks stay below 80 % of F")));
+    }
     sheet(header, &legend, |body| {
         let frame = Frame {
             x: across,
@@ -81,6 +90,29 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
             })
         };
         panel.line(stairs(1), BLUE, 1.6)?;
-        panel.dashed(stairs(0), VERMILION, 1.8)
+        panel.dashed(stairs(0), VERMILION, 1.8)?;
+        if !planned {
+            return Ok(());
+        }
+        // from the speed at the end of the block before to the highest and to that at the own end
+        let height = |feed: f64| value(feed.min(top)).max(upwards[0]);
+        let mut before = None;
+        let mut course = Vec::new();
+        for block in &record.blocks {
+            let entry = before.filter(|_| block.joined).unwrap_or(0.0);
+            before = block.planned.map(|[_, end]| end);
+            let (Some([most, end]), false) = (block.planned, block.rapid) else {
+                course.push((f64::NAN, f64::NAN));
+                continue;
+            };
+            let samples = record.of(block);
+            let [from, to] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+            course.extend([
+                (from, height(entry)),
+                (0.5 * (from + to), height(most)),
+                (to, height(end)),
+            ]);
+        }
+        panel.line(course.into_iter(), GREEN, 1.2)
     })
 }

@@ -35,6 +35,8 @@ pub struct Block {
     pub deviation: Option<[f64; 2]>,
     /// Programmed feed of the tip, and the highest at which no axis exceeds its speed, mm/min.
     pub feed: [Option<f64>; 2],
+    /// Planned feed: the highest, and that at the end, mm/min; `None` where no plan was added.
+    pub planned: Option<[f64; 2]>,
     /// Least angle between tool axis and pole, deg.
     pub pole_angle: f64,
 }
@@ -174,6 +176,7 @@ impl<'m> Recorder<'m> {
             joined: !self.broken,
             deviation: tip_deviation(self.machine, leg, 1e-4).map(|found| [found.sampled_mm, found.bound_mm]),
             feed: [programmed(leg), limit.filter(|limit| limit.is_finite())],
+            planned: None,
             pole_angle: deg(leg.pole_angle_min),
         });
         self.broken = false;

@@ -324,7 +324,9 @@ fn only_the_top_floors_touch_the_world() {
             continue;
         }
         for path in files(&folder, &["rs"]) {
-            let of_tests = path.components().any(|part| part.as_os_str() == "tests")
+            let of_tests = path
+                .components()
+                .any(|part| part.as_os_str() == "tests" || part.as_os_str() == "benches")
                 || path
                     .file_stem()
                     .is_some_and(|stem| stem.to_string_lossy().ends_with("tests"));

@@ -26,7 +26,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing. Only machines with the same `kv` and `kff` in their first three linear axes, and with accelerations, are judged, at corners
+//! Silence proves nothing. A machine that declares `kv` for none of its linear axes has no model of its servo loops and is not judged; one that declares it for
+//! some of the first three, or not the same `kv` and `kff` for all, is unknown, once. It needs accelerations, and looks at corners
 //! between feed motions with the spindle on in which no rotary axis turns. The error is that of a lag of the first order, at the planned speed at the
 //! corner; `trunnion servo FILE --at LINE` simulates it. Consecutive corners are one finding with the worst of them.
 //!
@@ -39,7 +40,13 @@ use crate::pace::{CORNER, PaceKind, Place};
 use crate::prelude::*;
 use trunnion_machine::Machine;
 
-pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Pace(PaceKind::Corner, report)]);
+pub(super) const RULE: Body = Body::heuristic(
+    Warning,
+    &[
+        Wake::Pace(PaceKind::Corner, report),
+        Wake::Pace(PaceKind::UnlikeLoops, unlike),
+    ],
+);
 
 fn report(place: &Place, machine: &Machine, out: &mut Reporter<'_>) {
     let tolerance = machine.control.planning.corner_tolerance.unwrap_or(CORNER);
@@ -57,4 +64,53 @@ fn report(place: &Place, machine: &Machine, out: &mut Reporter<'_>) {
             .value("feed_mm_min", place.feed)
             .spans(place.count, place.last);
     });
+}
+
+fn unlike(_: &Place, machine: &Machine, out: &mut Reporter<'_>) {
+    let loops: Vec<String> = machine
+        .linear
+        .iter()
+        .take(3)
+        .filter_map(|&joint| machine.axes.get(joint))
+        .map(|axis| {
+            let gain = axis.extra.position_gain.map_or_else(|| "none".to_owned(), number);
+            format!("{} {gain}", letter(axis.letter))
+        })
+        .collect();
+    out.event(|draft| {
+        draft
+            .say(format!(
+                "it is not known by how much the servo loops cut corners: the gains kv of the linear axes are {}",
+                loops.join(", ")
+            ))
+            .help("declare the same dyn.kv and dyn.kff for the first three linear axes; `trunnion servo FILE --at LINE` simulates others")
+            .unknown();
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Status;
+    use crate::fixture::check_on;
+
+    #[test]
+    fn gains_that_differ_are_unknown_once() {
+        let program = "G21 G17 G90 G94\nG0 X0. Y0. Z0.\nS900 M3\nG1 X50. F20.\nY50.\nX0.\nM30\n";
+        let statuses = |y: &str| -> Vec<Status> {
+            let axis =
+                |letter: &str, kv: &str| format!("{{letter=\"{letter}\", sign=1, dyn={{vmax=200, amax=900{kv}}}}}");
+            let axes = [axis("X", ", kv=20"), axis("Y", y), axis("Z", ", kv=20")].join(", ");
+            let text = format!(
+                "schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"fanuc-30i\"\ncorner = {{ model = \"exact-stop\" }}\n"
+            );
+            let machine = trunnion_machine::load("m", &text).expect("valid");
+            let report = check_on(&machine, "fanuc-30i", program);
+            let own = report.diagnostics.iter().filter(|d| d.rule == "corner-error");
+            own.map(|d| d.status).collect()
+        };
+        assert_eq!(statuses(", kv=30"), [Status::Unknown]);
+        assert_eq!(statuses(""), [Status::Unknown]);
+        // 0.27 A/Kv^2 = 0.61 mm
+        assert_eq!(statuses(", kv=20"), [Status::Fail]);
+    }
 }

@@ -30,7 +30,7 @@
 //! A dwell that the program asks for is no finding. Consecutive blocks are one finding.
 //!
 //! # Thresholds
-//! Below 5 % of the programmed feed for more than 0.05 s in one block.
+//! Below 5 % of the programmed feed for more than 0.05 s without a break, in one block or over several.
 //!
 //! # Sources
 //! * docs/kinematics.md#time

@@ -1,8 +1,10 @@
 //! Runs a program for a picture: its record, and the blocks that a check finds.
 use crate::cli::{failure::remark, legs::each_leg, load::Loaded};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use trunnion_check::Status;
-use trunnion_machine::Machine;
+use trunnion_interp::{ModalState, MotionKind};
+use trunnion_machine::{BlockPath, Leg, Machine};
+use trunnion_planner::{Listener, Timed, time};
 use trunnion_plot::{Mark, Record, Recorder};
 use trunnion_syntax::LineIndex;
 
@@ -15,6 +17,64 @@ pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32
         remark(false, &format!("{why}; the picture ends there"));
     }
     recorder.finish()
+}
+
+/// Adds the planned feeds to the blocks of a record.
+pub(crate) fn plan(loaded: &Loaded, machine: &Machine, record: &mut Record) {
+    let mut planned = Planned {
+        loaded,
+        machine,
+        index: LineIndex::new(loaded.program.source()),
+        waiting: VecDeque::new(),
+        feeds: BTreeMap::new(),
+    };
+    let resolved = &loaded.resolved;
+    time(
+        &loaded.program,
+        resolved.dialect,
+        &resolved.setup,
+        machine,
+        &mut planned,
+    );
+    for block in &mut record.blocks {
+        block.planned = planned
+            .feeds
+            .get_mut(&block.line)
+            .and_then(VecDeque::pop_front)
+            .flatten();
+    }
+}
+
+/// The planned feeds of motions with a path, by line, in the order of the run.
+struct Planned<'a> {
+    loaded: &'a Loaded,
+    machine: &'a Machine,
+    index: LineIndex,
+    /// Lines of motions whose time is not known yet; `None`: the motion has no path.
+    waiting: VecDeque<Option<u32>>,
+    feeds: BTreeMap<u32, VecDeque<Option<[f64; 2]>>>,
+}
+
+impl Listener for Planned<'_> {
+    fn leg(&mut self, leg: &Leg, _: &ModalState, _: u32) {
+        let drawn = !matches!(leg.motion.kind, MotionKind::Dwell(_)) && BlockPath::new(self.machine, leg).is_some();
+        let program = &self.loaded.program;
+        let start = program.block(leg.motion.block).range().start;
+        let line = self.index.line_column(program.source(), start).0;
+        self.waiting.push_back(drawn.then_some(line));
+    }
+    fn timed(&mut self, timed: &Timed, wait: bool) {
+        if wait {
+            return;
+        }
+        if let Some(Some(line)) = self.waiting.pop_front() {
+            let feeds = timed.reached.zip(timed.leaves).filter(|_| !timed.turns_only);
+            self.feeds
+                .entry(line)
+                .or_default()
+                .push_back(feeds.map(|(most, end)| [most, end]));
+        }
+    }
 }
 
 /// Rules about the machine's motion: those that a picture of joints or of the tool axis can show.

@@ -1,12 +1,14 @@
 //! Writes the feed that the axes allow, where the programmed one asks for more.
 //!
 //! # Why
-//! Near the pole, or far from the rotary axes, a feed that looks harmless asks an axis for more than its highest speed. Some controls slow down,
+//! Near the pole, or far from the rotary axes, a feed that looks harmless asks an axis for more than its highest speed; on a small arc it asks for more than its
+//! acceleration. Some controls slow down,
 //! some stop with an alarm, and some leave the path. A feed that the axes can follow is the same on every control, and the time of
 //! the program is then known.
 //!
 //! # How
-//! In each cut the highest feed at which no axis exceeds its speed is computed, over the whole block. Where the programmed feed is
+//! In each cut the highest feed at which no axis exceeds its speed, nor needs more than its acceleration in a bend, is computed over the whole block, in the
+//! model of the planner behind `stats --time`. Where the programmed feed is
 //! higher, the block gets the highest feed that the digits of an F word can say below the limit, and the next block that allows more gets its own feed
 //! back. Under inverse time (G93) the block gets the shortest time that the axes need. With `--feed` a cut that is slower than
 //! asked is made as fast as the axes allow, up to that feed.
@@ -33,19 +35,20 @@
 //!
 //! # Claim
 //! The programs do the same but for the feeds of cuts. No feed is higher than before (or than `--feed`), a feed is lower only where an axis would exceed its
-//! highest speed, and no axis exceeds it with a feed that was changed.
+//! highest speed or, in a bend, its acceleration, and no axis does with a feed that was changed.
 //!
 //! # Traps
 //! - A lower feed changes the load of the tooth and may rub; a path around the pole (`smooth-pole`, `switch-angles`) is better where it
 //!   exists. `fix` applies this rewrite last.
-//! - Only highest speeds of axes are looked at, not accelerations.
+//! - The acceleration along the path is not looked at: a short block may not reach its feed whatever F says. `stats --time` shows where.
+//! - Axes whose acceleration is not declared limit no bend.
 //! - `--feed` makes plunges faster too: name the lines with `--lines`.
 //! - Where a parameter of the control decides what F means (Fanuc and Haas without tool centre point control while rotary axes move), the feed
 //!   stays until `[control] feed` of the machine file says it.
 //! - Feeds per revolution, feeds of motions of rotary axes alone, and F words with expressions are left as they are.
 //!
 //! # Sources
-//! docs/kinematics.md#axis-speed-and-feed.
+//! docs/kinematics.md#axis-speed-and-feed, docs/kinematics.md#time.
 use super::Body;
 use crate::style::NumberStyle;
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
@@ -54,10 +57,11 @@ use trunnion_check::{Assume, Settings};
 use trunnion_dialect::RotaryFeed;
 use trunnion_interp::{Fault, Feed, ModalState, Motion, Sink, run};
 use trunnion_machine::{Follower, Machine, feed_is_ambiguous, feed_limit_tight, leads_tip, shortest_time, turns};
+use trunnion_planner::bend_limit;
 use trunnion_syntax::{Address, BlockId, Program, TextEdit, TextRange, Value};
 
 pub(super) const REWRITE: Body = Body {
-    cures: &["axis-overspeed", "feed-drop"],
+    cures: &["axis-overspeed", "feed-drop", "axis-acceleration"],
     propose,
 };
 
@@ -105,13 +109,14 @@ impl Sink for Collector<'_> {
         } else {
             ((left.zero & 0b111 != 0 || left.length) && leads_tip(motion) && turns(&leg)).then_some(ZEROS)
         };
+        let bends = bend_limit(self.machine, &leg).map_or(f64::INFINITY, |(feed, _)| feed);
         let cut = match motion.feed {
             _ if !motion.is_feed() => return,
             Feed::PerMinute(feed) => Cut {
                 block: motion.block,
                 inverse: false,
                 feed,
-                limit: feed_limit_tight(self.machine, &leg).map(|limit| limit.feed_mm_min),
+                limit: feed_limit_tight(self.machine, &leg).map(|limit| limit.feed_mm_min.min(bends)),
                 asked: self.asked_mm_min,
                 missing,
             },
@@ -119,7 +124,8 @@ impl Sink for Collector<'_> {
                 block: motion.block,
                 inverse: true,
                 feed,
-                limit: shortest_time(self.machine, &leg, 0.0).map(|time| 60.0 / time.seconds),
+                limit: shortest_time(self.machine, &leg, 0.0)
+                    .map(|time| (60.0 / time.seconds).min(bends / leg.length.max(f64::MIN_POSITIVE))),
                 asked: if leg.length > 0.0 {
                     self.asked_mm_min / leg.length
                 } else {

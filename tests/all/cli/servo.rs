@@ -75,6 +75,71 @@ fn the_corner_of_the_paper() {
     near(&through, "error_exact_um", 260.13, 1e-3);
 }
 
+/// What `servo` prints has the keys and types that `schema servo` names, and no others.
+#[test]
+fn as_its_schema_says() {
+    let folder = TempDir::new().expect("works");
+    let file = corner(&folder);
+    let schema = json(&trunnion(&["schema", "servo"]));
+    let fits = |value: &Value, schema: &Value, name: &str| {
+        let found = match value {
+            Value::Null => "null",
+            Value::Bool(_) => "boolean",
+            Value::Number(number) if number.is_i64() || number.is_u64() => "integer",
+            Value::Number(_) => "number",
+            Value::String(_) => "string",
+            Value::Array(_) => "array",
+            Value::Object(_) => "object",
+        };
+        let known = match &schema["type"] {
+            Value::String(kind) => vec![kind.as_str()],
+            Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).collect(),
+            _ => {
+                let listed = schema["enum"].as_array().is_some_and(|values| values.contains(value));
+                assert!(listed || schema["const"] == *value, "{name}: {value}");
+                return;
+            }
+        };
+        let whole = found == "integer" && known.contains(&"number");
+        assert!(known.contains(&found) || whole, "{name}: {value} is no {known:?}");
+    };
+    for options in [
+        &["--format", "json"][..],
+        &["--format", "json", "--sample-ms", "1", "--tolerance-mm", "0.01"],
+        &[
+            "--format",
+            "json",
+            "--plant",
+            "third",
+            "--bandwidth-hz",
+            "60",
+            "--corner-gain",
+            "300",
+            "--delay",
+            "4",
+        ],
+    ] {
+        let document = json(&servo(str(&file), "4", options));
+        for (part, schema) in [
+            (&document, &schema),
+            (&document["within"], &schema["properties"]["within"]),
+        ] {
+            let Some(object) = part.as_object() else { continue };
+            let properties = schema["properties"].as_object().expect("properties");
+            for (key, value) in object {
+                let own = properties
+                    .get(key)
+                    .unwrap_or_else(|| panic!("{key} is not in the schema"));
+                fits(value, own, key);
+            }
+            for key in schema["required"].as_array().expect("required") {
+                assert!(object.contains_key(key.as_str().expect("a key")), "{key} is missing");
+            }
+        }
+        assert_eq!(document["within"].is_object(), options.contains(&"--tolerance-mm"));
+    }
+}
+
 #[test]
 fn in_words() {
     let folder = TempDir::new().expect("works");

@@ -97,7 +97,7 @@ fn the_trace_ends_with_time_feed_and_reason() {
     assert!(head.ends_with(",time_s,reached_feed_mm_min,limited_by"), "{head}");
 }
 
-/// G64 P: the corner is passed at sqrt(0.866 a R), R = P/(1 - sin 45) cos 45 tan 45.
+/// G64 P: the corner is rounded, or both legs overlap; which one is LinuxCNC's choice (docs/kinematics.md#time).
 #[test]
 fn path_control_of_the_program_counts() {
     let folder = TempDir::new().expect("works");
@@ -107,6 +107,7 @@ fn path_control_of_the_program_counts() {
         json(&output)["files"][0]["cycle_time_s"][1].as_f64().expect("known")
     };
     let (stop, exact, blend, wide) = (time("G61.1"), time("G61"), time("G64 P0.01"), time("G64 P0.5"));
-    assert!((stop - exact).abs() < 1e-9, "every corner here turns");
+    // every corner here turns: both stop, and under G61 LinuxCNC keeps a tenth of the acceleration back
+    assert!(exact > stop && exact < 1.06 * stop, "{exact} {stop}");
     assert!(blend > wide, "{blend} {wide}");
 }

@@ -73,6 +73,58 @@ fn only_the_block_that_an_axis_limits_is_slower() {
     assert!(written <= limit && written > 0.99 * limit, "{written} {limit}");
 }
 
+/// A small arc asks for acceleration: v^2/R. The feed falls to what X and Y have, the block after it gets its own back, and no higher feed is
+/// proved.
+#[test]
+fn a_bend_is_limited_by_acceleration() {
+    let machine = machine::builtin("mill-4axis-a").expect("built in");
+    let most = |letter: u8| {
+        machine.axes[machine.joint(letter).expect("an axis")]
+            .max_acceleration
+            .expect("declared")
+    };
+    let acceleration = most(b'X').min(most(b'Y'));
+    let allowed = (60.0 * (acceleration * 0.05).sqrt() + 1e-9).floor();
+    let text = "G21 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X10 F8000\nG2 X10.1 I0.05 J0\nG1 X20\nG2 X40 I10 J0\nM30\n";
+    assert!(
+        allowed < 8000.0 && 60.0 * (acceleration * 10.0).sqrt() > 8000.0,
+        "{allowed}"
+    );
+    let (after, certificate) = certified(adapt(text, &on_mill("fanuc-30i"), 0.0));
+    let expected = text
+        .replace("I0.05 J0", &format!("I0.05 J0 F{allowed}"))
+        .replace("G1 X20", "G1 X20 F8000");
+    assert_eq!(after, expected);
+    assert_eq!(certificate.motions.process_changed, 1);
+    let settings = on_mill("fanuc-30i");
+    let judge = |after: &str| {
+        certify(
+            text.as_bytes(),
+            after.as_bytes(),
+            settings.dialect,
+            settings.machine.expect("a machine"),
+            &settings.setup,
+            &Claim::AdaptedFeed {
+                tolerance_mm: 1e-6,
+                tolerance_deg: 1e-6,
+                asked_mm_min: 0.0,
+            },
+        )
+    };
+    let faster = after.replace(&format!("F{allowed}"), &format!("F{}", allowed + 2.0));
+    for wrong in [faster, after.replace("G2 X40 I10 J0", "G2 X40 I10 J0 F7000")] {
+        assert!(
+            matches!(judge(&wrong), Outcome::Refuted(_)),
+            "{wrong}: {:?}",
+            judge(&wrong)
+        );
+    }
+    // asked for 20000, a slow arc gets no more than the bend allows
+    let slow = text.replace("F8000", "F50");
+    let (after, _) = certified(adapt(&slow, &on_mill("fanuc-30i"), 20000.0));
+    assert!(after.contains(&format!("I0.05 J0 F{allowed}")), "{after}");
+}
+
 /// A cut that is slower than asked becomes as fast as asked, or as fast as the axes allow.
 #[test]
 fn what_crept_is_made_as_fast_as_asked() {

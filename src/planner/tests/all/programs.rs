@@ -30,7 +30,7 @@ impl Sink for Feeder<'_, '_> {
     fn fault(&mut self, _: Fault) {}
 }
 
-fn plan(machine: &Machine, text: &str, control: PathControl) -> Vec<Timed> {
+pub(crate) fn plan(machine: &Machine, text: &str, control: PathControl) -> Vec<Timed> {
     let dialect = builtin("linuxcnc").expect("there");
     let program: Program = parse(text.as_bytes().to_vec(), dialect.lex);
     let mut planner = Planner::new(machine, RotaryFeed::Language);
@@ -46,7 +46,7 @@ fn plan(machine: &Machine, text: &str, control: PathControl) -> Vec<Timed> {
     out
 }
 
-fn total(out: &[Timed]) -> [f64; 2] {
+pub(crate) fn total(out: &[Timed]) -> [f64; 2] {
     [0, 1].map(|side| out.iter().map(|timed| timed.seconds[side].expect("known")).sum())
 }
 

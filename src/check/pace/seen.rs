@@ -1,0 +1,199 @@
+//! What comes out of the planner, put together to places.
+use super::{CORNER, PaceKind, Place, loops};
+use std::collections::VecDeque;
+use trunnion_machine::Machine;
+use trunnion_planner::Timed;
+use trunnion_servo::{Corner, Profile, closed_form};
+
+/// The most places of a kind that are kept apart; later ones count as part of the last.
+const MOST: usize = 1000;
+/// Share of F below which a bend or a swing matters.
+const MATTERS: f64 = 0.7;
+/// Two dips within this path are a swing, mm.
+const WINDOW: f64 = 2.0;
+/// The tool crawls below this share of F, when it does for this long, s.
+const CRAWL: f64 = 0.05;
+const CRAWLS: f64 = 0.05;
+/// A corner whose speed is not planned yet.
+#[derive(Clone, Copy)]
+pub(super) struct Pending {
+    /// The motion after it.
+    pub(super) motion: u32,
+    pub(super) corner: Corner,
+    pub(super) feeds: [f64; 2],
+    pub(super) acceleration: f64,
+}
+
+/// What came out of the planner.
+pub(super) struct Seen<'m> {
+    pub(super) machine: &'m Machine,
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) known: bool,
+    pub(super) places: Vec<Place>,
+    pub(super) corners: VecDeque<Pending>,
+    /// Motions in which rotary axes turn, whose time is not known yet.
+    pub(super) turning: VecDeque<u32>,
+    /// Planned speed at the end of the last motion, mm/s.
+    pub(super) leaves: f64,
+    pub(super) swing: Swing,
+    /// For how long the tool crawls without a break, s.
+    pub(super) crawl: f64,
+}
+
+/// The feed along the path in feed, as a run of dips.
+#[derive(Default)]
+pub(super) struct Swing {
+    way: f64,
+    /// Highest since the last dip, lowest in it, and whether it is in one.
+    pub(super) high: f64,
+    pub(super) low: f64,
+    falling: bool,
+    dip: Option<f64>,
+}
+
+impl Swing {
+    /// The next feed after some way, both mm; the lowest feed of two dips that lie within the window.
+    fn next(&mut self, way: f64, feed: f64) -> Option<f64> {
+        self.way += way;
+        if self.falling {
+            self.low = self.low.min(feed);
+            if feed * MATTERS <= self.low {
+                return None;
+            }
+            let found = self.dip.is_some_and(|dip| self.way - dip <= WINDOW).then_some(self.low);
+            (self.dip, self.falling, self.high) = (Some(self.way), false, feed);
+            return found;
+        }
+        self.high = self.high.max(feed);
+        if feed < self.high * MATTERS {
+            (self.falling, self.low) = (true, feed);
+        }
+        None
+    }
+}
+
+impl<'m> Seen<'m> {
+    pub(super) fn new(machine: &'m Machine) -> Self {
+        Self {
+            machine,
+            low: 0.0,
+            high: 0.0,
+            known: true,
+            places: Vec::new(),
+            corners: VecDeque::new(),
+            turning: VecDeque::new(),
+            leaves: 0.0,
+            swing: Swing::default(),
+            crawl: 0.0,
+        }
+    }
+}
+
+impl Seen<'_> {
+    pub(super) fn take(&mut self, timed: &Timed) {
+        match timed.seconds {
+            [Some(low), Some(high)] => {
+                self.low += low;
+                self.high += high;
+            }
+            _ => self.known = false,
+        }
+        let turns = self.turning.front() == Some(&timed.motion);
+        if turns {
+            self.turning.pop_front();
+        }
+        self.corner(timed);
+        self.leaves = timed.leaves.unwrap_or(0.0) / 60.0;
+        let Some(feed) = timed.feed.filter(|_| timed.engaged && timed.seconds[1].is_some()) else {
+            (self.swing, self.crawl) = (Swing::default(), 0.0);
+            return;
+        };
+        if let Some((bend, joint)) = timed.bend_feed {
+            self.place(timed, PaceKind::Bend, (bend, feed), joint);
+        }
+        if let Some(most) = timed.block_time_feed {
+            self.place(timed, PaceKind::Short, (most, feed), 0);
+        }
+        // from block to block without a break: it leaves one slowly and enters the next one so
+        self.crawl += timed.crawls;
+        if self.crawl > CRAWLS {
+            self.place(timed, PaceKind::Crawl, (self.crawl, feed), 0);
+        }
+        let slow = |speed: Option<f64>| speed.is_some_and(|speed| speed < CRAWL * feed);
+        if !slow(timed.reached) {
+            self.crawl = if slow(timed.leaves) { timed.crawls_out } else { 0.0 };
+        }
+        if turns {
+            self.swing = Swing::default();
+        } else if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {
+            let half = 0.5 * timed.length;
+            let first = self.swing.next(half, reached);
+            if let Some(low) = self.swing.next(half, leaves).or(first) {
+                self.place(timed, PaceKind::Swing, (low, feed), 0);
+            }
+        }
+    }
+
+    /// A corner whose speed is known now.
+    fn corner(&mut self, timed: &Timed) {
+        while let Some(pending) = self
+            .corners
+            .front()
+            .copied()
+            .filter(|pending| pending.motion <= timed.motion)
+        {
+            self.corners.pop_front();
+            let Some((_, kv, forward)) = loops(self.machine).filter(|_| pending.motion == timed.motion) else {
+                continue;
+            };
+            let profile = Profile {
+                feeds: pending.feeds,
+                acceleration: pending.acceleration,
+                corner_speed: self.leaves,
+            };
+            let error = closed_form(&pending.corner, &profile, kv, forward);
+            let tolerance = self.machine.control.planning.corner_tolerance.unwrap_or(CORNER);
+            if error > tolerance {
+                self.place(timed, PaceKind::Corner, (error, self.leaves * 60.0), 0);
+            }
+        }
+    }
+
+    /// Adds a place, or extends the last one of its kind.
+    pub(super) fn place(&mut self, timed: &Timed, kind: PaceKind, (value, feed): (f64, f64), joint: u8) {
+        let full = self.places.len() >= MOST;
+        let last = self.places.iter_mut().rev().take(8).find(|place| place.kind == kind);
+        if let Some(place) = last
+            && (full || place.last_motion + 1 == timed.motion && place.joint == joint)
+        {
+            let worse = match kind {
+                PaceKind::Crawl | PaceKind::Corner => value > place.value,
+                // the tip is fastest against F
+                PaceKind::Mode => value * place.feed > place.value * feed,
+                PaceKind::Bend | PaceKind::Swing | PaceKind::Short => value < place.value,
+                PaceKind::NoAcceleration | PaceKind::UnlikeLoops => false,
+            };
+            if worse {
+                (place.value, place.feed) = (value, feed);
+            }
+            (place.last, place.last_motion, place.count) = (timed.block, timed.motion, place.count + 1);
+            return;
+        }
+        if full {
+            return;
+        }
+        self.places.push(Place {
+            kind,
+            block: timed.block,
+            chain: timed.chain,
+            last: timed.block,
+            count: 1,
+            value,
+            feed,
+            turns_only: timed.turns_only,
+            joint,
+            last_motion: timed.motion,
+        });
+    }
+}

@@ -1,0 +1,176 @@
+//! Random programs: optimistic never above planned, and a higher limit never slower, by more than a servo cycle for each block.
+use crate::programs::plan;
+use std::fmt::Write;
+use trunnion_machine::{Machine, load};
+use trunnion_planner::{PathControl, Timed};
+
+/// Numbers without a crate: xorshift.
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn one_of<T: Copy>(&mut self, of: &[T]) -> T {
+        of[(self.between(0.0, of.len() as f64) as usize).min(of.len() - 1)]
+    }
+}
+
+/// Lines, arcs, rapids and dwells of many sizes.
+fn program(random: &mut Random) -> String {
+    let mut text = "G21 G90 G17\nG0 X0 Y0 Z0\n".to_owned();
+    let size = random.one_of(&[0.02, 0.3, 4.0, 60.0]);
+    let (mut x, mut y, mut z) = (0.0, 0.0, 0.0);
+    let mut feed = 600.0;
+    for _ in 0..random.between(1.0, 40.0) as usize {
+        if random.between(0.0, 1.0) < 0.3 {
+            feed = random.between(30.0, 15000.0);
+        }
+        x += random.between(-size, size);
+        y += random.between(-size, size);
+        let _ = match random.between(0.0, 1.0) {
+            kind if kind < 0.15 => {
+                let from = x;
+                x += random.between(0.1 * size, size);
+                let reach = 0.5 * (x - from);
+                let code = random.one_of(&["G2", "G3"]);
+                writeln!(
+                    text,
+                    "G1 X{from:.4} Y{y:.4} F{feed:.1}\n{code} X{x:.4} Y{y:.4} I{reach:.5} J0"
+                )
+            }
+            kind if kind < 0.25 => {
+                z += random.between(-size, size);
+                writeln!(text, "G0 X{x:.4} Y{y:.4} Z{z:.4}")
+            }
+            kind if kind < 0.28 => writeln!(text, "G4 P0.1\nG1 X{x:.4} Y{y:.4} F{feed:.1}"),
+            kind if kind < 0.5 => {
+                z += random.between(-0.3 * size, 0.3 * size);
+                writeln!(text, "G1 X{x:.4} Y{y:.4} Z{z:.4} F{feed:.1}")
+            }
+            // straight on: no corner
+            kind if kind < 0.65 => {
+                x += size;
+                writeln!(
+                    text,
+                    "G1 X{x:.4} F{feed:.1}\nX{:.4}\nX{:.4}",
+                    x + 0.3 * size,
+                    x + 0.5 * size
+                )
+                .map(|()| x += 0.5 * size)
+            }
+            _ => writeln!(text, "G1 X{x:.4} Y{y:.4} F{feed:.1}"),
+        };
+    }
+    text + "M2\n"
+}
+
+fn machine(limits: [f64; 3], control: &str) -> Machine {
+    let [v, a, j] = limits;
+    let axis = |letter: &str, share: f64| {
+        format!(
+            "{{letter=\"{letter}\", sign=1, dyn={{vmax={}, amax={}, jmax={}}}}}",
+            v * share,
+            a * share,
+            j * share
+        )
+    };
+    let axes = [axis("X", 1.0), axis("Y", 0.8), axis("Z", 0.5)].join(", ");
+    load(
+        "m",
+        &format!("schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"linuxcnc\"\n{control}\n"),
+    )
+    .expect("valid")
+}
+
+const CONTROLS: [&str; 7] = [
+    "",
+    "corner = { model = \"exact-stop\" }",
+    "corner = { model = \"linuxcnc-g64\" }",
+    "corner = { model = \"grbl\", deviation = 0.02 }",
+    "corner = { model = \"klipper\", speed = 5 }\nplanner = { lookahead = 5 }",
+    "corner = { model = \"axis-jump\", dv = { X = 5, Y = 4, Z = 3 } }\nplanner = { filter_time = 0.01 }",
+    "corner = { model = \"grbl\", deviation = 0.01 }\nplanner = { block_time = 0.003 }",
+];
+
+const MODES: [PathControl; 5] = [
+    PathControl::ByMachine,
+    PathControl::ExactStop,
+    PathControl::ExactPath,
+    PathControl::Blend(Some(0.05)),
+    PathControl::Blend(None),
+];
+
+fn count() -> usize {
+    std::env::var("TRUNNION_PATHS")
+        .ok()
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(1500)
+}
+
+#[test]
+fn optimistic_is_never_above_planned() {
+    let mut random = Random(0x2545_F491_4F6C_DD1D);
+    for index in 0..count() {
+        let text = program(&mut random);
+        let control = CONTROLS[index % CONTROLS.len()];
+        let limits = [
+            random.between(20.0, 500.0),
+            random.between(100.0, 9000.0),
+            random.between(3000.0, 200_000.0),
+        ];
+        let mode = MODES[(index / CONTROLS.len()) % MODES.len()];
+        for timed in plan(&machine(limits, control), &text, mode) {
+            if let [Some(optimistic), Some(planned)] = timed.seconds {
+                assert!(planned.is_finite() && optimistic >= 0.0);
+                assert!(
+                    optimistic <= planned * (1.0 + 1e-9) + 1e-12,
+                    "{optimistic} above {planned}, {control} {mode:?}\n{text}"
+                );
+            }
+        }
+    }
+}
+
+/// But for LinuxCNC's own corners, whose choice among three ways is no function that only grows.
+/// Known not to hold yet: where a higher limit makes the bend of an arc the limit instead of the speed of an axis, the run is planned with the filter instead of
+/// the closed form, which may take longer.
+#[test]
+#[ignore = "does not hold for arcs whose limit changes from speed to bend"]
+fn a_higher_limit_is_never_slower() {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut compared = 0;
+    for index in 0..count() {
+        let text = program(&mut random);
+        let control = CONTROLS[index % CONTROLS.len()];
+        if control.contains("g64") {
+            continue;
+        }
+        let limits = [
+            random.between(20.0, 500.0),
+            random.between(100.0, 9000.0),
+            random.between(3000.0, 200_000.0),
+        ];
+        let mode = MODES[(index / CONTROLS.len()) % MODES.len()];
+        let which = index % 3;
+        let mut higher = limits;
+        higher[which] *= random.one_of(&[1.05, 1.5, 4.0]);
+        let before = plan(&machine(limits, control), &text, mode);
+        let after = plan(&machine(higher, control), &text, mode);
+        // an arc whose rounded ends do not fit its centre is not run
+        let time = |out: &[Timed]| out.iter().map(|timed| timed.seconds[1]).sum::<Option<f64>>();
+        let (Some(slow), Some(fast)) = (time(&before), time(&after)) else {
+            continue;
+        };
+        compared += 1;
+        assert!(
+            fast <= slow + 0.001 * before.len() as f64,
+            "limit {which} from {limits:?} to {higher:?}: {slow} became {fast}, {control} {mode:?}\n{text}"
+        );
+    }
+    assert!(compared > count() / 3, "only {compared} programs were compared");
+}

@@ -253,8 +253,8 @@ fn programs_of_mills_are_none_of_lathes() {
     assert_eq!(content(lathe).0, "fanuc-30i-lathe-a");
     assert_eq!(content(&lathe.replace("G50 S", "G92 S")).0, "fanuc-30i-lathe-b");
     let on_mill = Surroundings {
-        family: None,
         turns: Some(false),
+        ..Surroundings::default()
     };
     assert_eq!(
         detect_on(None, lathe.as_bytes(), on_mill).dialect.name,
@@ -263,6 +263,27 @@ fn programs_of_mills_are_none_of_lathes() {
     );
     let haas = lathe.replace("O1\n", "O12345\n");
     assert_eq!(content(&haas).0, "haas-lathe");
+}
+
+/// A turret's T0101 with G97 or G18 and motions in X and Z alone is a lathe program, and so is one in X and Z alone on a machine without Y.
+#[test]
+fn programs_of_lathes_without_their_own_codes() {
+    let lathe = "%\nO0001\nT0101\nG97 S1000 M3\nG0 X80. Z5.\nG1 Z-20. C1. F0.2\nX100.\nM30\n";
+    assert_eq!(content(lathe).1, "content: T with an offset, G97, X and Z alone");
+    assert_eq!(content(lathe).0, "fanuc-30i-lathe-a");
+    assert_eq!(content(&lathe.replace("G97 S1000", "G18 G99 S1000")).0, "fanuc-30i-lathe-a");
+    assert_eq!(content(&lathe.replace("O0001", "O00001")).0, "haas-lathe");
+    // a second word of a mill, or no second sign of a lathe
+    assert_eq!(content(&lathe.replace("X100.", "X100. Y5.")).0, "fanuc-30i");
+    assert_eq!(content(&lathe.replace("X100.", "G43 H1 X100.")).0, "fanuc-30i");
+    let plain = lathe.replace("T0101", "T1").replace("G97 ", "");
+    assert_eq!(content(&plain).0, "fanuc-30i");
+    let on_lathe = Surroundings {
+        turns: Some(true),
+        no_y: true,
+        ..Surroundings::default()
+    };
+    assert_eq!(detect_on(None, plain.as_bytes(), on_lathe).dialect.name, "fanuc-30i-lathe-a");
 }
 
 #[test]

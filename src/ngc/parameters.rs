@@ -255,12 +255,12 @@ impl<'a> Values<'a> {
             return Err(ValueError::NotDefined);
         };
         let ini: &Ini = &self.setup.ini;
-        if ini.values.is_empty() && self.is_check() {
-            return Ok(f64::NAN);
-        }
         let text = ini
             .values
             .get(&(section.to_ascii_uppercase(), key.to_ascii_uppercase()));
+        if text.is_none() && self.setup.any_ini {
+            return Ok(f64::NAN);
+        }
         text.and_then(|text| text.trim().parse().ok())
             .ok_or(ValueError::NotDefined)
     }

@@ -299,6 +299,8 @@ fn program_numbers_of_all_lengths() {
     // a hint tells brands apart, nothing else
     assert_eq!(content("G53 G0 Z0.\nG53 G0 X0.\nG1 X5 F9\n").0, "iso-6983");
     assert_eq!(content("O1031\nG53 G0 Z0.\nG53 G0 X0.\n").0, "haas-ngc");
+    let no_digits = content("%\nO100\nN G21 G90\nN M3 S100\nN G0 X1. Y1.\nN G1 X2. F100.\nN M30\n%\n");
+    assert_eq!(no_digits.0, "fanuc-30i");
     assert_eq!(content("G21\rO1234\rM30\r").1, "content: a program number O on line 2");
 }
 

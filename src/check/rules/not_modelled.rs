@@ -37,6 +37,14 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         .merge(Merge::once(0));
         return;
     }
+    if let Some(Lacks::Caller(label)) = fault.kind.lacks() {
+        out.report(fault.range, format!("{label} was checked with unknown arguments: nothing in this file calls it"))
+            .note("its arguments, F, S and the position of the axes come from the caller; what depends on them was not checked")
+            .help("check the program that calls it, with this file in its folder or under `subprogram_path`")
+            .unknown()
+            .merge(Merge::once(1));
+        return;
+    }
     if let FaultKind::NotModelled { what } = &fault.kind {
         let (note, remedy) = radius_advice(&fault.kind, what);
         let (what, declare) = divided(what);

@@ -1,7 +1,7 @@
 //! A file that only defines subprograms, judged alone: each is entered as if it were called with arguments that nobody knows.
 use super::Call;
 use super::labels::{Place, Style};
-use crate::{Engine, FileId};
+use crate::{Engine, FileId, Sink};
 
 /// `#1` to `#30`.
 const ARGUMENTS: usize = 30;
@@ -9,7 +9,7 @@ const ARGUMENTS: usize = 30;
 impl Engine {
     /// Where the main program has done nothing but define subprograms (and end, with `words` lines of words), goes to the first line of the
     /// next one that did not run; where it ends, the next step continues at the end of the file.
-    pub(super) fn enter_next_definition(&mut self, words: u64) -> bool {
+    pub(super) fn enter_next_definition(&mut self, words: u64, sink: &mut dyn Sink) -> bool {
         let idle = self.flow.did <= words && !self.flow.called;
         if !self.setup.enter_definitions || (self.flow.entered == 0 && !idle) {
             return false;
@@ -24,7 +24,10 @@ impl Engine {
             if body.file() != FileId::MAIN || self.flow.lines(FileId::MAIN).has_run(body.line()) {
                 continue;
             }
+            (self.flow.at.file, self.flow.at.line) = (known.place.file(), known.place.line());
+            sink.entered(self.flow.labels.text(name), self.flow.at);
             self.store.enter(&[f64::NAN; ARGUMENTS]);
+            self.store.alone = true;
             // the caller leaves the axes where nobody knows
             self.state.current = [f64::NAN; 9];
             self.state.compensated = [f64::NAN; 9];

@@ -67,7 +67,7 @@ impl Engine {
             }
             seeking => {
                 if seeking.is_none() {
-                    if self.enter_next_definition(0) {
+                    if self.enter_next_definition(0, sink) {
                         return self.step(sink);
                     }
                     if self.flow.entered > 0 {
@@ -181,7 +181,7 @@ impl Engine {
         self.flow.ended = true;
         let at = self.flow.at;
         self.emit(Canon::Finish, at, sink);
-        self.flow.ended = !self.enter_next_definition(0);
+        self.flow.ended = !self.enter_next_definition(0, sink);
     }
     /// The program ends with M2, M30 or M99. Where it began with `%` the control misses the one at the end.
     pub(super) fn program_end(&mut self, sink: &mut dyn Sink) -> Step {
@@ -192,7 +192,7 @@ impl Engine {
             let at = self.flow.at;
             self.emit(Canon::Comment(Arc::from(text.as_slice())), at, sink);
         }
-        self.flow.ended = !self.enter_next_definition(1);
+        self.flow.ended = !self.enter_next_definition(1, sink);
         Step::Line
     }
     fn percent_follows(&self) -> bool {

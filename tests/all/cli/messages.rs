@@ -53,7 +53,7 @@ fn a_misspelt_word_of_the_settings_has_a_nearest_name() {
     for (settings, said) in [
         ("[[tool]]\nnumber = 1\nshape = \"bal\"\ndiameter = 5\n", "unknown tool shape `bal`; did you mean `ball`?"),
         ("machine = \"mill-3axs\"\n", "unknown machine `mill-3axs`; did you mean `mill-3axis`?"),
-        ("dialect = \"sinumerik-840\"\n", "unknown dialect `sinumerik-840` (trunnion.toml); did you mean `sinumerik-840d`?"),
+        ("dialect = \"sinumerik-840\"\n", "unknown dialect `sinumerik-840`; did you mean `sinumerik-840d`?"),
         ("[rules]\npole-flop = \"allow\"\n", "unknown rule `pole-flop`; did you mean `pole-flip`?"),
         ("[tolerance]\ntip = 0.1\n", "unknown key `tolerance`; did you mean `tolerances`?"),
         ("assume = [\"tool-lenght\"]\n", "`tool-lenght` cannot be assumed; did you mean `tool-length`?"),
@@ -87,8 +87,9 @@ fn one_cause_is_one_finding() {
 #[test]
 fn the_worst_are_shown_first_and_counted_as_printed() {
     let folder = TempDir::new().expect("works");
-    let bad: String = (0..30).map(|i| format!("N{} G1 X{i} Q7\n", 30 - i)).collect();
-    let file = write(&folder, "a.nc", &format!("{HEAD}F100.\n{bad}G1 X1. ZZ\nG999\nM777\nM30\n%\n"));
+    // each code is a cause of its own
+    let bad: String = (0..30).map(|i| format!("G1 X{i}. Q{i}\nM{}\nG{}\n", 700 + i, 800 + i)).collect();
+    let file = write(&folder, "a.nc", &format!("{HEAD}F100.\n{bad}N9 G1 X1.\nN8 X2\nM30\n%\n"));
     let all = text(&trunnion(&["check", "--format", "short", "--limit", "0", str(&file)]).stdout);
     let json = json(&trunnion(&["check", "--format", "json", str(&file)]));
     for (word, key) in [("error", "errors"), ("warning", "warnings"), ("info", "infos"), ("unknown", "unknown")] {
@@ -114,4 +115,30 @@ fn a_keyword_without_its_o_word_is_named() {
     let findings = found(&folder, "a.ngc", program, &["--dialect", "linuxcnc"]);
     let message = "`if` needs an O-word before it: write `o100 if`, with the same number at its other parts";
     assert!(findings.iter().any(|found| found["message"] == message && found["line"] == 3), "{findings:#?}");
+}
+
+/// A file that only defines subprograms is looked at, and never passes: its arguments come from a caller.
+#[test]
+fn a_file_of_definitions_is_entered_and_never_passes() {
+    let folder = TempDir::new().expect("works");
+    for (program, motions, other) in [
+        ("o<slot> sub\nG0 X#1 Y#2\nG1 Z[0-#3] F#4\nG1 X[#1+10]\no<slot> endsub\n", 3, &[][..]),
+        ("%\no<home> sub\nG53 G0 Z0\no<home> endsub\n%\n", 1, &[]),
+        // what the caller may have defined, and where its subprograms are, is unknown
+        ("o<a> sub\nG0 Z#<_z_clear>\nG1 Z0 F#<_feed>\no<b> call\no<a> endsub\nM2\n", 2, &["missing-subprogram"]),
+        ("o<a> sub\nG0 Z5\no1 if [#1 GT 0]\nG0 Z9\no1 endif\no<a> endsub\nM2\n", 1, &["not-decided"]),
+        // mistakes are found
+        ("o<a> sub\nG0 Z5\nG1 X[1/0] F9\no<a> endsub\nM2\n", 1, &["bad-expression"]),
+    ] {
+        let file = write(&folder, "a.ngc", program);
+        let output = json(&trunnion(&["check", "--format", "json", "--dialect", "linuxcnc", str(&file)]));
+        let file = &output["files"][0];
+        assert_eq!(file["coverage"]["motions"], motions, "{program} {file:#}");
+        let known = ["machine-unset", "units-unset"];
+        let rules: Vec<&str> = file["diagnostics"].as_array().expect("findings").iter().filter_map(|found| found["rule"].as_str()).collect();
+        let rules: Vec<&str> = rules.into_iter().filter(|rule| !known.contains(rule)).collect();
+        assert_eq!(rules, [&["not-modelled"][..], other].concat(), "{program} {file:#}");
+        let wrong = other.contains(&"bad-expression");
+        assert_eq!(file["verdict"], if wrong { "fail" } else { "unknown" }, "{program}");
+    }
 }

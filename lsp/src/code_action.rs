@@ -90,8 +90,12 @@ fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Enc
 pub(crate) fn of_settings(parsed: &Parsed, found: &[Diagnostic], encoding: Encoding) -> Vec<CodeActionOrCommand> {
     let mut actions = Vec::new();
     for problem in found {
-        let Some((wrong, likely)) = misspelt(&problem.message) else { continue };
-        let Some(place) = name_at(parsed, problem, wrong, encoding) else { continue };
+        let Some((wrong, likely)) = misspelt(&problem.message) else {
+            continue;
+        };
+        let Some(place) = name_at(parsed, problem, wrong, encoding) else {
+            continue;
+        };
         for meant in likely {
             let edit = TextEdit::new(place, meant.to_owned());
             actions.push(CodeActionOrCommand::CodeAction(CodeAction {

@@ -196,7 +196,9 @@ impl<'a> Reporter<'a> {
             .then(|| bare_keyword(self.program, range.start))
             .flatten();
         if let Some((keyword, place)) = keyword {
-            message = format!("`{keyword}` needs an O-word before it: write `o100 {keyword}`, with the same number at its other parts");
+            message = format!(
+                "`{keyword}` needs an O-word before it: write `o100 {keyword}`, with the same number at its other parts"
+            );
             range = place;
         }
         let draft = self.report(range, message.as_str());

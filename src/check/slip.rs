@@ -87,12 +87,18 @@ pub(crate) fn bare_keyword(program: &Program, at: u32) -> Option<(&'static str, 
     let source = program.source();
     let before = source.get(..at as usize)?;
     let mut start = memchr::memrchr(b'\n', before).map_or(0, |end| end + 1);
-    start += source[start..].iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+    start += source[start..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
     let is_letter = |byte: &&u8| byte.is_ascii_alphabetic();
     let end = start + source[start..].iter().take_while(is_letter).count();
     let word = source.get(start..end)?;
-    let goes_on = matches!(source.get(end), Some(byte) if byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-' | b'#'));
-    let keyword = KEYWORDS.iter().find(|known| word.eq_ignore_ascii_case(known.as_bytes()));
+    let goes_on =
+        matches!(source.get(end), Some(byte) if byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-' | b'#'));
+    let keyword = KEYWORDS
+        .iter()
+        .find(|known| word.eq_ignore_ascii_case(known.as_bytes()));
     Some((keyword.filter(|_| !goes_on)?, TextRange::new(start as u32, end as u32)))
 }
 

@@ -40,7 +40,8 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
     for &d in &worst {
         if is_info(d) || !with_excerpt {
             // what to do about several findings of one rule is said once
-            let again = before.is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
+            let again =
+                before.is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
             compact(&mut out, loaded, lines, (d, again), color);
             before = Some(d);
             continue;

@@ -54,7 +54,8 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
         // an editor can only replace what the place holds
         let meant = near.filter(|_| out.text(fault.range) == *what);
-        let draft = out.report(fault.range, format!("not modelled: {}{hint}", short(what)))
+        let draft = out
+            .report(fault.range, format!("not modelled: {}{hint}", short(what)))
             .replace_with_some(meant)
             .note(note)
             .unknown()
@@ -76,7 +77,8 @@ fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>)
     let remedy = match kind.lacks() {
         Some(Lacks::Radius(_)) => format!("{declare}; or take its radius as zero: --assume tool-length"),
         _ if what.contains("diameter of the tool is not declared") => declare.to_owned(),
-        _ => "keep more than the tool radius clear of walls and limits, or try it on the machine without a part".to_owned(),
+        _ => "keep more than the tool radius clear of walls and limits, or try it on the machine without a part"
+            .to_owned(),
     };
     (note, Some(remedy))
 }
@@ -160,21 +162,44 @@ mod tests {
     #[test]
     fn an_undeclared_radius_names_what_to_declare() {
         for (fence, text) in [
-            ("gcode fanuc-30i", "G21 G17 G90 G94\nM3 S900\nG0 X0. Y0. Z5.\nG41 D1 G1 X9. F100.\nY9.\nG40 X0.\nM30\n"),
-            ("gcode linuxcnc", "G21 G17 G90 G94\nM3 S900 T1 M6\nG0 X0 Y0 Z5\nG41 G1 X9 F100\nY9\nG40 X0\nM2\n"),
-            ("gcode haas-lathe", "G21 G18 G99\nT0101\nG97 S900 M3\nG0 X40. Z2.\nG42 G1 X30. F0.1\nZ-9.\nG40 X50.\nM30\n"),
+            (
+                "gcode fanuc-30i",
+                "G21 G17 G90 G94\nM3 S900\nG0 X0. Y0. Z5.\nG41 D1 G1 X9. F100.\nY9.\nG40 X0.\nM30\n",
+            ),
+            (
+                "gcode linuxcnc",
+                "G21 G17 G90 G94\nM3 S900 T1 M6\nG0 X0 Y0 Z5\nG41 G1 X9 F100\nY9\nG40 X0\nM2\n",
+            ),
+            (
+                "gcode haas-lathe",
+                "G21 G18 G99\nT0101\nG97 S900 M3\nG0 X40. Z2.\nG42 G1 X30. F0.1\nZ-9.\nG40 X50.\nM30\n",
+            ),
         ] {
             let report = crate::fixture::Fixture::parse(fence, text).check().unwrap();
-            let found = report.diagnostics.iter().find(|d| d.rule == "not-modelled").expect(text);
+            let found = report
+                .diagnostics
+                .iter()
+                .find(|d| d.rule == "not-modelled")
+                .expect(text);
             let help = found.help.as_deref().unwrap_or_default();
-            assert!(help.contains("`[[tool]]`") && help.contains("trunnion.toml"), "{fence}: {help}");
-            assert!(found.notes.iter().all(|note| !note.contains("unknown")), "{fence}: {:?}", found.notes);
+            assert!(
+                help.contains("`[[tool]]`") && help.contains("trunnion.toml"),
+                "{fence}: {help}"
+            );
+            assert!(
+                found.notes.iter().all(|note| !note.contains("unknown")),
+                "{fence}: {:?}",
+                found.notes
+            );
         }
     }
 
     #[test]
     fn one_function_is_one_cause() {
-        assert_eq!(cause("FN 18: SYSREAD Q1 = ID50 NR1"), cause("FN 18: SYSREAD Q2 = ID50 NR2"));
+        assert_eq!(
+            cause("FN 18: SYSREAD Q1 = ID50 NR1"),
+            cause("FN 18: SYSREAD Q2 = ID50 NR2")
+        );
         let name = |name: &str| format!("{name}: a named variable with an unknown value");
         assert_eq!(cause(&name("#TOAX")), cause(&name("#TOAY")));
         assert_ne!(cause("FN 17: what it writes"), cause("FN 18: SYSREAD Q2 = ID50 NR2"));

@@ -301,7 +301,11 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     fn entered(&mut self, name: &str, at: At) {
         self.core.state.spindle.lose();
         let numbered = name.bytes().all(|byte| byte.is_ascii_digit());
-        let label = if numbered { format!("o{name}") } else { format!("o<{name}>") };
+        let label = if numbered {
+            format!("o{name}")
+        } else {
+            format!("o<{name}>")
+        };
         self.fault(at, TextRange::default(), FaultKind::caller_lacks(&label));
     }
 

@@ -19,7 +19,9 @@ impl Engine {
         }
         while let Some(name) = self.flow.defined.get(self.flow.entered).copied() {
             self.flow.entered += 1;
-            let Some(known) = self.flow.labels.subprogram(name) else { continue };
+            let Some(known) = self.flow.labels.subprogram(name) else {
+                continue;
+            };
             let body = known.body;
             if body.file() != FileId::MAIN || self.flow.lines(FileId::MAIN).has_run(body.line()) {
                 continue;

@@ -33,7 +33,11 @@ impl Engine {
             let reason = match variable {
                 Variable::Numbered(index) if values.numbered(index).is_ok_and(f64::is_nan) => {
                     let argument = (1..=30).contains(&index) && self.entered_alone();
-                    let source = if argument { "an argument that the caller gives" } else { numbered(index) };
+                    let source = if argument {
+                        "an argument that the caller gives"
+                    } else {
+                        numbered(index)
+                    };
                     format!("#{index}, {source}")
                 }
                 Variable::Named(name) if values.named(name).is_ok_and(f64::is_nan) => {

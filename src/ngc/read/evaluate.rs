@@ -114,7 +114,9 @@ fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: 
         }
         (Target::Named(name), _) if engine.setup.any_ini && name.starts_with("_ini[") => {
             // a name that the INI file does not have is a parameter like others
-            let text = format!("assigning to #<{name}>: an error where the INI file has this number, and that file is not known here");
+            let text = format!(
+                "assigning to #<{name}>: an error where the INI file has this number, and that file is not known here"
+            );
             return Err(Error::with(&OF_INI, assignment.target_range, text));
         }
         (Target::Named(name), _) => engine.store.set_named(name, value),

@@ -41,7 +41,10 @@ fn words_that_nothing_reads() {
 fn commands_and_arcs_of_grbl() {
     for (source, want) in [
         ("$X\n$$\nG0 X1 Y2 Z3\n", &[][..]),
-        ("G0 X1 Y2 Z3\n$H\n", &["$H: homing, which leaves the axes at their switches"]),
+        (
+            "G0 X1 Y2 Z3\n$H\n",
+            &["$H: homing, which leaves the axes at their switches"],
+        ),
         ("$J=G91 X5 F500\n", &["$J=G91 X5 F500: jogging"]),
         ("$32=1\n", &["$32=1: a setting of the control"]),
         ("$C\n", &["$C: the check mode, in which grbl moves nothing"]),
@@ -63,8 +66,16 @@ fn commands_and_arcs_of_grbl() {
         ]
     );
     assert!(found[0].contains("error:26"), "{found:?}");
-    let fanuc = circle.replace("G18 G2 Y1 I-5 K0\n", "").replace("I-5", "I-5.").replace("X10", "X10.");
-    assert_eq!(faults("fanuc-30i", &fanuc).len(), 0, "{:?}", faults("fanuc-30i", &fanuc));
+    let fanuc = circle
+        .replace("G18 G2 Y1 I-5 K0\n", "")
+        .replace("I-5", "I-5.")
+        .replace("X10", "X10.");
+    assert_eq!(
+        faults("fanuc-30i", &fanuc).len(),
+        0,
+        "{:?}",
+        faults("fanuc-30i", &fanuc)
+    );
 }
 
 #[test]

@@ -49,8 +49,13 @@ fn what_depends_on_an_argument_is_not_decided() {
     let program = "o1 sub\ng0 x1\no2 if [#3 gt 0]\ng0 x2\no2 endif\no1 endsub\nm2\n";
     let (lines, step) = rapids(program);
     assert_eq!(lines, [2]);
-    let Step::Undecided(text) = step else { panic!("{step:?}") };
-    assert_eq!(text, "whether this branch runs depends on #3, an argument that the caller gives");
+    let Step::Undecided(text) = step else {
+        panic!("{step:?}")
+    };
+    assert_eq!(
+        text,
+        "whether this branch runs depends on #3, an argument that the caller gives"
+    );
 }
 
 /// The INI file is not known in a check: its numbers are unknown, and assigning to one may be an error.
@@ -64,5 +69,9 @@ fn numbers_of_an_ini_file_that_is_not_known() {
     let (_, heard, step) = run(program, &setup, false);
     assert_eq!((heard.feeds.len(), step), (2, Step::Ended));
     assert_eq!(heard.errors.len(), 1, "{:?}", heard.errors);
-    assert!(heard.errors[0].1.contains("an error where the INI file has this number"));
+    assert!(
+        heard.errors[0]
+            .1
+            .contains("an error where the INI file has this number")
+    );
 }

@@ -1,5 +1,5 @@
 //! Which dialect is found for a file.
-use crate::{Detected, Foreign, Surroundings, builtin, detect, detect_on, is_program_file_name, program_extensions};
+use crate::{Detected, Foreign, builtin, detect, is_program_file_name, program_extensions};
 use std::path::{Path, PathBuf};
 
 fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, String) {

@@ -30,9 +30,10 @@ impl Engine {
             sink.entered(self.flow.labels.text(name), self.flow.at);
             self.store.enter(&[f64::NAN; ARGUMENTS]);
             self.store.alone = true;
-            // the caller leaves the axes where nobody knows
+            // position and F are those of the caller
             self.state.current = [f64::NAN; 9];
             self.state.compensated = [f64::NAN; 9];
+            self.state.feed_rate = f64::NAN;
             self.flow.calls.push(Call {
                 back: self.end_of_main(),
                 site: self.flow.at,

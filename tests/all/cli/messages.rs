@@ -207,7 +207,7 @@ fn a_file_of_definitions_is_entered_and_never_passes() {
         ("%\no<home> sub\nG53 G0 Z0\no<home> endsub\n%\n", 1, &[]),
         // what the caller may have defined, and where its subprograms are, is unknown
         (
-            "o<a> sub\nG0 Z#<_z_clear>\nG1 Z0 F#<_feed>\no<b> call\no<a> endsub\nM2\n",
+            "o<a> sub\nG0 Z#<_z_clear>\nG1 Z0 F#<_my_feed>\no<b> call\no<a> endsub\nM2\n",
             2,
             &["missing-subprogram"],
         ),

@@ -103,7 +103,7 @@ fn a_misspelt_word_of_the_settings_has_a_nearest_name() {
 fn one_cause_is_one_finding() {
     let many = |line: &dyn Fn(usize) -> String| -> String { (1..=40).map(line).collect() };
     let arcs = many(&|i| {
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             "G2 X10. Y0. I0. J0.\n".to_owned()
         } else {
             "G2 X-10. Y0. I0. J0.\n".to_owned()
@@ -143,9 +143,10 @@ fn one_cause_is_one_finding() {
 fn the_worst_are_shown_first_and_counted_as_printed() {
     let folder = TempDir::new().expect("works");
     // each code is a cause of its own
-    let bad: String = (0..30)
+    let bad = (0..30)
         .map(|i| format!("G1 X{i}. Q{i}\nM{}\nG{}\n", 700 + i, 800 + i))
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let file = write(
         &folder,
         "a.nc",

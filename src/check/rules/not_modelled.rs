@@ -134,8 +134,9 @@ fn short(what: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{cause, divided};
+    use super::{cause, divided, radius_advice};
     use crate::Severity;
+    use trunnion_interp::FaultKind;
 
     #[test]
     fn what_to_declare_is_the_help() {
@@ -161,11 +162,15 @@ mod tests {
     /// Where the radius of a tool is missing, the finding names what to declare, and does not say that positions are unknown.
     #[test]
     fn an_undeclared_radius_names_what_to_declare() {
+        let kind = FaultKind::radius_lacks("D1");
+        let (note, help) = radius_advice(&kind, "cutter radius compensation: the radius of D1 is not declared");
+        let help = help.unwrap_or_default();
+        assert!(
+            help.contains("`[[tool]]`") && help.contains("--assume tool-length"),
+            "{help}"
+        );
+        assert!(note.contains("programmed path"), "{note}");
         for (fence, text) in [
-            (
-                "gcode fanuc-30i",
-                "G21 G17 G90 G94\nM3 S900\nG0 X0. Y0. Z5.\nG41 D1 G1 X9. F100.\nY9.\nG40 X0.\nM30\n",
-            ),
             (
                 "gcode linuxcnc",
                 "G21 G17 G90 G94\nM3 S900 T1 M6\nG0 X0 Y0 Z5\nG41 G1 X9 F100\nY9\nG40 X0\nM2\n",

@@ -205,13 +205,11 @@ impl LanguageServer for Backend {
         let uri = params.text_document.uri.clone();
         let work = move |snapshot: &Snapshot| {
             let encoding = snapshot.encoding;
-            match &snapshot.analysed {
-                Some(analysed) => code_action::code_actions(analysed, &params, encoding),
-                None => {
-                    let found = to_proto::of_toml(&snapshot.parsed, encoding);
-                    Some(code_action::of_settings(&snapshot.parsed, &found, encoding))
-                }
+            if let Some(analysed) = &snapshot.analysed {
+                return code_action::code_actions(analysed, &params, encoding);
             }
+            let found = to_proto::of_toml(&snapshot.parsed, encoding);
+            Some(code_action::of_settings(&snapshot.parsed, &found, encoding))
         };
         self.show(&uri, Need::Analysed, work).await
     }

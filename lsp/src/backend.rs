@@ -204,8 +204,12 @@ impl LanguageServer for Backend {
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
         let uri = params.text_document.uri.clone();
         let work = move |snapshot: &Snapshot| {
-            let analysed = snapshot.analysed.as_ref()?;
-            code_action::code_actions(analysed, &params, snapshot.encoding)
+            let encoding = snapshot.encoding;
+            if let Some(analysed) = &snapshot.analysed {
+                return code_action::code_actions(analysed, &params, encoding);
+            }
+            let found = to_proto::of_toml(&snapshot.parsed, encoding);
+            Some(code_action::of_settings(&snapshot.parsed, &found, encoding))
         };
         self.show(&uri, Need::Analysed, work).await
     }

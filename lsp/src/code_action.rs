@@ -1,16 +1,16 @@
 //! Quick fixes: rewrites that fix a finding, offered only when proved; a refusal is shown with its reason.
 use crate::{
-    analysis::Analysed,
+    analysis::{Analysed, Parsed},
     position::{Encoding, offset, range},
     to_proto,
 };
 use std::collections::{BTreeSet, HashMap};
 use tower_lsp::lsp_types::{
     CodeAction, CodeActionDisabled, CodeActionKind, CodeActionOrCommand, CodeActionParams, Diagnostic, NumberOrString,
-    TextEdit, WorkspaceEdit,
+    Range, TextEdit, WorkspaceEdit,
 };
 use trunnion_rewrite::{Options, Proved, Rewrite, State, attempt, attempt_at, rewrite};
-use trunnion_syntax::BlockId;
+use trunnion_syntax::{BlockId, TextRange};
 
 /// The quick fixes for the findings that touch the asked range.
 #[expect(clippy::unnecessary_wraps, reason = "the shape of the protocol's answer")]
@@ -19,6 +19,10 @@ pub(crate) fn code_actions(
     params: &CodeActionParams,
     encoding: Encoding,
 ) -> Option<Vec<CodeActionOrCommand>> {
+    if analysed.parsed.outcome.is_err() {
+        let found = to_proto::diagnostics(analysed, encoding);
+        return Some(of_settings(&analysed.parsed, &found, encoding));
+    }
     let Some((_, session)) = analysed.judged() else {
         return Some(Vec::new());
     };
@@ -80,6 +84,59 @@ fn likely(analysed: &Analysed, found: &trunnion_check::Diagnostic, encoding: Enc
         )]))),
         ..CodeAction::default()
     })
+}
+
+/// The names that problems of settings take for likely, in place of the wrong ones: in a settings file, or in a `trunnion:` comment of a program.
+pub(crate) fn of_settings(parsed: &Parsed, found: &[Diagnostic], encoding: Encoding) -> Vec<CodeActionOrCommand> {
+    let mut actions = Vec::new();
+    for problem in found {
+        let Some((wrong, likely)) = misspelt(&problem.message) else {
+            continue;
+        };
+        let Some(place) = name_at(parsed, problem, wrong, encoding) else {
+            continue;
+        };
+        for meant in likely {
+            let edit = TextEdit::new(place, meant.to_owned());
+            actions.push(CodeActionOrCommand::CodeAction(CodeAction {
+                title: format!("write {meant}"),
+                kind: Some(CodeActionKind::QUICKFIX),
+                diagnostics: Some(vec![problem.clone()]),
+                edit: Some(WorkspaceEdit::new(HashMap::from([(parsed.uri.clone(), vec![edit])]))),
+                ..CodeAction::default()
+            }));
+        }
+    }
+    actions
+}
+
+/// The wrong name and the likely ones in a message like ``unknown key `machin`; did you mean `machine`?``.
+fn misspelt(message: &str) -> Option<(&str, Vec<&str>)> {
+    let (before, after) = message.split_once("; did you mean ")?;
+    let wrong = before.rsplit('`').nth(1).filter(|name| !name.is_empty())?;
+    let likely = after.split('?').next()?.split('`').skip(1).step_by(2).collect();
+    Some((wrong, likely))
+}
+
+/// Where a wrong name stands: at the problem, else in a comment for this program.
+fn name_at(parsed: &Parsed, problem: &Diagnostic, wrong: &str, encoding: Encoding) -> Option<Range> {
+    let text = &parsed.text;
+    let whole = |at: &usize| {
+        let part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+        !text[..*at].ends_with(part) && !text[at + wrong.len()..].starts_with(part)
+    };
+    let from = if parsed.toml.is_some() {
+        offset(text, &parsed.starts, problem.range.start, encoding)
+    } else {
+        text.find("trunnion:")?
+    };
+    let mut found = text.get(from..)?.match_indices(wrong).map(|(at, _)| from + at);
+    let at = found.find(whole)?;
+    if parsed.toml.is_none() && !text[..at].rsplit('\n').next()?.contains("trunnion:") {
+        return None;
+    }
+    let bytes = TextRange::new(at as u32, (at + wrong.len()) as u32);
+    Some(range(text, &parsed.starts, bytes, encoding))
 }
 
 /// The rewrite for the whole program, and for the places that touch the asked range alone where it changes others too; or why it is refused.

@@ -1,4 +1,5 @@
 //! Whether a file is a main program or a subprogram: of that, F, S, the spindle and the position may come from the program that calls it.
+use crate::coverage::{Mark, mark};
 use crate::suppress::has_code;
 use trunnion_dialect::{Dialect, Language};
 use trunnion_syntax::{Address, BlockId, Item, Program};
@@ -23,6 +24,9 @@ pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
         Language::UserTask => &["RTS"],
         _ => &["M99"],
     };
+    if dialect.quirks.language == Language::Linuxcnc && only_defines(program) {
+        return Part::Called;
+    }
     let mut blocks = (0..program.block_count() as u32).map(BlockId);
     if sinumerik
         && blocks
@@ -44,6 +48,22 @@ pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
         blocks.find_map(end)
     };
     found.unwrap_or(Part::Fragment)
+}
+
+/// Whether a LinuxCNC program does nothing but define subprograms and end.
+fn only_defines(program: &Program) -> bool {
+    let (mut inside, mut some) = (false, false);
+    for block in program.blocks().filter(|block| has_code(program, block.id())) {
+        match mark(&block, Language::Linuxcnc) {
+            Some(Mark::Begins) => (inside, some) = (true, true),
+            Some(Mark::Ends) => inside = false,
+            None if inside => {}
+            None if block.items().any(|item| matches!(item, Item::Percent(_))) => {}
+            None if says(program, block.id(), &["M2", "M30"]) => break,
+            None => return false,
+        }
+    }
+    some
 }
 
 /// Whether a block has one of these codes; M2 is also M02.
@@ -74,6 +94,10 @@ mod tests {
             ("fanuc-30i", "O1\nG1 X1.\nM30\nO2\nG1 X1.\nM99\n", Part::Main),
             ("linuxcnc", "G1 X1\nM99\n", Part::Called),
             ("linuxcnc", "O1\nG1 X1\nM99\nG1 X1\nM02\n", Part::Main),
+            ("linuxcnc", "%\no<slot> sub\nG1 X#1\no<slot> endsub\n%\n", Part::Called),
+            ("linuxcnc", "(a)\no1 sub\nG1 X#1\no1 endsub\nM2\nG0\n", Part::Called),
+            ("linuxcnc", "o1 sub\nG1 X#1\no1 endsub\no1 call [2]\nM2\n", Part::Main),
+            ("linuxcnc", "o1 sub\nG1 X#1\no1 endsub\nG0 X1\nM2\n", Part::Main),
             ("iso-6983", "G1 X1\nM2\n", Part::Main),
             ("sinumerik-840d", "G1 X1\nM17\n", Part::Called),
             ("sinumerik-840d", "G1 X1\nRET\n\n; the end\n", Part::Called),

@@ -277,7 +277,9 @@ impl<'a> Settings<'a> {
     pub fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         let unnamed_stand = self.machine.is_none();
-        let same = codes == self.setup.control.clamp_codes && unnamed_stand == self.setup.unnamed_stand;
+        let same = codes == self.setup.control.clamp_codes
+            && unnamed_stand == self.setup.unnamed_stand
+            && self.setup.enter_definitions;
         let moves = self
             .machine
             .is_some_and(|machine| machine.control.tool_change.is_some());
@@ -288,6 +290,7 @@ impl<'a> Settings<'a> {
         setup.control = self.control();
         setup.control.clamp_codes = codes;
         setup.unnamed_stand = unnamed_stand;
+        setup.enter_definitions = true;
         Interpreter::new(self.dialect, &setup)
     }
 }

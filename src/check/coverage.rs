@@ -10,6 +10,7 @@ use crate::wake::Wake;
 use crate::{Diagnostic, Report, Settings};
 use moves::moves;
 use sections::Sections;
+pub(crate) use sections::{Mark, mark};
 pub(crate) use tally::Tally;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{directives, slash};

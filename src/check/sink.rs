@@ -5,7 +5,7 @@ use crate::finding::Draft;
 use crate::keyed::Keyed;
 use crate::nearest::NearCodes;
 use crate::runs::{Log, Merge, Repeat};
-use crate::slip::letter_o;
+use crate::slip::{bare_keyword, letter_o};
 use crate::suppress::Suppressions;
 use crate::view::LegView;
 use crate::wake::Wake;
@@ -13,7 +13,7 @@ use crate::words::hash;
 use crate::{Diagnostic, RuleLevel, Severity, Status};
 use core::cell::OnceCell;
 use std::collections::BTreeSet;
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Language};
 use trunnion_interp::{ChainId, Fault, FaultKind, Frame, Refusal};
 use trunnion_machine::Machine;
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -167,6 +167,11 @@ impl<'a> Reporter<'a> {
         true
     }
 
+    /// Whether a place is in a word that has the letter O for a zero.
+    pub(crate) fn has_letter_o(&self, range: TextRange) -> bool {
+        letter_o(self.program, range.start).is_some()
+    }
+
     /// Starts a finding at the code of a block.
     pub(crate) fn report_block(&mut self, message: impl Into<String>) -> &mut Draft<'a> {
         self.draft().say(message)
@@ -185,11 +190,21 @@ impl<'a> Reporter<'a> {
         if sort != *refusal {
             return None;
         }
-        let message = message.trim().trim_end_matches('.');
-        let draft = self.report(fault.range, message);
+        let mut message = message.trim().trim_end_matches('.').to_owned();
+        let mut range = fault.range;
+        let keyword = (self.dialect.quirks.language == Language::Linuxcnc && !message.starts_with("in "))
+            .then(|| bare_keyword(self.program, range.start))
+            .flatten();
+        if let Some((keyword, place)) = keyword {
+            message = format!(
+                "`{keyword}` needs an O-word before it: write `o100 {keyword}`, with the same number at its other parts"
+            );
+            range = place;
+        }
+        let draft = self.report(range, message.as_str());
         draft
             .note("the control refuses the block")
-            .merge(Merge::runs(hash(message), 0.0));
+            .merge(Merge::runs(hash(&message), 0.0));
         if let Some(alarm) = alarm {
             draft
                 .note(format!("the control says: {alarm}"))

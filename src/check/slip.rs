@@ -1,4 +1,4 @@
-//! Slips of the pen: the letter O where a zero belongs.
+//! Slips of the pen: the letter O where a zero belongs, a keyword of LinuxCNC without its O-word.
 use trunnion_syntax::{Program, TextRange};
 
 /// A word with the letter O in its number, and what was meant.
@@ -63,9 +63,65 @@ fn goes_on(rest: &[u8]) -> bool {
     }
 }
 
+/// Words of LinuxCNC that follow an O-word.
+const KEYWORDS: &[&str] = &[
+    "if",
+    "elseif",
+    "else",
+    "endif",
+    "while",
+    "endwhile",
+    "do",
+    "repeat",
+    "endrepeat",
+    "break",
+    "continue",
+    "sub",
+    "endsub",
+    "return",
+    "call",
+];
+
+/// The keyword that a line begins with, where LinuxCNC wants an O-word before it; and where it is. `at`: a byte of the line.
+pub(crate) fn bare_keyword(program: &Program, at: u32) -> Option<(&'static str, TextRange)> {
+    let source = program.source();
+    let before = source.get(..at as usize)?;
+    let mut start = memchr::memrchr(b'\n', before).map_or(0, |end| end + 1);
+    start += source[start..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
+    let is_letter = |byte: &&u8| byte.is_ascii_alphabetic();
+    let end = start + source[start..].iter().take_while(is_letter).count();
+    let word = source.get(start..end)?;
+    let goes_on =
+        matches!(source.get(end), Some(byte) if byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-' | b'#'));
+    let keyword = KEYWORDS
+        .iter()
+        .find(|known| word.eq_ignore_ascii_case(known.as_bytes()));
+    Some((keyword.filter(|_| !goes_on)?, TextRange::new(start as u32, end as u32)))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::letter_o;
+    use super::{bare_keyword, letter_o};
+
+    #[test]
+    fn a_keyword_without_its_o_word() {
+        let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+        for (text, at, wanted) in [
+            ("  if [#1 LT 0]\n", 3, Some("if")),
+            ("G0 X1\n\tENDIF\n", 8, Some("endif")),
+            ("while [#1 LT 3]", 10, Some("while")),
+            ("o100 if [#1 LT 3]", 5, None),
+            ("I5 F3", 1, None),
+            ("do5", 0, None),
+            ("", 0, None),
+        ] {
+            let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+            assert_eq!(bare_keyword(&program, at).map(|found| found.0), wanted, "{text}");
+        }
+    }
 
     #[test]
     fn a_word_with_a_letter_o_is_found_at_each_of_its_bytes() {

@@ -36,9 +36,14 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
     let mut out = String::new();
     let is_info = |d: &trunnion_check::Diagnostic| d.status == Status::Fail && d.severity == Severity::Info;
     let with_excerpt = worst.iter().filter(|d| !is_info(d)).count() <= EXCERPTS;
+    let mut before: Option<&trunnion_check::Diagnostic> = None;
     for &d in &worst {
         if is_info(d) || !with_excerpt {
-            compact(&mut out, loaded, lines, d, color);
+            // what to do about several findings of one rule is said once
+            let again =
+                before.is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
+            compact(&mut out, loaded, lines, (d, again), color);
+            before = Some(d);
             continue;
         }
         let excerpt = Excerpt::new(loaded, lines, d.range);
@@ -54,8 +59,14 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
     out
 }
 
-/// A finding without its lines of program: an info, or one of many.
-fn compact(out: &mut String, loaded: &Loaded, lines: &LineIndex, d: &trunnion_check::Diagnostic, color: bool) {
+/// A finding without its lines of program: an info, or one of many; without its notes and help where the one before has the same.
+fn compact(
+    out: &mut String,
+    loaded: &Loaded,
+    lines: &LineIndex,
+    (d, again): (&trunnion_check::Diagnostic, bool),
+    color: bool,
+) {
     let (line, column) = lines.line_column(loaded.program.source(), d.range.start);
     let head = format!("{}[{}]", short::weight(d), d.rule);
     let place = format!("{}:{line}:{column}:", shown(&loaded.name));
@@ -72,9 +83,12 @@ fn compact(out: &mut String, loaded: &Loaded, lines: &LineIndex, d: &trunnion_ch
     };
     let mut rows = wrapped(&format!("{head} {message}"), "  ").into_iter();
     let first = rows.next().unwrap_or_default();
+    if again && out.ends_with("\n\n") {
+        out.pop();
+    }
     // writing into a String cannot fail
     let _ = writeln!(out, "{styled}{}", &first[head.len().min(first.len())..]);
-    let more = d.notes.iter().chain(&d.help).map(|text| shown(text));
+    let more = d.notes.iter().chain(&d.help).filter(|_| !again).map(|text| shown(text));
     for row in rows.chain(more.flat_map(|text| wrapped(&format!("  {text}"), "    "))) {
         let _ = writeln!(out, "{row}");
     }

@@ -42,6 +42,8 @@ pub struct Surroundings<'a> {
     pub family: Option<&'a str>,
     /// Whether the part can turn on a spindle: a lathe, a mill-turn machine. `None`: no machine is named.
     pub turns: Option<bool>,
+    /// The machine has X and Z and no Y, as lathes with two axes.
+    pub no_y: bool,
 }
 
 /// How much of a program is searched for signs of its dialect, bytes.

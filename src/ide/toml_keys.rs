@@ -1,7 +1,7 @@
 //! Keys of `trunnion.toml` and of machine files. The reader of the file itself says which keys a table may have, so that the list is always
 //! the true one; the example of the settings page explains those of `trunnion.toml`.
 use core::ops::Range;
-use trunnion_check::Config;
+use trunnion_check::{Config, or_known};
 
 /// The page of settings, whose example explains each key.
 const PAGE: &str = include_str!("../../docs/settings.md");
@@ -22,7 +22,10 @@ impl TomlFile {
     /// What is wrong with a text, and its bytes where known.
     pub fn problem(self, text: &str) -> Option<(String, Option<Range<usize>>)> {
         match self {
-            Self::Settings => Config::parse(text).err().map(|error| (error.message, error.span)),
+            Self::Settings => match Config::parse(text) {
+                Ok(config) => unknown_name(&config, text),
+                Err(error) => Some((error.message, error.span)),
+            },
             Self::Machine => trunnion_machine::load("machine", text)
                 .err()
                 .map(|error| (error.message, error.span)),
@@ -44,6 +47,27 @@ impl TomlFile {
         };
         known.split(", ").map(str::to_owned).collect()
     }
+}
+
+/// A machine or dialect that the settings name and that does not exist.
+fn unknown_name(config: &Config, text: &str) -> Option<(String, Option<Range<usize>>)> {
+    let place = |name: &str| {
+        let at = text.find(&format!("\"{name}\""))? + 1;
+        Some(at..at + name.len())
+    };
+    if let Some(name) = config.dialect.as_deref()
+        && trunnion_dialect::named(name, String::new(), true).is_none()
+    {
+        let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+        return Some((format!("unknown dialect `{name}`{hint}"), place(name)));
+    }
+    let name = config.machine.as_deref()?;
+    let is_file = name.contains(['/', '\\']) || name.to_ascii_lowercase().ends_with(".toml");
+    if is_file || trunnion_machine::builtin(name).is_some() {
+        return None;
+    }
+    let hint = or_known(name, trunnion_machine::BUILTIN_MACHINES, "machines");
+    Some((format!("unknown machine `{name}`{hint}"), place(name)))
 }
 
 /// The header of the table that byte `at` is in, as it is written; empty at the top.

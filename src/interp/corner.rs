@@ -31,6 +31,8 @@ pub(crate) struct Corners {
     /// The corner word of the current block: letter and mm.
     pub(crate) word: Option<(u8, f64)>,
     waiting: Option<Box<Waiting>>,
+    /// Why the motion that now ends at a corner begins at an unknown point: the corner before it is not followed.
+    lost: Option<String>,
 }
 
 impl Corners {
@@ -198,6 +200,7 @@ impl Iso<'_> {
             on.push(before);
             return;
         }
+        let lost = self.memory.corners.lost.take();
         let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
         let ways = flat(&before.0, axes).zip(flat(&next.0, axes));
         let lathe = self.core.dialect.quirks.diameter && axes[2] == 1;
@@ -217,14 +220,19 @@ impl Iso<'_> {
             {
                 Some("whose feed or settings are those of another block")
             }
-            Some(false) if tolerant => Some("larger than its motions"),
+            Some(false) if tolerant => Some("larger than their motions"),
             None if arcs => Some("at an arc"),
             None if !known => Some("from or to an unknown position"),
-            None if tolerant => Some("at a motion that is not a line in the plane"),
+            None if tolerant => Some("at motions that are no lines in the plane"),
             _ => None,
         };
         if let Some(place) = place {
-            let what = format!(",{} {place}", char::from(waiting.letter));
+            // one corner that is not followed makes the ones after it unknown, too: that is one cause
+            let what = match lost.filter(|_| !arcs && !known) {
+                Some(what) => what,
+                None => format!("rounded and chamfered corners {place}"),
+            };
+            self.memory.corners.lost = Some(what.clone());
             report.fault(report.whole(), FaultKind::NotModelled { what });
             if self.core.effects.wanted() {
                 // its words are neither in the motions nor among those that are compared

@@ -252,6 +252,25 @@ impl Iso<'_> {
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             return MotionKind::Arc(None);
         }
+        let [first, second, _] = crate::arc::plane_axes(setting.plane);
+        let named = words.axes.given | words.axes.unread;
+        if named & ((1 << first) | (1 << second)) == 0
+            && let Some(alarm) = self.core.dialect.alarm("arc-end-missing")
+        {
+            // other controls run a full circle
+            let letter = |axis: usize| char::from(crate::AXIS_LETTERS[axis]);
+            let kind = FaultKind::Rejected {
+                refusal: crate::Refusal::MissingWord,
+                message: format!(
+                    "the arc has no end point: name {} or {}, for a full circle with the coordinates of its start",
+                    letter(first),
+                    letter(second)
+                ),
+                alarm: Some(alarm.number.clone()),
+            };
+            report.fault(words.first.unwrap_or_default(), kind);
+            return MotionKind::Arc(None);
+        }
         let (arc, fault) = arc(&setting, words);
         if let Some(kind) = fault {
             report.fault(words.first.unwrap_or_default(), kind);

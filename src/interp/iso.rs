@@ -33,8 +33,8 @@ impl<'d> Iso<'d> {
             }
             return;
         }
-        if self.core.effects.wanted() && self.core.dialect.name == "grbl" {
-            self.grbl_line(block, sink);
+        if self.core.dialect.name == "grbl" && self.grbl_line(block, sink) {
+            return;
         }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();

@@ -48,6 +48,8 @@ pub trait Sink {
     fn error(&mut self, error: &Error, at: At);
     /// A line that runs contains a NUL: the control does not read the bytes from there to the end of the line.
     fn cut(&mut self, _range: TextRange, _at: At) {}
+    /// A subprogram that nothing calls is entered ([`crate::Setup::enter_definitions`]): spindle and arguments are unknown.
+    fn entered(&mut self, _name: &str, _at: At) {}
 }
 
 /// The result of a step.

@@ -58,6 +58,8 @@ pub(crate) struct Store {
     returned: bool,
     /// Axis letters that are not words here: bit per letter from A.
     missing_axes: u32,
+    /// A subprogram that nothing calls runs: names that it does not define may be defined by its caller.
+    pub(crate) alone: bool,
 }
 
 impl Store {
@@ -87,6 +89,7 @@ impl Store {
             value: 0.0,
             returned: false,
             missing_axes: missing_axes(setup),
+            alone: false,
         }
     }
     /// Whether nothing differs, bit for bit; values saved for callers are not compared.
@@ -255,12 +258,12 @@ impl<'a> Values<'a> {
             return Err(ValueError::NotDefined);
         };
         let ini: &Ini = &self.setup.ini;
-        if ini.values.is_empty() && self.is_check() {
-            return Ok(f64::NAN);
-        }
         let text = ini
             .values
             .get(&(section.to_ascii_uppercase(), key.to_ascii_uppercase()));
+        if text.is_none() && self.setup.any_ini {
+            return Ok(f64::NAN);
+        }
         text.and_then(|text| text.trim().parse().ok())
             .ok_or(ValueError::NotDefined)
     }
@@ -299,7 +302,7 @@ impl Variables for Values<'_> {
         }
     }
     fn exists(&self, name: &str) -> bool {
-        self.named(name).is_ok()
+        self.named(name).is_ok() && !self.is_of_caller(name)
     }
 }
 
@@ -322,7 +325,20 @@ impl Values<'_> {
         }
         match system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)) {
             Ok(place) => Ok((system::NAMES[place].1)(self)),
+            Err(_) if self.is_of_caller(name) => Ok(f64::NAN),
             Err(_) => Err(ValueError::NotDefined),
         }
+    }
+    /// Whether a name that is not defined may have a value that the caller, or a remapped code, gave it.
+    fn is_of_caller(&self, name: &str) -> bool {
+        let store = &self.store;
+        let global = name.starts_with('_');
+        let names = if global { &store.globals } else { &store.locals };
+        store.alone
+            && (global || store.aside.len() == 1)
+            && !name.starts_with("_ini[")
+            && !name.starts_with("_hal[")
+            && system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)).is_err()
+            && names.get(&Name::new(name)).is_none()
     }
 }

@@ -104,6 +104,8 @@ pub struct Setup {
     pub any_ini: bool,
     /// Lines that begin with `/` are skipped (the switch of the panel).
     pub block_delete: bool,
+    /// A file that only defines subprograms runs them, one after the other, with unknown arguments; `rs274` runs nothing then.
+    pub enter_definitions: bool,
     /// Decimals of numbers in messages after those that the control writes: 0 except for a closer look.
     pub more_decimals: usize,
 }
@@ -124,6 +126,7 @@ impl Default for Setup {
             any_tool: false,
             any_ini: false,
             block_delete: false,
+            enter_definitions: false,
             more_decimals: 0,
         }
     }

@@ -70,9 +70,12 @@ pub enum Lacks<'a> {
     ReferencePoint,
     /// The radius of a tool, by its number as written: `D1`.
     Radius(&'a str),
+    /// The arguments of a subprogram that nothing in its file calls, by its label.
+    Caller(&'a str),
 }
 
 const REFERENCE_LACKS: &str = ": its position is not declared";
+const CALLER_LACKS: &str = ": its arguments are unknown, because nothing in this file calls it";
 const RADIUS_OF: &str = "cutter radius compensation: the radius of ";
 const RADIUS_LACKS: &str = " is not declared; the programmed path is used instead";
 
@@ -89,11 +92,20 @@ impl FaultKind {
         Self::NotModelled { what }
     }
 
+    /// A subprogram was run without a call; `label`: `o<slot>`.
+    pub fn caller_lacks(label: &str) -> Self {
+        let what = format!("{label}{CALLER_LACKS}");
+        Self::NotModelled { what }
+    }
+
     /// What is not declared, where that is why something is not modelled.
     pub fn lacks(&self) -> Option<Lacks<'_>> {
         let Self::NotModelled { what } = self else { return None };
         if what.ends_with(REFERENCE_LACKS) {
             return Some(Lacks::ReferencePoint);
+        }
+        if let Some(label) = what.strip_suffix(CALLER_LACKS) {
+            return Some(Lacks::Caller(label));
         }
         what.strip_prefix(RADIUS_OF)?
             .strip_suffix(RADIUS_LACKS)

@@ -222,6 +222,9 @@ pub struct Setup {
     /// Lets an axis of X, Y, Z that no word of the program names stand at 0: for judging one program, where its place changes nothing. Two
     /// programs that are compared may differ in what they name.
     pub unnamed_stand: bool,
+    /// Runs the subprograms of a file that only defines them, with arguments that are unknown: for judging one program. Programs that are
+    /// compared do only what their own blocks do.
+    pub enter_definitions: bool,
     /// Numbered variables that have a value before the program runs, sorted by number, each once; `None` is vacant. In program units.
     pub variables: Vec<(u32, Option<f64>)>,
 }

@@ -345,6 +345,10 @@ fn dialect_for(
     let known = Surroundings {
         family: machine.map(|machine| machine.control.family.as_str()),
         turns: machine.map(turns),
+        no_y: machine.is_some_and(|machine| {
+            let has = |wanted: u8| machine.own_axes().any(|(_, axis)| axis.letter == wanted);
+            has(b'X') && has(b'Z') && !has(b'Y')
+        }),
     };
     Ok((trunnion_dialect::detect_on(file_name, source, known), None))
 }

@@ -12,6 +12,7 @@ mod fmt;
 mod hostile;
 mod lathes;
 mod machines;
+mod messages;
 mod pictures;
 mod pieces;
 mod servo;

@@ -17,6 +17,7 @@ mod lsp_backplot;
 mod lsp_client;
 mod lsp_edits;
 mod lsp_features;
+mod lsp_fixes;
 mod lsp_malformed;
 mod lsp_writing;
 mod mutated_formats;

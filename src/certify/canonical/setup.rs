@@ -7,8 +7,8 @@ record! {
     Setup {
         tools = 1, work_offsets = 2, limits = 3, control = 4, variables = 5,
     } without {
-        // no proof asks for the second
-        library, unnamed_stand,
+        // no proof asks for the others
+        library, unnamed_stand, enter_definitions,
     }
 }
 

@@ -1,4 +1,5 @@
 //! Tools as people declare them: `--tool ball:10`, `[[tool]]`.
+use trunnion_dialect::did_you_mean;
 use trunnion_interp::{Tool, ToolShape};
 
 /// Names of tool shapes, for messages.
@@ -71,7 +72,10 @@ pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> R
                 Err((Part::CornerRadius, message))
             }
         }
-        _ => Err((Part::Shape, format!("unknown tool shape `{name}`; write {SHAPES}"))),
+        _ => {
+            let near = did_you_mean(name, &["ball", "flat", "bull", "turning"], &format!("; write {SHAPES}"));
+            Err((Part::Shape, format!("unknown tool shape `{name}`{near}")))
+        }
     }
 }
 

@@ -15,7 +15,7 @@ struct Part {
 }
 
 /// What a block says about the part that it belongs to.
-enum Mark {
+pub(crate) enum Mark {
     /// A subprogram begins with it.
     Begins,
     /// A subprogram ends with it.
@@ -69,7 +69,8 @@ impl Sections {
     }
 }
 
-fn mark(block: &Block<'_>, language: Language) -> Option<Mark> {
+/// See [`Mark`].
+pub(crate) fn mark(block: &Block<'_>, language: Language) -> Option<Mark> {
     let program = block.program();
     let first = block.first_byte()?;
     match language {

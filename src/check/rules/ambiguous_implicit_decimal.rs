@@ -31,7 +31,8 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if fault.kind == FaultKind::AmbiguousDecimal {
+    // the number may end at a letter O, which is reported as what it is
+    if fault.kind == FaultKind::AmbiguousDecimal && !out.has_letter_o(fault.range) {
         let text = out.text(fault.range);
         let feed = text.starts_with(['F', 'f']);
         let advice = &out.dialect().advice;
@@ -49,6 +50,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
         draft
             .help(format!("write `{text}.`"))
+            .replace_with(format!("{text}."))
             .merge(Merge::once(u64::from(feed)));
     }
 }

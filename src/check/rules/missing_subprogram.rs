@@ -22,7 +22,9 @@
 //! # Sources
 //! * docs/contract.md#where-subprograms-are-searched
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+use crate::caller::Part;
 use crate::prelude::*;
+use trunnion_dialect::Language;
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::Subprogram, plain)]);
 
@@ -39,6 +41,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .map_or_else(String::new, |place| format!(", called in {place}"));
         let near = out.near_code(name);
         let in_control = out.dialect().advice.subprograms_in_control;
+        let alone = out.part() == Part::Called && out.dialect().quirks.language == Language::Linuxcnc;
         let refused = searched.iter().find_map(|place| place.refused.as_ref());
         let draft = out.report(
             fault.range,
@@ -57,6 +60,11 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         } else {
             format!("searched: the program itself, {}", folders.join(", "))
         });
+        if alone && refused.is_none() {
+            draft
+                .unknown()
+                .note("the program that calls this file may have its subprograms in another folder".to_owned());
+        }
         if in_control && refused.is_none() {
             draft
                 .unknown()

@@ -31,7 +31,13 @@ pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotDecided { what } = &fault.kind {
-        out.report(fault.range, format!("where the program continues depends on {what}"))
+        // a reason may be a whole sentence: `whether this branch runs depends on #1`
+        let message = if what.contains(" depends on ") {
+            what.clone()
+        } else {
+            format!("where the program continues depends on {what}")
+        };
+        out.report(fault.range, message)
             .note("what runs after it was not checked")
             .help("declare the value if it is known ([variables] in trunnion.toml), or check the program that sets it or calls this one")
             .unknown();

@@ -37,21 +37,50 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         .merge(Merge::once(0));
         return;
     }
+    if let Some(Lacks::Caller(label)) = fault.kind.lacks() {
+        out.report(fault.range, format!("{label} was checked with unknown arguments: nothing in this file calls it"))
+            .note("its arguments, F, S and the position of the axes come from the caller; what depends on them was not checked")
+            .help("check the program that calls it, with this file in its folder or under `subprogram_path`")
+            .unknown()
+            .merge(Merge::once(1));
+        return;
+    }
     if let FaultKind::NotModelled { what } = &fault.kind {
-        let (what, remedy) = divided(what);
+        let (note, remedy) = radius_advice(&fault.kind, what);
+        let (what, declare) = divided(what);
         let near = out.near_code(what);
         let hint = near
             .as_ref()
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
         // an editor can only replace what the place holds
         let meant = near.filter(|_| out.text(fault.range) == *what);
-        let draft = out.report(fault.range, format!("not modelled: {}{hint}", short(what)))
+        let draft = out
+            .report(fault.range, format!("not modelled: {}{hint}", short(what)))
             .replace_with_some(meant)
-            .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
+            .note(note)
             .unknown()
-            .merge(Merge::once(hash(what)));
-        draft.help(remedy.unwrap_or_else(|| BY_HAND.to_owned()));
+            .merge(Merge::once(hash(cause(what))));
+        draft.help(declare.or(remedy).unwrap_or_else(|| BY_HAND.to_owned()));
     }
+}
+
+/// What follows for what is not modelled, and what to do about compensation of a radius: there the positions are those of the program.
+fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>) {
+    if !what.starts_with("cutter radius compensation") && !what.starts_with("tool nose radius compensation") {
+        return (
+            "what depends on it is unknown, and not checked, until the program sets it again",
+            None,
+        );
+    }
+    let note = "the tool runs beside the programmed path, and the programmed path is the one that was checked";
+    let declare = "declare its diameter: `[[tool]]` with `number` and `diameter` in mm, in trunnion.toml";
+    let remedy = match kind.lacks() {
+        Some(Lacks::Radius(_)) => format!("{declare}; or take its radius as zero: --assume tool-length"),
+        _ if what.contains("diameter of the tool is not declared") => declare.to_owned(),
+        _ => "keep more than the tool radius clear of walls and limits, or try it on the machine without a part"
+            .to_owned(),
+    };
+    (note, Some(remedy))
 }
 
 /// What to do where no setting helps.
@@ -59,6 +88,10 @@ const BY_HAND: &str = "look through what depends on it by hand, or try it on the
 
 /// What is not modelled, and what to declare so that it is: `a cycle (declare [control] key)` says both.
 fn divided(what: &str) -> (&str, Option<String>) {
+    if let Some((what, tool)) = what.split_once(" (`[[tool]]`") {
+        let tool = tool.trim_end_matches(')');
+        return (what, Some(format!("declare `[[tool]]`{tool}, in trunnion.toml")));
+    }
     let Some(at) = what.find("declare [control]") else {
         return (what, None);
     };
@@ -69,8 +102,24 @@ fn divided(what: &str) -> (&str, Option<String>) {
     } else {
         remedy
     };
-    let remedy = format!("{remedy}, in trunnion.toml or in the machine file");
+    let place = "in trunnion.toml or in the machine file";
+    let remedy = match remedy.split_once("; ") {
+        Some((declare, then)) => format!("{declare}, {place}; {then}"),
+        None => format!("{remedy}, {place}"),
+    };
     (before.trim_end_matches([' ', ':', '(', ',']), Some(remedy))
+}
+
+/// What findings of one cause have in common: the same function of the control with other arguments, another name that nothing defines.
+fn cause(what: &str) -> &str {
+    const UNNAMED: &str = ": a named variable with an unknown value";
+    if what.starts_with('#') && what.ends_with(UNNAMED) {
+        return UNNAMED;
+    }
+    match what.split_once(": ") {
+        Some((function, _)) if function.starts_with("FN ") => function,
+        _ => what,
+    }
 }
 
 /// A cause may quote the program: its first 100 characters, in one line.
@@ -85,8 +134,9 @@ fn short(what: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::divided;
+    use super::{cause, divided, radius_advice};
     use crate::Severity;
+    use trunnion_interp::FaultKind;
 
     #[test]
     fn what_to_declare_is_the_help() {
@@ -104,6 +154,62 @@ mod tests {
             ("G71: one block", remedy("roughing_retract (setting 73)"))
         );
         assert_eq!(divided("INSERT"), ("INSERT", None));
+        let nose = "the nose is not declared (`[[tool]]` with `nose_radius` in mm)";
+        let tool = "declare `[[tool]]` with `nose_radius` in mm, in trunnion.toml";
+        assert_eq!(divided(nose), ("the nose is not declared", Some(tool.to_owned())));
+    }
+
+    /// Where the radius of a tool is missing, the finding names what to declare, and does not say that positions are unknown.
+    #[test]
+    fn an_undeclared_radius_names_what_to_declare() {
+        let kind = FaultKind::radius_lacks("D1");
+        let (note, help) = radius_advice(&kind, "cutter radius compensation: the radius of D1 is not declared");
+        let help = help.unwrap_or_default();
+        assert!(
+            help.contains("`[[tool]]`") && help.contains("--assume tool-length"),
+            "{help}"
+        );
+        assert!(note.contains("programmed path"), "{note}");
+        for (fence, text) in [
+            (
+                "gcode linuxcnc",
+                "G21 G17 G90 G94\nM3 S900 T1 M6\nG0 X0 Y0 Z5\nG41 G1 X9 F100\nY9\nG40 X0\nM2\n",
+            ),
+            (
+                "gcode haas-lathe",
+                "G21 G18 G99\nT0101\nG97 S900 M3\nG0 X40. Z2.\nG42 G1 X30. F0.1\nZ-9.\nG40 X50.\nM30\n",
+            ),
+        ] {
+            let report = crate::fixture::Fixture::parse(fence, text).check().unwrap();
+            let found = report
+                .diagnostics
+                .iter()
+                .find(|d| d.rule == "not-modelled")
+                .expect(text);
+            let help = found.help.as_deref().unwrap_or_default();
+            assert!(
+                help.contains("`[[tool]]`") && help.contains("trunnion.toml"),
+                "{fence}: {help}"
+            );
+            assert!(
+                found.notes.iter().all(|note| !note.contains("unknown")),
+                "{fence}: {:?}",
+                found.notes
+            );
+        }
+    }
+
+    #[test]
+    fn one_function_is_one_cause() {
+        assert_eq!(
+            cause("FN 18: SYSREAD Q1 = ID50 NR1"),
+            cause("FN 18: SYSREAD Q2 = ID50 NR2")
+        );
+        let name = |name: &str| format!("{name}: a named variable with an unknown value");
+        assert_eq!(cause(&name("#TOAX")), cause(&name("#TOAY")));
+        assert_ne!(cause("FN 17: what it writes"), cause("FN 18: SYSREAD Q2 = ID50 NR2"));
+        assert_ne!(cause("G71: cuts"), cause("G72: cuts"));
+        assert_ne!(cause("R1+2"), cause("R2+2"));
     }
 
     #[test]

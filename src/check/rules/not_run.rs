@@ -133,7 +133,6 @@ mod tests {
         for (dialect, text) in [
             ("iso-6983", "M30\n"),
             ("iso-6983", "G0 X0 Y0 Z9\nM30\nG1 X1 F9\n"),
-            ("linuxcnc", "o<slot> sub\nG0 X#1\no<slot> endsub\nM2\n"),
             ("linuxcnc", "o<slot> sub\n#1=2\no<slot> endsub\nG21\nM2\n"),
             ("linuxcnc", "#1=1\nM2\n"),
             ("linuxcnc", "o100 sub\nG0 X1\no100 endsub\nG21 G0 X0 Y0 Z0\nM2\n"),
@@ -151,6 +150,10 @@ mod tests {
             let count = found.diagnostics.iter().filter(|d| d.rule == "not-run").count();
             assert_eq!(count, 1, "{dialect}: {text}");
         }
+        // a file of definitions is entered, with unknown arguments
+        let alone = report("linuxcnc", "o<slot> sub\nG0 X#1\no<slot> endsub\nM2\n");
+        assert_eq!(alone.verdict(Severity::Error), Verdict::Unknown);
+        assert_eq!(alone.coverage.motions, 1);
     }
 
     #[test]

@@ -46,9 +46,10 @@ pub(crate) struct Check {
     /// Check again whenever a file changes, until interrupted.
     #[arg(long, help_heading = "Again and again")]
     pub(crate) watch: bool,
-    /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
-    #[arg(long, default_value_t = 200)]
-    pub(crate) limit: usize,
+    /// Show at most this many findings per file, the worst ones first (0: all). By default 10 in pretty form, so that the report fits on a
+    /// screen, and 200 in short form.
+    #[arg(long)]
+    pub(crate) limit: Option<usize>,
 }
 
 /// Formats of `check`.

@@ -218,11 +218,11 @@ impl Job<'_> {
         let limit = self.command.limit;
         match self.format {
             CheckFormat::Pretty => {
-                let text = render::pretty(loaded, &lines, report, limit, self.colour());
+                let text = render::pretty(loaded, &lines, report, limit.unwrap_or(10), self.colour());
                 return (text, String::new());
             }
             CheckFormat::Short => {
-                let text = shown(&short::short(loaded, &lines, report, limit)).into_owned();
+                let text = shown(&short::short(loaded, &lines, report, limit.unwrap_or(200))).into_owned();
                 return (text, String::new());
             }
             CheckFormat::Json | CheckFormat::Sarif | CheckFormat::Junit | CheckFormat::Github => {}

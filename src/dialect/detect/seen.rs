@@ -108,7 +108,7 @@ impl Seen {
 
     /// The control whose signs weigh most, including name and machine; `None` where the text shows too little.
     pub(super) fn decide(&self, owner: Option<&'static str>, known: Surroundings<'_>) -> Option<Detected> {
-        let lathe = self.shape.lathe().filter(|_| known.turns != Some(false));
+        let lathe = self.shape.lathe(known.no_y).filter(|_| known.turns != Some(false));
         let shown = |group: &[&'static str]| {
             let turned = group.contains(&FANUC) && lathe.as_ref().is_some_and(|found| found.strong);
             self.votes.weight(group) + if turned { 10 } else { 0 }
@@ -180,7 +180,7 @@ impl Seen {
                 if let (Some(_), true, Some(brand)) = (lathe, by_text, brand) {
                     reason = format!("{reason}, {brand}");
                 }
-                if lathe.is_none() && self.shape.lathe().is_some() {
+                if lathe.is_none() && self.shape.lathe(known.no_y).is_some() {
                     reason.push_str("; no dialect of lathes, because the machine does not turn the part");
                 }
                 Some((name, reason))

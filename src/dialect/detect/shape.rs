@@ -15,6 +15,8 @@ pub(super) struct Shape {
     /// T words that name tool and offset: T0101.
     turret: bool,
     surface_speed: bool,
+    /// G97 S, or the plane G18: mills have them too.
+    hint: Option<&'static str>,
     /// G50 S, G28 U W, a turning cycle: with the line.
     lathe: Option<(&'static str, usize)>,
     /// G92 S.
@@ -47,6 +49,11 @@ impl Shape {
             self.xz += 1;
         }
         self.surface_speed |= has(code, b'G', "96") && word(code, b'S');
+        if has(code, b'G', "97") && word(code, b'S') {
+            self.hint.get_or_insert("G97");
+        } else if has(code, b'G', "18") {
+            self.hint.get_or_insert("G18");
+        }
         let mut sign = |seen| _ = self.lathe.get_or_insert((seen, line));
         if has(code, b'G', "50") && word(code, b'S') {
             sign("G50 S");
@@ -72,8 +79,9 @@ impl Shape {
     }
 
     /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a second sign: a turret's T0101, surface speed, or
-    /// motions in X and Z alone. G43, M6 with T, and motions in Y without a turret are evidence against a lathe.
-    pub(super) fn lathe(&self) -> Option<Lathe> {
+    /// motions in X and Z alone. G43, M6 with T, and motions in Y without a turret are evidence against a lathe. On a machine that has no Y
+    /// (`no_y`), motions in X and Z alone are enough.
+    pub(super) fn lathe(&self, no_y: bool) -> Option<Lathe> {
         let flat = self.y == 0 && self.xz >= 2;
         if self.mill || (self.y > 0 && !self.turret) {
             return None;
@@ -91,9 +99,15 @@ impl Shape {
         if let Some(line) = self.limit.filter(|_| self.turret || (self.surface_speed && flat)) {
             return found("G92 S", line, true);
         }
-        let plain = self.turret && flat && self.surface_speed;
-        plain.then(|| Lathe {
-            reason: "T with an offset, G96, X and Z alone".to_owned(),
+        let speed = if self.surface_speed { Some("G96") } else { self.hint };
+        let reason = match speed.filter(|_| self.turret) {
+            _ if !flat => return None,
+            Some(code) => format!("T with an offset, {code}, X and Z alone"),
+            None if no_y => "X and Z alone, on a machine without Y".to_owned(),
+            None => return None,
+        };
+        Some(Lathe {
+            reason,
             strong: false,
             system_b: false,
         })

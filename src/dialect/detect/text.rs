@@ -95,6 +95,8 @@ pub(super) fn unnumbered(line: &str) -> &str {
 pub(super) fn is_block(line: &str) -> bool {
     let code = line.split(['(', ';']).next().unwrap_or_default();
     let code = code.trim_start_matches('/').trim();
+    // a block number whose digits are missing
+    let code = code.strip_prefix("N ").map_or(code, str::trim_start);
     let mut letters = 0usize;
     let mut after_letter = false;
     for c in code.chars() {

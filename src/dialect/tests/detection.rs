@@ -1,5 +1,5 @@
 //! Which dialect is found for a file.
-use crate::{Detected, Foreign, Surroundings, builtin, detect, detect_on, is_program_file_name, program_extensions};
+use crate::{Detected, Foreign, builtin, detect, is_program_file_name, program_extensions};
 use std::path::{Path, PathBuf};
 
 fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, String) {
@@ -7,7 +7,7 @@ fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, Strin
     (dialect.name.clone(), reason)
 }
 
-fn content(text: &str) -> (String, String) {
+pub(super) fn content(text: &str) -> (String, String) {
     named(None, text, None)
 }
 
@@ -273,28 +273,6 @@ fn cl_data_are_no_apt_source() {
 }
 
 #[test]
-fn programs_of_mills_are_none_of_lathes() {
-    let mill = "%\nO1\nT1 M6\nG0 X5. Y5.\nG43 H1 Z9.\n";
-    for code in ["G92 S2000\n", "G50 S2000\n"] {
-        assert_eq!(content(&format!("{mill}{code}M30\n")).0, "fanuc-30i", "{code}");
-    }
-    let lathe = "%\nO1\nG50 S2000\nT0101\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-9. F.2\nM30\n";
-    assert_eq!(content(lathe).0, "fanuc-30i-lathe-a");
-    assert_eq!(content(&lathe.replace("G50 S", "G92 S")).0, "fanuc-30i-lathe-b");
-    let on_mill = Surroundings {
-        family: None,
-        turns: Some(false),
-    };
-    assert_eq!(
-        detect_on(None, lathe.as_bytes(), on_mill).dialect.name,
-        "fanuc-30i",
-        "the machine contradicts"
-    );
-    let haas = lathe.replace("O1\n", "O12345\n");
-    assert_eq!(content(&haas).0, "haas-lathe");
-}
-
-#[test]
 fn program_numbers_of_all_lengths() {
     for number in ["O1", "O12", "O0100", "O12345678", ":1234", "O<NAME>"] {
         assert_eq!(
@@ -307,6 +285,8 @@ fn program_numbers_of_all_lengths() {
     // a hint tells brands apart, nothing else
     assert_eq!(content("G53 G0 Z0.\nG53 G0 X0.\nG1 X5 F9\n").0, "iso-6983");
     assert_eq!(content("O1031\nG53 G0 Z0.\nG53 G0 X0.\n").0, "haas-ngc");
+    let no_digits = content("%\nO100\nN G21 G90\nN M3 S100\nN G0 X1. Y1.\nN G1 X2. F100.\nN M30\n%\n");
+    assert_eq!(no_digits.0, "fanuc-30i");
     assert_eq!(content("G21\rO1234\rM30\r").1, "content: a program number O on line 2");
 }
 
@@ -397,33 +377,4 @@ fn programs_of_known_origin() {
         "by content alone: {right} of {seen} right, {} wrong: {wrong:#?}",
         wrong.len()
     );
-}
-
-#[test]
-fn okuma_mills_and_lathes() {
-    for (name, text, wanted) in [
-        ("a.min", "G15 H1\nT1 M6\nG56 H1\nG0 X1 Y2 Z3\nM2\n", "okuma-osp"),
-        ("a.nc", "$PART.MIN%\nG15 H1\nG0 X1 Y2\nM2\n", "okuma-osp"),
-        (
-            "a.nc",
-            "N1 V1=2\nCALL OSUB AB=V1\nIF [V1 EQ 2] NEND\nNEND M2\n",
-            "okuma-osp",
-        ),
-        ("a.min", "G0 X50 Z2\nG1 Z-10 F0.2\nM2\n", "okuma-osp-lathe"),
-        ("a.min", "G50 S2000\nT010101\nG0 X50 Y0 Z2\nM2\n", "okuma-osp-lathe"),
-    ] {
-        let found = detect(Some(name), text.as_bytes(), None);
-        let lathe = matches!(found.foreign, Some(Foreign::Control(control)) if control.name == "okuma-osp-lathe");
-        assert_eq!(
-            if lathe { "okuma-osp-lathe" } else { &found.dialect.name },
-            wanted,
-            "{text}"
-        );
-    }
-    let found = detect(
-        Some("a.nc"),
-        b"G0 X50 Z2\nG96 S200 M3\nG1 Z-10 F0.2\nM2\n",
-        Some("okuma-osp"),
-    );
-    assert!(found.foreign.is_some(), "{}", found.reason);
 }

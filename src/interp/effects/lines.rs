@@ -6,16 +6,51 @@ use crate::{Argument, Effect};
 use trunnion_syntax::Block;
 
 impl Iso<'_> {
-    /// A setting of grbl (`$32=1`) or one of its realtime characters, which act when they arrive (grbl 1.1 documentation, interface).
-    #[cold]
-    pub(crate) fn grbl_line(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
+    /// A command of grbl (`$H`), one of its settings (`$32=1`), or one of its realtime characters, which act when they arrive (grbl 1.1
+    /// documentation, interface and commands). Whether the whole line is done with: it was a command or setting.
+    pub(crate) fn grbl_line(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) -> bool {
+        let wanted = self.core.effects.wanted();
+        let is_command = view.first_byte() == Some(b'$');
+        if !is_command && !wanted {
+            return false;
+        }
         let text = view.program().text(view.range());
         let text = text.trim();
         let bare = text.split([';', '(']).next().unwrap_or_default();
-        if text.starts_with('$') || bare.contains(['!', '~', '?', '\u{18}']) {
+        if wanted && (is_command || bare.contains(['!', '~', '?', '\u{18}'])) {
             let words = vec![Argument::text("", &crate::canonical_text(text))];
             self.unmodelled_line(view, words, sink);
         }
+        if is_command {
+            self.grbl_command(view, bare.trim(), sink);
+        }
+        is_command
+    }
+
+    /// What a command does to the axes. Reports, the unlocking `$X` and the sleep mode move nothing and change no setting.
+    #[cold]
+    fn grbl_command(&mut self, view: &Block<'_>, text: &str, sink: &mut impl crate::Sink) {
+        self.core.last_content = Some(view.id());
+        let upper = text.to_ascii_uppercase();
+        let what = match upper.as_str() {
+            "$" | "$$" | "$#" | "$G" | "$I" | "$N" | "$X" | "$SLP" => return,
+            command if command.starts_with("$H") => {
+                self.core.forget_position();
+                format!("{text}: homing, which leaves the axes at their switches")
+            }
+            command if command.starts_with("$J=") => {
+                self.core.forget_position();
+                format!("{text}: jogging")
+            }
+            "$C" => "$C: the check mode, in which grbl moves nothing".to_owned(),
+            command if command.contains('=') => format!("{text}: a setting of the control"),
+            _ => text.to_owned(),
+        };
+        sink.fault(crate::Fault {
+            block: view.id(),
+            range: view.range(),
+            kind: crate::FaultKind::NotModelled { what },
+        });
     }
 
     /// A line of data between G10 and G11: N names a parameter there.

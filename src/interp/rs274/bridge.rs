@@ -298,6 +298,17 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
         self.fault(at, range, FaultKind::NotModelled { what });
     }
 
+    fn entered(&mut self, name: &str, at: At) {
+        self.core.state.spindle.lose();
+        let numbered = name.bytes().all(|byte| byte.is_ascii_digit());
+        let label = if numbered {
+            format!("o{name}")
+        } else {
+            format!("o<{name}>")
+        };
+        self.fault(at, TextRange::default(), FaultKind::caller_lacks(&label));
+    }
+
     fn error(&mut self, error: &Error, at: At) {
         self.calls.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
         let kind = fault_of(error);

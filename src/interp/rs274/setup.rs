@@ -100,6 +100,7 @@ pub(super) fn at_start(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> C
         .insert(("TRAJ".to_owned(), "COORDINATES".to_owned()), coordinates);
     CallState {
         start: Start::Unknown,
+        enter_definitions: setup.enter_definitions,
         ini,
         machine_units: units,
         own_codes: own.into(),

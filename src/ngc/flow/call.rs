@@ -167,7 +167,7 @@ impl Engine {
             return Err(self.redefined(line, name, &known).into());
         }
         self.flow.labels.define(name, subprogram);
-        self.flow.first_sub.get_or_insert(name);
+        self.flow.defined.push(name);
         self.begin_seeking(compiled, Goal::Definition(name));
         Ok(())
     }

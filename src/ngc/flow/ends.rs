@@ -66,9 +66,18 @@ impl Engine {
                 self.refuse(&error, sink)
             }
             seeking => {
-                if let (None, Some(why)) = (seeking, self.only_subprograms()) {
-                    self.flow.ended = true;
-                    return Step::Undecided(why);
+                if seeking.is_none() {
+                    if self.enter_next_definition(0, sink) {
+                        return self.step(sink);
+                    }
+                    if self.flow.entered > 0 {
+                        self.flow.ended = true;
+                        return Step::Ended;
+                    }
+                    if let Some(why) = self.only_subprograms() {
+                        self.flow.ended = true;
+                        return Step::Undecided(why);
+                    }
                 }
                 let problem = match (self.flow.percent, seeking.is_some()) {
                     (true, _) => &problems::NO_END_PERCENT,
@@ -107,11 +116,9 @@ impl Engine {
     /// A file that only defines subprograms is one that another program calls: in a check its missing end is not a mistake. Reports
     /// that, and makes the first definition the current line.
     fn only_subprograms(&mut self) -> Option<String> {
-        let idle = !self.flow.did && !self.flow.called && !self.flow.percent;
-        let name = self
-            .flow
-            .first_sub
-            .filter(|_| idle && self.setup.start == Start::Unknown)?;
+        let idle = self.flow.did == 0 && !self.flow.called && !self.flow.percent;
+        let first = self.flow.defined.first().copied();
+        let name = first.filter(|_| idle && self.setup.start == Start::Unknown)?;
         let place = self.flow.labels.subprogram(name)?.place;
         (self.flow.at.file, self.flow.at.line) = (place.file(), place.line());
         let name = self.flow.labels.text(name);
@@ -174,6 +181,7 @@ impl Engine {
         self.flow.ended = true;
         let at = self.flow.at;
         self.emit(Canon::Finish, at, sink);
+        self.flow.ended = !self.enter_next_definition(0, sink);
     }
     /// The program ends with M2, M30 or M99. Where it began with `%` the control misses the one at the end.
     pub(super) fn program_end(&mut self, sink: &mut dyn Sink) -> Step {
@@ -184,6 +192,7 @@ impl Engine {
             let at = self.flow.at;
             self.emit(Canon::Comment(Arc::from(text.as_slice())), at, sink);
         }
+        self.flow.ended = !self.enter_next_definition(1, sink);
         Step::Line
     }
     fn percent_follows(&self) -> bool {

@@ -6,6 +6,7 @@ pub(crate) mod context;
 mod call;
 mod chain;
 mod contour;
+mod definitions;
 mod endless;
 mod ends;
 mod fetch;
@@ -175,10 +176,11 @@ pub(crate) struct Flow {
     /// Something was called: as on the control, the main program may `return` from then on.
     called: bool,
     seeking: Option<Seeking>,
-    /// Some line of the main program had words.
-    did: bool,
-    /// The first subprogram that the main program defined.
-    first_sub: Option<NameId>,
+    /// Lines of the main program that had words.
+    did: u64,
+    /// The subprograms that the main program defined, in order, and how many of them were entered without a call.
+    defined: Vec<NameId>,
+    entered: usize,
     /// A `do` line has ended the skip of a `break`, which the next end of a loop obeys, as on the control.
     broken: bool,
     labels: Labels,
@@ -230,8 +232,9 @@ impl Flow {
             style: Style::Sub,
             called: false,
             seeking: None,
-            did: false,
-            first_sub: None,
+            did: 0,
+            defined: Vec::new(),
+            entered: 0,
             broken: false,
             looping: false,
             labels: Labels::new(),

@@ -194,7 +194,7 @@ impl Engine {
     /// Records what a line with these values changes in the run, whether or not it succeeds.
     #[inline]
     pub(super) fn note_values(&mut self, block: &crate::Block, words: bool) {
-        self.flow.did |= words && self.flow.calls.is_empty();
+        self.flow.did += u64::from(words && self.flow.calls.is_empty());
         if block.g[1] >= 0 {
             self.state.unmodelled = None;
         }

@@ -32,7 +32,13 @@ impl Engine {
         for variable in formula.reads() {
             let reason = match variable {
                 Variable::Numbered(index) if values.numbered(index).is_ok_and(f64::is_nan) => {
-                    format!("#{index}, {}", numbered(index))
+                    let argument = (1..=30).contains(&index) && self.entered_alone();
+                    let source = if argument {
+                        "an argument that the caller gives"
+                    } else {
+                        numbered(index)
+                    };
+                    format!("#{index}, {source}")
                 }
                 Variable::Named(name) if values.named(name).is_ok_and(f64::is_nan) => {
                     format!("#<{name}>, {}", named(name))

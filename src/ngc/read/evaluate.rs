@@ -97,6 +97,13 @@ fn is_of_ini(engine: &Engine, name: &str) -> bool {
     })
 }
 
+/// In a check the INI file is not known.
+const OF_INI: crate::Problem = crate::Problem {
+    class: crate::Class::NotModelled,
+    message: "assigning to a number of the INI file",
+    help: "Choose a name that does not begin with `_ini[`.",
+};
+
 fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: f64) -> Result<(), Error> {
     match (&assignment.target, slot) {
         (Target::Numbered(_), Some(slot)) => engine.store.set(slot, value),
@@ -104,6 +111,13 @@ fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: 
         (Target::Named(name), _) if Values::is_system(name) || is_of_ini(engine, name) => {
             let text = format!("Cannot assign to read-only parameter #<{name}>");
             return Err(Error::with(&problems::READ_ONLY_NAME, assignment.target_range, text));
+        }
+        (Target::Named(name), _) if engine.setup.any_ini && name.starts_with("_ini[") => {
+            // a name that the INI file does not have is a parameter like others
+            let text = format!(
+                "assigning to #<{name}>: an error where the INI file has this number, and that file is not known here"
+            );
+            return Err(Error::with(&OF_INI, assignment.target_range, text));
         }
         (Target::Named(name), _) => engine.store.set_named(name, value),
     }

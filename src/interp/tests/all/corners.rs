@@ -32,8 +32,12 @@ fn corners_that_do_not_fit() {
     );
     assert_eq!(
         faults("fanuc-30i", arc),
-        [r#"3: G3 X20. Y10. R5.: NotModelled { what: ",R at an arc" }"#]
+        [r#"3: G3 X20. Y10. R5.: NotModelled { what: "rounded and chamfered corners at an arc" }"#]
     );
+    // the corners after it are unknown for the same reason
+    let more = "G0 X0. Y0. Z0.\nG1 X20. ,R5. F100.\nG3 X20. Y10. R5.\nG1 X0. ,C2.\nY20. ,R1.\nX9.\nM30\n";
+    let of_arc = faults("fanuc-30i", more);
+    assert!(of_arc.iter().all(|fault| fault.contains("at an arc")), "{of_arc:?}");
 }
 
 #[test]

@@ -38,6 +38,47 @@ fn words_that_nothing_reads() {
 }
 
 #[test]
+fn commands_and_arcs_of_grbl() {
+    for (source, want) in [
+        ("$X\n$$\nG0 X1 Y2 Z3\n", &[][..]),
+        (
+            "G0 X1 Y2 Z3\n$H\n",
+            &["$H: homing, which leaves the axes at their switches"],
+        ),
+        ("$J=G91 X5 F500\n", &["$J=G91 X5 F500: jogging"]),
+        ("$32=1\n", &["$32=1: a setting of the control"]),
+        ("$C\n", &["$C: the check mode, in which grbl moves nothing"]),
+    ] {
+        let found = faults("grbl", source);
+        let found: Vec<&str> = found.iter().filter_map(|fault| fault.split('"').nth(1)).collect();
+        assert_eq!(found, want, "{source}");
+    }
+    assert_eq!(lines("grbl", "G0 X1 Y2 Z3\n$H\nG0 X5\n"), ["R X1 Y2 Z3", "R X5"]);
+    // an arc needs a word of its plane there; Fanuc runs a full circle
+    let circle = "G90 G21 G94 G17\nG0 X10 Y0 Z0\nG2 I-5 J0 F100\nG18 G2 Y1 I-5 K0\nG17 G2 X10 I-5 J0\nM2\n";
+    let found = faults("grbl", circle);
+    let refused: Vec<&str> = found.iter().filter_map(|fault| fault.split('"').nth(1)).collect();
+    assert_eq!(
+        refused,
+        [
+            "the arc has no end point: name X or Y, for a full circle with the coordinates of its start",
+            "the arc has no end point: name Z or X, for a full circle with the coordinates of its start",
+        ]
+    );
+    assert!(found[0].contains("error:26"), "{found:?}");
+    let fanuc = circle
+        .replace("G18 G2 Y1 I-5 K0\n", "")
+        .replace("I-5", "I-5.")
+        .replace("X10", "X10.");
+    assert_eq!(
+        faults("fanuc-30i", &fanuc).len(),
+        0,
+        "{:?}",
+        faults("fanuc-30i", &fanuc)
+    );
+}
+
+#[test]
 fn coordinates_of_another_meaning_are_unknown_until_it_ends() {
     // polar and cylindrical interpolation: C is a length there
     for (on, off) in [("G12.1", "G13.1"), ("G7.1 C50.", "G7.1 C0."), ("G107 C50.", "G107 C0.")] {

@@ -7,10 +7,10 @@ use trunnion_ngc::{
 };
 
 #[derive(Default)]
-struct Heard {
+pub(crate) struct Heard {
     calls: u64,
-    feeds: Vec<At>,
-    errors: Vec<(u32, String, String)>,
+    pub(crate) feeds: Vec<At>,
+    pub(crate) errors: Vec<(u32, String, String)>,
     source: Vec<u8>,
 }
 
@@ -43,7 +43,7 @@ impl Files for Folder {
     }
 }
 
-fn run(program: &[u8], setup: &Setup, stop: bool) -> (Engine, Heard, Step) {
+pub(crate) fn run(program: &[u8], setup: &Setup, stop: bool) -> (Engine, Heard, Step) {
     let mut heard = Heard {
         source: program.to_vec(),
         ..Heard::default()
@@ -60,7 +60,7 @@ fn bounded(blocks: u64) -> Setup {
     setup
 }
 
-fn unknown() -> Setup {
+pub(crate) fn unknown() -> Setup {
     Setup {
         start: Start::Unknown,
         ..Setup::default()

@@ -1,0 +1,81 @@
+//! Programs of lathes and of mills are told apart.
+use super::detection::content;
+use crate::{Foreign, Surroundings, detect, detect_on};
+
+#[test]
+fn programs_of_mills_are_none_of_lathes() {
+    let mill = "%\nO1\nT1 M6\nG0 X5. Y5.\nG43 H1 Z9.\n";
+    for code in ["G92 S2000\n", "G50 S2000\n"] {
+        assert_eq!(content(&format!("{mill}{code}M30\n")).0, "fanuc-30i", "{code}");
+    }
+    let lathe = "%\nO1\nG50 S2000\nT0101\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-9. F.2\nM30\n";
+    assert_eq!(content(lathe).0, "fanuc-30i-lathe-a");
+    assert_eq!(content(&lathe.replace("G50 S", "G92 S")).0, "fanuc-30i-lathe-b");
+    let on_mill = Surroundings {
+        turns: Some(false),
+        ..Surroundings::default()
+    };
+    assert_eq!(
+        detect_on(None, lathe.as_bytes(), on_mill).dialect.name,
+        "fanuc-30i",
+        "the machine contradicts"
+    );
+    let haas = lathe.replace("O1\n", "O12345\n");
+    assert_eq!(content(&haas).0, "haas-lathe");
+}
+
+/// A turret's T0101 with G97 or G18 and motions in X and Z alone is a lathe program, and so is one in X and Z alone on a machine without Y.
+#[test]
+fn programs_of_lathes_without_their_own_codes() {
+    let lathe = "%\nO0001\nT0101\nG97 S1000 M3\nG0 X80. Z5.\nG1 Z-20. C1. F0.2\nX100.\nM30\n";
+    assert_eq!(content(lathe).1, "content: T with an offset, G97, X and Z alone");
+    assert_eq!(content(lathe).0, "fanuc-30i-lathe-a");
+    assert_eq!(
+        content(&lathe.replace("G97 S1000", "G18 G99 S1000")).0,
+        "fanuc-30i-lathe-a"
+    );
+    assert_eq!(content(&lathe.replace("O0001", "O00001")).0, "haas-lathe");
+    // a second word of a mill, or no second sign of a lathe
+    assert_eq!(content(&lathe.replace("X100.", "X100. Y5.")).0, "fanuc-30i");
+    assert_eq!(content(&lathe.replace("X100.", "G43 H1 X100.")).0, "fanuc-30i");
+    let plain = lathe.replace("T0101", "T1").replace("G97 ", "");
+    assert_eq!(content(&plain).0, "fanuc-30i");
+    let on_lathe = Surroundings {
+        turns: Some(true),
+        no_y: true,
+        ..Surroundings::default()
+    };
+    assert_eq!(
+        detect_on(None, plain.as_bytes(), on_lathe).dialect.name,
+        "fanuc-30i-lathe-a"
+    );
+}
+
+#[test]
+fn okuma_mills_and_lathes() {
+    for (name, text, wanted) in [
+        ("a.min", "G15 H1\nT1 M6\nG56 H1\nG0 X1 Y2 Z3\nM2\n", "okuma-osp"),
+        ("a.nc", "$PART.MIN%\nG15 H1\nG0 X1 Y2\nM2\n", "okuma-osp"),
+        (
+            "a.nc",
+            "N1 V1=2\nCALL OSUB AB=V1\nIF [V1 EQ 2] NEND\nNEND M2\n",
+            "okuma-osp",
+        ),
+        ("a.min", "G0 X50 Z2\nG1 Z-10 F0.2\nM2\n", "okuma-osp-lathe"),
+        ("a.min", "G50 S2000\nT010101\nG0 X50 Y0 Z2\nM2\n", "okuma-osp-lathe"),
+    ] {
+        let found = detect(Some(name), text.as_bytes(), None);
+        let lathe = matches!(found.foreign, Some(Foreign::Control(control)) if control.name == "okuma-osp-lathe");
+        assert_eq!(
+            if lathe { "okuma-osp-lathe" } else { &found.dialect.name },
+            wanted,
+            "{text}"
+        );
+    }
+    let found = detect(
+        Some("a.nc"),
+        b"G0 X50 Z2\nG96 S200 M3\nG1 Z-10 F0.2\nM2\n",
+        Some("okuma-osp"),
+    );
+    assert!(found.foreign.is_some(), "{}", found.reason);
+}

@@ -4,7 +4,7 @@ use crate::Refused;
 use crate::plan::{Mode, Out, Planner};
 use crate::sample::Frame;
 use trunnion_certify::conversion::{Posed, moved_axes, same_words};
-use trunnion_interp::LengthOf;
+use trunnion_interp::{LengthOf, Orientation, Tilt};
 
 impl Planner<'_> {
     /// What becomes of a rapid with an unknown end that may be left out.
@@ -50,13 +50,13 @@ impl Planner<'_> {
         Err(self.refuse(posed, message.to_owned()))
     }
 
-    /// Whether a rapid that is not in machine coordinates moves axes to known places, and the tool comes to a known position later.
+    /// Whether a rapid in a tilted plane or with a tool vector, or one that turns to a plane, comes before a known position of the same tool.
     fn joins_the_next(&self, index: usize) -> bool {
         let motions = &self.reading.motions;
         let motion = &motions[index].motion;
-        let moves = (0..6).any(|axis| motion.end.get(axis).is_some() && motion.start.get(axis) != motion.end.get(axis));
+        let tilted = motion.tilt != Tilt::default() || motion.orientation != Orientation::Words;
         let next = self.known().next_from(index).map(|next| motions[next].motion.tool);
-        !self.apt && !motion.machine_coordinates && moves && next == Some(motion.tool)
+        !self.apt && tilted && next == Some(motion.tool)
     }
 
     /// Whether no position of the tool is known before.

@@ -119,12 +119,20 @@ impl Between<'_> {
         axis_deg: Option<f64>,
     ) -> Result<Vec<PartEnd>, String> {
         let mut wanted = (track.bend().0 / (8.0 * SHARE * tolerance_mm)).sqrt().ceil().max(1.0);
+        let mut worst = 0.0;
         loop {
             if wanted > MOST_PARTS as f64 {
-                return Err(too_many(wanted));
+                return Err(if worst > 0.0 {
+                    format!(
+                        "the rotary axes of the target would turn another way than those of the original inside this cut: between the ends the tool axis \
+                         would be {worst:.3} deg away. Split the cut, or retract before it"
+                    )
+                } else {
+                    too_many(wanted)
+                });
             }
             let ends = self.ends(track, wanted as usize, false)?;
-            let worst = self.axis_apart(track, &ends);
+            worst = self.axis_apart(track, &ends);
             let Some(room) = axis_deg.map(|limit| AXIS_SHARE * limit).filter(|room| worst > *room) else {
                 return Ok(ends);
             };

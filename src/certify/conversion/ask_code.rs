@@ -44,9 +44,12 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
     }
     match code.action {
         action if action.is_in_motions() => Motions,
-        Action::BoreCycle | Action::BoreStopCycle | Action::DrillCycle => Motions,
-        // the zero point is compared at each motion
-        Action::WorkSystem | Action::WorkSystemOnce => Motions,
+        // the zero point of G15 and G16 is compared at each motion
+        Action::BoreCycle
+        | Action::BoreStopCycle
+        | Action::DrillCycle
+        | Action::WorkSystem
+        | Action::WorkSystemOnce => Motions,
         Action::SpindleStop if head(text) == "M5" => Motions,
         Action::SpindleStop => Own(Why::Oriented),
         Action::ProgramStop => match head(text) {

@@ -296,7 +296,7 @@ impl Proof<'_> {
             return self.refute(
                 is,
                 format!(
-                    "inside the block the tool axis may be {degrees:.6} deg from where it was; {limit:.6} deg is allowed"
+                    "inside the block the tool axis may be {degrees:.6} deg from where it was; {limit:.6} deg is allowed (--tolerance-deg)"
                 ),
             );
         }

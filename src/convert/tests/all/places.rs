@@ -149,7 +149,10 @@ fn the_way_of_the_tool_axis_is_not_lost() {
             (&source, "sinumerik-840d", name),
             "sinumerik-840d",
             name,
-            &Options::default(),
+            &Options {
+                tolerance_deg: Some(1.0),
+                ..Options::default()
+            },
         )
     };
     let (one, other) = (at("ORIVECT"), at("ORIAXES"));

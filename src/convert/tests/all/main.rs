@@ -14,3 +14,4 @@ mod real;
 mod refused;
 mod round;
 mod support;
+mod unsafe_gaps;

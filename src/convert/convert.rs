@@ -72,16 +72,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
     let job = job(&reading, source.dialect, options, rewritten, setting.post)?;
-    let tolerance_mm = options.tolerance_mm.unwrap_or_else(|| setting.tolerance());
-    if !(tolerance_mm.is_finite() && tolerance_mm > 0.0) {
-        return Err(Refused::new("the tolerance must be a positive number of millimetres"));
-    }
-    let axis_deg = setting.axis_deg(machine, options);
-    if axis_deg.is_some_and(|axis_deg| !(axis_deg.is_finite() && axis_deg > 0.0)) {
-        return Err(Refused::new(
-            "the tolerance of the tool axis must be a positive number of degrees",
-        ));
-    }
+    let (tolerance_mm, axis_deg) = setting.tolerances(machine, options)?;
     let planner = Planner {
         reading: &reading,
         source: machine,

@@ -8,7 +8,7 @@ pub(crate) fn said(block: &Block<'_>) -> Result<BlockEvents, Cannot> {
     let mut said = BlockEvents::default();
     let program = block.program();
     let sentence = block.sentence();
-    let text = sentence.as_ref().map(|sentence| sentence.text());
+    let text = sentence.as_ref().map(trunnion_syntax::Sentence::text);
     let words: Vec<SentenceWord> = text.iter().flat_map(|text| sentence_words(text)).collect();
     let first = words.first().map_or("", |word| word.name.as_str());
     // in cycles comments are the names of the parameters

@@ -142,7 +142,7 @@ impl<'a> Setting<'a> {
         self.post.map(|post| post.meanings(self.dialect)).unwrap_or_default()
     }
 
-    pub(crate) fn tolerance(&self) -> f64 {
+    fn tolerance(&self) -> f64 {
         self.machine.map_or(TOLERANCE_MM, |machine| machine.tolerances.tip_mm)
     }
 
@@ -205,11 +205,23 @@ impl<'a> Setting<'a> {
     }
 
     /// The precision of the digits of the output.
-    /// How far the tool axis may be from where it was inside a cut, deg. `None`: CL data, which say nothing of it between their points, or tool
-    /// vectors, which the control interpolates.
-    pub(crate) fn axis_deg(&self, source: Option<&Machine>, options: &Options) -> Option<f64> {
+    /// How far the tip (mm) and the tool axis (deg) may be from where they were inside a cut. `None`: CL data, which say nothing of the axis between
+    /// their points, or tool vectors, which the control interpolates.
+    pub(crate) fn tolerances(
+        &self,
+        source: Option<&Machine>,
+        options: &Options,
+    ) -> Result<(f64, Option<f64>), Refused> {
         let judged = source.is_some() && self.post.is_some() && self.mode.machine().is_some();
-        judged.then(|| options.tolerance_deg.unwrap_or(TOLERANCE_DEG))
+        let degrees = judged.then(|| options.tolerance_deg.unwrap_or(TOLERANCE_DEG));
+        let mm = options.tolerance_mm.unwrap_or_else(|| self.tolerance());
+        let good = |value: f64| value.is_finite() && value > 0.0;
+        if !good(mm) || !degrees.is_none_or(good) {
+            let message =
+                "the tolerance must be a positive number of millimetres, and that of the tool axis of degrees";
+            return Err(Refused::new(message));
+        }
+        Ok((mm, degrees))
     }
 
     pub(crate) fn claim(&self, options: &Options, path_mm: f64, axis_deg: Option<f64>) -> ConversionClaim {

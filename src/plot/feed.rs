@@ -41,24 +41,8 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         1e-3,
     );
     let across = [across[0].max(0.0), across[1]];
-    let low = cuts
-        .iter()
-        .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
-        .count();
     let planned = cuts.iter().any(|block| block.planned.is_some());
-    let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
-        (Swatch::Dashed(VERMILION), "programmed feed".into()),
-        (Swatch::Dot(VERMILION), format!("{low} blocks do not reach it")),
-    ];
-    if planned {
-        let slow = cuts
-            .iter()
-            .filter(|block| matches!((block.feed[0], block.planned), (Some(feed), Some([top, _])) if top < 0.8 * feed))
-            .count();
-        legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
-        legend.push((Swatch::Dot(GREEN), format!("{slow} blocks stay below 80 % of F")));
-    }
+    let legend = legend(&cuts, planned);
     sheet(header, &legend, |body| {
         let frame = Frame {
             x: across,
@@ -94,25 +78,50 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         if !planned {
             return Ok(());
         }
-        // from the speed at the end of the block before to the highest and to that at the own end
         let height = |feed: f64| value(feed.min(top)).max(upwards[0]);
-        let mut before = None;
-        let mut course = Vec::new();
-        for block in &record.blocks {
-            let entry = before.filter(|_| block.joined).unwrap_or(0.0);
-            before = block.planned.map(|[_, end]| end);
-            let (Some([most, end]), false) = (block.planned, block.rapid) else {
-                course.push((f64::NAN, f64::NAN));
-                continue;
-            };
-            let samples = record.of(block);
-            let [from, to] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
-            course.extend([
-                (from, height(entry)),
-                (0.5 * (from + to), height(most)),
-                (to, height(end)),
-            ]);
-        }
-        panel.line(course.into_iter(), GREEN, 1.2)
+        panel.line(course(record, height).into_iter(), GREEN, 1.2)
     })
+}
+
+fn legend(cuts: &[&Block], planned: bool) -> Vec<Entry> {
+    let low = cuts
+        .iter()
+        .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
+        .count();
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
+        (Swatch::Dashed(VERMILION), "programmed feed".into()),
+        (Swatch::Dot(VERMILION), format!("{low} blocks do not reach it")),
+    ];
+    if planned {
+        let slow = cuts
+            .iter()
+            .filter(|block| matches!((block.feed[0], block.planned), (Some(feed), Some([top, _])) if top < 0.8 * feed))
+            .count();
+        legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
+        legend.push((Swatch::Dot(GREEN), format!("{slow} blocks stay below 80 % of F")));
+    }
+    legend
+}
+
+/// The planned speed: in each cut from the speed at the end of the block before to the highest one and to that at its own end.
+fn course(record: &Record, height: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    let mut before = None;
+    let mut course = Vec::new();
+    for block in &record.blocks {
+        let entry = before.filter(|_| block.joined).unwrap_or(0.0);
+        before = block.planned.map(|[_, end]| end);
+        let (Some([most, end]), false) = (block.planned, block.rapid) else {
+            course.push((f64::NAN, f64::NAN));
+            continue;
+        };
+        let samples = record.of(block);
+        let [from, to] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+        course.extend([
+            (from, height(entry)),
+            (0.5 * (from + to), height(most)),
+            (to, height(end)),
+        ]);
+    }
+    course
 }

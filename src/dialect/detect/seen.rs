@@ -186,7 +186,7 @@ impl Seen {
                 Some((name, reason))
             }
             // definitions and motions along surfaces: the text that an APT processor reads, not what it writes
-            "apt" if self.votes.weight(&["apt-source"]) >= 20 => Some(("apt-source", strongest(&["apt-source"])?)),
+            "apt" if self.votes.weight(&["apt-source"]) >= 30 => Some(("apt-source", strongest(&["apt-source"])?)),
             "okuma-osp" => Some((self.okuma_name(known), strongest(group)?)),
             name => Some((name, strongest(group)?)),
         }

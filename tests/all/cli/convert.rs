@@ -182,10 +182,7 @@ fn a_refusal_writes_nothing_and_tells_the_place() {
     );
     assert!(!out.exists());
     for (arguments, why) in [
-        (
-            &["--to", "heidenhain-klartext"][..],
-            "no post for `heidenhain-klartext`",
-        ),
+        (&["--to", "okuma-osp"][..], "no post for `okuma-osp`"),
         (&[], "the target is missing"),
         (&["--to", "apt", "--tolerance-mm", "-1"], "positive number"),
         (&["--to", "linuxcnc", "--to-machine", "nowhere"], "nowhere"),

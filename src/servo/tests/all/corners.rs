@@ -55,8 +55,8 @@ fn closed_forms_and_the_first_order() {
         5e-5,
     );
     near(run(&sampled, 0.0, 0, false).exact, 22.73, 5e-4);
-    // held 10 us
-    near(run(&servo(Plant::First, Some(1e-5)), 0.0, 0, false).exact, 23.115, 5e-5);
+    // held 10 us; where in the period the corner comes moves the last digit
+    near(run(&servo(Plant::First, Some(1e-5)), 0.0, 0, false).exact, 23.115, 1e-4);
 }
 
 const GAINS: [f64; 7] = [0.0, 100.0, 140.0, 145.0, 160.0, 200.0, 300.0];

@@ -55,8 +55,10 @@ fn findings(folder: &Path, endings: &[&str]) -> String {
         let dialect = dialect.trim_start_matches(full).trim_start_matches(": ");
         let dialect = dialect.split(';').next().unwrap_or(dialect);
         let _ = writeln!(out, "== {name}: {dialect}");
+        let place = format!("{}/", str(folder));
         for line in text(&output.stdout).lines() {
-            let _ = writeln!(out, "{}", line.replace(full, "").trim_start_matches(':'));
+            let line = line.replace(full, "").replace(&place, "");
+            let _ = writeln!(out, "{}", line.trim_start_matches(':'));
         }
     }
     out

@@ -19,6 +19,7 @@ mod reading;
 mod reason;
 mod track;
 mod words;
+mod zero_names;
 
 pub use crate::curve::{great_circle, joint_bend};
 pub use ask::{Ask, Asked, Coolant, Own, Why, asked_in};
@@ -32,6 +33,7 @@ pub use proof::{converted, converted_on};
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
 pub use track::{Track, carried, rotary};
 pub use words::{moved_axes, same_words};
+pub use zero_names::ZeroNames;
 
 #[cfg(test)]
 mod tests;

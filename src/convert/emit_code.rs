@@ -103,7 +103,8 @@ impl<'a> Writer<'a> {
             self.event(placed, outs)?;
         }
         self.not_ready()?;
-        self.template("footer", None, |name| self_name(name, job, self.options, self.post))?;
+        let (options, of) = (self.options, (self.post, self.klartext));
+        self.template("footer", None, |name| self_name(name, job, options, of))?;
         Ok(Written {
             text: self.text,
             moved: self.moved,
@@ -224,14 +225,14 @@ impl<'a> Writer<'a> {
         let feed_mode = self.post.template("feed-per-minute").unwrap_or_default().to_owned();
         let title = self.title(job.name.as_deref().unwrap_or_default());
         let machine = plain(self.setting.machine.map_or("", |machine| machine.name.as_str()));
-        let (options, post) = (self.options, self.post);
+        let (options, post, klartext) = (self.options, self.post, self.klartext);
         self.template("header", None, |name| match name {
             "tools" => Some(tools.join("\n")),
             "units" => Some(units.clone()),
             "feed_mode" => Some(feed_mode.clone()),
             "title" => Some(title.clone()),
             "machine" => Some(machine.clone()),
-            _ => self_name(name, job, options, post),
+            _ => self_name(name, job, options, (post, klartext)),
         })?;
         self.modal.set("mode", feed_mode);
         Ok(())
@@ -354,11 +355,11 @@ impl<'a> Writer<'a> {
 }
 
 /// Names that every header and footer may use.
-fn self_name(name: &str, job: &Job, options: &Options, post: &Post) -> Option<String> {
+fn self_name(name: &str, job: &Job, options: &Options, (post, klartext): (&Post, bool)) -> Option<String> {
     match name {
         "program" => {
             let text = plain(job.name.as_deref().unwrap_or_default());
-            Some(if post.dialect == "heidenhain-klartext" {
+            Some(if klartext {
                 crate::emit_klartext::program_name(&text)
             } else if post.upper_case {
                 text.to_ascii_uppercase()

@@ -1,7 +1,7 @@
 //! Events of a program: what its blocks contain apart from motions, in the order the control runs them.
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Post, Refused};
-use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why};
+use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why, ZeroNames};
 use trunnion_dialect::{Action, Dialect, PathMode};
 use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
@@ -216,21 +216,21 @@ impl EventCollector<'_> {
         if name.is_some() && name != self.work_offset.as_deref() {
             let before = std::mem::replace(&mut self.work_offset, name.map(str::to_owned));
             let name = name.unwrap_or_default();
-            let written = if is_foreign(name) {
+            let written = if ZeroNames::of(name) == ZeroNames::Codes {
+                name.to_owned()
+            } else {
                 if let Some(other) = before.filter(|before| before != name) {
                     let message = format!(
-                        "{name} after {other}: the target names its zero points otherwise, and `--work-offset` gives the name of one"
+                        "the program uses {other} and {name}, but the output can name one zero point for them (`--work-offset`): split the program"
                     );
                     return Err(Refused::at(self.program, block, message));
                 }
                 let stand_in = self.options.work_offset.clone();
                 self.job.renamed_offset = Some((name.to_owned(), stand_in.clone()));
                 stand_in
-            } else {
-                name.to_owned()
             };
             if self.post.is_some_and(|post| post.template("work-offset") == Some("")) {
-                self.job.renamed_offset = Some((name.to_owned(), "the active preset".to_owned()));
+                self.job.renamed_offset = Some((name.to_owned(), "the zero point that is active".to_owned()));
             }
             self.job.push(Event::WorkOffset(written), block);
         }
@@ -257,11 +257,6 @@ impl EventCollector<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether a zero point has a name that no G-code target can write: a preset of a TNC, a work coordinate system of an OSP.
-fn is_foreign(name: &str) -> bool {
-    name.starts_with("preset ") || name.starts_with("G15 ")
 }
 
 /// A comment as an event; machine-readable marks and comments about another dialect are left out.

@@ -135,12 +135,19 @@ impl<'d> Engine<'d> for Klartext<'d> {
 impl<'d> Klartext<'d> {
     /// At the start of a program.
     pub(crate) fn new(core: Core<'d>) -> Self {
-        Self {
+        let base = core.setup.work_offset(crate::UNNAMED_ZERO).map(|offset| offset.values);
+        let mut engine = Self {
             core,
             memory: Memory::default(),
             flow: Flow::default(),
             out: Vec::new(),
+        };
+        if let Some(values) = base {
+            engine.core.state.zero.choose(None, 0);
+            engine.memory.frames.selected = values;
+            engine.refresh_zero();
         }
+        engine
     }
 
     /// Runs one block, for callers that choose the blocks themselves.

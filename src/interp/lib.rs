@@ -54,6 +54,9 @@ mod written;
 pub use apt::{IgnoredRecords, ignored_records};
 pub use deleted::{deleted_levels, slash};
 pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
+/// The name under which the zero point is declared that is in effect where no work offset or preset is chosen.
+pub const UNNAMED_ZERO: &str = "G500";
+
 pub use effects::Situation;
 pub use klartext::{SentenceWord, sentence_words};
 pub use run::{Interpreter, run};

@@ -1,6 +1,6 @@
 //! What two motions that belong together have in common apart from their path: kind, spindle, zero point, tool and its length.
 use super::proof::{Proof, above};
-use super::{Posed, Reading};
+use super::{Posed, Reading, ZeroNames};
 use crate::Outcome;
 use std::sync::Arc;
 use trunnion_interp::{LengthOf, MotionKind};
@@ -138,26 +138,20 @@ impl Proof<'_> {
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {
-            (Some(was), Some(now)) if scheme(was) != scheme(now) => self.stands_for(was, now, is),
+            (Some(was), Some(now)) if ZeroNames::of(was) != ZeroNames::of(now) => self.stands_for(was, now, is),
             (Some(was), Some(now)) if was != now => self.refute(
                 is,
                 format!("the work offset is {now}, but the original program has {was}"),
             ),
             // one of them names none (CL data): then the other may not change it
-            (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {
-                self.refute(is, "several work offsets became one".to_owned())
-            }
+            (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => self
+                .refute(
+                is,
+                "several work offsets became one: the output names none, so convert the part of each offset by itself"
+                    .to_owned(),
+            ),
             _ => Ok(()),
         }
-    }
-}
-
-/// How a control names its zero points: other controls cannot name the same one.
-fn scheme(name: &str) -> u8 {
-    match name {
-        name if name.starts_with("preset ") => 1,
-        name if name.starts_with("G15 ") => 2,
-        _ => 0,
     }
 }
 

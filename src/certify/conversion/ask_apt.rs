@@ -1,6 +1,7 @@
 //! What an APT record asks for beside motions.
 use super::ask::{Ask, Coolant, Found, Why};
-use trunnion_syntax::{AptArg, Block, Record, TextRange};
+use super::ask_iso::plain;
+use trunnion_syntax::{AptArg, Block, Record};
 
 /// Records that motions, tools and feeds of the run hold, or that only say how the motions are meant.
 const HELD: &[&str] = &[
@@ -54,7 +55,7 @@ pub(super) fn record_asks(block: &Block<'_>) -> Found {
     let mut found = Found::default();
     let Some(record) = block.record() else { return found };
     let major = block.program().text(record.major).to_ascii_uppercase();
-    let (range, text) = (record.range, plain(block, record.range));
+    let (range, text) = (record.range, plain(&block.program().text(record.range)));
     match major.as_str() {
         "SPINDL" => spindle(&record, &text, &mut found),
         "COOLNT" => found.asks.push((range, coolant(&record, &text))),
@@ -141,9 +142,4 @@ fn has(record: &Record<'_>, word: &str) -> bool {
         AptArg::Word(range) => record.program.text(range).eq_ignore_ascii_case(word),
         _ => false,
     })
-}
-
-fn plain(block: &Block<'_>, range: TextRange) -> String {
-    let text = block.program().text(range).to_ascii_uppercase();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

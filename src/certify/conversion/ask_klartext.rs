@@ -1,5 +1,6 @@
 //! What a Klartext block asks for beside its motions. What this file does not name is the control's own.
 use super::ask::{Ask, Coolant, Found, Why};
+use super::ask_iso::plain;
 use trunnion_interp::{SentenceWord, sentence_words};
 use trunnion_syntax::{Block, TextRange};
 
@@ -24,7 +25,7 @@ pub(super) fn sentence_asks(block: &Block<'_>) -> Found {
     let text = sentence.text();
     let words: Vec<SentenceWord> = sentence_words(&text).collect();
     let Some(first) = words.first() else { return found };
-    let whole = || plain(&text);
+    let whole = || plain(&String::from_utf8_lossy(&text));
     let number = first.number.filter(|number| *number >= 0.0).map(|number| number as u32);
     match first.name.as_str() {
         "STOP" => found.asks.push((range, Ask::Stop { optional: false })),
@@ -48,6 +49,13 @@ pub(super) fn sentence_asks(block: &Block<'_>) -> Found {
         "BEGIN" | "END" | "LBL" | "CALL" | "SEL" | "BLK" | "FN" | ""
     ) {
         return found;
+    }
+    let guide = words
+        .iter()
+        .position(|word| word.name == "M" && word.number == Some(128.0));
+    if guide.is_some_and(|at| words[at..].iter().any(|word| word.name == "F")) {
+        // the highest feed of the motions that keep the tip in place
+        found.own(range, "M128 F", whole(), Why::Machine);
     }
     let stops = first.name == "STOP";
     for word in words
@@ -149,9 +157,4 @@ fn deltas(words: &[SentenceWord], text: &str, range: TextRange, found: &mut Foun
             found.own(range, word.name.clone(), text, Why::Machine);
         }
     }
-}
-
-fn plain(text: &[u8]) -> String {
-    let text = String::from_utf8_lossy(text).to_ascii_uppercase();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -8,7 +8,7 @@ use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
     AllClampCodes, ChainId, Fault, FaultKind, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
-    ProgramRun, Refusal, Setup, Sink, Tilt, Tool,
+    ProgramRun, Refusal, Setup, Sink, Tilt, Tool, UNNAMED_ZERO,
 };
 use trunnion_machine::{Follower, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
@@ -215,7 +215,12 @@ impl Sink for Collector<'_> {
             return;
         }
         let length = self.length_of(motion, state);
-        let added = shift(motion, state, self.setup, if self.is_apt { "G54" } else { "G500" });
+        let added = shift(
+            motion,
+            state,
+            self.setup,
+            if self.is_apt { "G54" } else { UNNAMED_ZERO },
+        );
         let posed = if let (Some(follower), Some(machine)) = (&mut self.follower, self.machine) {
             let leg = follower.follow(motion);
             // machine coordinates know nothing of what the program adds to the zero point
@@ -228,9 +233,9 @@ impl Sink for Collector<'_> {
                 pose
             };
             let start = leg.start.as_ref().map(|stance| pose(&stance.joints));
-            // without a work offset the zero point is the base that the operator set: G500, the active preset
+            // without a work offset the zero point is the base that the operator set, or the active preset
             let undeclared =
-                Some(state.zero.offset().unwrap_or("G500")).filter(|name| self.setup.work_offset(name).is_none());
+                Some(state.zero.offset().unwrap_or(UNNAMED_ZERO)).filter(|name| self.setup.work_offset(name).is_none());
             let end = match &leg.end {
                 Ok(_) if motion.machine_coordinates && undeclared.is_some() => Err(format!(
                     "where machine coordinates are in the part depends on {}: declare it in [work_offsets]",

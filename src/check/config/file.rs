@@ -308,9 +308,15 @@ fn is_work_offset(name: &str) -> bool {
         let digits = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()) && !text.starts_with('0');
         if digits { text.parse().ok() } else { None }
     };
+    if let Some(preset) = name.strip_prefix("PRESET ") {
+        return preset == "0" || number(preset).is_some();
+    }
     let Some(code) = name.strip_prefix('G') else {
         return false;
     };
+    if let Some(system) = code.strip_prefix("15 H") {
+        return number(system).is_some();
+    }
     if let Some(further) = code.strip_prefix("54.1 P").or_else(|| code.strip_prefix("154 P")) {
         return number(further).is_some();
     }
@@ -323,7 +329,8 @@ fn work_offset(
     values: &BTreeMap<Spanned<String>, Spanned<f64>>,
 ) -> Result<WorkOffset, ConfigError> {
     if !is_work_offset(name.get_ref()) {
-        let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599, G500, of a Haas G110 to G129 and G154 P1 and so on";
+        let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599, G500, of a Haas G110 to G129 and G154 P1 and so on, of a HEIDENHAIN \
+                     \"preset 1\" and so on, of an Okuma \"G15 H1\" and so on";
         return Err(at(
             name,
             format!("`{}` is not a work offset; known are {known}", name.get_ref()),

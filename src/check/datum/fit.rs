@@ -1,7 +1,7 @@
 //! What is reported about undeclared zero points and tool lengths.
 use super::OffsetName;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{ChainId, LengthOf};
+use trunnion_interp::{ChainId, LengthOf, UNNAMED_ZERO};
 use trunnion_syntax::{BlockId, Format};
 
 /// Something that is not declared.
@@ -18,7 +18,10 @@ impl Missing {
             Self::Offset(name) => match name.as_str() {
                 "" if dialect.lex.format == Format::Apt => "the place of the part in the machine".to_owned(),
                 "" if dialect.quirks.first_offset_at_start => "G54".to_owned(),
-                "" => "the zero point without a work offset (G500)".to_owned(),
+                "" if dialect.lex.format == Format::Klartext => {
+                    format!("the preset that is active ({UNNAMED_ZERO} in trunnion.toml)")
+                }
+                "" => format!("the zero point without a work offset ({UNNAMED_ZERO})"),
                 name => name.to_owned(),
             },
             Self::Length(LengthOf::Tool(Some(number))) => format!("the length of tool {number}"),
@@ -36,7 +39,7 @@ impl Missing {
                         return "`--assume work-offset` takes the part zero as the machine zero".to_owned();
                     }
                     "" if dialect.quirks.first_offset_at_start => "G54",
-                    "" => "G500",
+                    "" => UNNAMED_ZERO,
                     name => name,
                 };
                 let quoted = if own.bytes().all(|byte| byte.is_ascii_alphanumeric()) {

@@ -1,4 +1,4 @@
-//! Programs of lathes and of mills are told apart.
+//! Programs of lathes are recognised, and those of mills are not taken for them.
 use super::detection::content;
 use crate::{Foreign, Surroundings, detect, detect_on};
 

@@ -138,10 +138,13 @@ impl<'d> Iso<'d> {
         };
         engine.memory.own.is_task = engine.core.dialect.quirks.user_task();
         let setup = std::sync::Arc::clone(&engine.core.setup);
-        if engine.core.dialect.quirks.first_offset_at_start
-            && let Some(offset) = setup.work_offset("G54")
-        {
-            engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
+        let (name, key) = if engine.core.dialect.quirks.first_offset_at_start {
+            (Some("G54".into()), "G54")
+        } else {
+            (None, crate::UNNAMED_ZERO)
+        };
+        if let Some(offset) = setup.work_offset(key) {
+            engine.set_zero(name, OffsetValues::declared(offset.values));
         }
         engine.memory.tcp_used = engine.core.state.tool_axis.tcp() && setup.control.tcp_codes.is_some();
         engine

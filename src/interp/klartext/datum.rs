@@ -146,7 +146,7 @@ impl Klartext<'_> {
     }
 
     /// The machine stays where it is, so the position moves against the zero point.
-    fn refresh_zero(&mut self) {
+    pub(crate) fn refresh_zero(&mut self) {
         let mut zero = self.memory.frames.selected;
         for (value, local) in zero.iter_mut().zip(self.memory.frames.local) {
             *value += local;

@@ -1,4 +1,4 @@
-//! A file that only defines subprograms, judged alone: each is entered as if it were called with arguments that nobody knows.
+//! A file that only defines subprograms, judged alone: each is entered as if it were called with unknown arguments.
 use super::Call;
 use super::labels::{Place, Style};
 use crate::{Engine, FileId, Sink};

@@ -40,7 +40,7 @@ fn peak() -> f64 {
         .map_or(0.0, |kilobytes| kilobytes * 1024.0)
 }
 
-/// What a run of legs without a stop takes: a quarter, then all. The peak never falls, so this is told once per program, growing.
+/// What a run of legs without a stop takes: a quarter, then all. The peak never falls, so it is printed once per program, and grows.
 fn memory(machine: &machine::Machine, rotary_feed: trunnion_dialect::RotaryFeed, legs: &[Leg]) -> String {
     let peaks = [ROUNDS / 4, ROUNDS].map(|rounds| {
         // straight on: nothing stops between two rounds

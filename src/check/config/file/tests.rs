@@ -126,11 +126,30 @@ fn work_offsets_of_all_dialects_are_known() {
         "G599",
         "G110",
         "G154 P3",
+        "preset 0",
+        "preset 12",
+        "G15 H3",
     ] {
         assert!(is_work_offset(name), "{name}");
     }
     for name in [
-        "G53", "G501", "G60", "G130", "G643", "G600", "G59.4", "G54.1 P", "G54.1 P0", "54", "G054", "X",
+        "G53",
+        "G501",
+        "G60",
+        "G130",
+        "G643",
+        "G600",
+        "G59.4",
+        "G54.1 P",
+        "G54.1 P0",
+        "54",
+        "G054",
+        "X",
+        "preset",
+        "preset 01",
+        "preset x",
+        "G15",
+        "G15 H0",
     ] {
         assert!(!is_work_offset(name), "{name}");
     }

@@ -1,6 +1,8 @@
 //! Rapids that a conversion must not lose, and a tool axis that it must not turn the other way.
-use crate::support::{refusal, text, to};
+use crate::support::{machine, refusal, text, to};
+use trunnion_certify::conversion::{Assume, Run, read};
 use trunnion_convert::Options;
+use trunnion_interp::{Setup, WorkOffset};
 
 fn message(program: &str, dialect: &str, machines: (&str, &str), target: &str) -> String {
     refusal(to(
@@ -86,4 +88,54 @@ fn the_tool_axis_keeps_its_path_inside_a_cut() {
         to(from, "fanuc-30i", machines.1, &Options::default()).unwrap_or_else(|refused| panic!("{refused}"));
     assert!(converted.proof.path_deg <= 0.5, "{:?}", converted.proof);
     assert_eq!(converted.claim.path_deg, Some(0.5));
+}
+
+/// What the refusal asks for helps: with the zero point declared, machine coordinates have a place in the part.
+#[test]
+fn a_declared_zero_point_places_machine_coordinates() {
+    let mut values = [0.0; 9];
+    values[2] = 20.0;
+    for (dialect, name, program) in [
+        (
+            "heidenhain-klartext",
+            "G500",
+            "TOOL CALL 3 Z S8000\nL X+0 Y+0 Z+50 FMAX\nL Z-10 FMAX M91\n",
+        ),
+        (
+            "heidenhain-klartext",
+            "preset 4",
+            "TOOL CALL 3 Z S8000\nCYCL DEF 247 DATUM SETTING Q339=4\nL X+0 Y+0 Z+50 FMAX\nL Z-10 FMAX M91\n",
+        ),
+        ("sinumerik-840d", "G500", "T3 D1\nG0 X0 Y0 Z50\nSUPA Z-10\n"),
+        ("okuma-osp", "G15 H2", "G15 H2\nG0 X0 Y0 Z50\nG16 H0 G0 Z-10\n"),
+    ] {
+        let mut setup = Setup::default();
+        for declared in [false, true] {
+            if declared {
+                setup.work_offsets = vec![WorkOffset {
+                    name: name.to_owned(),
+                    values,
+                }];
+            }
+            let reading = read(&Run {
+                text: program.as_bytes(),
+                dialect: trunnion_dialect::builtin(dialect).expect("built in"),
+                machine: machine("mill-3axis"),
+                setup: &setup,
+                assume: Assume::default(),
+            });
+            let last = reading.motions.last().expect("a motion");
+            let height = last.end.as_ref().ok().map(|pose| pose.tip.z);
+            assert_eq!(height, declared.then_some(-30.0), "{dialect} {name}: {:?}", last.end);
+        }
+    }
+}
+
+/// The highest feed of the motions that keep the tip in place is a word of M128 that no other control has.
+#[test]
+fn the_feed_of_m128_is_named() {
+    let program = "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL A-25 C+20 FMAX M3\nL M128 F1000\nL X+0 Y+0 Z+50 FMAX\nL Z+0 F500\nL Z+50 FMAX\nM129\nM30\nEND PGM T MM\n";
+    let machines = ("mikron-ucp710", "mikron-ucp710");
+    let why = message(program, "heidenhain-klartext", machines, "fanuc-30i");
+    assert!(why.contains("M128 F"), "{why}");
 }

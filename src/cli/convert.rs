@@ -6,32 +6,25 @@ use super::{
     load::{self, Loaded},
 };
 use clap::ValueEnum;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{Assume, Conversion, certify_conversion};
-use trunnion_convert::{
-    BUILTIN_POSTS, Converted, Options, OrientationWords, Post, Source, Target, Units, builtin_post, convert, load_post,
-};
+use trunnion_convert::{Converted, Options, OrientationWords, Source, Units, convert};
 use trunnion_machine::Machine;
-use trunnion_workspace::{LoadError, find_machine};
 
 mod show;
-use show::{document, summary};
+mod target;
+use show::document;
+pub(crate) use show::summary;
+pub(crate) use target::{Chosen, TargetArgs};
 
 /// `convert`
 #[derive(clap::Args)]
 pub(crate) struct Convert {
     /// The program; `-` reads standard input.
     pub(crate) file: PathBuf,
-    /// The target: a dialect, or `apt`. Default: the control of the target machine.
-    #[arg(long, value_name = "DIALECT|apt")]
-    to: Option<String>,
-    /// The target machine. Default: --machine, which is the machine that the program was written for.
-    #[arg(long, value_name = "NAME|FILE")]
-    to_machine: Option<String>,
-    /// Your own post (TOML): number formats, header, footer and the codes of the machine.
-    #[arg(long, value_name = "FILE")]
-    post: Option<PathBuf>,
+    #[command(flatten)]
+    target: TargetArgs,
     /// Write the tool orientation as rotary words or as tool vectors.
     #[arg(long, value_enum, default_value = "words")]
     orientation: OrientationChoice,
@@ -104,12 +97,7 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         remark(false, &loaded.explanation());
     }
     let mut outputs = loaded.outputs();
-    for file in [command.post.as_deref(), command.to_machine.as_deref().map(Path::new)]
-        .into_iter()
-        .flatten()
-    {
-        outputs.input(file);
-    }
+    command.target.files().for_each(|file| outputs.input(file));
     let output = command
         .output
         .as_ref()
@@ -120,24 +108,12 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| outputs.output("--certificate", path))
         .transpose()?;
-    let source_machine = loaded.resolved.machine.as_ref();
-    let target_machine = match &command.to_machine {
-        Some(name) => Some(find_machine(name, None)?.machine),
-        None => source_machine.cloned(),
-    };
-    let own = command.post.as_ref().map(|path| own_post(path)).transpose()?;
-    let post = target_post(command, &loaded, target_machine.as_ref(), own.as_ref())?;
-    let target = match post {
-        None => Target::Apt,
-        Some(post) => Target::Code {
-            post,
-            machine: target_machine.as_ref(),
-        },
-    };
+    let chosen = command.target.choose(&loaded)?;
+    let (target, target_machine) = (chosen.target(), chosen.machine.as_ref());
     let source = Source {
         text: loaded.program.source(),
         dialect: loaded.resolved.dialect,
-        machine: source_machine,
+        machine: loaded.resolved.machine.as_ref(),
         setup: &loaded.resolved.setup,
         assume: Assume {
             tcp: command.assume_tcp,
@@ -156,11 +132,11 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
     };
     let certified = certificate
         .is_some()
-        .then(|| certified(&loaded, target_machine.as_ref(), &converted))
+        .then(|| certified(&loaded, loaded.program.source(), target_machine, &converted))
         .transpose()?;
     let text = match command.format {
         ListFormat::Text => converted.text.clone(),
-        ListFormat::Json => document(&loaded, target_machine.as_ref(), &converted),
+        ListFormat::Json => document(&loaded, target_machine, &converted),
     };
     load::put(output.as_ref(), text.as_bytes())?;
     // after the program: a certificate next to an old program names the digest that does not fit
@@ -177,10 +153,15 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
 }
 
 /// The certificate: both texts are read again, and the proof is made again without the converter.
-fn certified(loaded: &Loaded, target: Option<&Machine>, converted: &Converted) -> Result<String, Failure> {
+pub(super) fn certified(
+    loaded: &Loaded,
+    before: &[u8],
+    target: Option<&Machine>,
+    converted: &Converted,
+) -> Result<String, Failure> {
     let is_apt = converted.dialect.lex.format == trunnion_syntax::Format::Apt;
     let conversion = Conversion {
-        texts: [loaded.program.source(), converted.text.as_bytes()],
+        texts: [before, converted.text.as_bytes()],
         dialects: [loaded.resolved.dialect, converted.dialect],
         // CL data are for no machine
         machines: [loaded.resolved.machine.as_ref(), target.filter(|_| !is_apt)],
@@ -224,51 +205,5 @@ fn options(command: &Convert) -> Result<Options, Failure> {
         program_name: command.name.clone(),
         program_number: command.program_number,
         work_offset: command.work_offset.clone(),
-    })
-}
-
-/// The user's own post, with the place of a mistake in it.
-fn own_post(path: &Path) -> Result<Post, Failure> {
-    let bytes = load::read(path)?;
-    let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8; a TOML file must be UTF-8"))?;
-    load_post(&text).map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message).into())
-}
-
-/// How it is written; `None`: as APT.
-fn target_post<'p>(
-    command: &Convert,
-    loaded: &Loaded,
-    machine: Option<&Machine>,
-    own: Option<&'p Post>,
-) -> Result<Option<&'p Post>, Failure> {
-    if let Some(post) = own {
-        if command.to.as_ref().is_some_and(|name| *name != post.dialect) {
-            return Err(Failure::new(format!(
-                "the post is for {}, but --to names another dialect",
-                post.dialect
-            )));
-        }
-        return Ok(Some(post));
-    }
-    let family = machine.map(|machine| machine.control.family.clone());
-    let same = Some(loaded.resolved.dialect.name.clone()).filter(|name| name != "apt");
-    let known = |name: &String| builtin_post(name).is_some();
-    let name = match &command.to {
-        Some(name) => name.clone(),
-        None => family.filter(known).or(same.filter(known)).ok_or_else(|| {
-            Failure::new(format!(
-                "the target is missing: add --to apt, or --to with one of {}",
-                BUILTIN_POSTS.join(", ")
-            ))
-        })?,
-    };
-    if name == "apt" {
-        return Ok(None);
-    }
-    builtin_post(&name).map(Some).ok_or_else(|| {
-        Failure::new(format!(
-            "no post for `{name}`; there are posts for {} and apt, or use your own (--post FILE)",
-            BUILTIN_POSTS.join(", ")
-        ))
     })
 }

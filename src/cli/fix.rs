@@ -1,5 +1,6 @@
 //! `fix`: proposes rewrites, has them proved, applies them.
 mod report;
+mod retarget;
 
 use super::{
     Done,
@@ -69,7 +70,9 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         ));
     }
     let options = options(command, &loaded)?;
+    retarget::fits(command)?;
     let mut outputs = loaded.outputs();
+    command.target.files().for_each(|file| outputs.input(file));
     let output = command
         .output
         .as_ref()
@@ -90,14 +93,25 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         trunnion_files::sweep_beside(&command.file);
     }
     let chosen = choose(command, &loaded)?;
-    if chosen.is_empty() {
+    if chosen.is_empty() && !retarget::wanted(command) {
         remark(
             global.quiet,
             &format!("{}: no reported finding can be fixed by a rewrite", loaded.name),
         );
     }
     let before = loaded.program.source().to_vec();
-    let outcome = apply_all(global, command, &loaded, &chosen, &options);
+    let mut outcome = apply_all(global, command, &loaded, &chosen, &options);
+    if retarget::wanted(command) {
+        let target = command.target.choose(&loaded)?;
+        let step = retarget::apply(command, &loaded, &target, &outcome.after)?;
+        if let Some(retargeted) = &step.retargeted {
+            outcome.after = retargeted.text.clone().into_bytes();
+            retargeted.summary.iter().for_each(|line| remark(global.quiet, line));
+        } else {
+            say(global.quiet, &loaded.name, step.rewrite, &step.attempt);
+        }
+        outcome.steps.push(step);
+    }
     match command.format {
         ListFormat::Json => report::print_json(&loaded, &outcome)?,
         ListFormat::Text => {
@@ -124,6 +138,10 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
 
 /// The certificate, or the chain of several, as JSON. `None`: nothing is changed.
 fn certificates(outcome: &Outcome) -> Option<String> {
+    let retargeted = outcome.steps.iter().find_map(|step| step.retargeted.as_ref());
+    if let Some(retargeted) = retargeted {
+        return retargeted.certificate.clone();
+    }
     let proved = || {
         outcome
             .steps
@@ -180,7 +198,11 @@ fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failu
         return Ok(rewrites().iter().copied().filter(|r| reported(r)).collect());
     }
     if command.rewrite.iter().any(|name| name == "all") {
-        return Ok(rewrites().to_vec());
+        return Ok(rewrites()
+            .iter()
+            .copied()
+            .filter(|r| r.name != retarget::NAME)
+            .collect());
     }
     let find = |name: &String| {
         rewrite(name).ok_or_else(|| {
@@ -189,7 +211,9 @@ fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failu
             Failure::new(format!("unknown rewrite `{name}`{hint}"))
         })
     };
-    command.rewrite.iter().map(find).collect()
+    let to_converter = |r: &&Rewrite| r.name == retarget::NAME && retarget::wanted(command);
+    let found: Result<Vec<_>, _> = command.rewrite.iter().map(find).collect();
+    Ok(found?.into_iter().filter(|r| !to_converter(r)).collect())
 }
 
 /// Applies one rewrite after the other, each to what the ones before it leave.
@@ -236,6 +260,7 @@ fn apply_all(
             rewrite: rewrite.name,
             attempt,
             gains: gained,
+            retargeted: None,
         });
         bar.inc(1);
     }

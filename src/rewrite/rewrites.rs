@@ -7,6 +7,7 @@ mod insert_points;
 mod insert_retract;
 mod renumber;
 mod reroute_rapid;
+mod retarget;
 mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
@@ -53,7 +54,8 @@ static REWRITES: &[&Rewrite] = table![
     drop_redundant,
     insert_points,
     adapt_feed,
-    renumber
+    renumber,
+    retarget
 ];
 
 /// All rewrites, in the order in which they are applied.

@@ -15,6 +15,7 @@ mod machines;
 mod messages;
 mod pictures;
 mod pieces;
+mod retarget;
 mod servo;
 mod stats;
 mod switching;

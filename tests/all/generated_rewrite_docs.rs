@@ -18,6 +18,11 @@ fn page(rewrite: &Rewrite) -> String {
         .map(|rule| format!("[{rule}](../rules/{rule}.md)"))
         .collect::<Vec<_>>()
         .join(", ");
+    let cures = if cures.is_empty() {
+        "no finding; it is asked for by name".to_owned()
+    } else {
+        cures
+    };
     format!(
         "<!-- made from src/rewrite/rewrites/{file}.rs -->\n# {}\n\n{body}\n\nCan fix: {cures}.\n",
         rewrite.name

@@ -324,10 +324,10 @@ impl ConversionCertificate {
             proof.motions_before,
             proof.end_mm,
             proof.end_deg,
-            claim.end_mm,
-            claim.end_deg,
+            short(claim.end_mm),
+            short(claim.end_deg),
             proof.path_mm,
-            claim.path_mm
+            short(claim.path_mm)
         );
         let mut add = |what: &str, names: Vec<&str>| {
             if !names.is_empty() {
@@ -339,11 +339,16 @@ impl ConversionCertificate {
             self.dropped.iter().map(String::as_str).collect(),
         );
         add(
-            "as the post says of:",
+            "what these codes do is taken from the post:",
             self.own_codes.iter().map(|own| own.code.as_str()).collect(),
         );
         text
     }
+}
+
+/// A claimed bound for people: at most six decimals.
+fn short(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }
 
 impl OwnCode {

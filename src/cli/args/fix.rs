@@ -33,6 +33,8 @@ pub(crate) struct Fix {
     /// `feed_mm_min` of [fix] in trunnion.toml, else none is made faster.
     #[arg(long, value_name = "MM_MIN")]
     pub(crate) feed: Option<f64>,
+    #[command(flatten, next_help_heading = "Target of retarget")]
+    pub(crate) target: crate::cli::convert::TargetArgs,
     /// On standard output: a unified diff, or what became of every place and what is gained (JSON).
     #[arg(long, value_enum, default_value = "text", conflicts_with = "diff")]
     pub(crate) format: ListFormat,

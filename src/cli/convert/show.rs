@@ -13,7 +13,7 @@ fn renamed(name: &str, converted: &Converted) -> Option<String> {
 }
 
 /// What was proved, in words.
-pub(super) fn summary(name: &str, converted: &Converted) -> Vec<String> {
+pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     let (proof, claim) = (&converted.proof, &converted.claim);
     let mut lines = vec![format!(
         "{name}: converted to {} and proved by running both programs: {} motions became {}; at their ends the tip is within {:.6} mm and the tool axis \

@@ -1,4 +1,5 @@
 //! What `fix` did and what is gained: for people, and as JSON (`trunnion-fix/1`).
+use super::retarget::Retargeted;
 use crate::cli::{
     failure::{Failure, remark},
     load::Loaded,
@@ -15,6 +16,29 @@ pub(super) struct Step {
     pub(super) attempt: Attempt,
     /// What is gained at each place; empty if nothing is changed or nobody asks.
     pub(super) gains: Vec<Gains>,
+    /// What `retarget` wrote.
+    pub(super) retargeted: Option<Retargeted>,
+}
+
+impl Step {
+    /// Whether the program is changed.
+    fn applied(&self) -> bool {
+        self.attempt.proved.is_some() || self.retargeted.is_some()
+    }
+
+    fn state(&self) -> &'static str {
+        match (self.applied(), self.attempt.places.is_empty()) {
+            (true, _) => "applied",
+            (false, true) => "nothing-to-do",
+            (false, false) => "refused",
+        }
+    }
+
+    fn summary(&self) -> Option<&str> {
+        let retargeted = self.retargeted.as_ref().and_then(|one| one.summary.first());
+        let proved = self.attempt.proved.as_ref().map(|proved| &proved.summary);
+        proved.or(retargeted).map(String::as_str)
+    }
 }
 
 /// The result of all rewrites together.
@@ -26,15 +50,15 @@ pub(super) struct Outcome {
 impl Outcome {
     /// A rewrite changes nothing, although there would be something to do.
     pub(super) fn refused(&self) -> bool {
-        let refused = |step: &Step| step.attempt.proved.is_none() && !step.attempt.places.is_empty();
-        self.steps.iter().any(refused)
+        self.steps.iter().any(|step| step.state() == "refused")
     }
 
     /// What all rewrites together gain.
     fn gains(&self, loaded: &Loaded) -> Option<Gains> {
         let machine = loaded.resolved.machine.as_ref()?;
         let before = loaded.program.source();
-        if self.after == before {
+        // figures of two machines are not compared
+        if self.after == before || self.steps.iter().any(|step| step.retargeted.is_some()) {
             return None;
         }
         let after = parse(self.after.clone(), loaded.resolved.dialect.lex);
@@ -115,14 +139,7 @@ pub(super) fn print_json(loaded: &Loaded, outcome: &Outcome) -> Result<(), Failu
     let rewrites: Vec<Value> = outcome
         .steps
         .iter()
-        .map(|step| {
-            let proved = step.attempt.proved.as_ref();
-            json!({
-                "rewrite": step.rewrite,
-                "state": if proved.is_some() { "applied" } else if step.attempt.places.is_empty() { "nothing-to-do" } else { "refused" },
-                "summary": proved.map(|proved| &proved.summary),
-            })
-        })
+        .map(|step| json!({ "rewrite": step.rewrite, "state": step.state(), "summary": step.summary() }))
         .collect();
     let document = json!({
         "schema": "trunnion-fix/1",

@@ -62,6 +62,9 @@ fn every_rewrites_example_holds() {
         let dialect = info.split_whitespace().find(known).expect("a dialect");
         let mut settings = settings(dialect, Setup::default());
         settings.assume = Assume::ALL;
+        if info.ends_with(" mill-3axis") {
+            settings.machine = trunnion::machine::builtin("mill-3axis");
+        }
         let walled = walled_mill();
         if info.ends_with(" mill-3axis+wall") {
             settings.machine = Some(&walled);

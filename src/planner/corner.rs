@@ -1,6 +1,7 @@
 //! How fast a corner between two motions may be passed.
 use trunnion_geometry::math::{acos, sin};
-use trunnion_machine::{Joints, Machine};
+use trunnion_geometry::deg;
+use trunnion_machine::{AxisKind, Joints, Machine};
 use trunnion_servo::{Corner, slowest_corner_speed};
 
 /// What the program says about corners.
@@ -134,11 +135,14 @@ fn angle(before: &Joints, after: &Joints) -> f64 {
     acos((product(before, after) / norms).clamp(-1.0, 1.0))
 }
 
-/// Angle between two directions, each axis in units of its acceleration (equal units where none is declared), rad.
+/// Angle between two directions of the joints in mm and degrees, rad: these controls know rotary axes as lengths, and a degree is a millimetre to them.
 fn turn(machine: &Machine, before: &Joints, after: &Joints) -> f64 {
     let (mut dot, mut a, mut b) = (0.0, 0.0, 0.0);
     for (axis, (u, v)) in machine.axes.iter().zip(before.iter().zip(after)) {
-        let weight = 1.0 / axis.max_acceleration.unwrap_or(1.0);
+        let weight = match axis.kind {
+            AxisKind::Linear => 1.0,
+            AxisKind::Rotary => deg(1.0),
+        };
         let (u, v) = (u * weight, v * weight);
         dot += u * v;
         a += u * u;

@@ -213,6 +213,8 @@ fn the_filter_keeps_the_jerk() {
             },
             jerk,
             slowest: 0,
+            bend_jerk: f64::INFINITY,
+            bends: false,
             jerk_time: acceleration / jerk,
             entry: [f64::INFINITY; 2],
             feed: cap,

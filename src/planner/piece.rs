@@ -47,6 +47,10 @@ pub struct Piece {
     pub planned: Bounds,
     /// Jerk along the path, mm/s^3; infinite where no axis declares one.
     pub jerk: f64,
+    /// Jerk of the axes over what they need in bends, mm^2/s^3: half of it times the length of a filter is the highest v^2. Infinite without bends.
+    pub bend_jerk: f64,
+    /// The path bends, or the rates of the axes change along it.
+    pub bends: bool,
     /// The joint that limits the acceleration.
     pub slowest: u8,
     /// amax/jmax, the longest of the axes that move, s; 0 where no jerk is declared.

@@ -224,13 +224,9 @@ fn push(
     let (mut free_cap, mut free_by) = (cap, by);
     let (mut acceleration, mut jerk, mut jerk_time, mut slowest) = (f64::INFINITY, f64::INFINITY, 0.0_f64, 0);
     let mut limited = course.feed.is_finite();
-    let (mut speed_cap, mut bend_cap) = (course.feed, (f64::INFINITY, 0));
-    // without F: LinuxCNC divides the acceleration of an arc for the fastest that its axes allow
-    let mut fastest = if machine.control.corner_model.as_deref() == Some("linuxcnc-g64") {
-        f64::INFINITY
-    } else {
-        course.feed
-    };
+    let (mut speed_cap, mut bend_cap, mut bend_jerk) = (course.feed, (f64::INFINITY, 0), f64::INFINITY);
+    // LinuxCNC divides the acceleration of an arc for the fastest that its axes allow, without F
+    let mut fastest = f64::INFINITY;
     for (joint, axis) in machine.axes.iter().enumerate() {
         let (rate, bend, number) = (rates[joint], bends[joint], joint as u8);
         if !(rate.is_finite() && bend.is_finite()) {
@@ -280,6 +276,9 @@ fn push(
             if rate > 0.0 {
                 jerk = jerk.min(most_jerk / rate);
             }
+            if bend > 0.0 {
+                bend_jerk = bend_jerk.min(share * most_jerk / bend);
+            }
         }
     }
     if !limited || cap <= 0.0 || cap.is_nan() {
@@ -289,11 +288,16 @@ fn push(
     if bend_cap.0 < 0.7 * speed_cap && course.bend.is_none_or(|(least, _)| bend_cap.0 < least) {
         course.bend = Some(bend_cap);
     }
-    // what bends leave along the path
+    // what bends leave along the path: of each axis at the speed that F and its own acceleration allow, so that a higher limit of another one takes nothing
     let mut along = acceleration;
     for (joint, axis) in machine.axes.iter().enumerate() {
         if let (Some(most), true) = (axis.max_acceleration, bends[joint] > 0.0) {
-            let used = bends[joint] * fastest * fastest;
+            let own = if machine.control.corner_model.as_deref() == Some("linuxcnc-g64") {
+                fastest
+            } else {
+                course.feed.min((share * most / bends[joint]).sqrt())
+            };
+            let used = bends[joint] * own * own;
             let left = if share == ROUND {
                 (most * most - used * used).max(0.0).sqrt()
             } else {
@@ -318,6 +322,8 @@ fn push(
             acceleration: along,
         },
         jerk,
+        bend_jerk,
+        bends: bends.iter().any(|bend| *bend > 1e-12),
         slowest,
         jerk_time,
         entry: [f64::INFINITY; 2],

@@ -233,6 +233,7 @@ impl<'m> Planner<'m> {
                 by: Limit::Corner,
                 acceleration: round.along,
             },
+            bends: true,
             ..*after
         };
         self.run.pieces.insert(first, arc);

@@ -1,5 +1,5 @@
 //! From one stop to the next: backward and forward pass over the pieces, then times.
-use crate::{Bounds, Limit, Piece, Ramp, s_curve};
+use crate::{Bounds, Piece, Ramp, s_curve};
 
 /// The pieces between two stops.
 #[derive(Clone, Debug, Default)]
@@ -25,113 +25,154 @@ pub struct Planned {
     pub top: Option<f64>,
 }
 
-/// Relative difference that is rounding.
-const SAME: f64 = 1e-9;
+/// Highest speed (mm/s) and acceleration (mm/s^2) of each piece.
+type Levels = Vec<[f64; 2]>;
+
+/// A plan whose jerk a filter limits.
+struct Filtered {
+    ramps: Vec<Ramp>,
+    /// s.
+    filter: f64,
+    /// Of the whole run, s.
+    total: f64,
+}
 
 impl Run {
     /// Plans it. Both ends are stops.
+    ///
+    /// Of two kinds of plan the faster one counts: accelerations that a filter smooths, of the best length, and one move with limited jerk under the
+    /// lowest limits of all pieces. With a higher limit each plan of both kinds is still possible, so that the time does not grow.
     pub fn plan(&self) -> Planned {
         if self.pieces.is_empty() {
             return Planned::default();
         }
-        let free = self.speeds(|piece| piece.optimistic, 0, 1.0, None);
-        let optimistic = self.ramps(|piece| piece.optimistic, &free, 1.0);
-        if let Some(planned) = self.one_move(&optimistic) {
-            return planned;
+        let free = self.levels(|piece| [piece.optimistic.cap, piece.optimistic.acceleration]);
+        let optimistic = Self::ramps(&self.pieces, &free, &self.speeds(&free, 0, None));
+        let filtered = self.filtered();
+        if let Some(move_) = self.one_move()
+            && move_.total + self.filter <= filtered.total
+        {
+            return self.along(&move_, &optimistic);
         }
-        let jerk_time = self.pieces.iter().map(|piece| piece.jerk_time).fold(0.0, f64::max);
-        let share = self.best_share(jerk_time);
-        let speeds = self.speeds(|piece| piece.planned, 1, share, self.lookahead);
-        let ramps = self.ramps(|piece| piece.planned, &speeds, share);
-        let filter = self.filter.max(2.0 * jerk_time * share);
-        let mut seconds: Vec<[f64; 2]> = ramps
+        let mut seconds: Vec<[f64; 2]> = filtered
+            .ramps
             .iter()
             .zip(&optimistic)
             .map(|(own, free)| [own.seconds(), free.seconds()])
             .collect();
         // the filter runs empty at every stop
-        for (seconds, ramp) in seconds.iter_mut().zip(&ramps) {
+        for (seconds, ramp) in seconds.iter_mut().zip(&filtered.ramps) {
             if ramp.ends[1] <= 0.0 {
-                seconds[0] += filter;
+                seconds[0] += filtered.filter;
             }
         }
         Planned {
-            ramps,
+            ramps: filtered.ramps,
             seconds,
-            filter,
+            filter: filtered.filter,
             top: None,
         }
     }
 
-    /// Time of the whole run with a share of the acceleration, s.
-    fn total(&self, jerk_time: f64, share: f64) -> f64 {
-        let speeds = self.speeds(|piece| piece.planned, 1, share, self.lookahead);
-        let ramps = self.ramps(|piece| piece.planned, &speeds, share);
-        let filter = self.filter.max(2.0 * jerk_time * share);
-        ramps
-            .iter()
-            .map(|ramp| ramp.seconds() + if ramp.ends[1] <= 0.0 { filter } else { 0.0 })
-            .sum()
+    fn levels(&self, of: impl Fn(&Piece) -> [f64; 2]) -> Levels {
+        self.pieces.iter().map(of).collect()
     }
 
-    /// The share of the acceleration with which the run is fastest: a filter that keeps the jerk within its limit is the shorter, the smaller
-    /// the acceleration is. 1 for long runs, where the filter counts once for many blocks.
-    fn best_share(&self, jerk_time: f64) -> f64 {
-        const LONG: usize = 64;
+    /// The plan for a filter of this length, s: no axis accelerates by more than half of what its jerk gives in that time, along the path and in bends, so
+    /// that a change from one acceleration to the opposite one keeps within the jerk.
+    fn with_filter(&self, length: f64) -> Filtered {
+        let levels = self.levels(|piece| {
+            let Bounds { cap, acceleration, .. } = piece.planned;
+            if length <= 0.0 {
+                return [cap, acceleration];
+            }
+            let half = 0.5 * length;
+            [
+                cap.min((piece.bend_jerk * half).sqrt()),
+                acceleration.min(piece.jerk * half),
+            ]
+        });
+        let speeds = self.speeds(&levels, 1, self.lookahead);
+        let ramps = Self::ramps(&self.pieces, &levels, &speeds);
+        let filter = self.filter.max(length);
+        let total = ramps
+            .iter()
+            .map(|ramp| ramp.seconds() + if ramp.ends[1] <= 0.0 { filter } else { 0.0 })
+            .sum();
+        Filtered { ramps, filter, total }
+    }
+
+    /// The plan with the filter that makes the run fastest: the shorter it is, the less may the axes accelerate.
+    fn filtered(&self) -> Filtered {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        if jerk_time == 0.0 || self.pieces.len() > LONG || self.total(jerk_time, 0.97) >= self.total(jerk_time, 1.0) {
-            return 1.0;
+        const ROUNDS: u32 = 24;
+        let longest = 2.0 * self.pieces.iter().map(|piece| piece.jerk_time).fold(0.0, f64::max);
+        let mut best = self.with_filter(longest);
+        if longest == 0.0 || self.with_filter(0.97 * longest).total >= best.total {
+            return best;
         }
         // golden section on a function with one valley
-        let (mut low, mut high) = (1e-3, 1.0);
-        for _ in 0..28 {
-            let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-            if self.total(jerk_time, a) < self.total(jerk_time, b) {
-                high = b;
+        let (mut low, mut high) = (1e-3 * longest, longest);
+        let inside = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let mut at = inside(low, high);
+        let mut found = at.map(|length| self.with_filter(length));
+        for _ in 0..ROUNDS {
+            if found[0].total < found[1].total {
+                high = at[1];
+                at = inside(low, high);
+                found.swap(0, 1);
+                found[0] = self.with_filter(at[0]);
             } else {
-                low = a;
+                low = at[0];
+                at = inside(low, high);
+                found.swap(0, 1);
+                found[1] = self.with_filter(at[1]);
             }
         }
-        high
+        for one in found {
+            if one.total < best.total {
+                best = one;
+            }
+        }
+        best
     }
 
     /// Highest speeds at the ends of the pieces that every piece can brake from and accelerate to. `side` 0: optimistic, 1: planned.
-    fn speeds(&self, of: impl Fn(&Piece) -> Bounds, side: usize, share: f64, lookahead: Option<u32>) -> Vec<f64> {
+    fn speeds(&self, levels: &Levels, side: usize, lookahead: Option<u32>) -> Vec<f64> {
         let count = self.pieces.len();
         let mut speeds = vec![0.0; count + 1];
         // from the end backwards
         for index in (1..count).rev() {
-            let (before, piece) = (of(&self.pieces[index - 1]), of(&self.pieces[index]));
+            let ([before, _], [cap, acceleration]) = (levels[index - 1], levels[index]);
             let next: f64 = speeds[index + 1];
-            let reach = (next * next + 2.0 * share * piece.acceleration * self.pieces[index].length).sqrt();
-            speeds[index] = self.pieces[index].entry[side].min(before.cap).min(piece.cap).min(reach);
+            let reach = (next * next + 2.0 * acceleration * self.pieces[index].length).sqrt();
+            speeds[index] = self.pieces[index].entry[side].min(before).min(cap).min(reach);
         }
         if let Some(blocks) = lookahead {
-            self.look(&of, share, blocks, &mut speeds);
+            self.look(levels, blocks, &mut speeds);
         }
         for index in 0..count - 1 {
-            let (piece, bounds) = (&self.pieces[index], of(&self.pieces[index]));
             let from: f64 = speeds[index];
-            let reach = (from * from + 2.0 * share * bounds.acceleration * piece.length).sqrt();
+            let reach = (from * from + 2.0 * levels[index][1] * self.pieces[index].length).sqrt();
             speeds[index + 1] = speeds[index + 1].min(reach);
         }
         speeds
     }
 
     /// Within the blocks that it sees, the control must be able to stop.
-    fn look(&self, of: &impl Fn(&Piece) -> Bounds, share: f64, blocks: u32, speeds: &mut [f64]) {
+    fn look(&self, levels: &Levels, blocks: u32, speeds: &mut [f64]) {
         let count = self.pieces.len();
+        let gain = |index: usize| 2.0 * levels[index][1] * self.pieces[index].length;
         let (mut end, mut sum, mut seen) = (count, 0.0, 0_u32);
         // how many pieces of each motion are inside the window [index, end)
         for index in (0..count).rev() {
-            let piece = &self.pieces[index];
-            sum += 2.0 * share * of(piece).acceleration * piece.length;
-            if index + 1 == count || self.pieces[index + 1].motion != piece.motion {
+            sum += gain(index);
+            if index + 1 == count || self.pieces[index + 1].motion != self.pieces[index].motion {
                 seen += 1;
             }
             while seen > blocks && end > index + 1 {
                 end -= 1;
-                sum -= 2.0 * share * of(&self.pieces[end]).acceleration * self.pieces[end].length;
+                sum -= gain(end);
                 if self.pieces[end - 1].motion != self.pieces[end].motion {
                     seen -= 1;
                 }
@@ -142,47 +183,41 @@ impl Run {
         }
     }
 
-    fn ramps(&self, of: impl Fn(&Piece) -> Bounds, speeds: &[f64], share: f64) -> Vec<Ramp> {
-        let pieces = self.pieces.iter().zip(speeds.iter().zip(&speeds[1..]));
+    fn ramps(pieces: &[Piece], levels: &Levels, speeds: &[f64]) -> Vec<Ramp> {
+        let pieces = pieces.iter().zip(levels).zip(speeds.iter().zip(&speeds[1..]));
         pieces
-            .map(|(piece, (from, to))| {
-                let bounds = of(piece);
-                Ramp::fastest(piece.length, bounds.cap, share * bounds.acceleration, [*from, *to])
+            .map(|((piece, [cap, acceleration]), (from, to))| {
+                Ramp::fastest(piece.length, *cap, *acceleration, [*from, *to])
             })
             .collect()
     }
 
-    /// A run that is one straight move: all pieces have the same limits and go on without a corner. Its profile is known in closed form.
-    fn one_move(&self, optimistic: &[Ramp]) -> Option<Planned> {
-        let first = &self.pieces[0];
-        if self.pieces.len() > 1
-            && self
-                .lookahead
-                .is_some_and(|blocks| (blocks as usize) < self.pieces.len())
-        {
+    /// The run as one move in closed form, under the lowest limits of all its pieces. `None` where it bends, because the jerk of a bend is not that of the
+    /// path, and where the control does not see all of it.
+    fn one_move(&self) -> Option<Move> {
+        let unseen = |blocks: u32| (blocks as usize) < self.pieces.len();
+        if self.pieces.len() > 1 && self.lookahead.is_some_and(unseen) {
             return None;
         }
-        let near = |a: f64, b: f64| a == b || (a - b).abs() <= SAME * a.abs().max(b.abs());
-        let alike = self.pieces.iter().enumerate().all(|(index, piece)| {
-            let (own, wanted) = (&piece.planned, &first.planned);
-            near(own.cap, wanted.cap)
-                && near(own.acceleration, wanted.acceleration)
-                && near(piece.jerk, first.jerk)
-                && (index == 0 || piece.entry[1] >= own.cap)
-        });
-        // the jerk of a bend is not that of the path
-        if !alike || matches!(first.planned.by, Limit::Bend(_)) {
-            return None;
+        let (mut length, mut cap, mut acceleration, mut jerk) = (0.0, f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        for (index, piece) in self.pieces.iter().enumerate() {
+            if piece.bends {
+                return None;
+            }
+            length += piece.length;
+            cap = f64::min(cap, piece.planned.cap);
+            if index > 0 {
+                cap = cap.min(piece.entry[1]);
+            }
+            acceleration = f64::min(acceleration, piece.planned.acceleration);
+            jerk = f64::min(jerk, piece.jerk);
         }
-        let length: f64 = self.pieces.iter().map(|piece| piece.length).sum();
-        let bounds = &first.planned;
-        if !bounds.cap.is_finite() {
-            return None;
-        }
-        let (total, top) = s_curve(length, bounds.cap, bounds.acceleration, first.jerk);
-        let whole = Ramp::fastest(length, top, bounds.acceleration, [0.0; 2]);
-        // how far a move is after a time, in closed form: half of it, mirrored
-        let move_ = Move::new(length, total, top, bounds.acceleration, first.jerk);
+        (cap > 0.0 && cap.is_finite()).then(|| Move::new(length, cap, acceleration, jerk))
+    }
+
+    /// The times of the pieces along one move.
+    fn along(&self, move_: &Move, optimistic: &[Ramp]) -> Planned {
+        let whole = Ramp::fastest(move_.length, move_.top, move_.acceleration, [0.0; 2]);
         let (mut seconds, mut ramps) = (
             Vec::with_capacity(self.pieces.len()),
             Vec::with_capacity(self.pieces.len()),
@@ -192,39 +227,45 @@ impl Run {
             let from = whole.at(way).0;
             way += piece.length;
             let last = index + 1 == self.pieces.len();
-            let now = if last { total } else { move_.time_at(way) };
+            let now = if last { move_.total } else { move_.time_at(way) };
             let ends = [
                 if index == 0 { 0.0 } else { from },
                 if last { 0.0 } else { whole.at(way).0 },
             ];
-            ramps.push(Ramp::fastest(piece.length, top, bounds.acceleration, ends));
+            ramps.push(Ramp::fastest(piece.length, move_.top, move_.acceleration, ends));
             seconds.push([(now - before).max(free.seconds()), free.seconds()]);
             before = now;
         }
         if let Some(last) = seconds.last_mut() {
             last[0] += self.filter;
         }
-        Some(Planned {
+        Planned {
             ramps,
             seconds,
             filter: 0.0,
-            top: Some(top),
-        })
+            top: Some(move_.top),
+        }
     }
 }
 
 /// The course of one move from rest to rest.
 struct Move {
     length: f64,
+    /// s.
     total: f64,
+    /// mm/s.
     top: f64,
+    /// mm/s^2.
+    acceleration: f64,
     /// Duration of the change of jerk, and of the whole change of speed, s.
     bend: f64,
     change: f64,
 }
 
 impl Move {
-    fn new(length: f64, total: f64, top: f64, acceleration: f64, jerk: f64) -> Self {
+    /// The fastest within these limits.
+    fn new(length: f64, cap: f64, acceleration: f64, jerk: f64) -> Self {
+        let (total, top) = s_curve(length, cap, acceleration, jerk);
         let reached = acceleration.is_finite() && (!jerk.is_finite() || top >= acceleration * acceleration / jerk);
         let bend = match (jerk.is_finite(), reached) {
             (false, _) => 0.0,
@@ -240,6 +281,7 @@ impl Move {
             length,
             total,
             top,
+            acceleration,
             bend,
             change,
         }

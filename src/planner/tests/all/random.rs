@@ -137,10 +137,7 @@ fn optimistic_is_never_above_planned() {
 }
 
 /// But for LinuxCNC's own corners, whose choice among three ways is no function that only grows.
-/// Known not to hold yet: where a higher limit makes the bend of an arc the limit instead of the speed of an axis, the run is planned with the filter instead of
-/// the closed form, which may take longer.
 #[test]
-#[ignore = "does not hold for arcs whose limit changes from speed to bend"]
 fn a_higher_limit_is_never_slower() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut compared = 0;

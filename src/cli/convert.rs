@@ -64,9 +64,9 @@ pub(crate) struct Convert {
     /// The number of the output program (Fanuc, Haas: O).
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=99_999_999))]
     program_number: u32,
-    /// The work offset, if the program names none.
-    #[arg(long, value_name = "CODE", default_value = "G54")]
-    work_offset: String,
+    /// The work offset, if the program names none, or names it as another kind of control does. Default: that of the post, G54, or G15 H1 on an Okuma.
+    #[arg(long, value_name = "CODE")]
+    work_offset: Option<String>,
     /// Write the program to this file. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,

@@ -73,6 +73,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
     let job = job(&reading, source.dialect, options, rewritten, setting.post)?;
     let (tolerance_mm, axis_deg) = setting.tolerances(machine, options)?;
+    let work_offset = options.work_offset(setting.post);
     let planner = Planner {
         reading: &reading,
         source: machine,
@@ -84,6 +85,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         apt: setting.post.is_none(),
         setup: source.setup,
         options,
+        work_offset,
         tolerance_mm,
         axis_deg,
         known: OnceCell::new(),
@@ -110,7 +112,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         let start = reading.program.block(block).range().start;
         lines.line_column(reading.program.source(), start).0
     };
-    let declared = zeros_declared(&job, source.setup, options);
+    let declared = zeros_declared(&job, source.setup, work_offset);
     let (beyond, travel_undecided) = travel.judge(&reading, setting.machine, declared, line)?;
     Ok(Converted {
         text: written,

@@ -96,7 +96,7 @@ impl<'a> Writer<'a> {
             .iter()
             .any(|placed| matches!(placed.event, Event::WorkOffset(_)));
         if !names_offset {
-            let name = self.options.work_offset.clone();
+            let name = self.options.work_offset(Some(self.post)).to_owned();
             self.work_offset(&name, None)?;
         }
         for placed in &job.events {
@@ -104,7 +104,8 @@ impl<'a> Writer<'a> {
         }
         self.not_ready()?;
         let (options, of) = (self.options, (self.post, self.klartext));
-        self.template("footer", None, |name| self_name(name, job, options, of))?;
+        let work_offset = options.work_offset(Some(self.post)).to_owned();
+        self.template("footer", None, |name| self_name(name, job, &work_offset, options, of))?;
         Ok(Written {
             text: self.text,
             moved: self.moved,
@@ -226,13 +227,14 @@ impl<'a> Writer<'a> {
         let title = self.title(job.name.as_deref().unwrap_or_default());
         let machine = plain(self.setting.machine.map_or("", |machine| machine.name.as_str()));
         let (options, post, klartext) = (self.options, self.post, self.klartext);
+        let work_offset = options.work_offset(Some(self.post)).to_owned();
         self.template("header", None, |name| match name {
             "tools" => Some(tools.join("\n")),
             "units" => Some(units.clone()),
             "feed_mode" => Some(feed_mode.clone()),
             "title" => Some(title.clone()),
             "machine" => Some(machine.clone()),
-            _ => self_name(name, job, options, (post, klartext)),
+            _ => self_name(name, job, &work_offset, options, (post, klartext)),
         })?;
         self.modal.set("mode", feed_mode);
         Ok(())
@@ -355,7 +357,13 @@ impl<'a> Writer<'a> {
 }
 
 /// Names that every header and footer may use.
-fn self_name(name: &str, job: &Job, options: &Options, (post, klartext): (&Post, bool)) -> Option<String> {
+fn self_name(
+    name: &str,
+    job: &Job,
+    work_offset: &str,
+    options: &Options,
+    (post, klartext): (&Post, bool),
+) -> Option<String> {
     match name {
         "program" => {
             let text = plain(job.name.as_deref().unwrap_or_default());
@@ -369,7 +377,7 @@ fn self_name(name: &str, job: &Job, options: &Options, (post, klartext): (&Post,
         }
         "title" => Some(String::new()),
         "number" => Some(format!("{:04}", options.program_number)),
-        "work_offset" => Some(options.work_offset.clone()),
+        "work_offset" => Some(work_offset.to_owned()),
         _ => None,
     }
 }

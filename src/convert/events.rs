@@ -216,7 +216,8 @@ impl EventCollector<'_> {
         if name.is_some() && name != self.work_offset.as_deref() {
             let before = std::mem::replace(&mut self.work_offset, name.map(str::to_owned));
             let name = name.unwrap_or_default();
-            let written = if ZeroNames::of(name) == ZeroNames::Codes {
+            let stand_in = self.options.work_offset(self.post);
+            let written = if ZeroNames::of(name) == ZeroNames::of(stand_in) {
                 name.to_owned()
             } else {
                 if let Some(other) = before.filter(|before| before != name) {
@@ -225,9 +226,8 @@ impl EventCollector<'_> {
                     );
                     return Err(Refused::at(self.program, block, message));
                 }
-                let stand_in = self.options.work_offset.clone();
-                self.job.renamed_offset = Some((name.to_owned(), stand_in.clone()));
-                stand_in
+                self.job.renamed_offset = Some((name.to_owned(), stand_in.to_owned()));
+                stand_in.to_owned()
             };
             if self.post.is_some_and(|post| post.template("work-offset") == Some("")) {
                 self.job.renamed_offset = Some((name.to_owned(), "the zero point that is active".to_owned()));

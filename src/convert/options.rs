@@ -71,8 +71,16 @@ pub struct Options {
     pub program_name: Option<String>,
     /// Number of the program (`O1`).
     pub program_number: u32,
-    /// Work offset, where the program names none.
-    pub work_offset: String,
+    /// Work offset, where the program names none, or names it as another kind of control does; `None`: the one of the post.
+    pub work_offset: Option<String>,
+}
+
+impl Options {
+    /// The work offset of a program that names none, or names it as another kind of control does.
+    pub(crate) fn work_offset<'a>(&'a self, post: Option<&'a Post>) -> &'a str {
+        let own = post.map_or("G54", |post| post.work_offset.as_str());
+        self.work_offset.as_deref().unwrap_or(own)
+    }
 }
 
 impl Default for Options {
@@ -89,7 +97,7 @@ impl Default for Options {
             lines_only: false,
             program_name: None,
             program_number: 1,
-            work_offset: "G54".to_owned(),
+            work_offset: None,
         }
     }
 }

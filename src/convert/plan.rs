@@ -86,6 +86,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) apt: bool,
     pub(crate) setup: &'a Setup,
     pub(crate) options: &'a Options,
+    /// The work offset of the output, where the program names none.
+    pub(crate) work_offset: &'a str,
     pub(crate) tolerance_mm: f64,
     /// How far the tool axis may be from where it was inside a cut, deg, where that is judged.
     pub(crate) axis_deg: Option<f64>,
@@ -216,7 +218,7 @@ impl Planner<'_> {
             own.filter(|_| self.compensates).unwrap_or(0.0)
         };
         let mut frame = Frame {
-            zero: zero_of(&self.options.work_offset),
+            zero: zero_of(self.work_offset),
             length: 0.0,
         };
         let mut frames = vec![frame; self.reading.motions.len()];

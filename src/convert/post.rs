@@ -16,10 +16,11 @@ pub const BUILTIN_POSTS: &[&str] = &[
     "sinumerik-840d",
     "grbl",
     "heidenhain-klartext",
+    "okuma-osp",
 ];
 
 /// Texts, in the order of [`BUILTIN_POSTS`]. A post may extend only one that comes before it.
-const TEXTS: [&str; 7] = [
+const TEXTS: [&str; 8] = [
     include_str!("../../grammar/posts/iso-6983.toml"),
     include_str!("../../grammar/posts/linuxcnc.toml"),
     include_str!("../../grammar/posts/fanuc-30i.toml"),
@@ -27,9 +28,10 @@ const TEXTS: [&str; 7] = [
     include_str!("../../grammar/posts/sinumerik-840d.toml"),
     include_str!("../../grammar/posts/grbl.toml"),
     include_str!("../../grammar/posts/heidenhain-klartext.toml"),
+    include_str!("../../grammar/posts/okuma-osp.toml"),
 ];
 
-static LOADED: [OnceLock<Option<Post>>; 7] = [const { OnceLock::new() }; 7];
+static LOADED: [OnceLock<Option<Post>>; 8] = [const { OnceLock::new() }; 8];
 
 /// Templates and the names that they may use.
 const TEMPLATES: &[(&str, &[&str])] = &[
@@ -130,6 +132,7 @@ struct RawText {
     arc: Option<ArcWords>,
     tcp_on: Option<String>,
     tcp_off: Option<String>,
+    work_offset: Option<String>,
 }
 
 #[derive(Default, Deserialize)]
@@ -169,6 +172,8 @@ pub struct Post {
     /// Codes for tool centre point control where the machine declares none.
     pub(crate) tcp_on: Option<String>,
     pub(crate) tcp_off: Option<String>,
+    /// The work offset of a program that names none, or names it as another control does.
+    pub(crate) work_offset: String,
     pub(crate) templates: BTreeMap<String, String>,
 }
 
@@ -212,6 +217,7 @@ pub fn load_post(text: &str) -> Result<Post, PostError> {
     post.arc = words.arc.unwrap_or(post.arc);
     post.tcp_on = words.tcp_on.or(post.tcp_on);
     post.tcp_off = words.tcp_off.or(post.tcp_off);
+    post.work_offset = words.work_offset.unwrap_or(post.work_offset);
     for key in &raw.without.templates {
         if post.templates.remove(key.get_ref()).is_none() {
             let message = format!("there is no template {:?} to leave out", key.get_ref());
@@ -273,6 +279,7 @@ fn base(raw: &RawPost) -> Result<Post, PostError> {
         arc: ArcWords::Centre,
         tcp_on: None,
         tcp_off: None,
+        work_offset: "G54".to_owned(),
         templates: BTreeMap::new(),
     })
 }

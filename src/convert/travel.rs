@@ -1,6 +1,6 @@
 //! Whether the output program stays inside the travel of its machine, and keeps axes still that must not move while cutting.
+use crate::Refused;
 use crate::job::{Event, Job};
-use crate::{Options, Refused};
 use trunnion_certify::conversion::{Part, Reading};
 use trunnion_geometry::deg;
 use trunnion_interp::Setup;
@@ -162,7 +162,7 @@ impl Travel {
 }
 
 /// Whether every work offset that the converted program names is declared, so that the joints are right.
-pub(crate) fn zeros_declared(job: &Job, setup: &Setup, options: &Options) -> bool {
+pub(crate) fn zeros_declared(job: &Job, setup: &Setup, work_offset: &str) -> bool {
     let declared = |name: &str| {
         setup
             .work_offsets
@@ -173,6 +173,6 @@ pub(crate) fn zeros_declared(job: &Job, setup: &Setup, options: &Options) -> boo
         Event::WorkOffset(name) => Some(name.as_str()),
         _ => None,
     });
-    let first = named.next().unwrap_or(&options.work_offset);
+    let first = named.next().unwrap_or(work_offset);
     declared(first) && named.all(declared)
 }

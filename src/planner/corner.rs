@@ -1,6 +1,6 @@
 //! How fast a corner between two motions may be passed.
-use trunnion_geometry::math::{acos, sin};
 use trunnion_geometry::deg;
+use trunnion_geometry::math::{acos, sin};
 use trunnion_machine::{AxisKind, Joints, Machine};
 use trunnion_servo::{Corner, slowest_corner_speed};
 

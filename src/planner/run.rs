@@ -106,9 +106,13 @@ impl Run {
     fn filtered(&self) -> Filtered {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
         const ROUNDS: u32 = 24;
+        /// A search is not worth less than this for each block, s: half a servo cycle.
+        const WORTH: f64 = 0.0005;
         let longest = 2.0 * self.pieces.iter().map(|piece| piece.jerk_time).fold(0.0, f64::max);
         let mut best = self.with_filter(longest);
-        if longest == 0.0 || self.with_filter(0.97 * longest).total >= best.total {
+        let ends = self.pieces.first().zip(self.pieces.last());
+        let motions = ends.map_or(0, |(first, last)| last.motion.saturating_sub(first.motion) + 1);
+        if longest <= WORTH * f64::from(motions) || self.with_filter(0.97 * longest).total >= best.total {
             return best;
         }
         // golden section on a function with one valley

@@ -212,7 +212,7 @@ fn a_zero_point_with_a_foreign_name_becomes_the_work_offset() {
         (okuma, "okuma-osp", "G15 H2"),
     ] {
         let options = Options {
-            work_offset: "G56".to_owned(),
+            work_offset: Some("G56".to_owned()),
             ..Options::default()
         };
         let converted = to((program, dialect, "mill-3axis"), "fanuc-30i", "mill-3axis", &options);

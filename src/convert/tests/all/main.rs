@@ -8,6 +8,7 @@ mod holes;
 mod kept;
 mod klartext;
 mod machines;
+mod okuma;
 mod places;
 mod proof;
 mod real;

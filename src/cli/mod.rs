@@ -21,6 +21,7 @@ mod render;
 mod report;
 mod sample;
 mod schema;
+mod screen;
 mod servo;
 mod shell;
 mod short;

@@ -2,7 +2,7 @@
 use super::{
     failure::{is_hidden, shown},
     load::Loaded,
-    short,
+    screen, short,
 };
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
@@ -15,48 +15,81 @@ use trunnion_syntax::{LineIndex, TextRange};
 /// Columns of the report.
 const WIDTH: usize = 110;
 /// Up to so many findings that are more than infos are shown with their lines of program; more would not fit on a screen.
-const EXCERPTS: usize = 3;
+pub(super) const EXCERPTS: usize = 3;
 /// Lines of program shown before and after the finding.
 const CONTEXT: usize = 1;
 /// Lines longer than this are cut around the finding, bytes.
 const LONGEST_LINE: usize = 240;
 
-/// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
-pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: usize, color: bool) -> String {
-    let theme = if color {
-        GraphicalTheme::unicode()
-    } else {
-        GraphicalTheme::unicode_nocolor()
+/// The findings of one file: as many as fit on a screen, or at most `limit` of them (0: all); and a line that counts the rest.
+pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: Option<usize>, color: bool) -> String {
+    let page = Page { loaded, lines, color };
+    let (found, excerpts) = match limit {
+        Some(limit) => {
+            let found = short::worst(report, limit);
+            let few = found.iter().filter(|d| !is_info(d)).count() <= EXCERPTS;
+            let excerpts = found.iter().map(|d| few && !is_info(d)).collect();
+            (found, excerpts)
+        }
+        None => screen::chosen(&page, report),
     };
-    let handler = GraphicalReportHandler::new_themed(theme)
-        .with_width(WIDTH)
-        .with_context_lines(CONTEXT)
-        .with_links(false);
-    let worst = short::worst(report, limit);
-    let mut out = String::new();
-    let is_info = |d: &trunnion_check::Diagnostic| d.status == Status::Fail && d.severity == Severity::Info;
-    let with_excerpt = worst.iter().filter(|d| !is_info(d)).count() <= EXCERPTS;
-    let mut before: Option<&trunnion_check::Diagnostic> = None;
-    for &d in &worst {
-        if is_info(d) || !with_excerpt {
-            // what to do about several findings of one rule is said once
-            let again =
-                before.is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
-            compact(&mut out, loaded, lines, (d, again), color);
-            before = Some(d);
-            continue;
+    let mut out = page.text(&found, &excerpts);
+    let rest = short::rest(report, &found, &loaded.name);
+    if !rest.is_empty() {
+        for row in wrapped(&shown(&rest), "  ") {
+            let _ = writeln!(out, "{row}");
         }
-        let excerpt = Excerpt::new(loaded, lines, d.range);
-        let repeats = short::repeats(loaded, lines, d);
-        let finding = Finding { d, excerpt, repeats };
-        // Writing into a String cannot fail; if rendering fails, the one-line form of the finding replaces it.
-        if handler.render_report(&mut out, &finding).is_err() {
-            let _ = writeln!(out, "{}[{}] {}", short::weight(d), d.rule, d.message);
-        }
-        out.push('\n');
     }
-    out.push_str(&shown(&short::rest(report, worst.len(), &loaded.name)));
     out
+}
+
+/// Shown in a line or two, never with lines of program.
+pub(super) fn is_info(d: &trunnion_check::Diagnostic) -> bool {
+    d.status == Status::Fail && d.severity == Severity::Info
+}
+
+/// What the findings of a report are drawn with.
+pub(super) struct Page<'a> {
+    loaded: &'a Loaded,
+    lines: &'a LineIndex,
+    color: bool,
+}
+
+impl Page<'_> {
+    /// These findings; of each whether it has its lines of program.
+    pub(super) fn text(&self, shown: &[&trunnion_check::Diagnostic], excerpts: &[bool]) -> String {
+        let Self { loaded, lines, color } = *self;
+        let theme = if color {
+            GraphicalTheme::unicode()
+        } else {
+            GraphicalTheme::unicode_nocolor()
+        };
+        let handler = GraphicalReportHandler::new_themed(theme)
+            .with_width(WIDTH)
+            .with_context_lines(CONTEXT)
+            .with_links(false);
+        let mut out = String::new();
+        let mut before: Option<&trunnion_check::Diagnostic> = None;
+        for (&d, excerpt) in shown.iter().zip(excerpts) {
+            if !excerpt {
+                // what to do about several findings of one rule is said once
+                let again = before
+                    .is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
+                compact(&mut out, loaded, lines, (d, again), color);
+                before = Some(d);
+                continue;
+            }
+            let excerpt = Excerpt::new(loaded, lines, d.range);
+            let repeats = short::repeats(loaded, lines, d);
+            let finding = Finding { d, excerpt, repeats };
+            // Writing into a String cannot fail; if rendering fails, the one-line form of the finding replaces it.
+            if handler.render_report(&mut out, &finding).is_err() {
+                let _ = writeln!(out, "{}[{}] {}", short::weight(d), d.rule, d.message);
+            }
+            out.push('\n');
+        }
+        out
+    }
 }
 
 /// A finding without its lines of program: an info, or one of many; without its notes and help where the one before has the same.

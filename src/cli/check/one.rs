@@ -218,7 +218,7 @@ impl Job<'_> {
         let limit = self.command.limit;
         match self.format {
             CheckFormat::Pretty => {
-                let text = render::pretty(loaded, &lines, report, limit.unwrap_or(10), self.colour());
+                let text = render::pretty(loaded, &lines, report, limit, self.colour());
                 return (text, String::new());
             }
             CheckFormat::Short => {

@@ -148,7 +148,8 @@ mod tests {
     fn an_own_table_keeps_what_s_means() {
         let table = "name = \"mine\"\nextends = \"grbl\"\n";
         let dialect = trunnion_dialect::Dialect::from_table(table, "mine.toml").expect("a table");
-        let settings = Settings::new(&dialect, None, Setup::default());
+        let dialect: &'static _ = Box::leak(Box::new(dialect));
+        let settings = Settings::new(dialect, None, Setup::default());
         let text = "$H\nG21 M3 S0\nG1 X10 F100\nX20 S90\nM5\nM2\n";
         let report = check(
             &trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex),

@@ -28,6 +28,7 @@ mod short;
 mod stats;
 mod surface;
 mod trace;
+mod verdict;
 mod walk;
 
 use args::{Args, Command};

@@ -42,7 +42,12 @@ fn fagor(line: &str, votes: &mut Votes) {
             votes.add("fagor", weight, &format!("the statement {start}...)"));
         }
     }
-    if text.starts_with("(IF ") && (text.contains(" GOTO N") || text.contains(" CALL ")) {
+    let compares = [" EQ ", " NE ", " GT ", " LT ", " GE ", " LE "];
+    let condition = text.strip_prefix("(IF ").is_some_and(|rest| {
+        let parameter = rest.starts_with('P') && rest[1..].starts_with(|c: char| c.is_ascii_digit());
+        parameter && compares.iter().any(|compare| rest.contains(compare))
+    });
+    if condition {
         votes.add("fagor", 8, "the statement (IF ...)");
     }
     for name in [

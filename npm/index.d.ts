@@ -16,7 +16,7 @@ export interface Options {
   scope?: "language" | "motion" | "machine";
   /** The severity from which a finding makes the verdict `fail`. */
   deny?: "error" | "warning" | "info";
-  /** Texts of files by name: `trunnion.toml` (settings), and the machine files and dialect tables that it or `machine` names. */
+  /** Texts of files by name: `trunnion.toml` (settings), the machine files and dialect tables that it or `machine` names, and programs that are called (`O2000.nc`). */
   files?: Record<string, string>;
 }
 

@@ -11,8 +11,9 @@ host=$(rustc -vV | sed -n 's/^host: //p')
 rest=()
 
 cargo build --locked --profile "$profile" --bin trunnion
-folder=target/$profile
-[ "$profile" != dev ] || folder=target/debug
+built=${CARGO_TARGET_DIR:-target}
+folder=$built/$profile
+[ "$profile" != dev ] || folder=$built/debug
 name=trunnion-$version-$host
 rm -rf "$out/$name"
 mkdir -p "$out/$name/completions"

@@ -19,6 +19,8 @@ const program = at("program");
 const LARGE = 200_000;
 let name = EXAMPLES[0].name;
 let bytes = null;
+// called programs, settings and machine files, by name
+let files = {};
 let checker;
 let timer;
 
@@ -80,7 +82,7 @@ function run(pages) {
   const assume = at("assume").checked ? ["work-offset", "tool-length"] : undefined;
   let report;
   try {
-    report = checker.check(bytes ?? program.value, name, machine, { dialect, assume });
+    report = checker.check(bytes ?? program.value, name, machine, { dialect, assume, files });
   } catch (error) {
     at("verdict").className = "unknown";
     at("verdict").textContent = `NOT CHECKED: ${error.message}`;
@@ -105,6 +107,28 @@ function run(pages) {
   for (const finding of file.diagnostics) if (!marks.has(finding.line) || weight(finding) === "error") marks.set(finding.line, weight(finding));
   numbers(marks);
   at("findings").replaceChildren(...file.diagnostics.map((finding) => shown(finding, pages)));
+}
+
+function text(bytes) {
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder("latin1").decode(bytes);
+  }
+}
+
+function added(pages) {
+  const names = Object.keys(files);
+  at("added").replaceChildren();
+  if (!names.length) return;
+  const clear = element("button", "", "Remove");
+  clear.type = "button";
+  clear.addEventListener("click", () => {
+    files = {};
+    added(pages);
+    run(pages);
+  });
+  at("added").append(`Added: ${names.join(", ")}. `, clear);
 }
 
 function later(pages) {
@@ -137,13 +161,15 @@ async function begin() {
     ({ name } = file);
     // the bytes as they lie on disk are checked, whatever their encoding
     bytes = new Uint8Array(await file.arrayBuffer());
-    let text;
-    try {
-      text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
-    } catch {
-      text = new TextDecoder("latin1").decode(bytes);
-    }
-    program.value = text.replaceAll("\r\n", "\n");
+    program.value = text(bytes).replaceAll("\r\n", "\n");
+    run(pages);
+  });
+  at("add").addEventListener("click", () => at("more").click());
+  at("more").addEventListener("change", async () => {
+    for (const file of at("more").files) files[file.name] = text(new Uint8Array(await file.arrayBuffer()));
+    // the same file can be added again when it has changed
+    at("more").value = "";
+    added(pages);
     run(pages);
   });
   program.addEventListener("input", () => {

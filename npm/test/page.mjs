@@ -52,6 +52,19 @@ await step("the playground, opened as a file, checks, follows the editor and exp
   keep("playground-dark.png", await page.picture());
 });
 
+await step("a program that calls another one in an added file", async () => {
+  const page = await browser.page(playground);
+  await page.shows(/FAIL first/);
+  const main = "%\\nO1\\nG21 G90 G94 G17\\nG54 G0 X0. Y0. Z5.\\nM98 P2000\\nG0 Z5.\\nM30\\n%\\n";
+  await page.value(`(() => { const p = document.getElementById("program"); p.value = "${main}"; p.dispatchEvent(new Event("input")); })()`);
+  await page.shows(/missing-subprogram/);
+  // as the file dialog does
+  const sub = "%\\nO2000\\nG0 X7.\\nM99\\n%\\n";
+  await page.value(`(() => { const t = new DataTransfer(); t.items.add(new File(["${sub}"], "O2000.nc")); const m = document.getElementById("more"); m.files = t.files; m.dispatchEvent(new Event("change")); })()`);
+  const said = await page.shows(/Added: O2000\.nc/);
+  if (/missing-subprogram/.test(await page.shows(/6 of 6 blocks run|7 of 7 blocks run/))) throw new Error(said);
+});
+
 await step("all samples in the browser: the document of the command line", async () => {
   const all = cases().map((one) => ({ ...one, bytes: one.bytes.toString("base64") }));
   const library = readFileSync(join(here, "index.mjs"), "utf8").replaceAll(/^export /gm, "");

@@ -19,6 +19,8 @@ use trunnion_syntax::{Block, BlockId, Program};
 /// Why blocks did not run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotRunReason {
+    /// They come before the first `%`, and the control skips them.
+    BeforeStart,
     /// They belong to a subprogram that nothing calls.
     SubprogramNotCalled,
     /// They come after the end of the program.
@@ -35,6 +37,7 @@ impl NotRunReason {
     /// As reports spell it: `subprogram-not-called`.
     pub fn name(self) -> &'static str {
         match self {
+            Self::BeforeStart => "before-start",
             Self::SubprogramNotCalled => "subprogram-not-called",
             Self::AfterEnd => "after-end",
             Self::JumpedOver => "jumped-over",
@@ -45,6 +48,7 @@ impl NotRunReason {
     /// For people: completes "lines 3 to 9 did not run: ...".
     pub(crate) fn because(self) -> &'static str {
         match self {
+            Self::BeforeStart => "they come before the first `%`",
             Self::SubprogramNotCalled => "nothing in this file calls their subprogram",
             Self::AfterEnd => "they come after the end of the program",
             Self::JumpedOver => "a jump or branch skips them",
@@ -118,6 +122,13 @@ impl Coverage {
             .filter(move |part| part.moves && !explained(part.reason))
     }
 
+    /// The text before the first `%`, which the control skips.
+    pub(crate) fn leader(&self) -> Option<&NotRun> {
+        self.not_run
+            .first()
+            .filter(|part| part.reason == NotRunReason::BeforeStart)
+    }
+
     /// Works out which blocks did not run, once the run is over.
     pub(crate) fn complete(&mut self, program: &Program, dialect: &Dialect) {
         let with_code = || {
@@ -135,6 +146,7 @@ impl Coverage {
             return;
         }
         let sections = Sections::of(program, dialect, &self.ran);
+        let leader = trunnion_interp::leader(program, dialect);
         let mut open: Option<(NotRun, usize)> = None;
         for id in with_code() {
             if self.ran.has(id) {
@@ -143,8 +155,13 @@ impl Coverage {
             }
             let block = program.block(id);
             let (section, called) = sections.at(id);
-            let reason = self.reason(&block, dialect, called);
-            let moves = moves(&block, dialect);
+            let is_leader = id.0 < leader;
+            let reason = if is_leader {
+                NotRunReason::BeforeStart
+            } else {
+                self.reason(&block, dialect, called)
+            };
+            let moves = !is_leader && moves(&block, dialect);
             match &mut open {
                 Some((part, of)) if *of == section && part.reason == reason => {
                     part.last = id;
@@ -188,7 +205,8 @@ pub(crate) fn tell(program: &Program, settings: &Settings<'_>, report: &mut Repo
     let has = |rule: &str| report.diagnostics.iter().any(|found| found.rule == rule);
     // a file without any block has its finding, and a run that was stopped has reported why
     let is_told = has("empty-program") || coverage.given_up.as_ref().is_some_and(|given_up| has(given_up.reason));
-    let is_open = coverage.gaps().next().is_some() || (coverage.travels == 0 && !is_told);
+    let is_open =
+        coverage.leader().is_some() || coverage.gaps().next().is_some() || (coverage.travels == 0 && !is_told);
     if !is_open || crate::unreadable::is_utf16(program.source()) {
         return;
     }

@@ -5,8 +5,8 @@ use crate::sink::{Active, Reporter};
 use crate::view::InForce;
 use crate::wake::Wake;
 use std::collections::BTreeMap;
-use trunnion_interp::{ChainId, Motion};
-use trunnion_syntax::BlockId;
+use trunnion_interp::{ChainId, Motion, MotionKind};
+use trunnion_syntax::{Address, BlockId, Program, Value, Word};
 
 /// Why the tool does not turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,26 +35,40 @@ pub(crate) struct StillCuts {
     pub(crate) count: u32,
     /// S was above zero in other feed motions with the same tool: it may be the power of a laser.
     pub(crate) other_speed: bool,
+    /// The same tool probes, or is measured, without a cut with the spindle on between.
+    pub(crate) probes: bool,
     tool: Option<u32>,
+    /// See [`Cuts::rest`].
+    rest: u32,
 }
 
 /// Collects them while a program runs.
 #[derive(Default)]
 pub(crate) struct Cuts {
-    /// Why the last feed motion was one of them, and where its stretch begins.
-    open: Option<(Still, BlockId)>,
+    /// Why the last feed motion was one of them, where its stretch begins, and the tool there.
+    open: Option<(Still, BlockId, Option<u32>)>,
     found: BTreeMap<(BlockId, Still), StillCuts>,
     /// Feed motions before any code of the spindle.
     quiet: Option<StillCuts>,
     /// Tools of which a feed motion had S above zero.
     with_speed: Vec<Option<u32>>,
+    /// Counts the feed motions with a turning spindle: between two of them the spindle rests, or turns for nothing.
+    rest: u32,
+    /// Motions with an unknown end while the spindle is off, which may be those of a probe: the rest, the tool, the block.
+    touches: Vec<(u32, Option<u32>, BlockId)>,
 }
+
+/// So many touches are kept; findings after them are judged without.
+const TOUCHES: usize = 1024;
 
 impl Cuts {
     /// Takes a motion; `allowed` says whether a comment allows the finding in its block.
     #[inline]
     pub(crate) fn add(&mut self, motion: &Motion, in_force: &InForce, allowed: impl FnOnce() -> bool) {
         if !motion.is_feed() || motion.machine_coordinates {
+            if motion.kind == MotionKind::Unknown && motion.spindle_on == Some(false) {
+                self.touched(motion);
+            }
             return;
         }
         let why = match motion.spindle_on {
@@ -62,6 +76,7 @@ impl Cuts {
             Some(true) if !in_force.speed_programmed && !in_force.spindle_unread => Still::SpeedUnsaid,
             Some(true) => {
                 self.open = None;
+                self.rest = self.rest.wrapping_add(1);
                 if motion.spindle_rpm.is_some_and(|rpm| rpm > 0.0) && self.with_speed.last() != Some(&motion.tool) {
                     self.turned_with(motion.tool);
                 }
@@ -75,6 +90,14 @@ impl Cuts {
             None => Still::NeverStarted,
         };
         self.count(why, motion, allowed);
+    }
+
+    #[cold]
+    fn touched(&mut self, motion: &Motion) {
+        let touch = (self.rest, motion.tool, motion.block);
+        if self.touches.len() < TOUCHES && self.touches.last() != Some(&touch) {
+            self.touches.push(touch);
+        }
     }
 
     fn turned_with(&mut self, tool: Option<u32>) {
@@ -91,7 +114,9 @@ impl Cuts {
             chain: motion.chain,
             count: 0,
             other_speed: false,
+            probes: false,
             tool: motion.tool,
+            rest: self.rest,
         };
         let cuts = if why == Still::NeverStarted {
             self.open = None;
@@ -100,11 +125,13 @@ impl Cuts {
             if why != Still::SpeedUnsaid && allowed() {
                 return;
             }
-            let first = match self.open {
-                Some((open, first)) if open == why => first,
-                _ => motion.block,
+            // of a tool that probes the stretch is judged apart
+            let same = |tool| self.touches.is_empty() || tool == motion.tool;
+            let (first, tool) = match self.open {
+                Some((open, first, tool)) if open == why && same(tool) => (first, tool),
+                _ => (motion.block, motion.tool),
             };
-            self.open = Some((why, first));
+            self.open = Some((why, first, tool));
             self.found.entry((first, why)).or_insert(new)
         };
         cuts.last = motion.block;
@@ -113,14 +140,25 @@ impl Cuts {
 
     /// All stretches in the order of their blocks. Only of a main program it is said that nothing starts the spindle, or gives S: the
     /// caller of a subprogram may have done so, as may what comes before a part of a program. `started`: something started a spindle, or may have.
-    fn finish(&self, part: Part, started: bool) -> Vec<StillCuts> {
+    /// A subprogram that probes and starts no spindle moves a probe, or a tool that it measures.
+    fn finish(&self, program: &Program, part: Part, started: bool) -> Vec<StillCuts> {
+        let touches: Vec<_> = self
+            .touches
+            .iter()
+            .filter(|touch| is_probing(program, touch.2))
+            .collect();
         if started || part == Part::Called {
             let may_turn = |cuts: &StillCuts| StillCuts {
                 other_speed: self.with_speed.contains(&cuts.tool),
+                probes: touches
+                    .iter()
+                    .any(|(rest, tool, _)| (*rest, *tool) == (cuts.rest, cuts.tool)),
                 ..*cuts
             };
             let told = |cuts: &&StillCuts| part == Part::Main || cuts.why != Still::SpeedUnsaid;
-            return self.found.values().filter(told).map(may_turn).collect();
+            let measures = |cuts: &StillCuts| !started && cuts.why == Still::Off && cuts.probes;
+            let found = self.found.values().filter(told).map(may_turn);
+            return found.filter(|cuts| !measures(cuts)).collect();
         }
         let quiet = self.quiet.iter().filter(|_| part == Part::Main);
         let whole = quiet.chain(self.found.values()).copied().reduce(|mut whole, cuts| {
@@ -139,9 +177,21 @@ impl Cuts {
     }
 }
 
+/// Whether a block has a code that probes: G38.2 to G38.5, or G31, which ends at a signal.
+fn is_probing(program: &Program, block: BlockId) -> bool {
+    let code = |word: Word| match word.value {
+        Value::Number(number) if word.address == Address::Letter(b'G') => {
+            let tenths = (number.to_f64() * 10.0).round();
+            (382.0..=385.0).contains(&tenths) || tenths == 310.0
+        }
+        _ => false,
+    };
+    program.block(block).words().any(code)
+}
+
 /// Asks the rules about each stretch. `started`: something started a spindle, or may have.
 pub(crate) fn report_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: bool) {
-    for still in cuts.finish(reporter.part(), started) {
+    for still in cuts.finish(reporter.program(), reporter.part(), started) {
         reporter.origin(false, still.chain);
         ask(rules, reporter, (Some(still.first), 0), |wake, out| {
             if let Wake::Still(rule) = wake {

@@ -22,8 +22,20 @@ pub(crate) fn weigh(program: &Program, report: &mut Report) {
     }
 }
 
-/// The first finding about the spelling of what comes after the end stands for all of them; whether there is one.
+/// The first finding about the spelling of what comes after the end stands for all of them; whether there is one. Spelling before the first `%` is none.
 fn join_after_end(program: &Program, report: &mut Report) -> bool {
+    let leader = report.coverage.leader().map(|part| part.last);
+    if let Some(last) = leader {
+        // one finding of `not-run` stands for it
+        let is_leader = |at: u32| program.block_at(at).is_some_and(|block| block <= last);
+        let found = report.diagnostics.len();
+        report
+            .diagnostics
+            .retain(|found| !OF_TEXT.contains(&found.rule) || !is_leader(found.range.start));
+        if report.diagnostics.len() < found {
+            report.summary.recount(&report.diagnostics);
+        }
+    }
     let after = |part: &&NotRun| part.reason == NotRunReason::AfterEnd;
     let unread: Vec<NotRun> = report.coverage.not_run.iter().filter(after).copied().collect();
     if unread.is_empty() {

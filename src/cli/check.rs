@@ -67,6 +67,15 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
 fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
     let found = walk::programs(&command.paths)?;
     found.remark(global.quiet, global.verbose);
+    if command.baseline.is_none() && command.write_baseline.is_none() {
+        for path in found.baselines() {
+            let path = path.display();
+            remark(
+                global.quiet,
+                &format!("{path}: a baseline, which is not used; --baseline {path} uses it"),
+            );
+        }
+    }
     let format = command.format.unwrap_or_else(|| {
         if command.output.is_none() && std::io::stdout().is_terminal() {
             CheckFormat::Pretty

@@ -21,12 +21,14 @@ mod render;
 mod report;
 mod sample;
 mod schema;
+mod screen;
 mod servo;
 mod shell;
 mod short;
 mod stats;
 mod surface;
 mod trace;
+mod verdict;
 mod walk;
 
 use args::{Args, Command};

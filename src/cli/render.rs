@@ -2,61 +2,94 @@
 use super::{
     failure::{is_hidden, shown},
     load::Loaded,
-    short,
+    screen, short,
 };
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
 };
 use std::fmt::{self, Write};
-use trunnion_check::{Coverage, Report, Scope, Severity, Status, Summary, Verdict};
+use trunnion_check::{Report, Severity, Status};
 use trunnion_syntax::{LineIndex, TextRange};
 
 /// Columns of the report.
 const WIDTH: usize = 110;
 /// Up to so many findings that are more than infos are shown with their lines of program; more would not fit on a screen.
-const EXCERPTS: usize = 3;
+pub(super) const EXCERPTS: usize = 3;
 /// Lines of program shown before and after the finding.
 const CONTEXT: usize = 1;
 /// Lines longer than this are cut around the finding, bytes.
 const LONGEST_LINE: usize = 240;
 
-/// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
-pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: usize, color: bool) -> String {
-    let theme = if color {
-        GraphicalTheme::unicode()
-    } else {
-        GraphicalTheme::unicode_nocolor()
+/// The findings of one file: as many as fit on a screen, or at most `limit` of them (0: all); and a line that counts the rest.
+pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: Option<usize>, color: bool) -> String {
+    let page = Page { loaded, lines, color };
+    let (found, excerpts) = match limit {
+        Some(limit) => {
+            let found = short::worst(report, limit);
+            let few = found.iter().filter(|d| !is_info(d)).count() <= EXCERPTS;
+            let excerpts = found.iter().map(|d| few && !is_info(d)).collect();
+            (found, excerpts)
+        }
+        None => screen::chosen(&page, report),
     };
-    let handler = GraphicalReportHandler::new_themed(theme)
-        .with_width(WIDTH)
-        .with_context_lines(CONTEXT)
-        .with_links(false);
-    let worst = short::worst(report, limit);
-    let mut out = String::new();
-    let is_info = |d: &trunnion_check::Diagnostic| d.status == Status::Fail && d.severity == Severity::Info;
-    let with_excerpt = worst.iter().filter(|d| !is_info(d)).count() <= EXCERPTS;
-    let mut before: Option<&trunnion_check::Diagnostic> = None;
-    for &d in &worst {
-        if is_info(d) || !with_excerpt {
-            // what to do about several findings of one rule is said once
-            let again =
-                before.is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
-            compact(&mut out, loaded, lines, (d, again), color);
-            before = Some(d);
-            continue;
+    let mut out = page.text(&found, &excerpts);
+    let rest = short::rest(report, &found, &loaded.name);
+    if !rest.is_empty() {
+        for row in wrapped(&shown(&rest), "  ") {
+            let _ = writeln!(out, "{row}");
         }
-        let excerpt = Excerpt::new(loaded, lines, d.range);
-        let repeats = short::repeats(loaded, lines, d);
-        let finding = Finding { d, excerpt, repeats };
-        // Writing into a String cannot fail; if rendering fails, the one-line form of the finding replaces it.
-        if handler.render_report(&mut out, &finding).is_err() {
-            let _ = writeln!(out, "{}[{}] {}", short::weight(d), d.rule, d.message);
-        }
-        out.push('\n');
     }
-    out.push_str(&shown(&short::rest(report, worst.len(), &loaded.name)));
     out
+}
+
+/// Shown in a line or two, never with lines of program.
+pub(super) fn is_info(d: &trunnion_check::Diagnostic) -> bool {
+    d.status == Status::Fail && d.severity == Severity::Info
+}
+
+/// What the findings of a report are drawn with.
+pub(super) struct Page<'a> {
+    loaded: &'a Loaded,
+    lines: &'a LineIndex,
+    color: bool,
+}
+
+impl Page<'_> {
+    /// These findings; of each whether it has its lines of program.
+    pub(super) fn text(&self, shown: &[&trunnion_check::Diagnostic], excerpts: &[bool]) -> String {
+        let Self { loaded, lines, color } = *self;
+        let theme = if color {
+            GraphicalTheme::unicode()
+        } else {
+            GraphicalTheme::unicode_nocolor()
+        };
+        let handler = GraphicalReportHandler::new_themed(theme)
+            .with_width(WIDTH)
+            .with_context_lines(CONTEXT)
+            .with_links(false);
+        let mut out = String::new();
+        let mut before: Option<&trunnion_check::Diagnostic> = None;
+        for (&d, excerpt) in shown.iter().zip(excerpts) {
+            if !excerpt {
+                // what to do about several findings of one rule is said once
+                let again = before
+                    .is_some_and(|before| before.rule == d.rule && before.help == d.help && before.notes == d.notes);
+                compact(&mut out, loaded, lines, (d, again), color);
+                before = Some(d);
+                continue;
+            }
+            let excerpt = Excerpt::new(loaded, lines, d.range);
+            let repeats = short::repeats(loaded, lines, d);
+            let finding = Finding { d, excerpt, repeats };
+            // Writing into a String cannot fail; if rendering fails, the one-line form of the finding replaces it.
+            if handler.render_report(&mut out, &finding).is_err() {
+                let _ = writeln!(out, "{}[{}] {}", short::weight(d), d.rule, d.message);
+            }
+            out.push('\n');
+        }
+        out
+    }
 }
 
 /// A finding without its lines of program: an info, or one of many; without its notes and help where the one before has the same.
@@ -114,105 +147,6 @@ fn wrapped(text: &str, indent: &str) -> Vec<String> {
         begins = false;
     }
     rows
-}
-
-/// What the verdict on a file says.
-pub(super) struct Judged<'a> {
-    /// Path as given.
-    pub(super) name: &'a str,
-    pub(super) verdict: Verdict,
-    pub(super) summary: Summary,
-    /// The machine it was checked for.
-    pub(super) machine: Option<&'a str>,
-    /// Why the file is not read, if it is not.
-    pub(super) not_read: Option<String>,
-    /// The dialect and why, where that was not certain.
-    pub(super) read_as: Option<String>,
-    /// How much was judged.
-    pub(super) scope: Scope,
-    pub(super) coverage: &'a Coverage,
-    /// Undeclared values that were assumed.
-    pub(super) assumptions: &'a [String],
-    /// How many findings the baseline accepts.
-    pub(super) accepted: usize,
-}
-
-/// The last line of the pretty form: verdict and counts.
-pub(super) fn verdict_line(file: &Judged<'_>, color: bool) -> String {
-    let (word, code) = match file.verdict {
-        Verdict::Pass => ("PASS", "32"),
-        Verdict::Fail => ("FAIL", "31"),
-        Verdict::Unknown => ("UNKNOWN", "33"),
-    };
-    let word = if color {
-        format!("\u{1b}[1;{code}m{word}\u{1b}[0m")
-    } else {
-        word.to_owned()
-    };
-    if let Some(why) = &file.not_read {
-        return format!("{word} {}: not read, because {why}", shown(file.name));
-    }
-    let of = match (file.scope, file.machine) {
-        (Scope::Machine, Some(machine)) => format!(" on {machine}"),
-        (Scope::Machine, None) => " on no machine".to_owned(),
-        (scope, None) => format!(" in scope {} (no machine)", scope.name()),
-        (scope, Some(_)) => format!(" in scope {}", scope.name()),
-    };
-    let s = &file.summary;
-    let mut line = format!(
-        "{word} {}{of}: {} of {} run, {}",
-        shown(file.name),
-        file.coverage.blocks_run,
-        counted(file.coverage.blocks, "block"),
-        counted(s.motions, "motion"),
-    );
-    if let Some(read_as) = &file.read_as {
-        let _ = write!(line, ", read as {read_as}");
-    }
-    if !file.assumptions.is_empty() {
-        let _ = write!(line, ", assuming {}", assumed(file.assumptions));
-    }
-    let found = [
-        (s.errors, counted(s.errors, "error")),
-        (s.warnings, counted(s.warnings, "warning")),
-        (s.infos, counted(s.infos, "info")),
-        (s.unknown, format!("{} unknown", s.unknown)),
-    ];
-    let found: Vec<&str> = found
-        .iter()
-        .filter(|(n, _)| *n > 0)
-        .map(|(_, text)| text.as_str())
-        .collect();
-    if !found.is_empty() {
-        let _ = write!(line, "; {}", found.join(", "));
-    }
-    if file.accepted > 0 {
-        let _ = write!(
-            line,
-            "; {} accepted by the baseline",
-            counted(file.accepted as u64, "finding")
-        );
-    }
-    line
-}
-
-/// Assumptions in a line: the first few, and how many more there are.
-fn assumed(all: &[String]) -> String {
-    const MOST: usize = 4;
-    let plain: Vec<&str> = all
-        .iter()
-        .map(|text| text.trim_end_matches(" (not declared)"))
-        .collect();
-    match plain.split_at_checked(MOST) {
-        Some((some, rest)) if !rest.is_empty() => format!("{} and {} more", some.join(", "), rest.len()),
-        _ => plain.join(", "),
-    }
-}
-
-/// `1 error`, `2 errors`.
-pub(super) fn counted(count: u64, what: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {what}{plural}")
 }
 
 struct Finding<'a> {

@@ -59,7 +59,7 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
         &format!(
             "{}: {}",
             command.output.display(),
-            super::render::counted(parts.len() as u64, "program")
+            super::verdict::counted(parts.len() as u64, "program")
         ),
     );
     if !failures.is_empty() {
@@ -90,7 +90,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     let report = check(&loaded.program, &settings);
     let deny = global.deny.severity();
     let verdict = report.verdict(deny);
-    let judged = super::render::Judged {
+    let judged = super::verdict::Judged {
         name: &loaded.name,
         verdict,
         summary: report.summary,
@@ -102,7 +102,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         assumptions: &report.assumptions,
         accepted: 0,
     };
-    let line = super::render::verdict_line(&judged, false);
+    let line = super::verdict::verdict_line(&judged, false);
     let denied = super::check::is_found(&report, deny, global.strict);
     let readable = loaded.not_read().is_none();
     let (pictures, replay) = match &loaded.resolved.machine {

@@ -22,7 +22,7 @@ pub(super) fn short(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: 
         out.push_str(&repeats(loaded, lines, d));
         out.push('\n');
     }
-    out.push_str(&rest(report, shown.len(), &loaded.name));
+    out.push_str(&rest(report, &shown, &loaded.name));
     out
 }
 
@@ -31,15 +31,20 @@ pub(super) fn worst(report: &Report, limit: usize) -> Vec<&Diagnostic> {
     let mut found: Vec<&Diagnostic> = report.diagnostics.iter().collect();
     if limit > 0 && found.len() > limit {
         // stable: findings of one severity stay in the order of the file
-        found.sort_by_key(|d| match (d.status, d.severity) {
-            (Status::Fail, Severity::Error) => 0,
-            (Status::Fail, Severity::Warning) => 1,
-            (Status::Unknown, _) => 2,
-            (Status::Fail, Severity::Info) => 3,
-        });
+        found.sort_by_key(|d| rank(d));
         found.truncate(limit);
     }
     found
+}
+
+/// How bad a finding is: 0 is an error.
+pub(super) fn rank(d: &Diagnostic) -> u8 {
+    match (d.status, d.severity) {
+        (Status::Fail, Severity::Error) => 0,
+        (Status::Fail, Severity::Warning) => 1,
+        (Status::Unknown, _) => 2,
+        (Status::Fail, Severity::Info) => 3,
+    }
 }
 
 /// How often a finding was found, where that was more than once: again and again in one place (a loop, a subprogram), or in one
@@ -56,10 +61,36 @@ pub(super) fn repeats(loaded: &Loaded, lines: &LineIndex, d: &Diagnostic) -> Str
     format!(" ({} blocks, to line {last})", d.count)
 }
 
-/// The line that counts what `limit` left out.
-pub(super) fn rest(report: &Report, shown: usize, name: &str) -> String {
-    match report.diagnostics.len().checked_sub(shown) {
-        Some(more @ 1..) => format!("{name}: {more} more findings; --limit 0 shows them all\n"),
-        _ => String::new(),
+/// The line that counts what is not among `shown`, by rule, the worst first.
+pub(super) fn rest(report: &Report, shown: &[&Diagnostic], name: &str) -> String {
+    /// Rules that are named.
+    const NAMED: usize = 6;
+    let is_shown = |d: &Diagnostic| shown.iter().any(|known| core::ptr::eq(*known, d));
+    let mut left: Vec<&Diagnostic> = Vec::new();
+    if shown.len() < report.diagnostics.len() {
+        left.extend(report.diagnostics.iter().filter(|d| !is_shown(d)));
     }
+    if left.is_empty() {
+        return String::new();
+    }
+    let mut rules: Vec<(u8, &str, usize)> = Vec::new();
+    for d in &left {
+        match rules.iter_mut().find(|of| (of.0, of.1) == (rank(d), d.rule)) {
+            Some(of) => of.2 += 1,
+            None => rules.push((rank(d), d.rule, 1)),
+        }
+    }
+    rules.sort_by_key(|of| of.0);
+    let mut named: Vec<String> = rules
+        .iter()
+        .take(NAMED)
+        .map(|of| format!("{} {}", of.2, of.1))
+        .collect();
+    if rules.len() > NAMED {
+        let more: usize = rules[NAMED..].iter().map(|of| of.2).sum();
+        named.push(format!("{more} of other rules"));
+    }
+    let noun = if left.len() == 1 { "finding" } else { "findings" };
+    let (count, named) = (left.len(), named.join(", "));
+    format!("{name}: {count} more {noun} ({named}); --limit 0 shows them all\n")
 }

@@ -47,12 +47,19 @@ impl Found {
         self.files.extend(files);
     }
 
-    /// Reports what was left out: each with `verbose`, otherwise how many. Settings are read with the programs: they are not counted.
+    /// Baselines in the folders, which are no programs.
+    pub(crate) fn baselines(&self) -> impl Iterator<Item = &Path> {
+        let paths = self.left_out.iter().map(|(path, _)| path.as_path());
+        paths.filter(|path| own_document(path).is_some_and(|schema| schema.starts_with("baseline/")))
+    }
+
+    /// Reports what was left out: each with `verbose`, otherwise how many. Settings are read with the programs, and baselines and reports
+    /// are written by this program: they are not counted.
     pub(crate) fn remark(&self, quiet: bool, verbose: bool) {
-        let is_settings = |path: &Path| path.ends_with("trunnion.toml");
-        let count = self.left_out.iter().filter(|(path, _)| !is_settings(path)).count();
+        let is_own = |path: &Path| path.ends_with("trunnion.toml") || own_document(path).is_some();
+        let count = self.left_out.iter().filter(|(path, _)| !is_own(path)).count();
         if verbose {
-            for (path, why) in &self.left_out {
+            for (path, why) in self.left_out.iter().filter(|(path, _)| !is_own(path)) {
                 remark(false, &format!("{}: left out: {why}", path.display()));
             }
         } else if count > 0 {
@@ -69,6 +76,21 @@ impl Found {
 /// Files named by `paths`; folders are walked for programs, which are recognised by their names or, without an extension, by their first lines. Links are
 /// followed inside the folder; hidden files and what `.gitignore` names are left out. A folder without any program is a failure.
 pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
+    let (found, empty) = search(paths);
+    let Some(folder) = empty else { return Ok(found) };
+    let known = trunnion_dialect::program_extensions().join(" .");
+    found.remark(false, true);
+    Err(Failure::file(
+        folder,
+        format!(
+            "no program in this directory (looked for .{known}, and for programs without an extension); name the file itself if it \
+             has another extension"
+        ),
+    ))
+}
+
+/// The same without a word: what was found before the first folder without a program, and that folder.
+pub(crate) fn search(paths: &[PathBuf]) -> (Found, Option<&PathBuf>) {
     let mut found = Found::default();
     for path in paths {
         if !path.is_dir() {
@@ -80,18 +102,10 @@ pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
         Walk::new(path, &mut found).folder(path);
         found.drop_links_to_found(before);
         if found.files.len() == before && found.failures.is_empty() {
-            let known = trunnion_dialect::program_extensions().join(" .");
-            found.remark(false, true);
-            return Err(Failure::file(
-                path,
-                format!(
-                    "no program in this directory (looked for .{known}, and for programs without an extension); name the file itself if it \
-                     has another extension"
-                ),
-            ));
+            return (found, Some(path));
         }
     }
-    Ok(found)
+    (found, None)
 }
 
 /// A walk through one folder.
@@ -216,4 +230,29 @@ fn head(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut head = Vec::new();
     fs::File::open(path)?.take(HEAD).read_to_end(&mut head)?;
     Ok(head)
+}
+
+/// The schema of a JSON document that this program wrote, without `trunnion-`, or `cache`; `None` for other files.
+fn own_document(path: &Path) -> Option<String> {
+    let is_json = path.extension().is_some_and(|extension| extension == "json");
+    if !is_json || !path.is_file() {
+        return None;
+    }
+    let stem = path.file_stem().unwrap_or_default().as_encoded_bytes();
+    if stem.len() == 64 && stem.iter().all(u8::is_ascii_hexdigit) {
+        return Some("cache".to_owned());
+    }
+    let head = head(path).ok()?;
+    let text = String::from_utf8_lossy(&head);
+    let schema = text
+        .trim_start()
+        .strip_prefix('{')?
+        .trim_start()
+        .strip_prefix("\"schema\"")?;
+    let name = schema
+        .trim_start()
+        .strip_prefix(':')?
+        .trim_start()
+        .strip_prefix("\"trunnion-")?;
+    Some(name.split('"').next().unwrap_or_default().to_owned())
 }

@@ -32,6 +32,8 @@ pub struct Advice {
     pub subprograms_in_control: bool,
     /// How to limit the spindle speed under constant surface speed; `None`: a check does not ask for a limit.
     pub spindle_limit: Option<String>,
+    /// S may be the power of a laser: S0 with the spindle on is no mistake.
+    pub s_may_be_power: bool,
 }
 
 /// The keys of `[check]`.
@@ -44,6 +46,7 @@ pub(crate) struct AdviceRow {
     whole_feed: Option<String>,
     spindle_limit: Option<String>,
     subprograms_in_control: Option<bool>,
+    s_may_be_power: Option<bool>,
 }
 
 impl AdviceRow {
@@ -56,6 +59,7 @@ impl AdviceRow {
             whole_feed: self.whole_feed.or_else(|| base.whole_feed.clone()),
             subprograms_in_control: self.subprograms_in_control.unwrap_or(base.subprograms_in_control),
             spindle_limit: self.spindle_limit.or_else(|| base.spindle_limit.clone()),
+            s_may_be_power: self.s_may_be_power.unwrap_or(base.s_may_be_power),
         }
     }
 }

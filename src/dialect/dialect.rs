@@ -63,6 +63,10 @@ pub struct Quirks {
     pub cycle_level_optional: bool,
     /// Where a drilling cycle returns to is not stated by a source that is read here.
     pub cycle_return_unknown: bool,
+    /// A line that begins with `$` is a command to the control, and `!`, `~` and `?` act when they arrive (grbl).
+    pub dollar_commands: bool,
+    /// Text before the first `%` is the leader of the tape: the control skips it (Fanuc).
+    pub skips_leader: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
     pub machine_data_suppress_length: bool,

@@ -1,4 +1,5 @@
 //! Tests of the tables and of what reads them.
+mod controls;
 mod detection;
 mod hostile;
 mod lathes;

@@ -28,6 +28,14 @@ pub const UNSUPPORTED: &[Unsupported] = &[
         title: "Eding CNC",
     },
     Unsupported {
+        name: "fagor",
+        title: "Fagor",
+    },
+    Unsupported {
+        name: "sinumerik-iso",
+        title: "SINUMERIK in an ISO dialect (G291)",
+    },
+    Unsupported {
         name: "wire-edm",
         title: "wire EDM (Accutex, Agie, Charmilles, Fanuc, Sodick and the like)",
     },

@@ -33,7 +33,7 @@ impl<'d> Iso<'d> {
             }
             return;
         }
-        if self.core.dialect.name == "grbl" && self.grbl_line(block, sink) {
+        if self.core.dialect.quirks.dollar_commands && self.grbl_line(block, sink) {
             return;
         }
         let mut codes = std::mem::take(&mut self.codes);

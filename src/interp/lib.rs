@@ -24,6 +24,7 @@ mod flow;
 mod frames;
 mod iso;
 mod klartext;
+mod leader;
 mod macro_b;
 mod memory;
 mod named_words;
@@ -59,6 +60,7 @@ pub const UNNAMED_ZERO: &str = "G500";
 
 pub use effects::Situation;
 pub use klartext::{SentenceWord, sentence_words};
+pub use leader::leader;
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{

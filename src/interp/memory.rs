@@ -51,6 +51,8 @@ pub(crate) struct Memory<'d> {
     /// Motions of the current block except its last.
     pub(crate) out: Vec<crate::Motion>,
     pub(crate) percent_seen: bool,
+    /// Blocks of the leader, where the caller chooses the blocks.
+    pub(crate) leader: u32,
     /// M24 of a Haas lathe: threads are left at their end.
     pub(crate) thread_chamfer_off: bool,
 }

@@ -84,6 +84,25 @@ mod tests {
         "%\nO1\nG17 G21 G90 G94\nT1 M6\nG54 G0 X0. Y0.\nG43 H1 Z-10.\nS3000 M3\nG1 X20. F200.\nM5\nM30\n%\n";
 
     #[test]
+    fn a_called_program_may_be_among_the_files() {
+        let main = "%\nO1\nG21 G90 G94 G17\nG54 G0 X0. Y0. Z5.\nM98 P2000\nG0 Z5.\nM30\n%\n";
+        let alone = verdict(r#"{"name": "a.nc", "dialect": "fanuc-30i"}"#, main);
+        let has_missing = |found: &Value| found.to_string().contains("missing-subprogram");
+        assert!(has_missing(&alone), "{alone}");
+        let sub = r#"{"name": "a.nc", "dialect": "fanuc-30i", "files": {"O2000.nc": "%\nO2000\nG0 X7.\nM99\n%\n"}}"#;
+        let found = verdict(sub, main);
+        assert!(!has_missing(&found), "{found}");
+        let motions = |found: &Value| found["summary"]["motions"].as_u64();
+        assert_eq!((motions(&alone), motions(&found)), (Some(2), Some(3)), "{found}");
+        // a file with another name is no such program, and the message says where it was searched
+        let other = verdict(&sub.replace("\"O2000.nc\"", "\"other.nc\""), main);
+        assert!(
+            has_missing(&other) && other.to_string().contains("the files that were given"),
+            "{other}"
+        );
+    }
+
+    #[test]
     fn settings_and_machine_files_are_texts() {
         let found = verdict(r#"{"name": "a.nc", "machine": "mill-3axis"}"#, PROGRAM);
         assert_eq!(found["files"][0]["verdict"], "unknown", "{found}");

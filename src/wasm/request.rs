@@ -22,7 +22,7 @@ pub struct Request {
     block_delete: Option<Switch>,
     scope: Option<Judged>,
     deny: Deny,
-    /// Settings (`trunnion.toml`), machine files and dialect tables by their names.
+    /// Settings (`trunnion.toml`), machine files, dialect tables and called programs by their names.
     files: BTreeMap<PathBuf, String>,
 }
 

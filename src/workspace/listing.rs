@@ -58,6 +58,16 @@ impl Listing {
         Ok(listing)
     }
 
+    /// Of files that are given as texts.
+    pub(crate) fn of_names(names: impl IntoIterator<Item = String>) -> Self {
+        let mut listing = Self::default();
+        for name in names {
+            listing.add(name);
+        }
+        listing.names.values_mut().for_each(|alike| alike.sort());
+        listing
+    }
+
     fn add(&mut self, name: String) {
         let lower = name.to_ascii_lowercase();
         for extension in EXTENSIONS {
@@ -73,6 +83,12 @@ impl Listing {
 
     /// The file named like one of `stems`: as written before other cases, without an extension before with one.
     pub(crate) fn find(&self, stems: &[String], folder: &Path) -> Option<PathBuf> {
+        self.named(stems, |name| folder.join(name).is_file())
+            .map(|name| folder.join(name))
+    }
+
+    /// The name of that file, if it is a file.
+    pub(crate) fn named(&self, stems: &[String], is_file: impl Fn(&str) -> bool) -> Option<&str> {
         for stem in stems {
             if !self.stems.contains(&stem.to_ascii_lowercase()) {
                 continue;
@@ -85,8 +101,8 @@ impl Listing {
                 };
                 let alike = self.names.get(&wanted.to_ascii_lowercase());
                 let found = alike.and_then(|alike| alike.iter().find(|name| **name == wanted).or(alike.first()));
-                if let Some(path) = found.map(|name| folder.join(name)).filter(|path| path.is_file()) {
-                    return Some(path);
+                if let Some(name) = found.filter(|name| is_file(name)) {
+                    return Some(name);
                 }
             }
         }

@@ -31,7 +31,7 @@ pub struct Overrides {
     pub block_delete: Option<bool>,
     /// What is taken as zero although it is not declared (`--assume`), in addition to the settings.
     pub assume: Vec<String>,
-    /// Texts of settings, machine files and dialect tables that take the place of files, by their paths: for a caller without a disk.
+    /// Texts of settings, machine files, dialect tables and called programs that take the place of files, by their paths: for a caller without a disk.
     pub texts: Texts,
 }
 
@@ -141,7 +141,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let declared = setup.control.tcp_codes.take();
     Machine::tell(machine.as_ref(), &mut setup.control);
     setup.control.tcp_codes = declared.or(setup.control.tcp_codes);
-    let subprograms = subprograms(path, &config, config_file.as_ref())?;
+    let subprograms = subprograms(path, &config, config_file.as_ref(), &overrides.texts)?;
     setup.library = Library(subprograms.clone().map(|found| found as Arc<dyn Files>));
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {
@@ -203,11 +203,12 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     }
 }
 
-/// Where programs that this one calls are searched: its own folder, then those of the settings, relative to the settings' file.
+/// Where programs that this one calls are searched: texts that were given, its own folder, then those of the settings, relative to the settings' file.
 fn subprograms(
     path: Option<&Path>,
     config: &Config,
     config_file: Option<&(PathBuf, String)>,
+    texts: &Texts,
 ) -> Result<Option<Arc<Subprograms>>, LoadError> {
     let mut folders = Vec::new();
     // a document that is not saved has a name, but no folder
@@ -226,10 +227,10 @@ fn subprograms(
             folders.push(folder);
         }
     }
-    if folders.is_empty() {
+    if folders.is_empty() && texts.0.is_empty() {
         return Ok(None);
     }
-    Ok(Some(Arc::new(Subprograms::new(folders))))
+    Ok(Some(Arc::new(Subprograms::new(folders).with_texts(texts))))
 }
 
 /// The settings and their file with its text: `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.

@@ -1,4 +1,5 @@
 //! Programs that a program calls: searched in its folder, then in the folders of `subprogram_path`, and nowhere else.
+use crate::Texts;
 use crate::listing::{Listing, Listings};
 use std::{
     fs::{self, File},
@@ -36,8 +37,10 @@ impl Folder {
     }
 }
 
-/// Finds programs in folders, in their order.
+/// Finds programs among texts that were given, then in folders, in their order.
 pub struct Subprograms {
+    /// Texts by name; `None` where none were given.
+    texts: Option<(Listing, Texts)>,
     folders: Vec<Folder>,
     looked: AtomicBool,
 }
@@ -46,9 +49,18 @@ impl Subprograms {
     /// Searches these folders, the first first.
     pub fn new(folders: impl IntoIterator<Item = PathBuf>) -> Self {
         Self {
+            texts: None,
             folders: folders.into_iter().map(Folder::new).collect(),
             looked: AtomicBool::new(false),
         }
+    }
+
+    /// Searches these texts before the folders.
+    #[must_use]
+    pub fn with_texts(mut self, texts: &Texts) -> Self {
+        let names = texts.0.keys().map(|path| path.display().to_string());
+        self.texts = (!texts.0.is_empty()).then(|| (Listing::of_names(names), texts.clone()));
+        self
     }
 
     /// Whether a program was looked for.
@@ -109,6 +121,16 @@ impl Files for Subprograms {
         self.looked.store(true, Ordering::Relaxed);
         let mut searched = Vec::new();
         let stems = stems(name);
+        if let Some((listing, texts)) = &self.texts {
+            let found = stems.as_ref().and_then(|stems| listing.named(stems, |_| true));
+            if let Some((name, text)) = found.and_then(|name| Some((name, texts.0.get(Path::new(name))?))) {
+                return Ok(Loaded {
+                    path: name.to_owned(),
+                    bytes: text.as_bytes().into(),
+                });
+            }
+            searched.push("the files that were given".to_owned().into());
+        }
         for folder in &self.folders {
             let shown = folder.path.display().to_string();
             let listing = match folder.listing() {
@@ -181,6 +203,24 @@ mod tests {
         let files = folder.files();
         assert_eq!(text(&files, "1000").as_deref(), Some("near"));
         assert_eq!(text(&files, "2000").as_deref(), Some("only far"));
+    }
+
+    #[test]
+    fn given_texts_go_before_folders() {
+        let folder = Temporary::new();
+        folder.write("1000.nc", "on the disk");
+        folder.write("2000.nc", "only on the disk");
+        let given = [("O1000.NC", "given"), ("3000", "three")];
+        let texts = Texts(given.map(|(name, text)| (PathBuf::from(name), text.to_owned())).into());
+        let files = folder.files().with_texts(&texts);
+        assert_eq!(text(&files, "1000").as_deref(), Some("given"));
+        assert_eq!(text(&files, "2000").as_deref(), Some("only on the disk"));
+        assert_eq!(text(&files, "3000").as_deref(), Some("three"));
+        let searched = Subprograms::new([])
+            .with_texts(&texts)
+            .load("4")
+            .expect_err("not given");
+        assert_eq!(searched, ["the files that were given".to_owned().into()]);
     }
 
     #[test]

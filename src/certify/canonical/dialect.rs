@@ -67,6 +67,8 @@ impl Encode for Quirks {
             straight_rapids,
             cycle_level_optional,
             cycle_return_unknown,
+            dollar_commands,
+            skips_leader,
             machine_data_suppress_length,
         } = self;
         let has = |wanted: Language| *language == wanted;
@@ -102,7 +104,9 @@ impl Encode for Quirks {
                 .field(28, &straight_rapids.then_some(true))
                 .field(29, &cycle_level_optional.then_some(true))
                 .field(30, &has(Language::UserTask).then_some(true))
-                .field(31, &cycle_return_unknown.then_some(true));
+                .field(31, &cycle_return_unknown.then_some(true))
+                .field(32, &dollar_commands.then_some(true))
+                .field(33, &skips_leader.then_some(true));
         });
     }
 }

@@ -20,13 +20,14 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; one finding per file, at the first such block, with all line ranges. Whether a block moves is judged by its
+//! Sound; one finding per file, at the first such block, with all line ranges. Text before the first `%` of a Fanuc program is a finding of
+//! its own, an info: the control skips it. Whether a block moves is judged by its
 //! words alone, and in doubt it does. Blocks that the settings skip (`--block-delete on`) are not reported, nor those after a
 //! place where another finding says why the run stopped.
 //!
 //! # Sources
 //! * docs/contract.md#verdicts
-use crate::coverage::{Coverage, NotRun};
+use crate::coverage::{Coverage, NotRun, NotRunReason};
 use crate::prelude::*;
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -37,14 +38,31 @@ const LISTED: usize = 8;
 
 fn check(coverage: &Coverage, out: &mut Reporter<'_>) {
     let program = out.program();
+    let lines = LineIndex::new(program.source());
+    let span = |part: &NotRun| Span::of(part, program, &lines);
+    if let Some(part) = coverage.leader() {
+        let (verb, them) = if part.first == part.last {
+            ("comes", "it")
+        } else {
+            ("come", "them")
+        };
+        out.report(
+            program.block(part.first).range(),
+            format!(
+                "{} {verb} before the first `%`, and the control skips {them}",
+                span(part).text()
+            ),
+        )
+        .value_text("reason", part.reason.name().to_owned())
+        .help("delete the text, or put it after the `%` as a comment");
+    }
     let still = coverage.travels == 0;
     let parts: Vec<&NotRun> = if still {
-        coverage.not_run.iter().collect()
+        let runs = |part: &&NotRun| part.reason != NotRunReason::BeforeStart;
+        coverage.not_run.iter().filter(runs).collect()
     } else {
         coverage.gaps().collect()
     };
-    let lines = LineIndex::new(program.source());
-    let span = |part: &NotRun| Span::of(part, program, &lines);
     let range = parts.first().map_or_else(
         || TextRange::new(0, u32::from(!program.source().is_empty())),
         |part| program.block(part.first).range(),
@@ -77,7 +95,7 @@ fn check(coverage: &Coverage, out: &mut Reporter<'_>) {
     }
     let help = if parts
         .iter()
-        .any(|part| part.reason == crate::NotRunReason::SubprogramNotCalled)
+        .any(|part| part.reason == NotRunReason::SubprogramNotCalled)
         || parts.is_empty()
     {
         "check the program that calls this one, with this file in its folder or under `subprogram_path`"
@@ -112,7 +130,7 @@ impl Span {
 
 #[cfg(test)]
 mod tests {
-    use crate::{NotRunReason, Report, Settings, Severity, Verdict, check};
+    use crate::{NotRunReason, Report, Settings, Severity, Status, Verdict, check};
     use trunnion_interp::Setup;
 
     fn report(dialect: &str, text: &str) -> Report {
@@ -205,6 +223,38 @@ mod tests {
             ),
             [(2, 2, "subprogram-not-called"), (6, 6, "jumped-over")]
         );
+    }
+
+    #[test]
+    fn text_before_the_first_percent_sign_is_one_finding() {
+        let program = "%\nO1\nG21 G90 G54 S100 M3\nG0 X0. Y0. Z9.\nG1 Z1. F100.\nM30\n%\n";
+        for text in [
+            "LEADER\n",
+            "From: me, 2020-01-01\nHere it is (rev. 3): X5,5\n",
+            "O9(TITLE)\n",
+        ] {
+            let found = report("fanuc-30i", &format!("{text}{program}"));
+            let clean = report("fanuc-30i", program);
+            assert_eq!(
+                found.diagnostics.len(),
+                clean.diagnostics.len() + 1,
+                "{text}: {:?}",
+                found.diagnostics
+            );
+            let leader = found
+                .diagnostics
+                .iter()
+                .find(|d| d.rule == "not-run")
+                .expect("the leader");
+            assert_eq!(
+                (leader.severity, leader.status),
+                (Severity::Info, Status::Fail),
+                "{text}"
+            );
+            assert_eq!(found.summary.motions, clean.summary.motions, "{text}");
+            assert_eq!(found.verdict(Severity::Error), clean.verdict(Severity::Error), "{text}");
+            assert_eq!(found.coverage.not_run[0].reason.name(), "before-start", "{text}");
+        }
     }
 
     #[test]

@@ -24,8 +24,10 @@
 //! # Guarantee
 //! Sound for programs that switch the spindle by codes that are modelled; one finding for each stretch of feed motions
 //! between two changes of the spindle. Where nothing in the program starts a spindle, `spindle-unset` reports that once
-//! instead: the tool may be one that does not turn. S0 is not reported in the dialect grbl, where S is the power of a
-//! laser, and is a warning where other motions of the same tool have a speed. Before the first code of the spindle its
+//! instead: the tool may be one that does not turn. S0 is not reported where the dialect says that S may be the power of
+//! a laser (grbl), and is a warning where other motions of the same tool have a speed. Where the same tool probes (G38.2
+//! to G38.5, G31) without a cut with a turning spindle between, it is a warning too, and in a subprogram that starts no
+//! spindle it is not reported: the tool is a probe, or is measured. Before the first code of the spindle its
 //! state is unknown, as it is in a subprogram and after a code of the machine builder. Feed motions in machine
 //! coordinates, and probing, are not judged. Whether there is material is not known.
 //!
@@ -37,11 +39,16 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Still(check)]);
 
 fn check(still: &StillCuts, out: &mut Reporter<'_>) {
-    let grbl = out.dialect().name == "grbl";
-    if still.why == Still::NoSpeed && (grbl || still.other_speed && !out.once(0)) {
+    let laser = out.dialect().advice.s_may_be_power;
+    if still.why == Still::NoSpeed && (laser || still.other_speed && !out.once(0)) {
         return;
     }
     match still.why {
+        Still::Off if still.probes => out
+            .report_block("this feed motion runs with the spindle off")
+            .severity(Warning)
+            .note("the same tool probes near it: if it is a probe, or is measured, this is intended")
+            .help("switch the spindle on (M3, M4) before the first cut, or allow the rule and give that reason"),
         Still::Off => out
             .report_block("this feed motion runs with the spindle off")
             .note("the program switched the spindle off earlier, by M5 or by a tool change")
@@ -64,8 +71,9 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::Severity;
     use crate::fixture::assert_drawn;
+    use crate::{Settings, Severity, check};
+    use trunnion_interp::Setup;
 
     #[test]
     fn an_unknown_spindle_is_no_finding() {
@@ -105,6 +113,56 @@ mod tests {
         let report = assert_drawn("gcode", text);
         assert_eq!(report.diagnostics[0].severity, Severity::Warning);
         assert_drawn("gcode grbl", "G21 M3 S0\nG1 X10 F100\nX20 S90\n");
+    }
+
+    #[test]
+    fn a_tool_that_probes_need_not_turn() {
+        let found = |text: &str| {
+            let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+            let settings = Settings::new(dialect, None, Setup::default());
+            let report = check(
+                &trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex),
+                &settings,
+            );
+            let own = report.diagnostics.iter().filter(|d| d.rule == "spindle-off-cut");
+            own.map(|d| (d.severity, d.count)).collect::<Vec<_>>()
+        };
+        let main = "G21 G90 G54\nM3 S100\nG1 X10 F100\nT2 M6\nG1 Z5 F100\nG38.2 Z-10 F50\nG1 Z5\n";
+        assert_eq!(found(&format!("{main}M2\n")), [(Severity::Warning, 2)]);
+        // another tool, or a cut between, is not that of the probe
+        assert_eq!(
+            found(&format!("{main}T3 M6\nG1 Z1\nM2\n")),
+            [(Severity::Warning, 2), (Severity::Error, 1)]
+        );
+        assert_eq!(
+            found(&format!("{main}M3\nG1 Z1\nM5\nG1 Z0\nM2\n")),
+            [(Severity::Warning, 2), (Severity::Error, 1)]
+        );
+        let measures =
+            |probe: &str| format!("o<setter> sub\nT1 M6\nG1 Z5 F100\n{probe}\nG1 Z5\no<setter> endsub\nM2\n");
+        assert_eq!(found(&measures("G38.2 Z-10 F50")), []);
+        assert_eq!(found(&measures("G1 Z-10 F50")), [(Severity::Error, 3)]);
+    }
+
+    #[test]
+    fn an_own_table_keeps_what_s_means() {
+        let table = "name = \"mine\"\nextends = \"grbl\"\n";
+        let dialect = trunnion_dialect::Dialect::from_table(table, "mine.toml").expect("a table");
+        let dialect: &'static _ = Box::leak(Box::new(dialect));
+        let settings = Settings::new(dialect, None, Setup::default());
+        let text = "$H\nG21 M3 S0\nG1 X10 F100\nX20 S90\nM5\nM2\n";
+        let report = check(
+            &trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex),
+            &settings,
+        );
+        let errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
+        assert_eq!(errors.map(|d| d.rule).collect::<Vec<_>>(), [] as [&str; 0]);
+        let homing = report
+            .diagnostics
+            .iter()
+            .find(|d| d.rule == "not-modelled")
+            .expect("$H");
+        assert!(homing.message.contains("homing"), "{}", homing.message);
     }
 
     #[test]

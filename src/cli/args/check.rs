@@ -46,8 +46,8 @@ pub(crate) struct Check {
     /// Check again whenever a file changes, until interrupted.
     #[arg(long, help_heading = "Again and again")]
     pub(crate) watch: bool,
-    /// Show at most this many findings per file, the worst ones first (0: all). By default 10 in pretty form, so that the report fits on a
-    /// screen, and 200 in short form.
+    /// Show at most this many findings per file, the worst ones first (0: all). By default as many as fit on a
+    /// screen of 40 lines in pretty form, and 200 in short form.
     #[arg(long)]
     pub(crate) limit: Option<usize>,
 }

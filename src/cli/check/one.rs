@@ -9,8 +9,8 @@ use crate::cli::{
     failure::{Failure, shown},
     json,
     load::{self, Loaded, Opened},
-    render::{self, Judged},
-    short,
+    render, short,
+    verdict::{Judged, verdict_line},
 };
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::Path};
@@ -172,7 +172,7 @@ impl Job<'_> {
             assumptions: &report.assumptions,
             accepted: split.accepted.len(),
         };
-        let line = render::verdict_line(&judged, self.colour());
+        let line = verdict_line(&judged, self.colour());
         let (text, about) = self.text(loaded, &report, &split, &judged, &line);
         let checked = Checked {
             text,
@@ -218,7 +218,7 @@ impl Job<'_> {
         let limit = self.command.limit;
         match self.format {
             CheckFormat::Pretty => {
-                let text = render::pretty(loaded, &lines, report, limit.unwrap_or(10), self.colour());
+                let text = render::pretty(loaded, &lines, report, limit, self.colour());
                 return (text, String::new());
             }
             CheckFormat::Short => {

@@ -51,7 +51,7 @@ fn state(global: &Global, command: &Check) -> State {
         let seen = seen.and_then(|metadata| Some((metadata.len(), metadata.modified().ok()?)));
         state.insert(path, seen);
     };
-    let found = walk::programs(&command.paths).unwrap_or_default();
+    let (found, _) = walk::search(&command.paths);
     let mut folders = BTreeSet::new();
     for file in &found.files {
         let folder = std::fs::canonicalize(file).unwrap_or_else(|_| file.clone());

@@ -2,7 +2,7 @@
 use crate::cli::{
     json::tidy,
     load::{Loaded, assuming},
-    render::counted,
+    verdict::counted,
 };
 use std::fmt::Write;
 use trunnion_diff::{Body, Change, Found, PathKind, Point, TechChange, Tolerance};

@@ -5,6 +5,7 @@ use super::votes::Votes;
 /// Signs in a line as it is written, in upper case.
 pub(super) fn raw(line: &str, votes: &mut Votes) {
     klartext(line, votes);
+    fagor(line, votes);
     marlin_comments(line, votes);
     if line.starts_with("//") {
         votes.add("wire-edm", 4, "a `//` comment");
@@ -19,8 +20,69 @@ pub(super) fn raw(line: &str, votes: &mut Votes) {
     }
 }
 
+/// Fagor: the first line of a program sent to a CNC 8055 is `%COMMENT,PERMISSIONS` with letters of MXHO, and its statements are in
+/// parentheses; a CNC 8065 has instructions that begin with `#` and statements of the flow that begin with `$` (Fagor, CNC 8055 and
+/// CNC 8065 programming manuals).
+fn fagor(line: &str, votes: &mut Votes) {
+    if let Some((name, permissions)) = line.strip_prefix('%').and_then(|rest| rest.split_once(',')) {
+        let letters = permissions.trim_end().trim_end_matches([',', ' ']);
+        let plain = !letters.is_empty() && letters.bytes().all(|b| matches!(b, b'M' | b'X' | b'H' | b'O' | b'-'));
+        if plain && !name.trim().is_empty() && letters.contains(['M', 'X']) {
+            votes.add("fagor", 20, "a header `%NAME,MX`");
+        }
+    }
+    let text = unnumbered(line);
+    let numbered = |start: &str| {
+        let rest = text.strip_prefix(start);
+        rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    for (start, weight) in [("(RPT N", 10), ("(P", 3), ("(CALL ", 3), ("(PCALL ", 10), ("(SUB ", 3)] {
+        let statement = numbered(start) && (start != "(P" || text.contains('='));
+        if statement {
+            votes.add("fagor", weight, &format!("the statement {start}...)"));
+        }
+    }
+    let compares = [" EQ ", " NE ", " GT ", " LT ", " GE ", " LE "];
+    let condition = text.strip_prefix("(IF ").is_some_and(|rest| {
+        let parameter = rest.starts_with('P') && rest[1..].starts_with(|c: char| c.is_ascii_digit());
+        parameter && compares.iter().any(|compare| rest.contains(compare))
+    });
+    if condition {
+        votes.add("fagor", 8, "the statement (IF ...)");
+    }
+    for name in [
+        "#CS ",
+        "#ACS ",
+        "#TCAM ",
+        "#RTCP ",
+        "#TLC ",
+        "#MSG ",
+        "#MSG[",
+        "#CALL ",
+        "#PCALL ",
+        "#HSC ",
+        "#SLOPE ",
+        "#TOOL AX",
+        "$IF ",
+        "$FOR ",
+        "$WHILE ",
+        "$ENDIF",
+        "$ENDFOR",
+        "$ENDWHILE",
+        "$GOTO ",
+    ] {
+        if text.starts_with(name) {
+            votes.add("fagor", 10, name.trim_end());
+        }
+    }
+}
+
 /// Signs in a line without comments, in upper case.
 pub(super) fn code(code: &str, votes: &mut Votes) {
+    // SINUMERIK, fundamentals: G291 changes to an ISO dialect
+    if has(code, b'G', "291") {
+        votes.add("sinumerik-iso", 12, "G291");
+    }
     okuma(code, votes);
     centroid_and_eding(code, votes);
     wire(code, votes);
@@ -139,6 +201,12 @@ fn okuma(code: &str, votes: &mut Votes) {
     }
     if has(code, b'G', "116") && word(code, b'T') {
         votes.add("okuma-osp", 8, "G116 T");
+    }
+    // the turret, and the spindle at the side of the chuck
+    for sign in ["G13", "G140", "G141"] {
+        if unnumbered(code) == sign {
+            votes.add("okuma-osp-lathe", 6, &format!("{sign} alone"));
+        }
     }
     if code.contains("HP=") {
         votes.add("okuma-osp", 8, "HP=");

@@ -30,6 +30,8 @@ const GROUPS: &[&[&str]] = &[
     &["okuma-osp", "okuma-osp-lathe"],
     &["centroid"],
     &["eding"],
+    &["fagor"],
+    &["sinumerik-iso"],
     &["wire-edm"],
     &["marlin"],
 ];
@@ -47,6 +49,7 @@ const IN_COMMENTS: &[(&str, &str)] = &[
     ("OKUMA", "okuma-osp"),
     ("CENTROID", "centroid"),
     ("EDINGCNC", "eding"),
+    ("FAGOR", "fagor"),
     ("MARLIN", "marlin"),
     ("ROBOFIL", "wire-edm"),
     ("SODICK", "wire-edm"),
@@ -110,8 +113,14 @@ impl Seen {
     pub(super) fn decide(&self, owner: Option<&'static str>, known: Surroundings<'_>) -> Option<Detected> {
         let lathe = self.shape.lathe(known.no_y).filter(|_| known.turns != Some(false));
         let shown = |group: &[&'static str]| {
-            let turned = group.contains(&FANUC) && lathe.as_ref().is_some_and(|found| found.strong);
-            self.votes.weight(group) + if turned { 10 } else { 0 }
+            let fanuc = group.contains(&FANUC);
+            let turned = fanuc && lathe.as_ref().is_some_and(|found| found.strong);
+            let against = if fanuc {
+                self.votes.weight(&[supported::NOT_FANUC])
+            } else {
+                0
+            };
+            (self.votes.weight(group) + if turned { 10 } else { 0 }).saturating_sub(against)
         };
         let (mut best, mut most, mut second) = (GROUPS[0], 0, 0);
         for group in GROUPS {

@@ -104,6 +104,9 @@ fn apt_source(line: &str, votes: &mut Votes) {
     }
 }
 
+/// Signs against a Fanuc, for none of the others alone.
+pub(super) const NOT_FANUC: &str = "not-fanuc";
+
 /// Signs in a line without comments, in upper case.
 pub(super) fn code(code: &str, votes: &mut Votes) {
     sinumerik(code, votes);
@@ -173,6 +176,16 @@ const O_WORDS: &[&str] = &[
 ];
 
 fn linuxcnc_and_fanuc(code: &str, votes: &mut Votes) {
+    // how arc centres count: LinuxCNC, grbl, Mach3 and others of their kind, whose posts also write G28 G91 Z0 and G43 H
+    for number in ["90.1", "91.1"] {
+        if has(code, b'G', number) {
+            votes.add(NOT_FANUC, 6, &format!("G{number}"));
+        }
+    }
+    // Fanuc Series 30i: a program with a name in place of a number
+    if votes.line <= 5 && code.starts_with('<') && code.ends_with('>') && code.len() > 2 {
+        votes.add("fanuc-30i", 6, "a program name <...>");
+    }
     if let Some(rest) = code.strip_prefix('O').map(str::trim_start) {
         program_number(rest, votes);
     }

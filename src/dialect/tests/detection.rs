@@ -1,8 +1,8 @@
 //! Which dialect is found for a file.
-use crate::{Detected, Foreign, builtin, detect, is_program_file_name, program_extensions};
+use crate::{Detected, builtin, detect, is_program_file_name, program_extensions};
 use std::path::{Path, PathBuf};
 
-fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, String) {
+pub(super) fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, String) {
     let Detected { dialect, reason, .. } = detect(name, text.as_bytes(), family);
     (dialect.name.clone(), reason)
 }
@@ -218,56 +218,6 @@ fn klartext_is_told_by_its_blocks() {
             (detected.dialect.name.as_str(), detected.foreign),
             ("heidenhain-klartext", None),
             "{text}"
-        );
-    }
-}
-
-#[test]
-fn controls_that_are_not_read() {
-    for (text, name) in [
-        ("%A G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN20 G00 X+5*\n", "heidenhain-iso"),
-        ("OHOME\nG0 X60.\nG20 HP=4\nRTS\n", "okuma-osp-lathe"),
-        ("$PART.MIN%\nG50 S2000\nT010101\nG0 X50 Z2\nM2\n", "okuma-osp-lathe"),
-        ("IF #4201 || #4202 THEN GOTO 1000\n#29952 = #25012\nN1000\n", "centroid"),
-        ("Sub user_1\n    DlgMsg \"a\" \"b\" 1\nEndSub\n", "eding"),
-        ("E001=10 16 15 09 08\nH1=0.1670\nG92 X0 Y0\nE1\nG1 X3.\n", "wire-edm"),
-        ("G92 X0 Y0\nG60\nG38\nG39\nG41 D0\nG1 X5\n", "wire-edm"),
-        (
-            "PARTNO TEST\nCUTTER/10\nP1=POINT/1,2,3\nL1 = LINE/P1,P2\nFROM/P1\nGO/TO,L1\nTLLFT,GOLFT/L1,PAST,L2\nFINI\n",
-            "apt-source",
-        ),
-        (
-            "PARTNO A\nMAC1=MACRO/X=5\nGOTO/X,0,0\nTERMAC\nCALL/MAC1,X=3\nFINI\n",
-            "apt-source",
-        ),
-        (
-            "PARTNO A\nC1=CIRCLE/0,0,5\nID1)GOTO/P5\nJUMPTO/ID1\nFINI\n",
-            "apt-source",
-        ),
-        (";FLAVOR:Marlin\nM104 S200\nG28\nG92 E0\nG1 X5 E0.2 F1200\n", "marlin"),
-    ] {
-        let found = detect(Some("a.nc"), text.as_bytes(), None);
-        let control = match found.foreign {
-            Some(Foreign::Control(control)) => control.name,
-            other => panic!("{text}: {} {other:?} {}", found.dialect.name, found.reason),
-        };
-        assert_eq!(control, name, "{text}: {}", found.reason);
-    }
-}
-
-/// What an APT processor writes is read, also arcs as CATIA writes them.
-#[test]
-fn cl_data_are_no_apt_source() {
-    for text in [
-        "PARTNO A\nINDIRV/0,1,0\nTLON,GOFWD/(CIRCLE/0,0,0,5),ON,(LINE/0,0,0,0,5,0)\nFINI\n",
-        "PARTNO/A\nCIRCLE/0,0,0,0,0,1,5\nGOTO/0,5,0\nFINI\n",
-        "TOOL PATH/A,TOOL,B\nGOTO/8.,0,0\nEND-OF-PATH\n",
-    ] {
-        let found = detect(Some("a.apt"), text.as_bytes(), None);
-        assert!(
-            found.foreign.is_none() && found.dialect.name == "apt",
-            "{text}: {}",
-            found.reason
         );
     }
 }

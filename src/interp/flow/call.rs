@@ -170,7 +170,7 @@ impl Iso<'_> {
                 let text = called.program.bytes(block.range());
                 text.trim_ascii_start().first() == Some(&b'%')
             });
-            u32::from(percent)
+            u32::from(percent).max(crate::leader(&called.program, dialect))
         })
     }
 

@@ -38,9 +38,12 @@ impl<'d> Engine<'d> for Iso<'d> {
         if self.flow.trail.is_some() {
             return self.advance_deep(program, sink);
         }
+        if !self.flow.follows {
+            self.flow.next = self.flow.next.max(crate::leader(program, self.core.dialect));
+            self.flow.follows = true;
+        }
         let block = BlockId(self.flow.next);
         self.flow.next += 1;
-        self.flow.follows = true;
         self.run_one(program, block, sink);
         if self.flow.deep.is_some() || self.memory.own.pending.is_some() {
             self.first_statement(program, block, sink);
@@ -153,6 +156,12 @@ impl<'d> Iso<'d> {
     /// Runs one block, for callers that choose the blocks themselves.
     pub(crate) fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
         self.flow.follows = false;
+        if block.0 == 0 {
+            self.memory.leader = crate::leader(program, self.core.dialect);
+        }
+        if block.0 < self.memory.leader {
+            return;
+        }
         self.run_one(program, block, sink);
     }
 

@@ -217,17 +217,30 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// `<SUB>` names the program of the call before it; elsewhere it has no meaning.
+    /// `<SUB>` names the program of the call before it; alone in a line of a Fanuc it is the name of the program; elsewhere it has no meaning.
     pub(crate) fn program_name(&mut self, range: TextRange) {
         let calls = self.macros.as_mut().is_some_and(|macros| {
             let code = macros.deep.as_ref().and_then(|deep| deep.code);
             macros.mode == Mode::Step || matches!(code, Some((code, _)) if code.takes_name())
         });
+        let text = self.program.text(range);
         if calls {
             self.words.program_name = Some(range);
+        } else if is_fanuc(self.dialect) && self.is_alone(range) && text.trim_end().ends_with('>') {
+            // the name of the program, in place of its number
+            self.words.has_values = false;
         } else {
             (self.report)(range, FaultKind::UnknownWord);
         }
+    }
+
+    /// Whether nothing else is in the line.
+    fn is_alone(&self, range: TextRange) -> bool {
+        let block = self
+            .program
+            .block_at(range.start)
+            .map(|id| self.program.block(id).range());
+        block.is_some_and(|block| self.program.text(block).trim() == self.program.text(range).trim())
     }
 
     /// Keeps what is to be done when the block has run; a run that cannot continue stays so.

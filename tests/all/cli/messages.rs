@@ -174,7 +174,7 @@ fn the_worst_are_shown_first_and_counted_as_printed() {
     // by default the report of a file fits on a screen, and says how to see the rest
     let pretty = text(&trunnion(&["check", "--format", "pretty", str(&file)]).stdout);
     assert!(
-        pretty.lines().count() <= 45 && pretty.contains("--limit 0 shows them all"),
+        pretty.lines().count() <= 40 && pretty.contains("--limit 0 shows them all"),
         "{pretty}"
     );
     assert!(pretty.contains("error["), "{pretty}");

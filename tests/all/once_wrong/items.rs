@@ -310,6 +310,16 @@ pub(super) const ITEMS: &[Item] = &[
         [2, 2],
     ),
     (
+        "text before the first percent sign",
+        ["fanuc-30i", ""],
+        [
+            "From: shop, 2020-01-01\nBracket (rev. 3): X5,5\n%\n",
+            "O1\nG21 G17 G90 G94 G54\nG0 X0. Y0. Z5.\nM30\n%\n",
+        ],
+        &[],
+        [1, 1],
+    ),
+    (
         "DEF REAL H2 and a shorter assignment",
         ["sinumerik-840d", ""],
         ["DEF REAL H2\n", "G17 G90 G94 G54 G71\nH2=5\nG0 X=H2 Y0 Z0\nM30\n"],

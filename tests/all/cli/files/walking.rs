@@ -55,6 +55,36 @@ fn nothing_in_a_folder_is_passed_over_in_silence() {
     assert!(last.starts_with("4 files: "), "{said}");
 }
 
+/// What this program wrote itself is no file that was left out, and a baseline that is not used is named.
+#[test]
+fn baselines_caches_and_reports_are_known() {
+    let folder = folder();
+    let programs = folder.path().join("programs");
+    fs::create_dir_all(&programs).expect("a folder");
+    write(&folder, "programs/a.nc", LOOSE);
+    let (baseline, cache) = (programs.join("baseline.json"), programs.join("kept"));
+    let report = programs.join("report.json");
+    trunnion(&["check", str(&programs), "--write-baseline", str(&baseline)]);
+    trunnion(&["check", str(&programs), "--cache", str(&cache)]);
+    trunnion(&["check", str(&programs), "--format", "json", "-o", str(&report)]);
+    assert!(baseline.is_file() && report.is_file() && cache.read_dir().expect("a cache").count() > 0);
+    let said = text(&trunnion(&["check", str(&programs)]).stderr);
+    assert!(!said.contains("left out"), "{said}");
+    assert!(
+        said.contains("baseline.json: a baseline, which is not used; --baseline"),
+        "{said}"
+    );
+    let said = text(&trunnion(&["check", str(&programs), "--baseline", str(&baseline)]).stderr);
+    assert!(!said.contains("left out") && !said.contains("not used"), "{said}");
+    // other JSON is
+    write(&folder, "programs/other.json", "{\"schema\": \"mine/1\"}\n");
+    let said = text(&trunnion(&["check", str(&programs), "-v"]).stderr);
+    assert!(
+        said.contains("other.json: left out") && !said.contains("baseline.json: left out"),
+        "{said}"
+    );
+}
+
 #[test]
 fn an_unreadable_file_of_a_folder_counts_as_not_checked() {
     let folder = folder();

@@ -1,0 +1,103 @@
+//! The line that says the verdict on a file: what was judged, how much of it, and the counts.
+use super::failure::shown;
+use std::fmt::Write;
+use trunnion_check::{Coverage, Scope, Summary, Verdict};
+
+/// What the verdict on a file says.
+pub(super) struct Judged<'a> {
+    /// Path as given.
+    pub(super) name: &'a str,
+    pub(super) verdict: Verdict,
+    pub(super) summary: Summary,
+    /// The machine it was checked for.
+    pub(super) machine: Option<&'a str>,
+    /// Why the file is not read, if it is not.
+    pub(super) not_read: Option<String>,
+    /// The dialect and why, where that was not certain.
+    pub(super) read_as: Option<String>,
+    /// How much was judged.
+    pub(super) scope: Scope,
+    pub(super) coverage: &'a Coverage,
+    /// Undeclared values that were assumed.
+    pub(super) assumptions: &'a [String],
+    /// How many findings the baseline accepts.
+    pub(super) accepted: usize,
+}
+
+/// The last line of the pretty form: verdict and counts.
+pub(super) fn verdict_line(file: &Judged<'_>, color: bool) -> String {
+    let (word, code) = match file.verdict {
+        Verdict::Pass => ("PASS", "32"),
+        Verdict::Fail => ("FAIL", "31"),
+        Verdict::Unknown => ("UNKNOWN", "33"),
+    };
+    let word = if color {
+        format!("\u{1b}[1;{code}m{word}\u{1b}[0m")
+    } else {
+        word.to_owned()
+    };
+    if let Some(why) = &file.not_read {
+        return format!("{word} {}: not read, because {why}", shown(file.name));
+    }
+    let of = match (file.scope, file.machine) {
+        (Scope::Machine, Some(machine)) => format!(" on {machine}"),
+        (Scope::Machine, None) => " on no machine".to_owned(),
+        (scope, None) => format!(" in scope {} (no machine)", scope.name()),
+        (scope, Some(_)) => format!(" in scope {}", scope.name()),
+    };
+    let s = &file.summary;
+    let mut line = format!(
+        "{word} {}{of}: {} of {} run, {}",
+        shown(file.name),
+        file.coverage.blocks_run,
+        counted(file.coverage.blocks, "block"),
+        counted(s.motions, "motion"),
+    );
+    if let Some(read_as) = &file.read_as {
+        let _ = write!(line, ", read as {read_as}");
+    }
+    if !file.assumptions.is_empty() {
+        let _ = write!(line, ", assuming {}", assumed(file.assumptions));
+    }
+    let found = [
+        (s.errors, counted(s.errors, "error")),
+        (s.warnings, counted(s.warnings, "warning")),
+        (s.infos, counted(s.infos, "info")),
+        (s.unknown, format!("{} unknown", s.unknown)),
+    ];
+    let found: Vec<&str> = found
+        .iter()
+        .filter(|(n, _)| *n > 0)
+        .map(|(_, text)| text.as_str())
+        .collect();
+    if !found.is_empty() {
+        let _ = write!(line, "; {}", found.join(", "));
+    }
+    if file.accepted > 0 {
+        let _ = write!(
+            line,
+            "; {} accepted by the baseline",
+            counted(file.accepted as u64, "finding")
+        );
+    }
+    line
+}
+
+/// Assumptions in a line: the first few, and how many more there are.
+fn assumed(all: &[String]) -> String {
+    const MOST: usize = 4;
+    let plain: Vec<&str> = all
+        .iter()
+        .map(|text| text.trim_end_matches(" (not declared)"))
+        .collect();
+    match plain.split_at_checked(MOST) {
+        Some((some, rest)) if !rest.is_empty() => format!("{} and {} more", some.join(", "), rest.len()),
+        _ => plain.join(", "),
+    }
+}
+
+/// `1 error`, `2 errors`.
+pub(super) fn counted(count: u64, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
+}

@@ -61,7 +61,8 @@ impl Klartext<'_> {
             let what = "the pole: coordinates of CC that are not known, or a new coordinate system after it";
             self.not_modelled_once(what, report);
         } else {
-            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            let message = "the arc or polar block has no centre: write CC before it";
+            Self::rejected(Refusal::ArcCentre, message, report);
         }
     }
 
@@ -124,7 +125,8 @@ impl Klartext<'_> {
 
     fn checked(&self, arc: Option<Arc>, report: &mut Report<'_>) -> Option<Arc> {
         let Some(arc) = arc else {
-            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            let message = "the arc starts or ends at its centre CC: it has no radius";
+            Self::rejected(Refusal::ArcRadius, message, report);
             return None;
         };
         if let Some(kind) = mismatch(&arc, self.core.dialect, self.core.state.coordinates.unit_mm()) {

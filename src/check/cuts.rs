@@ -21,6 +21,28 @@ pub(crate) enum Still {
     NeverStarted,
 }
 
+/// Whether a spindle turned at any time of the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Started {
+    /// The program started it.
+    Yes,
+    /// Something that is not modelled may have started it: a builder's code, a program that is missing. Feed motions before that had none.
+    Perhaps,
+    /// Nothing started it.
+    No,
+}
+
+impl Started {
+    /// From what is in effect at the end.
+    pub(crate) fn of(by_program: bool, unread: bool) -> Self {
+        match (by_program, unread) {
+            (true, _) => Self::Yes,
+            (false, true) => Self::Perhaps,
+            (false, false) => Self::No,
+        }
+    }
+}
+
 /// Feed motions in a row for which the same holds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StillCuts {
@@ -112,15 +134,17 @@ impl Cuts {
     }
 
     /// All stretches in the order of their blocks. Only of a main program it is said that nothing starts the spindle, or gives S: the
-    /// caller of a subprogram may have done so, as may what comes before a part of a program. `started`: something started a spindle, or may have.
-    fn finish(&self, part: Part, started: bool) -> Vec<StillCuts> {
-        if started || part == Part::Called {
+    /// caller of a subprogram may have done so, as may what comes before a part of a program.
+    fn finish(&self, part: Part, started: Started) -> Vec<StillCuts> {
+        if started != Started::No || part == Part::Called {
             let may_turn = |cuts: &StillCuts| StillCuts {
                 other_speed: self.with_speed.contains(&cuts.tool),
                 ..*cuts
             };
             let told = |cuts: &&StillCuts| part == Part::Main || cuts.why != Still::SpeedUnsaid;
-            return self.found.values().filter(told).map(may_turn).collect();
+            let before = self.quiet.iter().filter(|_| started == Started::Perhaps && part == Part::Main);
+            let found = self.found.values().filter(told).map(may_turn);
+            return before.copied().chain(found).collect();
         }
         let quiet = self.quiet.iter().filter(|_| part == Part::Main);
         let whole = quiet.chain(self.found.values()).copied().reduce(|mut whole, cuts| {
@@ -139,8 +163,8 @@ impl Cuts {
     }
 }
 
-/// Asks the rules about each stretch. `started`: something started a spindle, or may have.
-pub(crate) fn report_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: bool) {
+/// Asks the rules about each stretch.
+pub(crate) fn report_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: Started) {
     for still in cuts.finish(reporter.part(), started) {
         reporter.origin(false, still.chain);
         ask(rules, reporter, (Some(still.first), 0), |wake, out| {

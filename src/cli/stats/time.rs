@@ -1,5 +1,6 @@
 //! How long a program takes: in all, by tool and operation, where it is slow, and why.
 use crate::cli::load::Loaded;
+use crate::cli::render::counted;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -321,7 +322,7 @@ impl<'a> Times<'a> {
         if let Some(line) = self.first_unknown {
             row(
                 "unknown",
-                &format!("the time of {} motions, the first in line {line}", self.unknown),
+                &format!("the time of {}, the first in line {line}", counted(self.unknown, "motion")),
             );
         }
         for (index, missing) in self.not_declared().iter().enumerate() {

@@ -4,7 +4,7 @@ use super::path::Path;
 use super::path_words::PathWords;
 use super::values::Value;
 use super::words::Words;
-use crate::arc::{mismatch, plane_axes};
+use crate::arc::{ONE_PLACE_MM, mismatch, plane_axes};
 use crate::core::{LINEAR, Report};
 use crate::frames::sin_cos_degrees;
 use crate::{FaultKind, MotionKind, Position, Refusal};
@@ -129,6 +129,7 @@ impl Klartext<'_> {
             Self::rejected(Refusal::ArcRadius, message, report);
             return None;
         };
+        let arc = arc.closed_within(ONE_PLACE_MM);
         if let Some(kind) = mismatch(&arc, self.core.dialect, self.core.state.coordinates.unit_mm()) {
             report.fault(TextRange::default(), kind);
         }

@@ -254,6 +254,25 @@ fn refused_programs() {
     assert!(arc("CC X+5 Y+0\n", "X+5 Y+0").contains("at its centre CC: it has no radius"));
 }
 
+/// The start was computed about a pole, so that it misses the end of the circle by rounding.
+#[test]
+fn a_circle_that_closes_within_rounding() {
+    let text = program(
+        "L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nCP IPA+30 DR+ F100\nCC X+1 Y+1\nC X+8.6602540 Y+5.0000000 DR-\nC X+8.66025 Y+5 DR+\nC X+8.6602 Y+5 DR+\n",
+    );
+    let sweeps: Vec<f64> = run_text(NAME, &text)
+        .motions
+        .iter()
+        .filter_map(|motion| match motion.kind {
+            MotionKind::Arc(Some(arc)) => Some(arc.sweep.to_degrees()),
+            _ => None,
+        })
+        .collect();
+    assert!((sweeps[1] + 360.0).abs() < 1e-4 && (sweeps[2] - 360.0).abs() < 1e-4, "{sweeps:?}");
+    // five hundredths of a micrometre are an arc
+    assert!((sweeps[3] - 360.0).abs() > 1e-6 && sweeps[3].abs() < 360.0, "{sweeps:?}");
+}
+
 /// The coordinate of the tool axis in CYCL CALL POS shifts the levels of the cycle; in which order the axes go there is not known.
 #[test]
 fn a_cycle_at_a_place() {

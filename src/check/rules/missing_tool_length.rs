@@ -114,7 +114,6 @@ mod tests {
         for text in [
             "G43 H1 Z5.\nG1 Z-1. F100.\nG0 G49 Z100.\nM30\n",
             "G53 G0 Z0.\nG43 H1 Z5.\nG1 Z-1. F100.\nM30\n",
-            "G28 G91 Z0.\nG90 G43 H1 Z5.\nG1 Z-1. F100.\nM30\n",
         ] {
             assert_drawn("gcode fanuc-30i", &format!("{first}{text}"));
         }
@@ -126,12 +125,12 @@ mod tests {
         let text = |tools: &str, finding: &str| {
             format!("{tools}T5 M6\nS100 M3\nG43 H6 G0 X0. Y0. Z5.\nG1 Z-1. F100.\n{finding}G0 Z5.\nM30\n")
         };
-        let finding = ";^^^^^^^^^^^^^ missing-tool-length: T5 cuts with the length offset H6, which is that of another tool\n";
-        assert_drawn("gcode haas-mill", &text("", finding));
-        assert_drawn("gcode haas-mill", &text("(trunnion: tool 6 length 80)\n", finding));
+        let finding = ";^^^^^^^^^^^^ missing-tool-length: T5 cuts with the length offset H6, which is that of another tool\n";
+        assert_drawn("gcode haas-ngc", &text("", finding));
+        assert_drawn("gcode haas-ngc", &text("(trunnion: tool 6 length 80)\n", finding));
         // declared alike
         let both = "(trunnion: tool 5 length 80)\n(trunnion: tool 6 length 80)\n";
-        assert_drawn("gcode haas-mill", &text(both, ""));
+        assert_drawn("gcode haas-ngc", &text(both, ""));
     }
 
     #[test]

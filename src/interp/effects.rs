@@ -288,7 +288,6 @@ impl Iso<'_> {
             self.core.effects.ambiguous_number(block);
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
-        // the lines of a polynomial are near its path and not on it
         if has_other_effects || unknown_end || unknown_frame || unread || words.polynomial {
             let keep = if moved && !frame && !words.forgets_all && !words.polynomial {
                 Keep::BesideMotion

@@ -320,10 +320,8 @@ impl<'a> Times<'a> {
             row(if index == 0 { "slowest" } else { "" }, &text);
         }
         if let Some(line) = self.first_unknown {
-            row(
-                "unknown",
-                &format!("the time of {}, the first in line {line}", counted(self.unknown, "motion")),
-            );
+            let motions = counted(self.unknown, "motion");
+            row("unknown", &format!("the time of {motions}, the first in line {line}"));
         }
         for (index, missing) in self.not_declared().iter().enumerate() {
             row(if index == 0 { "not declared" } else { "" }, missing);

@@ -2,6 +2,7 @@
 //!
 //! A part is a tree of lines, arcs in three planes, helices, holes, loops, subprograms, datum shifts and tilted planes. `TRUNNION_PARTS=10000`
 //! compares that many.
+mod numbers;
 mod part;
 mod written;
 

@@ -1,7 +1,6 @@
 //! A part in the words of each control.
+use super::numbers::{euler, number};
 use super::part::{Hole, Holes, Op, PECK_CLEARANCE, Part, SHIFTS};
-use std::fmt::Write as _;
-use trunnion_geometry::math::{atan2, cos, hypot, sin};
 
 /// A control for which parts are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,18 +42,6 @@ struct Writer {
     text: String,
     /// Labels that were given.
     names: u32,
-}
-
-/// A number with up to seven decimals; with a point for a Fanuc, with a sign for Klartext.
-fn number(control: Control, value: f64) -> String {
-    let text = format!("{value:.7}");
-    let text = text.trim_end_matches('0');
-    let text = if text == "-0." { "0." } else { text };
-    match control {
-        Control::Fanuc => text.to_owned(),
-        Control::Klartext if !text.starts_with('-') => format!("+{}", text.trim_end_matches('.')),
-        _ => text.trim_end_matches('.').to_owned(),
-    }
 }
 
 impl Writer {
@@ -374,31 +361,4 @@ impl Writer {
         self.ops(inside);
         self.line(off);
     }
-}
-
-/// Angles about Z, the new X, the new Z of turns by `a`, `b`, `c` about the fixed X, Y, Z.
-fn euler([a, b, c]: [f64; 3]) -> [f64; 3] {
-    let [(sa, ca), (sb, cb), (sc, cc)] = [a, b, c].map(|angle| (sin(angle.to_radians()), cos(angle.to_radians())));
-    // the third column and the third row of Rz(c) Ry(b) Rx(a)
-    let z = [cc * sb * ca + sc * sa, sc * sb * ca - cc * sa, cb * ca];
-    let row = [-sb, cb * sa];
-    if hypot(z[0], z[1]) < 1e-12 {
-        // upright, as a is 0 or 180 only where b is 0: a turn about Z
-        return [c, 0.0, 0.0];
-    }
-    [
-        atan2(z[0], -z[1]),
-        atan2(hypot(z[0], z[1]), z[2]),
-        atan2(row[0], row[1]),
-    ]
-    .map(f64::to_degrees)
-}
-
-#[test]
-fn numbers_are_written_for_their_control() {
-    let mut text = String::new();
-    for control in ALL {
-        let _ = write!(text, "{} {} ", number(control, 12.0), number(control, -0.000_000_01));
-    }
-    assert_eq!(text, "+12 +0 12 0 12. 0. 12 0 ");
 }

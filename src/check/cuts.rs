@@ -142,7 +142,10 @@ impl Cuts {
                 ..*cuts
             };
             let told = |cuts: &&StillCuts| part == Part::Main || cuts.why != Still::SpeedUnsaid;
-            let before = self.quiet.iter().filter(|_| started == Started::Perhaps && part == Part::Main);
+            let before = self
+                .quiet
+                .iter()
+                .filter(|_| started == Started::Perhaps && part == Part::Main);
             let found = self.found.values().filter(told).map(may_turn);
             return before.copied().chain(found).collect();
         }

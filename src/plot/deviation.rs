@@ -100,7 +100,10 @@ fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
         (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
     ];
     if unjudged > 0 {
-        legend.push((Swatch::Dot(VERMILION), format!("unknown in {}", counted(unjudged, "block"))));
+        legend.push((
+            Swatch::Dot(VERMILION),
+            format!("unknown in {}", counted(unjudged, "block")),
+        ));
     }
     legend
 }

@@ -32,7 +32,10 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
         ));
     }
     if record.unknown > 0 {
-        legend.push((Swatch::Dot(GREY), format!("{} unknown", counted(record.unknown, "motion"))));
+        legend.push((
+            Swatch::Dot(GREY),
+            format!("{} unknown", counted(record.unknown, "motion")),
+        ));
     }
     let cut = record.blocks.iter().filter(|block| !block.rapid);
     let (mut low, mut high) = extent(cut.flat_map(|block| record.of(block)).map(|sample| sample.tip));

@@ -109,7 +109,9 @@ mod tests {
         let first = "T1 M6\nS100 M3\nG0 X0. Y0.\n";
         assert_drawn(
             "gcode fanuc-30i",
-            &format!("{first}Z5.\n;^^ missing-tool-length: T1 goes to Z 5 mm without its length\nG43 H1 Z2.\nG1 Z-1. F100.\nM30\n"),
+            &format!(
+                "{first}Z5.\n;^^ missing-tool-length: T1 goes to Z 5 mm without its length\nG43 H1 Z2.\nG1 Z-1. F100.\nM30\n"
+            ),
         );
         for text in [
             "G43 H1 Z5.\nG1 Z-1. F100.\nG0 G49 Z100.\nM30\n",
@@ -117,7 +119,10 @@ mod tests {
         ] {
             assert_drawn("gcode fanuc-30i", &format!("{first}{text}"));
         }
-        assert_drawn("gcode sinumerik-840d", "T1\nM6\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n");
+        assert_drawn(
+            "gcode sinumerik-840d",
+            "T1\nM6\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n",
+        );
     }
 
     #[test]
@@ -125,7 +130,8 @@ mod tests {
         let text = |tools: &str, finding: &str| {
             format!("{tools}T5 M6\nS100 M3\nG43 H6 G0 X0. Y0. Z5.\nG1 Z-1. F100.\n{finding}G0 Z5.\nM30\n")
         };
-        let finding = ";^^^^^^^^^^^^ missing-tool-length: T5 cuts with the length offset H6, which is that of another tool\n";
+        let finding =
+            ";^^^^^^^^^^^^ missing-tool-length: T5 cuts with the length offset H6, which is that of another tool\n";
         assert_drawn("gcode haas-ngc", &text("", finding));
         assert_drawn("gcode haas-ngc", &text("(trunnion: tool 6 length 80)\n", finding));
         // declared alike

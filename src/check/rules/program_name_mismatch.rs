@@ -41,11 +41,8 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
             Some((false, name)) => {
                 if let Some(begun) = begun.as_deref().filter(|begun| !begun.eq_ignore_ascii_case(&name)) {
                     let end = if name.is_empty() { "nothing" } else { &name };
-                    out.report(
-                        sentence.range,
-                        format!("END PGM names {end}, BEGIN PGM names {begun}"),
-                    )
-                    .help("check that the program is complete, then write the same name and unit in both blocks");
+                    out.report(sentence.range, format!("END PGM names {end}, BEGIN PGM names {begun}"))
+                        .help("check that the program is complete, then write the same name and unit in both blocks");
                 }
             }
             None => {}
@@ -79,7 +76,10 @@ mod tests {
             "gcode heidenhain-klartext",
             "0 BEGIN PGM A-1 MM\n1 M30\n2 END PGM A-1 INCH\n; ^^^^^^^^^^^^^^^^ program-name-mismatch: END PGM names A-1 INCH, BEGIN PGM names A-1 MM\n",
         );
-        assert_drawn("gcode heidenhain-klartext", "0 BEGIN PGM a-1 mm\n1 M30\n2 END PGM A-1 MM\n");
+        assert_drawn(
+            "gcode heidenhain-klartext",
+            "0 BEGIN PGM a-1 mm\n1 M30\n2 END PGM A-1 MM\n",
+        );
         assert_drawn("gcode heidenhain-klartext", "0 BEGIN PGM A MM\n1 M30\n");
     }
 }

@@ -72,7 +72,11 @@ mod tests {
             ("fanuc-30i", "O1\nG21 G0 X0.\nM98 P777\nG1 X10. F100.\nM30\n", false),
             ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM98 P777\nM30\n", true),
             ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM13\nM30\n", true),
-            ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM98 P777\nM3 S100\nM30\n", false),
+            (
+                "fanuc-30i",
+                "O1\nG21 G0 X0.\nG1 X10. F100.\nM98 P777\nM3 S100\nM30\n",
+                false,
+            ),
             ("iso-6983", "G21 G0 X0\nG1 X10 F100\n", false),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nG1 X10 F100\nM2\n", true),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nM101\nG1 X10 F100\nM2\n", false),

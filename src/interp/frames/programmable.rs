@@ -2,12 +2,12 @@
 //! is there, each word alone ends all (Sinumerik 840D sl Programming Manual, Fundamentals, frames). The shift is part of the zero point, what
 //! turns, scales and mirrors is a [`super::Shape`]. Turns about another axis than the plane's third are not followed.
 use super::Linear;
-use crate::{FaultKind, Position};
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::{FaultKind, Position};
 
 impl<'d> Iso<'d> {
     /// Regardless of G91, the words of the block are those of the frame.

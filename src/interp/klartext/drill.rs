@@ -65,7 +65,9 @@ impl Klartext<'_> {
             hole.surface = hole.surface.zip(shift).map(|(surface, shift)| surface + shift / unit);
         }
         // every hole begins at its clearance
-        let level = hole.as_ref().and_then(|hole| Some((hole.surface? + hole.clear?) * unit));
+        let level = hole
+            .as_ref()
+            .and_then(|hole| Some((hole.surface? + hole.clear?) * unit));
         match level {
             Some(level) => end.set(along, level),
             None => end.forget(along),

@@ -249,8 +249,12 @@ impl Iso<'_> {
             .and_then(|(start, end)| lines(&whole(&said, start, end, unit)?));
         self.memory.own.contour.heading_is_lost();
         let Some(ends) = ends else {
-            let what = "POLY: the path of this block: its values, or with other axes, radius compensation, TRAORI, G91 or G93";
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what: what.to_owned() });
+            let what =
+                "POLY: the path of this block: its values, or with other axes, radius compensation, TRAORI, G91 or G93";
+            report.fault(
+                words.first.unwrap_or_default(),
+                FaultKind::NotModelled { what: what.to_owned() },
+            );
             motion.kind = MotionKind::Unknown;
             return motion;
         };
@@ -343,7 +347,10 @@ mod tests {
         let mut way = 0.0;
         for end in &ends {
             let radius = |at: &Vec3| trunnion_geometry::math::hypot(at.x, at.y);
-            assert!((radius(end) - 10.0).abs() < 1e-12 && (end.z - 3.0).abs() < 1e-12, "{end}");
+            assert!(
+                (radius(end) - 10.0).abs() < 1e-12 && (end.z - 3.0).abs() < 1e-12,
+                "{end}"
+            );
             let middle = (before + end) * 0.5;
             assert!(10.0 - radius(&middle) <= CHORD_MM, "{middle}");
             way += (end - before).norm();

@@ -54,7 +54,11 @@ impl Hole {
         match self {
             Self { open: true, .. } => Way::NotKnown,
             // the last time out is the end of the hole
-            Self { cleared: 0 | 1, broken: 0, .. } => Way::OneStroke,
+            Self {
+                cleared: 0 | 1,
+                broken: 0,
+                ..
+            } => Way::OneStroke,
             Self { cleared: 0 | 1, .. } => Way::ChipsBroken,
             Self { broken: 0, .. } => Way::Cleared,
             _ => Way::ChipsBrokenAndCleared,
@@ -83,7 +87,8 @@ fn holes(dialect: &str, text: &str, surface: f64) -> Vec<Hole> {
         }
         let moves = |axis: usize| motion.start.get(axis) != to.get(axis);
         // off the wall of a bore it is still in the hole
-        let inside = here.as_ref().is_some_and(|hole| hole.strokes > 0) && motion.start.get(2).is_some_and(|z| z < surface);
+        let inside =
+            here.as_ref().is_some_and(|hole| hole.strokes > 0) && motion.start.get(2).is_some_and(|z| z < surface);
         let sideways = moves(0) || moves(1);
         if sideways && !inside && here.as_ref().map(|hole| hole.place) != place {
             found.extend(here.take());
@@ -171,7 +176,10 @@ fn the_holes_are_those_of_the_other_control() {
             (10, same(Way::ChipsBrokenAndCleared, Out::Rapid)),
             (10, same(Way::OneStroke, Out::Feed)),
             (20, same(Way::NotKnown, Out::Feed)),
-            (10, [(Way::ChipsBrokenAndCleared, Out::Feed), (Way::NotKnown, Out::Feed)]),
+            (
+                10,
+                [(Way::ChipsBrokenAndCleared, Out::Feed), (Way::NotKnown, Out::Feed)]
+            ),
             (10, same(Way::OneStroke, Out::Feed)),
             (3, same(Way::OneStroke, Out::Rapid)),
             (3, [(Way::OneStroke, Out::Rapid), (Way::OneStroke, Out::NotKnown)]),

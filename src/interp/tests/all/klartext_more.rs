@@ -268,16 +268,24 @@ fn a_circle_that_closes_within_rounding() {
             _ => None,
         })
         .collect();
-    assert!((sweeps[1] + 360.0).abs() < 1e-4 && (sweeps[2] - 360.0).abs() < 1e-4, "{sweeps:?}");
+    assert!(
+        (sweeps[1] + 360.0).abs() < 1e-4 && (sweeps[2] - 360.0).abs() < 1e-4,
+        "{sweeps:?}"
+    );
     // five hundredths of a micrometre are an arc
-    assert!((sweeps[3] - 360.0).abs() > 1e-6 && sweeps[3].abs() < 360.0, "{sweeps:?}");
+    assert!(
+        (sweeps[3] - 360.0).abs() > 1e-6 && sweeps[3].abs() < 360.0,
+        "{sweeps:?}"
+    );
 }
 
 /// The coordinate of the tool axis in CYCL CALL POS shifts the levels of the cycle; in which order the axes go there is not known.
 #[test]
 fn a_cycle_at_a_place() {
     let cycle = "CYCL DEF 201 B ~\n Q200=2 ~\n Q201=-10 ~\n Q206=150 ~\n Q211=0 ~\n Q208=500 ~\n Q203=+5 ~\n Q204=20\n";
-    let text = program(&format!("{cycle}L X+0 Y+0 Z+100 R0 FMAX M3\nCYCL CALL POS X+10 Y+20 Z+3 FMAX\nL X+1 F300\n"));
+    let text = program(&format!(
+        "{cycle}L X+0 Y+0 Z+100 R0 FMAX M3\nCYCL CALL POS X+10 Y+20 Z+3 FMAX\nL X+1 F300\n"
+    ));
     assert_eq!(
         lines(NAME, &text)[1..],
         [
@@ -289,11 +297,20 @@ fn a_cycle_at_a_place() {
         ]
     );
     let found = faults(NAME, &text);
-    assert!(found.iter().any(|fault| fault.contains("the way to its position")), "{found:?}");
-    let text = program(&format!("{cycle}L X+0 Y+0 Z+100 R0 FMAX M3\nCYCL CALL POS X+10 Y+20 FMAX\n"));
+    assert!(
+        found.iter().any(|fault| fault.contains("the way to its position")),
+        "{found:?}"
+    );
+    let text = program(&format!(
+        "{cycle}L X+0 Y+0 Z+100 R0 FMAX M3\nCYCL CALL POS X+10 Y+20 FMAX\n"
+    ));
     let found = faults(NAME, &text);
     assert!(found.iter().any(|fault| fault.contains("all three axes")), "{found:?}");
-    assert!(run_text(NAME, &text).motions[1..].iter().all(|motion| motion.end.get(2).is_none()));
+    assert!(
+        run_text(NAME, &text).motions[1..]
+            .iter()
+            .all(|motion| motion.end.get(2).is_none())
+    );
 }
 
 /// Rigid tapping turns the spindle itself; afterwards it may turn or not. With a compensating chuck (206) the program turns it.
@@ -301,7 +318,9 @@ fn a_cycle_at_a_place() {
 fn rigid_tapping_turns_the_spindle() {
     let tap = |cycle: &str, spindle: &str| {
         let words = "Q200=2 ~\n Q201=-10 ~\n Q239=1.5 ~\n Q206=600 ~\n Q203=+0 ~\n Q204=20";
-        let text = format!("TOOL CALL 1 Z S400\n{cycle} ~\n {words}\nL X+0 Y+0 Z+20 R0 FMAX {spindle}\nCYCL CALL\nL Z+19 F100\n");
+        let text = format!(
+            "TOOL CALL 1 Z S400\n{cycle} ~\n {words}\nL X+0 Y+0 Z+20 R0 FMAX {spindle}\nCYCL CALL\nL Z+19 F100\n"
+        );
         let motions = run_text(NAME, &program(&text)).motions;
         let feeds = motions.iter().filter(|motion| motion.is_feed());
         feeds.map(|motion| motion.spindle_on).collect::<Vec<_>>()

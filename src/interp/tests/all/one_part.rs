@@ -133,7 +133,10 @@ fn compare(seed: u64) -> usize {
         .into_iter()
         .filter(|control| *control != Control::Okuma || !part.tilts())
         .collect();
-    let written: Vec<(Control, String)> = controls.iter().map(|control| (*control, control.write(&part))).collect();
+    let written: Vec<(Control, String)> = controls
+        .iter()
+        .map(|control| (*control, control.write(&part)))
+        .collect();
     let run = |(control, text): &(Control, String)| {
         steps(*control, text).unwrap_or_else(|why| panic!("part {seed}, {control:?}: {why}\n{text}"))
     };
@@ -141,7 +144,11 @@ fn compare(seed: u64) -> usize {
     assert!(!first.is_empty(), "part {seed} moves nothing");
     for other in &written[1..] {
         let found = run(other);
-        let same = first.iter().zip(&found).take_while(|(one, two)| one.is_same(two)).count();
+        let same = first
+            .iter()
+            .zip(&found)
+            .take_while(|(one, two)| one.is_same(two))
+            .count();
         assert!(
             same == first.len() && same == found.len(),
             "part {seed}: step {same} of {} and {}:\n{:?}: {:#?}\n{:?}: {:#?}\n{}\n{}",

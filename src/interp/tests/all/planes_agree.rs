@@ -74,7 +74,11 @@ fn forms(turn: &Mat3) -> Vec<(String, &'static str, String)> {
     let [i, j, k] = euler(turn);
     let [x, y, z] = [0, 1, 2].map(|column| Vec3::from(turn.column(column)));
     let mut klartext = |form: &str, words: String| {
-        forms.push((format!("PLANE {form}"), KLARTEXT, format!("PLANE {form} {words} STAY\n")));
+        forms.push((
+            format!("PLANE {form}"),
+            KLARTEXT,
+            format!("PLANE {form} {words} STAY\n"),
+        ));
     };
     klartext("SPATIAL", format!("SPA{a:+.13} SPB{b:+.13} SPC{c:+.13}"));
     klartext("EULER", format!("EULPR{i:+.13} EULNU{j:+.13} EULROT{k:+.13}"));
@@ -99,9 +103,15 @@ fn forms(turn: &Mat3) -> Vec<(String, &'static str, String)> {
     let zero = "X0. Y0. Z0.";
     fanuc("G68.2", format!("G68.2 {zero} I{i:.13} J{j:.13} K{k:.13}\n"));
     let [one, two, three] = angles([0, 1, 2], turn);
-    fanuc("G68.2 P1 Q123", format!("G68.2 P1 Q123 {zero} I{one:.13} J{two:.13} K{three:.13}\n"));
+    fanuc(
+        "G68.2 P1 Q123",
+        format!("G68.2 P1 Q123 {zero} I{one:.13} J{two:.13} K{three:.13}\n"),
+    );
     let [one, two, three] = angles([1, 0, 2], turn);
-    fanuc("G68.2 P1 Q213", format!("G68.2 P1 Q213 {zero} I{two:.13} J{one:.13} K{three:.13}\n"));
+    fanuc(
+        "G68.2 P1 Q213",
+        format!("G68.2 P1 Q213 {zero} I{two:.13} J{one:.13} K{three:.13}\n"),
+    );
     fanuc(
         "G68.2 P2",
         format!(
@@ -145,7 +155,11 @@ fn columns(dialect: &str, blocks: &str, setup: &Setup) -> Option<Mat3> {
         .collect();
     let ends = ends?;
     let [zero, x, y, z] = ends.as_slice() else { return None };
-    Some(Mat3::from_columns(&[(x - zero) / 100.0, (y - zero) / 100.0, (z - zero) / 100.0]))
+    Some(Mat3::from_columns(&[
+        (x - zero) / 100.0,
+        (y - zero) / 100.0,
+        (z - zero) / 100.0,
+    ]))
 }
 
 #[test]
@@ -189,9 +203,17 @@ fn a_relative_plane_of_one_angle() {
 #[test]
 fn forms_without_a_source_stay_unknown_by_name() {
     for (dialect, blocks, name) in [
-        (KLARTEXT, "PLANE PROJECTED PROPR+10 PROMIN+20 ROT+30 STAY\n", "PLANE PROJECTED"),
+        (
+            KLARTEXT,
+            "PLANE PROJECTED PROPR+10 PROMIN+20 ROT+30 STAY\n",
+            "PLANE PROJECTED",
+        ),
         (KLARTEXT, "PLANE AXIAL A+10 C+20 STAY\n", "PLANE AXIAL"),
-        (KLARTEXT, "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nPLANE RELATIV SPB+20 STAY\n", "PLANE RELATIV"),
+        (
+            KLARTEXT,
+            "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nPLANE RELATIV SPB+20 STAY\n",
+            "PLANE RELATIV",
+        ),
         (FANUC, "G68.2 P4 X0. Y0. Z0. I10. J20. K0.\n", "G68.2"),
         (FANUC, "G68.3 X0. Y0. Z0. R10.\n", "G68.3"),
         (SIEMENS, "CYCLE800(0,\"T\",0,192,0,0,0,10,20,0,0,0,0,0)\n", "CYCLE800"),

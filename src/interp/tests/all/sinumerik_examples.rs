@@ -163,7 +163,10 @@ fn a_quarter_circle_as_a_polynomial() {
     let text = "G17 G90 G71 G1 X10 Y0 Z0 F100\nPOLY PO[X]=(0,-10) PO[Y]=(10) PO[]=(2,1)\n";
     let motions = run_text(NAME, text).motions;
     let curve = &motions[1..];
-    assert_eq!(curve.last().and_then(|motion| motion.end.xyz()), Some([0.0, 10.0, 0.0].into()));
+    assert_eq!(
+        curve.last().and_then(|motion| motion.end.xyz()),
+        Some([0.0, 10.0, 0.0].into())
+    );
     let mut way = 0.0;
     for motion in curve {
         let (from, to) = (motion.start.xyz().expect("known"), motion.end.xyz().expect("known"));
@@ -178,17 +181,34 @@ fn a_quarter_circle_as_a_polynomial() {
     let motions = run_text(NAME, text).motions;
     let at = |place: f64| {
         let near = motions.iter().filter_map(|motion| motion.end.xyz());
-        near.min_by(|a, b| (a.y - place).abs().total_cmp(&(b.y - place).abs())).expect("one")
+        near.min_by(|a, b| (a.y - place).abs().total_cmp(&(b.y - place).abs()))
+            .expect("one")
     };
     // x = 6 p - p^2 over 0..3, y = p
-    assert!((at(1.5).x - (6.0 * at(1.5).y - at(1.5).y.powi(2))).abs() < 1e-9, "{}", at(1.5));
+    assert!(
+        (at(1.5).x - (6.0 * at(1.5).y - at(1.5).y.powi(2))).abs() < 1e-9,
+        "{}",
+        at(1.5)
+    );
     assert_eq!(line(&motions[motions.len() - 2]), "L X20 Y5 Z0 F100");
     // what is not computed has a known end
-    for blocks in ["G91 POLY PO[X]=(9,1)", "POLY PO[X]=(9,R7777)", "POLY PO[X]=(9,1) PO[]=(-1)", "POLY PO[X]=(9,1) A5"] {
+    for blocks in [
+        "G91 POLY PO[X]=(9,1)",
+        "POLY PO[X]=(9,R7777)",
+        "POLY PO[X]=(9,1) PO[]=(-1)",
+        "POLY PO[X]=(9,1) A5",
+    ] {
         let text = format!("G17 G90 G71 G1 X0 Y0 Z0 A0 F100\n{blocks}\n");
         let motions = run_text(NAME, &text).motions;
-        assert_eq!(line(&motions[1]).split(' ').take(2).collect::<Vec<_>>(), ["U", "X9"], "{blocks}");
-        assert!(faults(NAME, &text).iter().any(|fault| fault.contains("POLY")), "{blocks}");
+        assert_eq!(
+            line(&motions[1]).split(' ').take(2).collect::<Vec<_>>(),
+            ["U", "X9"],
+            "{blocks}"
+        );
+        assert!(
+            faults(NAME, &text).iter().any(|fault| fault.contains("POLY")),
+            "{blocks}"
+        );
     }
 }
 

@@ -28,7 +28,11 @@ impl Random {
         low + (self.below(((high - low) * 100.0) as u64 + 1)) as f64 / 100.0
     }
     fn place(&mut self) -> [f64; 3] {
-        [self.length(-80.0, 80.0), self.length(-80.0, 80.0), self.length(5.0, 60.0)]
+        [
+            self.length(-80.0, 80.0),
+            self.length(-80.0, 80.0),
+            self.length(5.0, 60.0),
+        ]
     }
 }
 
@@ -269,12 +273,17 @@ fn helix(random: &mut Random, at: &mut [f64; 3], feed: f64) -> Op {
 
 fn holes(random: &mut Random, feed: f64) -> Holes {
     let count = 1 + random.below(4);
-    let places = (0..count).map(|_| [random.length(-80.0, 80.0), random.length(-80.0, 80.0)]).collect();
+    let places = (0..count)
+        .map(|_| [random.length(-80.0, 80.0), random.length(-80.0, 80.0)])
+        .collect();
     let surface = random.length(-5.0, 5.0);
     let clearance = random.length(1.0, 3.0);
     let (kind, depth) = match random.below(5) {
         0 => (Hole::Drill(0.0), random.length(2.0, 20.0)),
-        1 => (Hole::Drill(0.25 * (1 + random.below(8)) as f64), random.length(2.0, 20.0)),
+        1 => (
+            Hole::Drill(0.25 * (1 + random.below(8)) as f64),
+            random.length(2.0, 20.0),
+        ),
         2 => (Hole::Ream, random.length(2.0, 20.0)),
         3 => (Hole::Tap(0.25 * (2 + random.below(6)) as f64), random.length(2.0, 20.0)),
         _ => {

@@ -54,7 +54,9 @@ impl Writer {
     }
     /// `X1 Y2 Z3`.
     fn place(&self, place: &[(usize, f64)]) -> String {
-        let words = place.iter().map(|(axis, value)| format!("{}{}", LETTERS[*axis], self.n(*value)));
+        let words = place
+            .iter()
+            .map(|(axis, value)| format!("{}{}", LETTERS[*axis], self.n(*value)));
         words.collect::<Vec<_>>().join(" ")
     }
 
@@ -195,14 +197,19 @@ impl Writer {
             (Control::Okuma, _) | (Control::Fanuc, Hole::Peck(_)) => return self.by_steps(holes),
             (Control::Klartext, kind) => {
                 let (number, own) = match kind {
-                    Hole::Drill(dwell) => (200, format!("Q206={feed} ~\n Q202={depth} ~\n Q210=0 ~\n Q211={dwell} ~\n")),
+                    Hole::Drill(dwell) => (
+                        200,
+                        format!("Q206={feed} ~\n Q202={depth} ~\n Q210=0 ~\n Q211={dwell} ~\n"),
+                    ),
                     Hole::Peck(step) => (200, format!("Q206={feed} ~\n Q202={step} ~\n Q210=0 ~\n Q211=0 ~\n")),
                     Hole::Ream => (201, format!("Q206={feed} ~\n Q211=0 ~\n Q208={feed} ~\n")),
                     Hole::Tap(pitch) => (207, format!("Q239={pitch} ~\n")),
                 };
                 let depth = self.n(-depth);
                 let (surface, second) = (self.n(surface), self.n(level - surface));
-                format!("CYCL DEF {number} H ~\n Q200={clearance} ~\n Q201={depth} ~\n {own} Q203={surface} ~\n Q204={second}")
+                format!(
+                    "CYCL DEF {number} H ~\n Q200={clearance} ~\n Q201={depth} ~\n {own} Q203={surface} ~\n Q204={second}"
+                )
             }
             (Control::Siemens, kind) => {
                 let levels = format!(
@@ -231,7 +238,11 @@ impl Writer {
                     Hole::Tap(pitch) => ("G84", String::new(), pitch_feed(pitch)),
                     Hole::Peck(_) => unreachable!("by steps"),
                 };
-                format!("G98 {code} {place} R{}{own} F{}", self.n(surface + clearance), self.n(feed))
+                format!(
+                    "G98 {code} {place} R{}{own} F{}",
+                    self.n(surface + clearance),
+                    self.n(feed)
+                )
             }
         };
         self.line(&begin);
@@ -348,7 +359,12 @@ impl Writer {
                 "PLANE RESET STAY",
             ),
             Control::Siemens => (
-                format!("CYCLE800(0,\"T\",0,27,0,0,0,{},{},{},0,0,0,0)", self.n(c), self.n(b), self.n(a)),
+                format!(
+                    "CYCLE800(0,\"T\",0,27,0,0,0,{},{},{},0,0,0,0)",
+                    self.n(c),
+                    self.n(b),
+                    self.n(a)
+                ),
                 "CYCLE800()",
             ),
             Control::Fanuc => {

@@ -161,14 +161,12 @@ type Piece = [[f64; 4]; N];
 /// Both halves (de Casteljau).
 fn halves(piece: &Piece) -> [Piece; 2] {
     let (mut left, mut right, mut work) = (*piece, *piece, *piece);
-    for level in 0..N {
-        left[level] = work[0];
+    for (level, slot) in left.iter_mut().enumerate() {
+        *slot = work[0];
         right[N - 1 - level] = work[N - 1 - level];
-        for at in 0..N - 1 - level {
-            let (here, next) = (work[at], work[at + 1]);
-            for (slot, (one, two)) in work[at].iter_mut().zip(here.into_iter().zip(next)) {
-                *slot = 0.5 * (one + two);
-            }
+        let before = work;
+        for (at, pair) in before[..N - level].windows(2).enumerate() {
+            work[at] = core::array::from_fn(|axis| 0.5 * (pair[0][axis] + pair[1][axis]));
         }
     }
     [left, right]

@@ -21,6 +21,28 @@ pub(crate) enum Still {
     NeverStarted,
 }
 
+/// Whether a spindle turned at any time of the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Started {
+    /// The program started it.
+    Yes,
+    /// Something that is not modelled may have started it: a builder's code, a program that is missing. Feed motions before that had none.
+    Perhaps,
+    /// Nothing started it.
+    No,
+}
+
+impl Started {
+    /// From what is in effect at the end.
+    pub(crate) fn of(by_program: bool, unread: bool) -> Self {
+        match (by_program, unread) {
+            (true, _) => Self::Yes,
+            (false, true) => Self::Perhaps,
+            (false, false) => Self::No,
+        }
+    }
+}
+
 /// Feed motions in a row for which the same holds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StillCuts {
@@ -139,15 +161,15 @@ impl Cuts {
     }
 
     /// All stretches in the order of their blocks. Only of a main program it is said that nothing starts the spindle, or gives S: the
-    /// caller of a subprogram may have done so, as may what comes before a part of a program. `started`: something started a spindle, or may have.
+    /// caller of a subprogram may have done so, as may what comes before a part of a program.
     /// A subprogram that probes and starts no spindle moves a probe, or a tool that it measures.
-    fn finish(&self, program: &Program, part: Part, started: bool) -> Vec<StillCuts> {
+    fn finish(&self, program: &Program, part: Part, started: Started) -> Vec<StillCuts> {
         let touches: Vec<_> = self
             .touches
             .iter()
             .filter(|touch| is_probing(program, touch.2))
             .collect();
-        if started || part == Part::Called {
+        if started != Started::No || part == Part::Called {
             let may_turn = |cuts: &StillCuts| StillCuts {
                 other_speed: self.with_speed.contains(&cuts.tool),
                 probes: touches
@@ -156,9 +178,13 @@ impl Cuts {
                 ..*cuts
             };
             let told = |cuts: &&StillCuts| part == Part::Main || cuts.why != Still::SpeedUnsaid;
-            let measures = |cuts: &StillCuts| !started && cuts.why == Still::Off && cuts.probes;
+            let measures = |cuts: &StillCuts| started == Started::No && cuts.why == Still::Off && cuts.probes;
+            let before = self
+                .quiet
+                .iter()
+                .filter(|_| started == Started::Perhaps && part == Part::Main);
             let found = self.found.values().filter(told).map(may_turn);
-            return found.filter(|cuts| !measures(cuts)).collect();
+            return before.copied().chain(found.filter(|cuts| !measures(cuts))).collect();
         }
         let quiet = self.quiet.iter().filter(|_| part == Part::Main);
         let whole = quiet.chain(self.found.values()).copied().reduce(|mut whole, cuts| {
@@ -189,8 +215,8 @@ fn is_probing(program: &Program, block: BlockId) -> bool {
     program.block(block).words().any(code)
 }
 
-/// Asks the rules about each stretch. `started`: something started a spindle, or may have.
-pub(crate) fn report_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: bool) {
+/// Asks the rules about each stretch.
+pub(crate) fn report_still(cuts: &Cuts, rules: &[Active], reporter: &mut Reporter<'_>, started: Started) {
     for still in cuts.finish(reporter.program(), reporter.part(), started) {
         reporter.origin(false, still.chain);
         ask(rules, reporter, (Some(still.first), 0), |wake, out| {

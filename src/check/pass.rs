@@ -1,7 +1,7 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
 use crate::config::Scope;
 use crate::coverage::Tally;
-use crate::cuts::{Cuts, report_still};
+use crate::cuts::{Cuts, Started, report_still};
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::pace::Pace;
@@ -36,6 +36,7 @@ pub(crate) struct Pass<'a> {
     in_force: Option<InForce>,
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
+    last_approach: Option<u32>,
     looker: Option<Looker<'a>>,
     assume: Assume,
     datum: Option<Datum>,
@@ -85,6 +86,7 @@ impl<'a> Pass<'a> {
             legs: waiting(legs),
             in_force: None,
             last_cut: None,
+            last_approach: None,
             looker: settings.judged_machine().map(Looker::new),
             assume: settings.assume,
             datum: settings
@@ -200,8 +202,9 @@ impl<'a> Pass<'a> {
         let assumptions = listed.chain(self.assumed_radii).chain(relied).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
-            let was_started = interpreter.state().spindle.was_started();
-            report_still(cuts, &self.rules, &mut reporter, was_started);
+            let spindle = interpreter.state().spindle;
+            let started = Started::of(spindle.was_started(), spindle.is_unread());
+            report_still(cuts, &self.rules, &mut reporter, started);
         }
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
@@ -338,10 +341,14 @@ impl Pass<'_> {
             motion,
             in_force,
             last_cut: self.last_cut,
+            last_approach: self.last_approach,
             dialect: self.dialect,
         };
         if motion.is_feed() {
             self.last_cut = motion.tool;
+        }
+        if motion.is_feed() || view.approaches() {
+            self.last_approach = motion.tool;
         }
         let (block, number) = (motion.block, self.summary.motions);
         if let Some(cuts) = &mut self.cuts {

@@ -57,6 +57,7 @@ mod pole_flip;
 mod porting;
 mod position_unknown;
 mod program_alarm;
+mod program_name_mismatch;
 mod rapid_through_obstacle;
 mod rejected_block;
 mod repeated_word;
@@ -159,6 +160,7 @@ static RULES: &[&Rule] = table![
     porting,
     position_unknown,
     program_alarm,
+    program_name_mismatch,
     rapid_through_obstacle,
     rejected_block,
     repeated_word,

@@ -6,7 +6,7 @@ use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::{deg, math};
-use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, Tool};
+use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, MotionKind, Tilt, Tool};
 use trunnion_machine::{
     AxisKind, Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations,
     tip_deviation, windings,
@@ -50,6 +50,8 @@ pub(crate) struct MotionView<'a> {
     pub(crate) in_force: &'a InForce,
     /// The tool of the last feed motion.
     pub(crate) last_cut: Option<u32>,
+    /// The tool of the last rapid to another Z, or feed motion.
+    pub(crate) last_approach: Option<u32>,
     /// The dialect of the program.
     pub(crate) dialect: &'a Dialect,
 }
@@ -105,6 +107,16 @@ impl InForce {
 }
 
 impl MotionView<'_> {
+    /// Whether it is a rapid to another Z of the workpiece.
+    pub(crate) fn approaches(&self) -> bool {
+        const Z: usize = 2;
+        let (start, end) = (self.motion.start.get(Z), self.motion.end.get(Z));
+        self.motion.kind == MotionKind::Rapid
+            && !self.motion.machine_coordinates
+            && self.motion.tilt == Tilt::default()
+            && end.is_some()
+            && start != end
+    }
     /// Whether a length changes to another one than zero, which is zero in any unit.
     pub(crate) fn changes_a_length(&self) -> bool {
         // X, Y, Z, U, V, W in the order of a position

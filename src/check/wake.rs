@@ -3,9 +3,9 @@ use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn, LostArc, LostEnd,
-    NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass, PostureSwap,
-    StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, LongTurn,
+    LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass,
+    PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -151,6 +151,8 @@ wakes! {
     motions {
         /// The first feed motion with a tool.
         FirstCut,
+        /// The first rapid to another Z with a tool, before its first feed motion.
+        FirstApproach,
         /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
         CutSpindleUnlimited,
         /// A length of which nothing says whether it is inch or mm.

@@ -110,8 +110,9 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         remark(
             global.quiet,
             &format!(
-                "{}: {count} motions with an unknown path are not drawn; see `trunnion check`",
-                loaded.name
+                "{}: not drawn: {} with an unknown path; see `trunnion check`",
+                loaded.name,
+                crate::cli::render::counted(count as u64, "motion")
             ),
         );
     }

@@ -15,7 +15,7 @@ impl Planner<'_> {
                 Err(self.refuse(posed, message.to_owned()))
             }
             Feed::InverseTime(_) if !self.inverse_time => {
-                let message = "an inverse time feed without a path, and the target control has no inverse time feed";
+                let message = "this cut moves nothing and takes the time that its inverse time feed (G93) says; the target control has no inverse time feed, so there is no word for it";
                 Err(self.refuse(posed, message.to_owned()))
             }
             Feed::PerRevolution(per_turn) if !self.per_revolution => match posed.motion.spindle_rpm {

@@ -24,7 +24,7 @@ fn klartext_grammar(dialects: &[&Dialect]) -> Value {
     let motion = |code: &Code| {
         matches!(
             code.action,
-            Action::Linear | Action::ArcCounterClockwise | Action::ArcTangent
+            Action::Linear | Action::ArcCounterClockwise | Action::ArcTangent | Action::Polynomial
         )
     };
     let moving = names(dialects, motion);

@@ -82,6 +82,16 @@ impl Arc {
         })
     }
 
+    /// A full turn more where the ends are one place within `within` mm: else a circle whose end was computed with rounding would be an arc of
+    /// nothing.
+    #[must_use]
+    pub fn closed_within(mut self, within: f64) -> Self {
+        if self.sweep.abs() * self.radius_start <= within {
+            self.sweep += self.sweep.signum() * TAU;
+        }
+        self
+    }
+
     /// The arc of a given radius: of the two possible ones the minor arc (up to 180 deg) for a positive radius, the major arc for a
     /// negative one. A radius too small by at most `tolerance` mm is taken as the half circle.
     pub fn from_radius(

@@ -4,6 +4,9 @@ use trunnion_dialect::{Dialect, Plane};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, RadiusFault, Turning};
 
+/// Ends of an arc that are nearer to each other are one place: half of the finest step of words, 0.00001 mm. One of them may have been computed.
+pub(crate) const ONE_PLACE_MM: f64 = 5e-6;
+
 /// Axes of a plane in [`crate::AXIS_LETTERS`]: first, second, normal. Seen from the normal's positive end the second axis is
 /// a quarter turn counter-clockwise from the first.
 pub(crate) fn plane_axes(plane: Plane) -> [usize; 3] {
@@ -108,7 +111,10 @@ fn by_centre_words(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) ->
     let Some(turns) = setting.turns else {
         return (None, None);
     };
-    let with_centre = |centre| Arc::from_centre(start, end, centre, normal(axes), setting.turning, turns);
+    let with_centre = |centre| {
+        let arc = Arc::from_centre(start, end, centre, normal(axes), setting.turning, turns);
+        arc.map(|arc| arc.closed_within(ONE_PLACE_MM))
+    };
     let wrong = |arc: &Arc| mismatch(arc, setting.dialect, setting.length_unit_mm);
     let fits_absolute = || {
         let other = read_as_coordinates.and_then(with_centre);

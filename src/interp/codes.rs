@@ -133,6 +133,7 @@ impl<'d> Iso<'d> {
             | Action::ArcCounterClockwise
             | Action::ArcThroughPoint
             | Action::ArcTangent
+            | Action::Polynomial
             | Action::Thread
             | Action::VariableThread) => {
                 state.motion = Some(motion);

@@ -288,8 +288,8 @@ impl Iso<'_> {
             self.core.effects.ambiguous_number(block);
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
-        if has_other_effects || unknown_end || unknown_frame || unread {
-            let keep = if moved && !frame && !words.forgets_all {
+        if has_other_effects || unknown_end || unknown_frame || unread || words.polynomial {
+            let keep = if moved && !frame && !words.forgets_all && !words.polynomial {
                 Keep::BesideMotion
             } else {
                 Keep::All

@@ -308,6 +308,9 @@ impl<'d> Iso<'d> {
             return Some(self.spline_motion(spline, words, block, report));
         }
         self.memory.own.pole = None;
+        if modal == Some(Action::Polynomial) && !by_vector {
+            return Some(self.polynomial_motion(words, block, report));
+        }
         if words.polynomial {
             let what = "PO: a polynomial where POLY is not in effect".to_owned();
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });

@@ -105,6 +105,10 @@ pub(crate) struct Own {
     pub(crate) headed: HashMap<u16, bool>,
     /// The path words of the current block.
     pub(crate) path: crate::sinumerik::PathWords,
+    /// PO and PL of the current block.
+    pub(crate) polynomial: crate::sinumerik::PolynomialWords,
+    /// The bound of the lines that stand for polynomials was reported.
+    pub(crate) polynomial_told: bool,
     /// What path words of blocks before leave behind.
     pub(crate) contour: crate::sinumerik::Contour,
     /// The kind of spline, where the motion in effect is one.
@@ -136,6 +140,9 @@ impl Own {
         self.written_frames.clear();
         if self.path.any() {
             self.path = crate::sinumerik::PathWords::default();
+        }
+        if self.polynomial.any() {
+            self.polynomial = crate::sinumerik::PolynomialWords::default();
         }
     }
     /// All variables have unknown values.

@@ -10,6 +10,7 @@ mod index;
 mod names;
 mod path;
 mod pole;
+mod polynomial;
 mod spline;
 mod statement;
 mod system_values;
@@ -21,6 +22,7 @@ pub(crate) use frame_value::FrameValue;
 pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
+pub(crate) use polynomial::PolynomialWords;
 pub(crate) use spline::Spline;
 pub(crate) use text::Text;
 

@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
-use crate::scale::{decade, range};
+use crate::scale::{counted, decade, range};
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Draws it; `tolerance` in mm.
@@ -100,7 +100,10 @@ fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
         (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
     ];
     if unjudged > 0 {
-        legend.push((Swatch::Dot(VERMILION), format!("unknown in {unjudged} blocks")));
+        legend.push((
+            Swatch::Dot(VERMILION),
+            format!("unknown in {}", counted(unjudged, "block")),
+        ));
     }
     legend
 }

@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, GREEN, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
-use crate::scale::{decade, range};
+use crate::scale::{counted, decade, range};
 
 /// Draws it, on a logarithmic scale where the limit is far below what is programmed.
 ///
@@ -91,7 +91,10 @@ fn legend(cuts: &[&Block], planned: bool) -> Vec<Entry> {
     let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
         (Swatch::Dashed(VERMILION), "programmed feed".into()),
-        (Swatch::Dot(VERMILION), format!("{low} blocks do not reach it")),
+        (
+            Swatch::Dot(VERMILION),
+            format!("not reached in {}", counted(low, "block")),
+        ),
     ];
     if planned {
         let slow = cuts
@@ -99,7 +102,10 @@ fn legend(cuts: &[&Block], planned: bool) -> Vec<Entry> {
             .filter(|block| matches!((block.feed[0], block.planned), (Some(feed), Some([top, _])) if top < 0.8 * feed))
             .count();
         legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
-        legend.push((Swatch::Dot(GREEN), format!("{slow} blocks stay below 80 % of F")));
+        legend.push((
+            Swatch::Dot(GREEN),
+            format!("below 80 % of F in {}", counted(slow, "block")),
+        ));
     }
     legend
 }

@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, VERMILION, anchored, sheet};
 use crate::grid::Panel;
 use crate::record::{Block, Record};
-use crate::scale::short;
+use crate::scale::{counted, short};
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::Vec3;
@@ -28,11 +28,14 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     if straying > 0 {
         legend.push((
             Swatch::Line(VERMILION),
-            format!("deviates more than {tolerance} mm ({straying} blocks)"),
+            format!("deviates more than {tolerance} mm ({})", counted(straying, "block")),
         ));
     }
     if record.unknown > 0 {
-        legend.push((Swatch::Dot(GREY), format!("{} motions unknown", record.unknown)));
+        legend.push((
+            Swatch::Dot(GREY),
+            format!("{} unknown", counted(record.unknown, "motion")),
+        ));
     }
     let cut = record.blocks.iter().filter(|block| !block.rapid);
     let (mut low, mut high) = extent(cut.flat_map(|block| record.of(block)).map(|sample| sample.tip));

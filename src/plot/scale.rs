@@ -14,6 +14,11 @@ pub(crate) fn range(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
     [low - more, high + more]
 }
 
+/// `1 block`, `2 blocks`.
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A number with as many decimals as its neighbours on the axis need.
 pub(crate) fn short(value: f64, span: f64) -> String {
     let decimals = (1.2 - decade(span / 5.0)).ceil().clamp(0.0, 9.0) as usize;

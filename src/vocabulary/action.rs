@@ -277,6 +277,8 @@ actions! {
     ArcThroughPoint = "arc-through-point",
     /// CT: arc that continues the direction of the motion before.
     ArcTangent = "arc-tangent",
+    /// POLY: coordinates are polynomials.
+    Polynomial = "polynomial",
     /// ROT, SCALE, MIRROR and their added forms: turn, scale and mirror the coordinates.
     ProgrammableFrame = "programmable-frame",
     /// G110, G111, G112: pole of the polar coordinates AP, RP.

@@ -12,6 +12,7 @@ impl Action {
                 | Self::ArcCounterClockwise
                 | Self::ArcThroughPoint
                 | Self::ArcTangent
+                | Self::Polynomial
                 | Self::Pole
                 | Self::Dwell
                 | Self::PlaneXy

@@ -84,6 +84,6 @@ tags! {
         CycleOff = 102, ConstantSurfaceSpeed = 103, ConstantSpindleSpeed = 104, SubprogramCall = 105, OrientationAxes = 106,
         OrientationVector = 107, PointToPoint = 108, PointToPointRapid = 109, ContinuousPath = 110,
         ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114, WorkSystem = 115,
-        WorkSystemOnce = 116,
+        WorkSystemOnce = 116, Polynomial = 117,
     }
 }

@@ -30,6 +30,8 @@ macro_rules! plain {
 plain! {
     /// The first feed motion after the tool of the feed motions changed.
     FirstCut = |view| view.motion.is_feed() && view.motion.tool != view.last_cut;
+    /// The first rapid to another Z with a tool, before its first feed motion.
+    FirstApproach = |view| view.motion.tool != view.last_approach && view.approaches();
     /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
     CutSpindleUnlimited = |view| view.in_force.surface_speed
         && view.in_force.spindle_limit_rpm.is_none()

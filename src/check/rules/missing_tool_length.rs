@@ -1,17 +1,17 @@
-//! A tool cuts before its length is compensated, or with the length of another tool.
+//! A tool moves along Z or cuts before its length is compensated, or with the length of another tool.
 //!
 //! # Why
 //! Without G43 the control moves the spindle nose, not the tip, to the programmed point: the tool goes too deep by
 //! its whole length, or does not reach the part. What counts is the compensation that is active at the tool's first
-//! feed motion, in whichever block it was switched on.
+//! rapid to another Z and at its first feed motion, in whichever block it was switched on.
 //!
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 T5 M6
 //! N20 M3 S5000
 //! N30 G0 X0. Y0. Z50.
+//! ;   ^^^^^^^^^^^^^^^ missing-tool-length: T5 goes to Z 50 mm without its length
 //! N40 G1 Z-5. F200.
-//! ;   ^^^^^^^^^^^^^ missing-tool-length: T5 cuts without its length
 //! N50 M30
 //! ```
 //!
@@ -27,14 +27,17 @@
 //!
 //! # Guarantee
 //! Heuristic: a program without G43 is right where all lengths are included in the work offset, or where the
-//! builder's tool change switches the length on. Reported once for each tool. Only for controls that switch the
-//! length on by G43, and for tools that the program changes to.
+//! builder's tool change switches the length on; an offset with another number than the tool is right in shops that
+//! number them so. Reported once for each tool. Only for controls that switch the length on by G43, and for tools
+//! that the program changes to.
 //!
 //! # Sources
+//! * Haas mill operator's manual, setting 15: H and T code agreement.
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
+use trunnion_interp::LengthOf;
 
-pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::FirstCut(check)]);
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::FirstCut(check), Wake::FirstApproach(approach)]);
 
 fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     let (motion, in_force) = (cut.motion, cut.in_force);
@@ -57,7 +60,21 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
             .value("tool_length_mm", own)
             .value("length_in_force_mm", active);
         }
-        (Some(_), None) => {}
+        (Some(_), None) => {
+            // where both lengths are declared they are the same
+            let known = in_force.own_length_mm.is_some() && !motion.undeclared.length;
+            if let LengthOf::Tool(Some(number)) = in_force.length_of
+                && number != tool
+                && !known
+            {
+                out.report_block(format!(
+                    "T{tool} cuts with the length offset H{number}, which is that of another tool"
+                ))
+                .help(format!(
+                    "write H{tool}; if the offset is the tool's own, declare both lengths, or allow the rule and give that reason"
+                ));
+            }
+        }
         (None, _) => {
             out.report_block(format!(
                 "T{tool} cuts without its length: no tool length compensation is active"
@@ -67,9 +84,60 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     }
 }
 
+/// A rapid to another Z with a new tool: its tip is lower by its whole length.
+fn approach(rapid: &facts::FirstApproach<'_>, out: &mut Reporter<'_>) {
+    let (motion, in_force) = (rapid.motion, rapid.in_force);
+    let (Some(tool @ 1..), Some(level)) = (motion.tool, motion.end.get(2)) else {
+        return;
+    };
+    let uncompensated = in_force.tool_length_mm.is_none() && !motion.tcp && !in_force.frame_unknown;
+    if uncompensated && rapid.dialect.length_by_code() && out.once(u64::from(tool)) {
+        out.report_block(format!(
+            "T{tool} goes to Z {} without its length: no tool length compensation is active, and its tip is lower by its length",
+            mm(level)
+        ))
+        .help(format!("write G43 H{tool} in this block"));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::assert_drawn;
+
+    #[test]
+    fn a_rapid_to_another_z_counts_before_the_first_cut() {
+        let first = "T1 M6\nS100 M3\nG0 X0. Y0.\n";
+        assert_drawn(
+            "gcode fanuc-30i",
+            &format!(
+                "{first}Z5.\n;^^ missing-tool-length: T1 goes to Z 5 mm without its length\nG43 H1 Z2.\nG1 Z-1. F100.\nM30\n"
+            ),
+        );
+        for text in [
+            "G43 H1 Z5.\nG1 Z-1. F100.\nG0 G49 Z100.\nM30\n",
+            "G53 G0 Z0.\nG43 H1 Z5.\nG1 Z-1. F100.\nM30\n",
+        ] {
+            assert_drawn("gcode fanuc-30i", &format!("{first}{text}"));
+        }
+        assert_drawn(
+            "gcode sinumerik-840d",
+            "T1\nM6\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n",
+        );
+    }
+
+    #[test]
+    fn the_number_of_another_tool_is_told_where_the_lengths_are_not_declared() {
+        let text = |tools: &str, finding: &str| {
+            format!("{tools}T5 M6\nS100 M3\nG43 H6 G0 X0. Y0. Z5.\nG1 Z-1. F100.\n{finding}G0 Z5.\nM30\n")
+        };
+        let finding =
+            ";^^^^^^^^^^^^ missing-tool-length: T5 cuts with the length offset H6, which is that of another tool\n";
+        assert_drawn("gcode haas-ngc", &text("", finding));
+        assert_drawn("gcode haas-ngc", &text("(trunnion: tool 6 length 80)\n", finding));
+        // declared alike
+        let both = "(trunnion: tool 5 length 80)\n(trunnion: tool 6 length 80)\n";
+        assert_drawn("gcode haas-ngc", &text(both, ""));
+    }
 
     #[test]
     fn only_the_first_feed_motion_of_a_tool_is_judged() {
@@ -79,7 +147,7 @@ mod tests {
         );
         let report = assert_drawn(
             "gcode linuxcnc",
-            "T1 M6 S1 M3\nG0 X0 Y0 Z0\nG1 X1 F100\n;^^^^^^^^^ missing-tool-length: T1 cuts\nX2\nT1 M6 M3\nG1 X3\nM2\n",
+            "T1 M6 S1 M3\nG0 X0 Y0\nG1 X1 F100\n;^^^^^^^^^ missing-tool-length: T1 cuts\nX2\nT1 M6 M3\nG1 X3\nM2\n",
         );
         assert_eq!(report.diagnostics[0].count, 1);
     }

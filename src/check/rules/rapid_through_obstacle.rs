@@ -8,7 +8,7 @@
 //! ```gcode mill-3axis+wall
 //! (trunnion: tool 1 flat diameter 8)
 //! N10 T1 M6
-//! N20 G0 X0 Y0 Z10
+//! N20 G0 G43 H1 X0 Y0 Z10
 //! N30 G0 X90
 //! ;   ^^^^^^ rapid-through-obstacle: the tool goes through wall in rapid
 //! N40 M30
@@ -18,7 +18,7 @@
 //! ```gcode mill-3axis+wall
 //! (trunnion: tool 1 flat diameter 8)
 //! N10 T1 M6
-//! N20 G0 X0 Y0 Z40
+//! N20 G0 G43 H1 X0 Y0 Z40
 //! N30 G0 X90
 //! N40 M30
 //! ```
@@ -152,7 +152,7 @@ mod tests {
         assert_drawn(
             "gcode mill-3axis+wall",
             &format!(
-                "{TOOL}G0 X0 Y0 Z36\nG0 X90\nG0 Z35.5\nG0 X0\n;^^^^ rapid-through-obstacle: the tool goes through wall in rapid\nG0 X35.5 Z10\n;^^^^^^^^^^^ rapid-through-obstacle: the tool passes wall at 0.5 mm in rapid; 1 mm is to be kept\nM30\n"
+                "{TOOL}G0 G43 H1 X0 Y0 Z36\nG0 X90\nG0 Z35.5\nG0 X0\n;^^^^ rapid-through-obstacle: the tool goes through wall in rapid\nG0 X35.5 Z10\n;^^^^^^^^^^^ rapid-through-obstacle: the tool passes wall at 0.5 mm in rapid; 1 mm is to be kept\nM30\n"
             ),
         );
     }
@@ -163,7 +163,7 @@ mod tests {
         assert_drawn(
             "gcode mill-3axis+wall",
             &format!(
-                "{TOOL}G0 X30 Y0 Z10\nG1 X36 F500\n;^^^^^^^^^^ missing-tool-length: T1 cuts\nX36.001\n;^^^^^^ rapid-through-obstacle: the tool goes through wall while cutting\nM30\n"
+                "{TOOL}G0 G43 H1 X30 Y0 Z10\nG1 X36 F500\nX36.001\n;^^^^^^ rapid-through-obstacle: the tool goes through wall while cutting\nM30\n"
             ),
         );
     }

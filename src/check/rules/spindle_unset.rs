@@ -22,7 +22,7 @@
 //! # Guarantee
 //! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30) are judged: what
 //! calls a subprogram may start the spindle. After a code of the machine builder, and after a program that was not found,
-//! the spindle may turn, and nothing is reported. Feed motions in machine coordinates, and probing, are not judged.
+//! the spindle may turn, and feed motions there are not reported. Feed motions in machine coordinates, and probing, are not judged.
 //!
 //! # Sources
 //! * docs/contract.md#what-counts-as-a-cut
@@ -70,6 +70,13 @@ mod tests {
             ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM99\n", false),
             ("fanuc-30i", "O1\nG21 G0 X0.\nM13\nG1 X10. F100.\nM30\n", false),
             ("fanuc-30i", "O1\nG21 G0 X0.\nM98 P777\nG1 X10. F100.\nM30\n", false),
+            ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM98 P777\nM30\n", true),
+            ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM13\nM30\n", true),
+            (
+                "fanuc-30i",
+                "O1\nG21 G0 X0.\nG1 X10. F100.\nM98 P777\nM3 S100\nM30\n",
+                false,
+            ),
             ("iso-6983", "G21 G0 X0\nG1 X10 F100\n", false),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nG1 X10 F100\nM2\n", true),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nM101\nG1 X10 F100\nM2\n", false),

@@ -1,5 +1,6 @@
 //! What `convert` prints of a conversion, in words and as a JSON document.
 use crate::cli::load::Loaded;
+use crate::cli::render::counted;
 use serde_json::json;
 use trunnion_convert::Converted;
 use trunnion_machine::Machine;
@@ -16,10 +17,10 @@ fn renamed(name: &str, converted: &Converted) -> Option<String> {
 pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     let (proof, claim) = (&converted.proof, &converted.claim);
     let mut lines = vec![format!(
-        "{name}: converted to {} and proved by running both programs: {} motions became {}; at their ends the tip is within {:.6} mm and the tool axis \
+        "{name}: converted to {} and proved by running both programs: {} became {}; at their ends the tip is within {:.6} mm and the tool axis \
          within {:.6} deg of the original (allowed {:.6} mm, {:.6} deg)",
         converted.dialect.name,
-        proof.motions_before,
+        counted(proof.motions_before, "motion"),
         proof.motions_after,
         proof.end_mm,
         proof.end_deg,
@@ -44,22 +45,22 @@ pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     }
     if proof.feeds_not_compared > 0 {
         lines.push(format!(
-            "{name}: in {} cuts the tip does not move, so their feed could not be compared",
-            proof.feeds_not_compared
+            "{name}: in {} the tip does not move, so its feed could not be compared",
+            counted(proof.feeds_not_compared, "cut")
         ));
     }
     if proof.left_out > 0 {
         lines.push(format!(
-            "{name}: {} rapids with an unknown end (before the first known position of a tool, or after its last) are left out",
-            proof.left_out
+            "{name}: left out: {} with an unknown end (before the first known position of a tool, or after its last)",
+            counted(proof.left_out, "rapid")
         ));
     }
     lines.extend(renamed(name, converted));
     if !converted.swaps.is_empty() {
         let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
-            "{name}: {} cuts change to the other posture or wind back: lines {}",
-            converted.swaps.len(),
+            "{name}: changes to the other posture, or winds back, in {}: lines {}",
+            counted(converted.swaps.len() as u64, "cut"),
             places.join(", ")
         ));
     }
@@ -72,8 +73,8 @@ pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     if !converted.travel_undecided.is_empty() {
         let places: Vec<String> = converted.travel_undecided.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
-            "{name}: inside {} motions it is not known whether the axes stay within their travel: lines {}",
-            converted.travel_undecided.len(),
+            "{name}: inside {} it is not known whether the axes stay within their travel: lines {}",
+            counted(converted.travel_undecided.len() as u64, "motion"),
             places.join(", ")
         ));
     }

@@ -232,7 +232,11 @@ fn program(
     let (line, _) = lines.line_column(loaded.program.source(), start);
     tell(
         out,
-        &format!("{}:{line}, the worst of {} motions", loaded.name, both.compared),
+        &format!(
+            "{}:{line}, the worst of {}",
+            loaded.name,
+            crate::cli::render::counted(both.compared as u64, "motion")
+        ),
         machine,
         &worst,
     )?;

@@ -1,5 +1,6 @@
 //! How long a program takes: in all, by tool and operation, where it is slow, and why.
 use crate::cli::load::Loaded;
+use crate::cli::render::counted;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -319,10 +320,8 @@ impl<'a> Times<'a> {
             row(if index == 0 { "slowest" } else { "" }, &text);
         }
         if let Some(line) = self.first_unknown {
-            row(
-                "unknown",
-                &format!("the time of {} motions, the first in line {line}", self.unknown),
-            );
+            let motions = counted(self.unknown, "motion");
+            row("unknown", &format!("the time of {motions}, the first in line {line}"));
         }
         for (index, missing) in self.not_declared().iter().enumerate() {
             row(if index == 0 { "not declared" } else { "" }, missing);

@@ -62,6 +62,7 @@ pub(super) fn uncouples(action: Action) -> bool {
                 | Action::ArcCounterClockwise
                 | Action::ArcThroughPoint
                 | Action::ArcTangent
+                | Action::Polynomial
                 | Action::CycleOff
         )
 }

@@ -2,12 +2,12 @@
 //! is there, each word alone ends all (Sinumerik 840D sl Programming Manual, Fundamentals, frames). The shift is part of the zero point, what
 //! turns, scales and mirrors is a [`super::Shape`]. Turns about another axis than the plane's third are not followed.
 use super::Linear;
-use crate::Position;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::{FaultKind, Position};
 
 impl<'d> Iso<'d> {
     /// Regardless of G91, the words of the block are those of the frame.
@@ -71,7 +71,16 @@ impl<'d> Iso<'d> {
             && !self.core.unknown.any()
             && self.memory.frames.tilt.is_none();
         let Some(step) = self.frame_step(found, words, angle).filter(|_| plain) else {
-            self.frame_change(found, words, block, report);
+            if found.code.id.ends_with("ROT") && (words.axes.given & LINEAR).count_ones() > 1 {
+                let what = format!(
+                    "{} about several axes: machine data 10600 decides in which order it turns",
+                    found.code.id
+                );
+                report.fault(found.range, FaultKind::NotModelled { what });
+                self.frame_begins(found, words, block);
+            } else {
+                self.frame_change(found, words, block, report);
+            }
             return;
         };
         let before = self.memory.frames.shape.linear.unwrap_or_default();

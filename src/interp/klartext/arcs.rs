@@ -4,7 +4,7 @@ use super::path::Path;
 use super::path_words::PathWords;
 use super::values::Value;
 use super::words::Words;
-use crate::arc::{mismatch, plane_axes};
+use crate::arc::{ONE_PLACE_MM, mismatch, plane_axes};
 use crate::core::{LINEAR, Report};
 use crate::frames::sin_cos_degrees;
 use crate::{FaultKind, MotionKind, Position, Refusal};
@@ -61,7 +61,8 @@ impl Klartext<'_> {
             let what = "the pole: coordinates of CC that are not known, or a new coordinate system after it";
             self.not_modelled_once(what, report);
         } else {
-            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            let message = "the arc or polar block has no centre: write CC before it";
+            Self::rejected(Refusal::ArcCentre, message, report);
         }
     }
 
@@ -124,9 +125,11 @@ impl Klartext<'_> {
 
     fn checked(&self, arc: Option<Arc>, report: &mut Report<'_>) -> Option<Arc> {
         let Some(arc) = arc else {
-            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
+            let message = "the arc starts or ends at its centre CC: it has no radius";
+            Self::rejected(Refusal::ArcRadius, message, report);
             return None;
         };
+        let arc = arc.closed_within(ONE_PLACE_MM);
         if let Some(kind) = mismatch(&arc, self.core.dialect, self.core.state.coordinates.unit_mm()) {
             report.fault(TextRange::default(), kind);
         }

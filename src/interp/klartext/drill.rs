@@ -1,11 +1,13 @@
 //! Calls of cycles, and the motions of hole cycles.
 //!
 //! A hole: in rapid to Q203+Q200, the work to Q203+Q201, back to Q203+Q204, or to Q203+Q200 where that is higher. Q201=0 does nothing. Where
-//! the rapid back into a hole ends is not taken from a source: `[control] peck_clearance` declares it.
+//! the rapid back into a hole ends is not taken from a source: `[control] peck_clearance` declares it. Rigid tapping (207, 209): the spindle is
+//! in position control, interpolated with the tool axis (HEIDENHAIN Technical Manual MANUALplus 620, p. 1028).
 use super::Klartext;
 use super::hole::{Cycle, CycleFeed, Hole};
+use super::path_words::PathWords;
 use super::words::Words;
-use crate::core::Report;
+use crate::core::{LINEAR, Report};
 use crate::{Feed, MotionKind, Refusal};
 use trunnion_syntax::TextRange;
 
@@ -34,18 +36,51 @@ impl Klartext<'_> {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
         if positioned {
-            // its F only moves to the place
-            let before = self.core.state.feed;
-            let rapid = self.take_feed(found.feed, report);
-            let start = self.memory.frames.programmed(&self.core.state.position);
-            let mut end = start;
-            self.place(&found, &mut end);
-            let kind = self.straight(rapid);
-            self.go(kind, start, end, &found, report);
-            self.core.state.feed = before;
+            self.call_at(&found, report);
+        } else {
+            self.run_cycle(report);
         }
-        self.run_cycle(report);
         self.codes_after(&found);
+    }
+
+    /// CYCL CALL POS X Y Z: the cycle at a place, whose coordinate along the tool axis shifts the cycle's levels (NC-PB/gEdit,
+    /// docs/user/transformations.md: "a second datum shift on top of Q203"). In which order the axes go there is not taken from a source.
+    fn call_at(&mut self, found: &PathWords, report: &mut Report<'_>) {
+        if found.given & LINEAR != LINEAR {
+            let message = "CYCL CALL POS needs the coordinates of all three axes";
+            Self::rejected(Refusal::MissingWord, message, report);
+        }
+        self.not_modelled_once("CYCL CALL POS: the way to its position", report);
+        let along = self.axes()[2];
+        let mut end = self.memory.frames.programmed(&self.core.state.position);
+        self.place(found, &mut end);
+        let shift = end.get(along).filter(|_| found.given & (1 << along) != 0);
+        let before = self.core.state.feed;
+        let mut hole = match &self.memory.cycle {
+            Cycle::Hole(hole) => Some(hole.clone()),
+            _ => None,
+        };
+        let unit = self.core.state.coordinates.unit_mm();
+        if let Some(hole) = &mut hole {
+            hole.surface = hole.surface.zip(shift).map(|(surface, shift)| surface + shift / unit);
+        }
+        // every hole begins at its clearance
+        let level = hole
+            .as_ref()
+            .and_then(|hole| Some((hole.surface? + hole.clear?) * unit));
+        match level {
+            Some(level) => end.set(along, level),
+            None => end.forget(along),
+        }
+        let start = self.memory.frames.programmed(&self.core.state.position);
+        self.memory.was_rapid = false;
+        self.go(MotionKind::Unknown, start, end, found, report);
+        match hole {
+            Some(hole) => self.drill(&hole, report),
+            None => self.run_cycle(report),
+        }
+        // its F is that of the way to the place
+        self.core.state.feed = before;
     }
 
     /// Runs the cycle that is defined where the tool is.
@@ -140,7 +175,11 @@ impl Klartext<'_> {
             out,
         };
         let by_tip = hole.is_by_tip();
+        let rigid = matches!(hole.cycle, 207 | 209);
         self.level(MotionKind::Rapid, Some(at.clear), Feed::Rapid, report);
+        if rigid {
+            self.core.state.spindle.turn(Some(true));
+        }
         self.work(hole, &at, by_tip, depth * unit, report);
         match at.out {
             Some(feed) => {
@@ -151,6 +190,10 @@ impl Klartext<'_> {
             None => self.level(MotionKind::Rapid, Some(at.clear), Feed::Rapid, report),
         }
         self.level(MotionKind::Rapid, Some(at.back), Feed::Rapid, report);
+        if rigid {
+            // whether it turns afterwards is not taken from a source
+            self.core.state.spindle.lose();
+        }
     }
 
     /// Whether the motions of a hole say all about it: nothing else of its definition counts.

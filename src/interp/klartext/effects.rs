@@ -50,7 +50,7 @@ impl Klartext<'_> {
         // a block that the operator may skip
         let may_skip = skips && self.core.setup.control.block_delete.is_none();
         if unmodelled || unknown || may_skip {
-            let canonical = crate::canonical_text(&String::from_utf8_lossy(text));
+            let canonical = canonical_words(text);
             let mut arguments = vec![Argument::text("", &canonical)];
             for word in Words::new(text) {
                 if let Said::Parameter(_, parameter) = word.value
@@ -184,6 +184,29 @@ impl Klartext<'_> {
             Cycle::Hole(hole) if number >= 200 && number == hole.cycle => !self.is_followed(hole),
             _ => !matches!(number, 7..=11 | 19 | 247),
         }
+    }
+}
+
+/// The words of a block, each as it is compared, with one blank between them.
+fn canonical_words(text: &[u8]) -> String {
+    let mut words = Words::new(text);
+    let (mut said, mut from) = (Vec::new(), 0);
+    loop {
+        let more = words.next().is_some();
+        let to = if more { words.at } else { text.len() };
+        let word = crate::written::packed(&String::from_utf8_lossy(text.get(from..to).unwrap_or_default()));
+        // numbers in one spelling; `=`: NX is no block number here, and brackets are no comments
+        let word = match crate::canonical_text(&format!("={word}")).strip_prefix('=') {
+            Some(same) if !word.contains(['(', ')', ';']) => same.to_owned(),
+            _ => word,
+        };
+        if !word.is_empty() {
+            said.push(word);
+        }
+        if !more {
+            return said.join(" ");
+        }
+        from = to;
     }
 }
 

@@ -42,7 +42,7 @@ impl Spindle {
     pub fn is_unread(&self) -> bool {
         self.is_unread
     }
-    /// The program has started a spindle, or something that is not modelled may have.
+    /// The program has started a spindle; what is not modelled may have done so, too, see [`Self::is_unread`].
     pub fn was_started(&self) -> bool {
         self.was_started
     }
@@ -79,7 +79,7 @@ impl Spindle {
     /// What is not modelled may have switched it: whether it turns is unknown.
     pub fn lose(&mut self) {
         self.on = None;
-        (self.is_unread, self.was_started) = (true, true);
+        self.is_unread = true;
     }
     /// The same, and its speed is unknown, too.
     pub fn forget(&mut self) {

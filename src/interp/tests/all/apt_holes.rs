@@ -197,6 +197,15 @@ fn a_system_turns_points_and_the_tool() {
     );
 }
 
+/// NX writes its axes with three digits: x = (.5, 0, .866), y = (.866, 0, -.5), so z is the part's y.
+#[test]
+fn a_system_of_nx_with_three_digits() {
+    let text = "FEDRAT/9\nMSYS/0,0,180,.5,0,.866,.866,0,-.5\nGOTO/1,2,3\n";
+    let end = run_text("apt", text).motions[0].end.xyz().expect("known");
+    let wanted = [0.5 + 2.0 * 0.866, 3.0, 180.0 + 0.866 - 2.0 * 0.5];
+    assert!((0..3).all(|axis| (end[axis] - wanted[axis]).abs() < 1e-3), "{end}");
+}
+
 /// A text for the machine may have turned the tool; the system that is named after it says where Z is.
 #[test]
 fn a_system_says_where_the_tool_is_after_an_insert() {

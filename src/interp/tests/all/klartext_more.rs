@@ -244,16 +244,88 @@ fn refused_programs() {
         assert!(found.iter().any(|fault| fault.contains(what)), "{blocks}: {found:?}");
     }
     // an arc about an unknown pole is not one without a pole
-    let text = program("L X+0 Y+0 Z+0 FMAX\nCC X+Q5 Y+0\nC X+10 Y+0 DR+ F100\n");
-    assert!(
-        !faults(NAME, &text)
-            .iter()
-            .any(|fault| fault.contains("ArcCentreMissing"))
+    let arc = |centre: &str, end: &str| {
+        let text = format!("L X+0 Y+0 Z+0 FMAX\n{centre}C {end} DR+ F100\n");
+        faults(NAME, &program(&text)).join("\n")
+    };
+    assert!(!arc("CC X+Q5 Y+0\n", "X+10 Y+0").contains("has no centre"));
+    assert!(arc("", "X+10 Y+0").contains("has no centre: write CC before it"));
+    // the tool cannot go round the point at which it ends
+    assert!(arc("CC X+5 Y+0\n", "X+5 Y+0").contains("at its centre CC: it has no radius"));
+}
+
+/// The start was computed about a pole, so that it misses the end of the circle by rounding.
+#[test]
+fn a_circle_that_closes_within_rounding() {
+    let text = program(
+        "L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nCP IPA+30 DR+ F100\nCC X+1 Y+1\nC X+8.6602540 Y+5.0000000 DR-\nC X+8.66025 Y+5 DR+\nC X+8.6602 Y+5 DR+\n",
     );
-    let text = program("L X+0 Y+0 Z+0 FMAX\nC X+10 Y+0 DR+ F100\n");
+    let sweeps: Vec<f64> = run_text(NAME, &text)
+        .motions
+        .iter()
+        .filter_map(|motion| match motion.kind {
+            MotionKind::Arc(Some(arc)) => Some(arc.sweep.to_degrees()),
+            _ => None,
+        })
+        .collect();
     assert!(
-        faults(NAME, &text)
-            .iter()
-            .any(|fault| fault.contains("ArcCentreMissing"))
+        (sweeps[1] + 360.0).abs() < 1e-4 && (sweeps[2] - 360.0).abs() < 1e-4,
+        "{sweeps:?}"
     );
+    // five hundredths of a micrometre are an arc
+    assert!(
+        (sweeps[3] - 360.0).abs() > 1e-6 && sweeps[3].abs() < 360.0,
+        "{sweeps:?}"
+    );
+}
+
+/// The coordinate of the tool axis in CYCL CALL POS shifts the levels of the cycle; in which order the axes go there is not known.
+#[test]
+fn a_cycle_at_a_place() {
+    let cycle = "CYCL DEF 201 B ~\n Q200=2 ~\n Q201=-10 ~\n Q206=150 ~\n Q211=0 ~\n Q208=500 ~\n Q203=+5 ~\n Q204=20\n";
+    let text = program(&format!(
+        "{cycle}L X+0 Y+0 Z+100 R0 FMAX M3\nCYCL CALL POS X+10 Y+20 Z+3 FMAX\nL X+1 F300\n"
+    ));
+    assert_eq!(
+        lines(NAME, &text)[1..],
+        [
+            "U X10 Y20 Z10",
+            "L X10 Y20 Z-2 F150",
+            "L X10 Y20 Z10 F500",
+            "R X10 Y20 Z28",
+            "L X1 Y20 Z28 F300",
+        ]
+    );
+    let found = faults(NAME, &text);
+    assert!(
+        found.iter().any(|fault| fault.contains("the way to its position")),
+        "{found:?}"
+    );
+    let text = program(&format!(
+        "{cycle}L X+0 Y+0 Z+100 R0 FMAX M3\nCYCL CALL POS X+10 Y+20 FMAX\n"
+    ));
+    let found = faults(NAME, &text);
+    assert!(found.iter().any(|fault| fault.contains("all three axes")), "{found:?}");
+    assert!(
+        run_text(NAME, &text).motions[1..]
+            .iter()
+            .all(|motion| motion.end.get(2).is_none())
+    );
+}
+
+/// Rigid tapping turns the spindle itself; afterwards it may turn or not. With a compensating chuck (206) the program turns it.
+#[test]
+fn rigid_tapping_turns_the_spindle() {
+    let tap = |cycle: &str, spindle: &str| {
+        let words = "Q200=2 ~\n Q201=-10 ~\n Q239=1.5 ~\n Q206=600 ~\n Q203=+0 ~\n Q204=20";
+        let text = format!(
+            "TOOL CALL 1 Z S400\n{cycle} ~\n {words}\nL X+0 Y+0 Z+20 R0 FMAX {spindle}\nCYCL CALL\nL Z+19 F100\n"
+        );
+        let motions = run_text(NAME, &program(&text)).motions;
+        let feeds = motions.iter().filter(|motion| motion.is_feed());
+        feeds.map(|motion| motion.spindle_on).collect::<Vec<_>>()
+    };
+    assert_eq!(tap("CYCL DEF 207 T", ""), [Some(true), Some(true), None]);
+    assert_eq!(tap("CYCL DEF 207 T", "M3"), [Some(true), Some(true), None]);
+    assert_eq!(tap("CYCL DEF 206 T", ""), [Some(false); 3]);
 }

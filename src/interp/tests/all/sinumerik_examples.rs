@@ -1,6 +1,6 @@
 //! Worked examples of Sinumerik manuals and of interpreters that were run, each as the smallest program that shows it. What the interpreters
 //! answer and no manual states stays unknown.
-use crate::support::{faults, lines, run_text};
+use crate::support::{faults, line, lines, run_text};
 use trunnion_interp::{Posture, Swivel};
 
 const NAME: &str = "sinumerik-840d";
@@ -157,12 +157,59 @@ fn bits_of_turns() {
     }
 }
 
-/// A quarter of a circle as a rational polynomial: its ends are known, and its path is not followed.
+/// A quarter of a circle as a rational polynomial: lines within a bound that is named.
 #[test]
 fn a_quarter_circle_as_a_polynomial() {
     let text = "G17 G90 G71 G1 X10 Y0 Z0 F100\nPOLY PO[X]=(0,-10) PO[Y]=(10) PO[]=(2,1)\n";
-    assert_eq!(lines(NAME, text)[1], "U X0 Y10 Z0 F100");
-    assert!(faults(NAME, text)[0].contains("POLY"));
+    let motions = run_text(NAME, text).motions;
+    let curve = &motions[1..];
+    assert_eq!(
+        curve.last().and_then(|motion| motion.end.xyz()),
+        Some([0.0, 10.0, 0.0].into())
+    );
+    let mut way = 0.0;
+    for motion in curve {
+        let (from, to) = (motion.start.xyz().expect("known"), motion.end.xyz().expect("known"));
+        assert!((to.norm() - 10.0).abs() < 1e-9 && motion.is_feed(), "{to}");
+        way += (to - from).norm();
+    }
+    assert!((way - 5.0 * core::f64::consts::PI).abs() < 1e-4, "{way}");
+    let said = faults(NAME, text);
+    assert!(said.len() == 1 && said[0].contains("at most 0.00001 mm"), "{said:?}");
+    // axes without PO are linear, and a block without any PO is a line
+    let text = "G17 G90 G71 G1 X0 Y0 Z0 F100\nPOLY PO[X]=(9,-1,0,0) Y3 PL=3\nX20 Y5\nG1 X0\n";
+    let motions = run_text(NAME, text).motions;
+    let at = |place: f64| {
+        let near = motions.iter().filter_map(|motion| motion.end.xyz());
+        near.min_by(|a, b| (a.y - place).abs().total_cmp(&(b.y - place).abs()))
+            .expect("one")
+    };
+    // x = 6 p - p^2 over 0..3, y = p
+    assert!(
+        (at(1.5).x - (6.0 * at(1.5).y - at(1.5).y.powi(2))).abs() < 1e-9,
+        "{}",
+        at(1.5)
+    );
+    assert_eq!(line(&motions[motions.len() - 2]), "L X20 Y5 Z0 F100");
+    // what is not computed has a known end
+    for blocks in [
+        "G91 POLY PO[X]=(9,1)",
+        "POLY PO[X]=(9,R7777)",
+        "POLY PO[X]=(9,1) PO[]=(-1)",
+        "POLY PO[X]=(9,1) A5",
+    ] {
+        let text = format!("G17 G90 G71 G1 X0 Y0 Z0 A0 F100\n{blocks}\n");
+        let motions = run_text(NAME, &text).motions;
+        assert_eq!(
+            line(&motions[1]).split(' ').take(2).collect::<Vec<_>>(),
+            ["U", "X9"],
+            "{blocks}"
+        );
+        assert!(
+            faults(NAME, &text).iter().any(|fault| fault.contains("POLY")),
+            "{blocks}"
+        );
+    }
 }
 
 /// The cycles' own text: CYCLE81 to CYCLE83 with relative depths, and the modes that newer posts write at the end.

@@ -180,6 +180,20 @@ fn frames_chain() {
     }
 }
 
+#[test]
+fn turns_about_several_axes_name_the_machine_data() {
+    for block in ["ROT X10 Z20", "AROT X1 Y2 Z3"] {
+        let found = faults(
+            "sinumerik-840d",
+            &format!("G17 G90 G71\nG1 X0 Y0 Z0 F9\n{block}\nX5 Y5 Z5\nROT\nX1 Y1 Z1\n"),
+        );
+        assert!(
+            found.len() == 1 && found[0].contains("machine data 10600"),
+            "{block}: {found:?}"
+        );
+    }
+}
+
 /// Whether an increment adds the change of a frame is setting data 42440.
 #[test]
 fn an_increment_after_a_frame_is_not_known() {

@@ -1,6 +1,6 @@
 //! What a proof records: digests of the inputs, the claim, and the numbers found.
 use crate::Claim;
-use crate::digest::seal_digest;
+use crate::digest::{hex_sha256, seal_digest};
 use core::fmt::Write;
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +64,32 @@ pub struct TextDigest {
     pub sha256: String,
     /// Length in bytes.
     pub bytes: u64,
+}
+
+impl TextDigest {
+    /// That of a text.
+    pub(crate) fn of(text: &[u8]) -> Self {
+        Self {
+            sha256: hex_sha256(text),
+            bytes: text.len() as u64,
+        }
+    }
+}
+
+/// What is wrong where a certificate was made for other programs than these, and what to do.
+pub(crate) fn other_text([before, after]: [&TextDigest; 2], texts: [&[u8]; 2]) -> Option<String> {
+    if *before != TextDigest::of(texts[0]) {
+        return Some(
+            "the certificate was made for another original program: the SHA-256 values differ; name the program that it was made for, \
+             or make a new certificate"
+                .to_owned(),
+        );
+    }
+    (*after != TextDigest::of(texts[1])).then(|| {
+        "the certificate was made for another changed program: the SHA-256 values differ; the program was edited since, or the command that \
+         writes both was stopped between them: run that command again, it writes both"
+            .to_owned()
+    })
 }
 
 /// A name and the digest of its contents.

@@ -128,7 +128,8 @@ impl Chain {
         if let Some(last) = fresh.pop().filter(|_| text == after) {
             return Ok((fresh, last));
         }
-        let message = "the steps of the chain do not lead to the changed program";
+        let message = "the steps of the certificate do not lead to the changed program; the program was edited since, or the command that \
+             writes both was stopped between them: run that command again, it writes both";
         Err((self.steps.len(), Outcome::refuted(message)))
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the paths between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
-use crate::certificate::{NamedDigest, SCHEMA, TextDigest, other_schema};
-use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
+use crate::certificate::{NamedDigest, SCHEMA, TextDigest, other_schema, other_text};
+use crate::digest::{dialect_digest, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::proof::Proof;
 use crate::switch;
@@ -101,11 +101,8 @@ fn inputs_match(
     if let Some(why) = other_schema(&certificate.schema) {
         return Err(Outcome::refuted(why));
     }
-    if certificate.before != text_digest(before) {
-        return refuse("another original program");
-    }
-    if certificate.after != text_digest(after) {
-        return refuse("another changed program");
+    if let Some(why) = other_text([&certificate.before, &certificate.after], [before, after]) {
+        return Err(Outcome::refuted(why));
     }
     if certificate.dialect.name != dialect.name || certificate.dialect.sha256 != dialect_digest(dialect) {
         return refuse(&format!(
@@ -123,13 +120,6 @@ fn inputs_match(
         return refuse("other tools, work offsets, control parameters or variables");
     }
     Ok(())
-}
-
-fn text_digest(text: &[u8]) -> TextDigest {
-    TextDigest {
-        sha256: hex_sha256(text),
-        bytes: text.len() as u64,
-    }
 }
 
 /// The dialect of the text after: that of the text before, or the built-in one that the certificate names.
@@ -218,8 +208,8 @@ fn prove_run(
     Ok(Certificate {
         schema: SCHEMA.into(),
         tool_version: env!("CARGO_PKG_VERSION").into(),
-        before: text_digest(before),
-        after: text_digest(after),
+        before: TextDigest::of(before),
+        after: TextDigest::of(after),
         dialect: NamedDigest {
             name: dialect.name.clone(),
             sha256: dialect_digest(dialect),

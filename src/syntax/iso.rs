@@ -100,6 +100,8 @@ fn lex_with(
         out.push(TokenKind::Percent, lexer.span().end as u32);
         lexer.bump(length);
     }
+    // no mark that closes a text lies between here and where one was last sought in vain
+    let mut unclosed = 0;
     loop {
         let behind = lexer.span().end;
         lexer.bump(fast(source, behind, options, out) - behind);
@@ -142,16 +144,15 @@ fn lex_with(
                 };
                 kind
             }
-            Err(()) if let Some(length) = typographic(&source[span.start..], options) => {
-                out.course.odd();
-                lexer.bump(length - span.len());
-                TokenKind::Text
-            }
             Err(()) => {
                 out.course.odd();
-                let length = character(&source[span.start..]);
+                let text = typographic(source, span.start, options, &mut unclosed);
+                let (kind, length) = text.map_or_else(
+                    || (TokenKind::Unknown, character(&source[span.start..])),
+                    |length| (TokenKind::Text, length),
+                );
                 lexer.bump(length.saturating_sub(span.len()));
-                TokenKind::Unknown
+                kind
             }
         };
         out.push(kind, start);
@@ -167,11 +168,32 @@ fn header(source: &[u8], options: LexOptions) -> Option<usize> {
 }
 
 /// The length of a text in the quotation marks of a word processor, which messages of OSP programs have where they were written with one.
-fn typographic(source: &[u8], options: LexOptions) -> Option<usize> {
-    let opens = options.format == Format::Osp && matches!(source, [0xE2, 0x80, 0x98 | 0x99, ..]);
-    let line = memchr::memchr2(b'\n', b'\r', source).unwrap_or(source.len());
-    let close = opens.then(|| memchr::memmem::find(&source[3..line], b"\xE2\x80\x99"))??;
-    Some(3 + close + 3)
+/// Before `unclosed` no mark closes it.
+fn typographic(source: &[u8], at: usize, options: LexOptions, unclosed: &mut usize) -> Option<usize> {
+    let rest = &source[at..];
+    if options.format != Format::Osp || at < *unclosed || !matches!(rest, [0xE2, 0x80, 0x98 | 0x99, ..]) {
+        return None;
+    }
+    let mut from = 3;
+    loop {
+        let Ok(mark) = on_line(rest, from, 0xE2) else {
+            *unclosed = at + from;
+            return None;
+        };
+        if rest[mark..].starts_with(b"\xE2\x80\x99") {
+            return Some(mark + 3);
+        }
+        from = mark + 1;
+    }
+}
+
+/// Where the next such byte of the line is; `Err`: it has none, and ends there. What is looked at is no longer than what is found.
+pub(crate) fn on_line(source: &[u8], from: usize, byte: u8) -> Result<usize, usize> {
+    match memchr::memchr3(byte, b'\n', b'\r', &source[from..]) {
+        Some(length) if source[from + length] == byte => Ok(from + length),
+        Some(length) => Err(from + length),
+        None => Err(source.len()),
+    }
 }
 
 /// The kinds that need no further check.
@@ -281,35 +303,46 @@ impl Special<'_> {
             self.push(TokenKind::ParenOpen);
             return self.end;
         }
-        let line_end = self.line_end();
-        let close = memchr::memchr(b')', &self.source[self.end..line_end]).map(|at| self.end + at);
-        if let Some(at) = close.and_then(|close| memchr::memchr(b'(', &self.source[self.end..close])) {
+        let close = on_line(self.source, self.end, b')');
+        if let Some(at) = close
+            .ok()
+            .and_then(|close| memchr::memchr(b'(', &self.source[self.end..close]))
+        {
             self.report(SyntaxErrorKind::NestedComment, self.end + at, self.end + at + 1);
         }
-        self.comment(close.map(|at| at + 1), line_end)
+        self.comment(close.map(|at| at + 1))
     }
 
     fn slash_star(&mut self) -> usize {
-        let limit = if self.options.slash_star_comment {
-            self.source.len()
-        } else {
-            // Not a comment in this dialect, but nothing else either: one problem instead of one per word.
-            self.report(SyntaxErrorKind::UnexpectedCharacter, self.start, self.end);
-            self.line_end()
-        };
-        let close = memchr::memmem::find(&self.source[self.end..limit], b"*/").map(|at| self.end + at + 2);
-        self.comment(close, limit)
+        if self.options.slash_star_comment {
+            let close = memchr::memmem::find(&self.source[self.end..], b"*/").map(|at| self.end + at + 2);
+            return self.comment(close.ok_or(self.source.len()));
+        }
+        // Not a comment in this dialect, but nothing else either: one problem instead of one per word.
+        self.report(SyntaxErrorKind::UnexpectedCharacter, self.start, self.end);
+        let mut star = on_line(self.source, self.end, b'*');
+        while let Ok(at) = star {
+            if self.source.get(at + 1) == Some(&b'/') {
+                return self.comment(Ok(at + 2));
+            }
+            star = on_line(self.source, at + 1, b'*');
+        }
+        self.comment(star)
     }
 
-    /// A comment that ends at `close`, or is not closed and reaches `limit`.
-    fn comment(&mut self, close: Option<usize>, limit: usize) -> usize {
-        let Some(close) = close else {
-            self.push(TokenKind::UnclosedComment);
-            self.report(SyntaxErrorKind::UnclosedComment, self.start, limit);
-            return limit;
-        };
-        self.push(TokenKind::Comment);
-        close
+    /// A comment up to its close, or (`Err`) one that is not closed, up to where it reaches.
+    fn comment(&mut self, close: Result<usize, usize>) -> usize {
+        match close {
+            Ok(close) => {
+                self.push(TokenKind::Comment);
+                close
+            }
+            Err(limit) => {
+                self.push(TokenKind::UnclosedComment);
+                self.report(SyntaxErrorKind::UnclosedComment, self.start, limit);
+                limit
+            }
+        }
     }
 
     /// `%` at the start of a line, with the program name after it as one token: the name may hold anything.

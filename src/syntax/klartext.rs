@@ -5,6 +5,7 @@
 //! user's manuals 34059x; programs of several shops.
 use crate::builder::Builder;
 use crate::error::SyntaxErrorKind;
+use crate::iso::on_line;
 use crate::lines::character;
 use crate::scan::Scan;
 use crate::sink::Sink;
@@ -156,8 +157,8 @@ fn comment_end(source: &[u8], at: usize, alone: bool) -> usize {
 
 /// `~`, what is behind it on its line, and the line end: the block continues. Elsewhere it is a stray character.
 fn continuation(source: &[u8], at: usize, out: &mut Builder) -> (TokenKind, usize) {
-    let end = line_end(source, at);
-    if !source[at + 1..end].trim_ascii().is_empty() {
+    let end = run(source, at + 1, |byte| byte.is_ascii_whitespace() && !matches!(byte, b'\n' | b'\r'));
+    if !matches!(source.get(end), None | Some(b'\n' | b'\r')) {
         return (TokenKind::Unknown, at + 1);
     }
     let next = behind_newline(source, end);
@@ -169,10 +170,10 @@ fn continuation(source: &[u8], at: usize, out: &mut Builder) -> (TokenKind, usiz
 }
 
 fn text(source: &[u8], at: usize, out: &mut Builder) -> (TokenKind, usize) {
-    let end = line_end(source, at);
-    if let Some(close) = memchr::memchr(b'"', &source[at + 1..end]) {
-        return (TokenKind::Text, at + close + 2);
-    }
+    let end = match on_line(source, at + 1, b'"') {
+        Ok(close) => return (TokenKind::Text, close + 1),
+        Err(end) => end,
+    };
     let range = TextRange::new(at as u32, end as u32);
     out.errors.report(SyntaxErrorKind::UnclosedText, range);
     (TokenKind::Text, end)

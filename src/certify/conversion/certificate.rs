@@ -1,6 +1,7 @@
 //! The certificate of a conversion: which motions belong together, under which terms, and what was found. Both texts are read again to make it and to
 //! check it; the converter is not asked.
 use super::{Ask, Assume, ConversionClaim, ConversionProof, Coolant, Part, Run, Terms, converted_on, read};
+use crate::certificate::other_text;
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::{NamedDigest, Outcome, TextDigest};
@@ -203,10 +204,7 @@ pub fn certify_conversion(
         &terms,
     )?;
     let side = |index: usize, machine: Option<&Machine>, library: Option<std::sync::Arc<Recorder>>| Side {
-        text: TextDigest {
-            sha256: hex_sha256(conversion.texts[index]),
-            bytes: conversion.texts[index].len() as u64,
-        },
+        text: TextDigest::of(conversion.texts[index]),
         dialect: NamedDigest {
             name: conversion.dialects[index].name.clone(),
             sha256: dialect_digest(conversion.dialects[index]),
@@ -275,6 +273,9 @@ impl ConversionCertificate {
         let refuse = |what: String| Err(Outcome::refuted(what));
         if self.schema != CONVERSION_SCHEMA || self.seal() != self.seal_sha256 {
             return refuse("seal_sha256: the certificate was changed after it was made".to_owned());
+        }
+        if let Some(why) = other_text([&self.before.text, &self.after.text], conversion.texts) {
+            return refuse(why);
         }
         let motions = self.proof.motions_before.saturating_add(self.proof.motions_after);
         let parts = self.parts.iter().map(|part| u64::from(part.times)).sum::<u64>();

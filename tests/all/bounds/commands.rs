@@ -11,65 +11,89 @@ pub(super) struct Command {
     arguments: &'static [&'static str],
     /// Standard output is a JSON document.
     pub(super) json: bool,
-    /// The command beside it in the list is another form of it: one has an even place, the other an odd one.
-    pub(super) has_twin: bool,
+    /// The sample of the short form takes one command of each group for a program.
+    pub(super) group: &'static str,
 }
 
-const fn command(name: &'static str, arguments: &'static [&'static str]) -> Command {
+const fn command(group: &'static str, name: &'static str, arguments: &'static [&'static str]) -> Command {
     Command {
         name,
         arguments,
         json: false,
-        has_twin: false,
+        group,
     }
 }
 
-const fn json_command(name: &'static str, arguments: &'static [&'static str]) -> Command {
+const fn json_command(group: &'static str, name: &'static str, arguments: &'static [&'static str]) -> Command {
     Command {
-        name,
-        arguments,
         json: true,
-        has_twin: false,
+        ..command(group, name, arguments)
     }
 }
 
-const fn twin(command: Command) -> Command {
-    Command {
-        has_twin: true,
-        ..command
-    }
-}
-
-/// The commands.
+/// The commands; those of a group stand together.
 pub(super) const COMMANDS: &[Command] = &[
-    twin(command("check", &["check", "--format", "pretty", "FILE"])),
-    twin(json_command("check-json", &["check", "--format", "json", "FILE"])),
-    twin(command("trace", &["trace", "FILE"])),
-    twin(json_command("trace-json", &["trace", "--format", "json", "FILE"])),
-    command("canon", &["canon", "FILE"]),
-    twin(command("fmt", &["fmt", "--diff", "FILE"])),
-    twin(command("fmt-renumber", &["fmt", "--check", "--renumber", "10", "FILE"])),
-    twin(command("diff-itself", &["diff", "FILE", "FILE"])),
-    twin(json_command(
-        "diff-other",
-        &["diff", "--format", "json", "FILE", "OTHER"],
-    )),
-    twin(command("certify", &["certify", "FILE", "FILE"])),
-    twin(command("certify-other", &["certify", "FILE", "OTHER"])),
-    command("convert-apt", &["convert", "FILE", "--to", "apt"]),
+    command("check", "check", &["check", "--format", "pretty", "FILE"]),
+    json_command("check", "check-json", &["check", "--format", "json", "FILE"]),
+    command("check", "report", &["report", "FILE", "-o", "-"]),
+    command("trace", "trace", &["trace", "FILE"]),
+    json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
+    command("trace", "canon", &["canon", "FILE"]),
+    command("fmt", "fmt", &["fmt", "--diff", "FILE"]),
     command(
+        "fmt",
+        "fmt-renumber",
+        &["fmt", "--check", "--renumber", "10", "FILE"],
+    ),
+    command("diff", "diff-itself", &["diff", "FILE", "FILE"]),
+    json_command("diff", "diff-other", &["diff", "--format", "json", "FILE", "OTHER"]),
+    command("diff", "certify", &["certify", "FILE", "FILE"]),
+    command("diff", "certify-other", &["certify", "FILE", "OTHER"]),
+    command("convert", "convert-apt", &["convert", "FILE", "--to", "apt"]),
+    command(
+        "convert",
         "convert-code",
         &["convert", "FILE", "--to", "sinumerik-840d", "--no-tcp"],
     ),
-    command("fix", &["fix", "FILE"]),
-    command("plot-joints", &["plot", "FILE", "--kind", "joints"]),
-    command("plot-path", &["plot", "FILE", "--kind", "path"]),
-    command("plot-deviation", &["plot", "FILE", "--kind", "deviation"]),
-    command("surface", &["surface", "FILE", "--required", "required.toml"]),
-    json_command("stats", &["stats", "--format", "json", "FILE"]),
-    twin(command("parse-tokens", &["parse", "--tokens", "FILE"])),
-    twin(command("parse", &["parse", "FILE"])),
-    command("lsp", &["lsp"]),
+    command(
+        "convert",
+        "convert-klartext",
+        &["convert", "FILE", "--to", "heidenhain-klartext"],
+    ),
+    command("fix", "fix", &["fix", "FILE"]),
+    command(
+        "fix",
+        "fix-adapt-feed",
+        &["fix", "FILE", "--rewrite", "adapt-feed", "--feed", "5000"],
+    ),
+    command("fix", "fix-all", &["fix", "FILE", "--rewrite", "all"]),
+    command("plot", "plot-joints", &["plot", "FILE", "--kind", "joints"]),
+    command("plot", "plot-path", &["plot", "FILE", "--kind", "path"]),
+    command("plot", "plot-deviation", &["plot", "FILE", "--kind", "deviation"]),
+    command("plot", "plot-feed", &["plot", "FILE", "--kind", "feed"]),
+    command("plot", "plot-axis-plane", &["plot", "FILE", "--kind", "axis-plane"]),
+    command("plot", "plot-route", &["plot", "FILE", "--kind", "route"]),
+    command(
+        "plot",
+        "plot-servo",
+        &["plot", "FILE", "--kind", "servo", "--at", "9", "--kv", "50", "--acc", "2000"],
+    ),
+    json_command(
+        "servo",
+        "servo",
+        &["servo", "FILE", "--at", "9", "--kv", "50", "--acc", "2000", "--format", "json"],
+    ),
+    command("servo", "surface", &["surface", "FILE", "--required", "required.toml"]),
+    command(
+        "servo",
+        "machine-compare",
+        &["machine", "compare", "mikron-ucp710", "other-machine.toml", "FILE"],
+    ),
+    json_command("stats", "stats", &["stats", "--format", "json", "FILE"]),
+    json_command("stats", "stats-time", &["stats", "--time", "--format", "json", "FILE"]),
+    command("parse", "parse-tokens", &["parse", "--tokens", "FILE"]),
+    command("parse", "parse", &["parse", "FILE"]),
+    command("lsp", "lsp", &["lsp"]),
 ];
 
 /// Files that commands need beside the program.
@@ -77,6 +101,13 @@ pub(super) fn write_helpers(folder: &Path) {
     let required =
         "schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [100, 0, 0]], [[0, 100, 0], [100, 100, 0]]]\n";
     std::fs::write(folder.join("required.toml"), required).expect("written");
+    let machine = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/machines/mikron-ucp710.toml");
+    std::fs::copy(machine, folder.join("other-machine.toml")).expect("a sample");
+}
+
+/// The name of the path that the server writes for a viewer.
+pub(super) fn scene(file: &str) -> String {
+    format!("scene-{file}")
 }
 
 /// The name of the changed copy of a program.
@@ -163,7 +194,32 @@ impl Command {
             "textDocument/codeAction",
             &json!({ "textDocument": document, "range": { "start": here, "end": here }, "context": { "diagnostics": [] } }),
         ));
-        say(request(6, "shutdown", &Value::Null));
+        for (id, method) in [
+            (6, "textDocument/semanticTokens/full"),
+            (7, "textDocument/foldingRange"),
+            (8, "textDocument/codeLens"),
+            (9, "textDocument/diagnostic"),
+        ] {
+            say(request(id, method, &json!({ "textDocument": document })));
+        }
+        let all = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 4_000_000, "character": 0 } });
+        say(request(
+            10,
+            "textDocument/inlayHint",
+            &json!({ "textDocument": document, "range": all }),
+        ));
+        say(request(
+            11,
+            "textDocument/references",
+            &json!({ "textDocument": document, "position": here, "context": { "includeDeclaration": true } }),
+        ));
+        let scene = folder.join(scene(file));
+        say(request(
+            12,
+            "trunnion/backplot",
+            &json!({ "textDocument": document, "file": scene }),
+        ));
+        say(request(13, "shutdown", &Value::Null));
         say(notice("exit", &Value::Null));
         out
     }

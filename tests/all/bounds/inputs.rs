@@ -2,24 +2,41 @@
 mod bytes;
 mod cycles;
 mod flow;
+mod klartext;
 mod many;
 mod nesting;
+mod okuma;
 
 /// A hostile program.
 pub(super) struct Input {
     /// Its name, as the table of the long form prints it.
     pub(super) name: &'static str,
+    /// The dialect that it is written in: the sample meets no other. `None`: it meets all of them in turn.
+    pub(super) dialect: Option<&'static str>,
     /// Makes it: `size` elements of whatever it has many of, cut off at [`Input::MOST_BYTES`].
     make: fn(usize) -> Vec<u8>,
 }
 
 impl Input {
     /// No file is larger, and none has more lines: `--max-file-mb` and `--max-lines` refuse more by default.
-    const MOST_BYTES: usize = 64_000_000;
+    pub(super) const MOST_BYTES: usize = 64_000_000;
     const MOST_LINES: usize = 1_200_000;
 
     const fn new(name: &'static str, make: fn(usize) -> Vec<u8>) -> Self {
-        Self { name, make }
+        Self {
+            name,
+            dialect: None,
+            make,
+        }
+    }
+
+    /// One for a dialect.
+    const fn of(dialect: &'static str, name: &'static str, make: fn(usize) -> Vec<u8>) -> Self {
+        Self {
+            name,
+            dialect: Some(dialect),
+            make,
+        }
     }
 
     /// The program.
@@ -44,6 +61,8 @@ pub(super) fn all() -> Vec<Input> {
     all.extend(many::inputs());
     all.extend(flow::inputs());
     all.extend(cycles::inputs());
+    all.extend(klartext::inputs());
+    all.extend(okuma::inputs());
     all
 }
 
@@ -56,7 +75,7 @@ fn cut(body: &str) -> Vec<u8> {
 }
 
 /// `size` lines, each made from its number, no more than the largest file holds.
-fn lines(size: usize, line: impl Fn(usize) -> String) -> String {
+pub(super) fn lines(size: usize, line: impl Fn(usize) -> String) -> String {
     let mut out = String::new();
     for i in 0..size {
         out.push_str(&line(i));

@@ -144,6 +144,65 @@ fn an_edit_that_is_saved_while_a_command_runs_stays() {
     }
 }
 
+/// Runs a command in `bash`, which lets no file grow beyond `kilobytes`: a write past that ends the process by a signal, as a kill does.
+fn ended_at(folder: &Path, kilobytes: usize, arguments: &[&str]) -> std::process::Output {
+    Command::new("bash")
+        .args([
+            "-c",
+            "ulimit -c 0; ulimit -f \"$1\"; shift; exec \"$0\" \"$@\"",
+            env!("CARGO_BIN_EXE_trunnion"),
+            &kilobytes.to_string(),
+        ])
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .expect("bash runs")
+}
+
+#[test]
+fn a_certificate_that_a_kill_left_beside_a_new_program_is_named() {
+    let fix = ["fix flip.nc --rewrite smooth-pole --tolerance-deg", "0.05", "0.08"];
+    let convert = ["convert piece.apt --to fanuc-30i --program-number", "1", "2"];
+    for ([command, first, second], before) in [(fix, "flip.nc"), (convert, "piece.apt")] {
+        let folder = prepared(10);
+        let path = |name: &str| folder.path().join(name);
+        let arguments = |value: &'static str| -> Vec<&str> {
+            let outputs = ["-o", "new.nc", "--certificate", "proof.json"];
+            command.split(' ').chain([value]).chain(outputs).collect()
+        };
+        let run = |value| {
+            let output = trunnion_in(folder.path(), &arguments(value));
+            assert_eq!(status(&output), 0, "{command} {value}: {}", text(&output.stderr));
+            ["new.nc", "proof.json"].map(|name| content(&path(name)))
+        };
+        let certify = || {
+            let output = trunnion_in(folder.path(), &["certify", before, "new.nc", "--certificate", "proof.json"]);
+            (status(&output), text(&output.stdout))
+        };
+        let [program, certificate] = run(second);
+        let [old_program, old_certificate] = run(first);
+        assert_ne!(program, old_program, "{command}");
+        // the certificate is longer than its program: the process ends at a byte between the first write and the end of the second
+        let kilobytes = program.len().div_ceil(1024);
+        assert!(certificate.len() > kilobytes * 1024, "{command}");
+        let killed = ended_at(folder.path(), kilobytes, &arguments(second));
+        assert_eq!(killed.status.code(), None, "{command}: {}", text(&killed.stderr));
+        assert_eq!(content(&path("new.nc")), program, "{command}");
+        assert_eq!(content(&path("proof.json")), old_certificate, "{command}");
+        assert_eq!(temporaries(folder.path()), 1, "{command}");
+        let (status, said) = certify();
+        assert_eq!(status, 1, "{command}: {said}");
+        for part in ["REFUTED", "made for another changed program", "run that command again"] {
+            assert!(said.contains(part), "{command}: {said}");
+        }
+        // which makes both again, and removes what the kill left
+        assert_eq!(run(second), [program, certificate], "{command}");
+        assert_eq!(certify().0, 0, "{command}");
+        assert_eq!(temporaries(folder.path()), 0, "{command}");
+    }
+}
+
 /// What a command may do that cannot write: say so and leave everything as it was.
 fn refused(writer: &Writer, folder: &Path, output: &std::process::Output, old: &[Option<String>], before: &[String]) {
     let said = text(&output.stderr);

@@ -48,6 +48,11 @@ pub(super) const WRITERS: &[Writer] = &[
         &["fixed.nc", "proof.json"],
     ),
     writer(
+        "convert -o --certificate",
+        "convert piece.apt --to fanuc-30i -o proved.nc --certificate conversion.json",
+        &["proved.nc", "conversion.json"],
+    ),
+    writer(
         "convert -o",
         "convert piece.apt --to fanuc-30i -o piece.nc",
         &["piece.nc"],

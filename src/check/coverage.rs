@@ -116,7 +116,15 @@ impl Coverage {
 
     /// Parts that move the machine and were not checked, unless another finding gives the reason.
     pub(crate) fn gaps(&self) -> impl Iterator<Item = &NotRun> {
-        let explained = |reason| matches!(reason, NotRunReason::GivenUp | NotRunReason::BlockDelete);
+        // an alarm stops the program on purpose, but what follows it was not looked at all the same
+        let alarm = self
+            .given_up
+            .as_ref()
+            .is_some_and(|given_up| given_up.reason == "program-alarm");
+        let explained = move |reason| match reason {
+            NotRunReason::GivenUp => !alarm,
+            reason => reason == NotRunReason::BlockDelete,
+        };
         self.not_run
             .iter()
             .filter(move |part| part.moves && !explained(part.reason))

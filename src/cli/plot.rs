@@ -112,7 +112,7 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
             &format!(
                 "{}: not drawn: {} with an unknown path; see `trunnion check`",
                 loaded.name,
-                crate::cli::render::counted(count as u64, "motion")
+                crate::cli::verdict::counted(count as u64, "motion")
             ),
         );
     }

@@ -32,6 +32,8 @@ pub(crate) struct QuirksRow {
     straight_rapids: Option<bool>,
     cycle_level_optional: Option<bool>,
     cycle_return_unknown: Option<bool>,
+    tool_change_stops_spindle: Option<bool>,
+    return_cancels_length: Option<bool>,
     dollar_commands: Option<bool>,
     skips_leader: Option<bool>,
 }
@@ -64,6 +66,8 @@ impl QuirksRow {
             straight_rapids: self.straight_rapids.unwrap_or(base.straight_rapids),
             cycle_level_optional: self.cycle_level_optional.unwrap_or(base.cycle_level_optional),
             cycle_return_unknown: self.cycle_return_unknown.unwrap_or(base.cycle_return_unknown),
+            tool_change_stops_spindle: self.tool_change_stops_spindle.unwrap_or(base.tool_change_stops_spindle),
+            return_cancels_length: self.return_cancels_length.unwrap_or(base.return_cancels_length),
             dollar_commands: self.dollar_commands.unwrap_or(base.dollar_commands),
             skips_leader: self.skips_leader.unwrap_or(base.skips_leader),
             machine_data_suppress_length: self

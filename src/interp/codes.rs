@@ -45,6 +45,8 @@ pub(crate) struct BlockCodes {
     pub(crate) hole_call: Option<usize>,
     /// MCALL comes before it.
     pub(crate) modal_call: bool,
+    /// M5: after the motion of the block.
+    pub(crate) stops_spindle: bool,
 }
 
 /// Place in the order of execution (RS274/NGC, version 3, section 3.8: feed mode, F, S, T, tool change, spindle, dwell, plane,
@@ -161,7 +163,7 @@ impl<'d> Iso<'d> {
             }
             Action::ConstantSpindleSpeed => state.spindle.set_surface_speed(false),
             Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.switch(true),
-            Action::SpindleStop => state.spindle.switch(false),
+            Action::SpindleStop => block.stops_spindle = true,
             Action::ToolChange => self.change_tool(words, report),
             Action::MachineCoordinates => block.machine_coordinates = true,
             Action::OrientationAxes => state.tool_axis.set_great_circle(false),

@@ -22,7 +22,7 @@ use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
     letter_bit, name_of, said, sort, takes_axes, tells, uncouples,
 };
-use trunnion_dialect::{Action, Macros, Role};
+use trunnion_dialect::{Action, CodeKind, Macros, Role};
 use trunnion_syntax::Block;
 
 /// Whether a fault means that its block does more than its motions and the modal state contain.
@@ -73,6 +73,8 @@ impl Iso<'_> {
                     free = 0;
                     held = u32::MAX;
                 }
+                // after the motion
+                Sort::Setting(_) if found.code.action == Action::SpindleStop => {}
                 Sort::Setting(key) => {
                     let mut to = vec![Argument::code(found.code.id.clone())];
                     // S and D are settings of their own
@@ -223,6 +225,11 @@ impl Iso<'_> {
         if codes.iter().any(|found| found.code.action == Action::ToolChange) {
             let change = vec![Argument::code("tool change")];
             self.core.effects.add(block, Effect::Event(change));
+            if self.core.dialect.quirks.tool_change_stops_spindle {
+                self.core
+                    .effects
+                    .add(block, Effect::set("spindle", [Argument::code("M5")]));
+            }
         }
         if words.edge.is_given() {
             self.core.effects.add(block, Effect::set("D", [said("D", words.edge)]));
@@ -288,6 +295,7 @@ impl Iso<'_> {
             self.core.effects.ambiguous_number(block);
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
+        self.moment_effects(codes, words, motions, block);
         if has_other_effects || unknown_end || unknown_frame || unread || words.polynomial {
             let keep = if moved && !frame && !words.forgets_all && !words.polynomial {
                 Keep::BesideMotion
@@ -335,6 +343,47 @@ impl Iso<'_> {
         self.after_motion(codes, words, view);
     }
 
+    /// Codes of a block that moves, of which the control or the machine builder decides whether they act before the motion, with it or after it: they are
+    /// not the same as in a block of their own.
+    fn moment_effects(
+        &mut self,
+        codes: &[Found<'_>],
+        words: &Words,
+        motions: &[Motion],
+        block: trunnion_syntax::BlockId,
+    ) {
+        if motions.iter().all(|motion| matches!(motion.kind, MotionKind::Dwell(_))) {
+            return;
+        }
+        let cuts = motions.iter().any(Motion::is_feed);
+        let unsettled = |found: &Found<'_>| match found.code.action {
+            Action::SpindleStop => cuts,
+            Action::ToolChange => true,
+            Action::NoMotion => {
+                found.code.kind == CodeKind::M
+                    && !is_frame(found.code.action)
+                    && matches!(sort(found, words), Sort::Before)
+            }
+            _ => false,
+        };
+        let mut names: Vec<Argument> = codes
+            .iter()
+            .filter(|found| unsettled(found))
+            .map(|found| Argument::code(found.code.id.clone()))
+            .collect();
+        if words.builder_code {
+            names.push(Argument::code("M of the machine builder"));
+        }
+        if words.tool.is_given() && self.core.dialect.quirks.tool_word.changes() {
+            names.push(Argument::code("T"));
+        }
+        if !names.is_empty() {
+            names.sort_by(|a, b| a.name.cmp(&b.name));
+            names.push(Argument::code("in the block of a motion"));
+            self.core.effects.add(block, Effect::Unmodelled(names));
+        }
+    }
+
     /// What the codes of a block do after its motion.
     fn after_motion(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
@@ -359,6 +408,10 @@ impl Iso<'_> {
                     for (key, _) in coolant(found.code).into_iter().flatten().filter(|(_, on)| !*on) {
                         self.core.effects.add(block, Effect::set(*key, []));
                     }
+                }
+                _ if found.code.action == Action::SpindleStop => {
+                    let to = vec![Argument::code(found.code.id.clone())];
+                    self.core.effects.add(block, Effect::set("spindle", to));
                 }
                 _ if found.code.action == Action::ProgramEnd => {
                     let event = vec![Argument::code(found.code.id.clone())];

@@ -77,6 +77,11 @@ impl Iso<'_> {
         };
         if block.machine_coordinates && self.core.state.tool_axis.tcp() {
             self.machine_words_under_tcp(words, &mut kind, &mut end, report);
+        } else if block.machine_coordinates
+            && self.core.state.coordinates.incremental()
+            && self.core.dialect.quirks.macro_b()
+        {
+            self.machine_words_incremental(words, &mut kind, &mut end, report);
         }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
@@ -99,6 +104,23 @@ impl Iso<'_> {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
+    }
+
+    /// G53 under G91: a Fanuc ignores the code, and the words may then be distances (Series 30i operator's manual, machine coordinate system; Mitsubishi
+    /// M700V programming manual, p. 508: incremental). Where the axes go is unknown.
+    fn machine_words_incremental(
+        &mut self,
+        words: &Words,
+        kind: &mut MotionKind,
+        end: &mut Position,
+        report: &mut Report<'_>,
+    ) {
+        let named = words.axes.given | words.axes.unread;
+        *kind = MotionKind::Unknown;
+        end.known &= !named;
+        self.core.state.position.known &= !named;
+        let what = "G53 under G91: write G90 before it".to_owned();
+        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
     }
 
     fn in_machine_coordinates(&self, motion: &mut Motion, moved: u16) {

@@ -236,11 +236,19 @@ impl<'d> Iso<'d> {
         if words.builder_code {
             self.core.state.spindle.may_start();
         }
+        // it stands at its position (SINUMERIK Function Manual, 06/2019, p. 754)
+        if words.positions_spindle {
+            self.core.state.spindle.switch(false);
+        }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
         let mut motion = self.motion(codes, words, &block, report);
         self.called_cycle(codes, words, &block, &mut motion, report);
+        // with the motion or after it, by ISO 6983-1 (table of miscellaneous functions: M05 begins after the motion of its block)
+        if block.stops_spindle {
+            self.core.state.spindle.switch(false);
+        }
         if words.forgets_all {
             self.core.losses += 1;
             self.core.forget_position();

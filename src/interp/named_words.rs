@@ -20,6 +20,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let variable = self.dialect.quirks.user_names() || matches!(name.first(), Some(b'#' | b'$'));
         // FL[X]= and PO[X]= are FL and PO of an axis
         let stem = name.split(|byte| *byte == b'[').next().unwrap_or_default().trim_ascii();
+        let positions = stem.eq_ignore_ascii_case(b"SPOS") || stem.eq_ignore_ascii_case(b"SPOSA");
+        let index = name.get(stem.len()..).unwrap_or_default().trim_ascii();
+        // SPOS[2] is another spindle
+        self.words.positions_spindle |= positions && (index.is_empty() || index == b"[1]");
         match (self.dialect.named_role(stem), name.first()) {
             (Some(Role::NotFollowed), _) => {
                 let what = String::from_utf8_lossy(stem).to_ascii_uppercase();

@@ -122,7 +122,10 @@ impl<'d> Iso<'d> {
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
     pub(crate) fn length_on(&mut self, offset: WordValue, range: TextRange, report: &mut Report<'_>) {
-        if self.core.dialect.quirks.user_task() && !offset.is_given() {
+        let quirks = &self.core.dialect.quirks;
+        let none_yet = quirks.macro_b() && self.memory.length_offset.is_none();
+        if (quirks.user_task() || none_yet) && !offset.is_given() {
+            // H is modal, and which one is in effect at the start of the program is not known
             return self.unstated_length("a length offset without H", range, report);
         }
         if let Some(number) = offset.index() {

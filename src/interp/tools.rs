@@ -193,6 +193,9 @@ impl Iso<'_> {
             None => self.core.forget_linear(),
         }
         self.tcp_at_tool_change(report);
+        if self.core.dialect.quirks.tool_change_stops_spindle {
+            self.core.state.spindle.switch(false);
+        }
         if !self.core.tools.load_prepared() {
             return;
         }

@@ -172,6 +172,8 @@ pub(crate) struct Words {
     pub(crate) forgets_all: bool,
     /// `M1=4`: a function for a spindle by number, which may or may not be the one with the tool.
     pub(crate) other_spindle: bool,
+    /// SPOS, SPOSA: the main spindle turns to a position and stands there.
+    pub(crate) positions_spindle: bool,
     /// Zero points or tools of the control are written: from here on coordinates say nothing about the machine.
     pub(crate) writes_system: bool,
     /// `,R` or `,C` with its value as written: the corner between this motion and the next is rounded or cut off.

@@ -67,6 +67,8 @@ impl Encode for Quirks {
             straight_rapids,
             cycle_level_optional,
             cycle_return_unknown,
+            tool_change_stops_spindle,
+            return_cancels_length,
             dollar_commands,
             skips_leader,
             machine_data_suppress_length,
@@ -106,6 +108,8 @@ impl Encode for Quirks {
                 .field(30, &has(Language::UserTask).then_some(true))
                 .field(31, &cycle_return_unknown.then_some(true))
                 .field(32, &dollar_commands.then_some(true))
+                .field(33, &tool_change_stops_spindle.then_some(true))
+                .field(34, &return_cancels_length.then_some(true))
                 .field(33, &skips_leader.then_some(true));
         });
     }

@@ -350,6 +350,8 @@ fn every_fact_of_a_dialect_counts() {
             |d| d.quirks.own_parameters_to += 1,
             |d| d.quirks.machine_data_suppress_length ^= true,
             |d| d.quirks.dollar_commands ^= true,
+            |d| d.quirks.tool_change_stops_spindle ^= true,
+            |d| d.quirks.return_cancels_length ^= true,
             |d| d.quirks.skips_leader ^= true,
         ],
     );

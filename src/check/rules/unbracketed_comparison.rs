@@ -2,7 +2,7 @@
 //!
 //! # Why
 //! On a Sinumerik comparisons bind weaker than AND, OR and XOR: `R1>5 AND R2<3` is `(R1 > (5 AND R2)) < 3`, which is
-//! true whatever the two variables hold. The control takes it without an alarm.
+//! true whatever the two variables hold. The control takes it without an alarm. In Custom Macro B, too, EQ, NE, GT, LT, GE and LE bind weaker.
 //!
 //! # Example
 //! ```gcode sinumerik-840d
@@ -24,6 +24,8 @@
 //!
 //! # Sources
 //! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019): the priority of operators, p. 444.
+//! * Fanuc Series 30i operator's manual, custom macro, priority of operations: functions, then *, / and AND, then +, -, OR and XOR; conditional
+//!   expressions compare what these give.
 use crate::prelude::*;
 use trunnion_dialect::Language;
 
@@ -31,17 +33,20 @@ pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Program(check)]);
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let program = overview.program;
-    if overview.settings.dialect.quirks.language != Language::Sinumerik {
+    let quirks = &overview.settings.dialect.quirks;
+    let names = quirks.macro_b();
+    if quirks.language != Language::Sinumerik && !names {
         return;
     }
     let source = program.source();
     // most programs compare nothing
-    if memchr::memchr2(b'<', b'>', source).is_none() && memchr::memmem::find(source, b"==").is_none() {
+    let signs = || memchr::memchr2(b'<', b'>', source).is_some() || memchr::memmem::find(source, b"==").is_some();
+    if !names && !signs() || names && memchr::memchr(b'#', source).is_none() {
         return;
     }
     for block in program.blocks() {
         let range = block.range();
-        for (from, to) in between_comparisons(&source[range.as_usize()]) {
+        for (from, to) in between_comparisons(&source[range.as_usize()], names) {
             let range = TextRange::new(range.start + from as u32, range.start + to as u32);
             let word = out.text(range).to_ascii_uppercase();
             out.report(
@@ -53,6 +58,15 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     }
 }
 
+/// EQ, NE, GT, LT, GE, LE, and no longer name.
+fn compares(text: &[u8]) -> bool {
+    let Some(name) = text.get(..2) else { return false };
+    [b"EQ", b"NE", b"GT", b"LT", b"GE", b"LE"]
+        .iter()
+        .any(|known| name.eq_ignore_ascii_case(*known))
+        && !text.get(2).is_some_and(u8::is_ascii_alphabetic)
+}
+
 /// What the open bracket has so far.
 #[derive(Clone, Copy, Default)]
 struct Level {
@@ -62,15 +76,18 @@ struct Level {
 }
 
 /// The operators between two comparisons of one bracket; bytes of the text.
-fn between_comparisons(text: &[u8]) -> Vec<(usize, usize)> {
+/// `names`: the comparisons are names (EQ), and words may follow each other without a blank (`#1EQ1AND#2EQ2`).
+fn between_comparisons(text: &[u8], names: bool) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let (mut outer, mut here) = (Vec::new(), Level::default());
-    let is_name = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$');
+    let is_name =
+        |byte: u8| byte.is_ascii_alphabetic() || !names && (byte.is_ascii_digit() || matches!(byte, b'_' | b'$'));
     let mut at = 0;
     while let Some(&byte) = text.get(at) {
         let next = text.get(at + 1).copied();
         let length = match (byte, next) {
             (b';', _) => break,
+            (b'(', _) if names => memchr::memchr(b')', &text[at..]).map_or(text.len() - at, |end| end + 1),
             (b'"', _) => memchr::memchr(b'"', &text[at + 1..]).map_or(text.len() - at, |end| end + 2),
             (b'(' | b'[', _) => {
                 outer.push(std::mem::take(&mut here));
@@ -79,6 +96,11 @@ fn between_comparisons(text: &[u8]) -> Vec<(usize, usize)> {
             (b')' | b']', _) => {
                 here = outer.pop().unwrap_or_default();
                 1
+            }
+            _ if names && compares(&text[at..]) => {
+                found.extend(here.word.take());
+                here.compared = true;
+                2
             }
             (b'<', Some(b'<')) => 2,
             (b'<' | b'>', _) | (b'=', Some(b'=')) => {
@@ -113,6 +135,22 @@ mod tests {
     use super::between_comparisons;
 
     #[test]
+    fn names_of_comparisons_need_no_blanks() {
+        for (text, words) in [
+            ("IF[#1EQ1AND#2EQ2]GOTO10", vec!["AND"]),
+            ("IF [[#1 EQ 1] AND [#2 EQ 2]] GOTO 10", vec![]),
+            ("WHILE[#1LT5OR#2GT1]DO1", vec!["OR"]),
+            ("#3=#1AND#2", vec![]),
+            ("(A EQ B AND C EQ D)", vec![]),
+            ("IF[#1EQ#2AND3]GOTO1", vec![]),
+        ] {
+            let found = between_comparisons(text.as_bytes(), true);
+            let found: Vec<&str> = found.iter().map(|(from, to)| &text[*from..*to]).collect();
+            assert_eq!(found, words, "{text}");
+        }
+    }
+
+    #[test]
     fn only_operators_between_comparisons_of_one_bracket_are_found() {
         for (text, words) in [
             ("IF R1>5 AND R2<3 GOTOF A", vec!["AND"]),
@@ -128,7 +166,7 @@ mod tests {
             ("IF R1>5 AND R[R2<3]>1", vec!["AND"]),
             ("\"", vec![]),
         ] {
-            let found = between_comparisons(text.as_bytes());
+            let found = between_comparisons(text.as_bytes(), false);
             let found: Vec<&str> = found.iter().map(|(from, to)| &text[*from..*to]).collect();
             assert_eq!(found, words, "{text}");
         }

@@ -287,7 +287,7 @@ impl Split {
 pub(in crate::cli) fn is_found(report: &Report, deny: Severity, strict: bool) -> bool {
     report.diagnostics.iter().any(|d| match d.status {
         Status::Fail => d.severity >= deny,
-        Status::Unknown => strict || d.severity >= deny,
+        Status::Unknown => strict,
     })
 }
 
@@ -298,5 +298,5 @@ fn is_denied(severity: &str, status: &str, deny: Severity, strict: bool) -> bool
         "warning" => Severity::Warning,
         _ => Severity::Info,
     };
-    severity >= deny || (strict && status == "unknown")
+    if status == "unknown" { strict } else { severity >= deny }
 }

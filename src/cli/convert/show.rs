@@ -1,6 +1,6 @@
 //! What `convert` prints of a conversion, in words and as a JSON document.
 use crate::cli::load::Loaded;
-use crate::cli::render::counted;
+use crate::cli::verdict::counted;
 use serde_json::json;
 use trunnion_convert::Converted;
 use trunnion_machine::Machine;

@@ -235,7 +235,7 @@ fn program(
         &format!(
             "{}:{line}, the worst of {}",
             loaded.name,
-            crate::cli::render::counted(both.compared as u64, "motion")
+            crate::cli::verdict::counted(both.compared as u64, "motion")
         ),
         machine,
         &worst,

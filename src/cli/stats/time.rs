@@ -1,6 +1,6 @@
 //! How long a program takes: in all, by tool and operation, where it is slow, and why.
 use crate::cli::load::Loaded;
-use crate::cli::render::counted;
+use crate::cli::verdict::counted;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -29,6 +29,15 @@ impl Iso<'_> {
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         self.store_hole(words, axis);
+        if self.core.state.compensation != 0 {
+            self.lost(
+                words,
+                axis,
+                "a drilling cycle while cutter radius compensation is on (G41, G42)",
+                report,
+            );
+            return;
+        }
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
             _ if words.flow && words.p.is_given() => Some(1),
@@ -127,6 +136,17 @@ impl Iso<'_> {
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             return None;
         };
+        let upside_down = r.is_some_and(|r| r < bottom);
+        // on a lathe, in a mirrored frame or along another axis holes go in either direction
+        let downwards = axis == 2 && !self.memory.frames.active && !self.core.dialect.quirks.diameter;
+        if upside_down && downwards && self.core.state.motion != Some(Action::BackBoreCycle) {
+            let message = format!(
+                "{}: R is below the bottom of the hole, so that the tool goes there in rapid: R and Z are coordinates, and R is the higher one",
+                self.memory.cycle.id
+            );
+            self.refuse(words, Refusal::CannedCycle, message, None, report);
+            return None;
+        }
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let always_initial = self.core.state.motion == Some(Action::BackBoreCycle);
         let back = if self.core.dialect.quirks.cycle_return_unknown {

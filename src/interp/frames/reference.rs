@@ -3,7 +3,7 @@ use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{FaultKind, Feed, MotionKind, Position};
+use crate::{FaultKind, Feed, LengthOf, MotionKind, Position};
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
@@ -50,6 +50,9 @@ impl Iso<'_> {
                     return;
                 }
                 self.reach_reference(named, number, range, report);
+                if number == 1 && self.core.dialect.quirks.return_cancels_length {
+                    self.set_length(None, LengthOf::Nothing);
+                }
             }
         }
     }

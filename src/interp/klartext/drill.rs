@@ -144,6 +144,26 @@ impl Klartext<'_> {
         if depth == 0.0 {
             return;
         }
+        if clear < 0.0 {
+            let message = format!(
+                "cycle {}: Q200 is negative, so that the tool goes below the surface in rapid: it is a distance, 0 or more",
+                hole.cycle
+            );
+            Self::rejected(Refusal::CannedCycle, message, report);
+            return self.work_unknown(report);
+        }
+        if depth > 0.0 {
+            let what = format!(
+                "cycle {}: a positive depth (Q201), which a machine parameter refuses or runs towards the spindle",
+                hole.cycle
+            );
+            self.not_modelled_once(&what, report);
+            return self.work_unknown(report);
+        }
+        if matches!(hole.cycle, 207 | 209) && hole.pitch == Some(0.0) {
+            let message = format!("cycle {} without a pitch: Q239 is 0", hole.cycle);
+            Self::rejected(Refusal::CannedCycle, message, report);
+        }
         let second = hole.second.unwrap_or(clear).max(clear);
         let feed = match hole.pitch.filter(|_| matches!(hole.cycle, 207 | 209)) {
             // the spindle leads

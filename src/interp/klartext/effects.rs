@@ -17,6 +17,7 @@ const CODES: [u32; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 30, 89, 91, 92, 
 impl Klartext<'_> {
     #[cold]
     pub(crate) fn block_effects(&mut self, text: &[u8], block: BlockId, other: bool, skips: bool) {
+        let own = block;
         let block = self.core.main_block(block);
         let mut words = Words::new(text);
         let Some(first) = words.next() else { return };
@@ -27,7 +28,7 @@ impl Klartext<'_> {
         if first.is("TOOL") {
             self.tool_effects(words.clone(), block);
         } else if first.is("STOP") {
-            after.push(Effect::Event(vec![Argument::code("M0")]));
+            after.extend(stop());
         } else if first.is("CYCL") || first.is("CYCLE") {
             unmodelled |= self.cycle_effects(text, block);
         } else if let Said::Parameter(..) = first.value {
@@ -40,6 +41,11 @@ impl Klartext<'_> {
             if let Some(code) = self.memory.parameters.of(word.value) {
                 self.code_effects(code as u32, block, &mut after, &mut unmodelled);
             }
+        }
+        // what begins with the block acts before its motions
+        let begun = self.core.effects.count();
+        for motion in self.out.iter_mut().filter(|motion| motion.block == own) {
+            motion.effects = begun;
         }
         let unknown = self.out.iter().any(|motion| {
             matches!(
@@ -87,7 +93,7 @@ impl Klartext<'_> {
                 after.push(Effect::set("flood coolant", []));
                 after.push(Effect::set("mist coolant", []));
             }
-            0 => after.push(Effect::Event(vec![Argument::code("M0")])),
+            0 => after.extend(stop()),
             1 => after.push(Effect::Event(vec![Argument::code("M1")])),
             _ => {}
         }
@@ -208,6 +214,16 @@ fn canonical_words(text: &[u8]) -> String {
         }
         from = to;
     }
+}
+
+/// M0 and STOP: the spindle and the coolant stop as well.
+fn stop() -> [Effect; 4] {
+    [
+        Effect::Event(vec![Argument::code("M0")]),
+        Effect::set("spindle", [Argument::code("M5")]),
+        Effect::set("flood coolant", []),
+        Effect::set("mist coolant", []),
+    ]
 }
 
 /// Words that may stand alone in a block: axes, F, M, R.

@@ -43,7 +43,10 @@ impl Klartext<'_> {
             b"SEL" => self.select(&mut words, report),
             b"FN" => return self.function_of_parameters(first.value, &mut words, report),
             b"" if matches!(first.value, Said::Parameter(..)) => return self.assignment(text, report),
-            b"STOP" => self.path_block(Path::None, &mut words, report),
+            b"STOP" => {
+                self.path_block(Path::None, &mut words, report);
+                self.core.state.spindle.switch(false);
+            }
             b"BLK" => {}
             b"TCH" | b"PATTERN" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"SPL" | b"DECLARE" => {
                 self.not_followed(first.name(), report);
@@ -224,7 +227,10 @@ impl Klartext<'_> {
     pub(crate) fn codes_after(&mut self, words: &PathWords) {
         for &code in words.codes() {
             match code {
-                5 => self.core.state.spindle.switch(false),
+                // M0 stops the spindle and the coolant too (TNC 155 programming manual, p. 15; TNC 640 user's manual, M functions)
+                0 | 5 => self.core.state.spindle.switch(false),
+                // where the operator has chosen the optional stop, so does M1
+                1 => self.core.state.spindle.turn(None),
                 2 | 30 => {
                     self.core.state.spindle.switch(false);
                     self.core.state.ended = true;

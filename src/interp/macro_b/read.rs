@@ -190,6 +190,17 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         match statement {
             Statement::Then => {}
             Statement::If => {
+                let end = self.program.block(self.block).range().end;
+                let rest = self
+                    .program
+                    .text(TextRange::new(call.range.end.min(end), end))
+                    .to_ascii_uppercase();
+                if !rest.contains("GOTO") && !rest.contains("THEN") {
+                    let message =
+                        "IF without GOTO or THEN: what depends on the condition stands in the same block".to_owned();
+                    let kind = rejected(self.dialect, Mistake::Format, Refusal::Structure, message);
+                    (self.report)(call.range, kind);
+                }
                 if self.condition(call) != Some(true) {
                     self.words.declares = true;
                 }

@@ -16,6 +16,7 @@ mod rough;
 mod row;
 mod steps;
 mod thread;
+mod way_down;
 
 pub(crate) use called::HoleCall;
 pub(crate) use data::{Hole, Stored};

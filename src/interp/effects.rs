@@ -3,9 +3,11 @@ mod assignments;
 mod collected;
 mod lengths;
 mod lines;
+mod moment;
 mod parts;
 mod situation;
 mod sort;
+mod unread;
 
 use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::iso::Iso;
@@ -22,8 +24,9 @@ use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
     letter_bit, name_of, said, sort, takes_axes, tells, uncouples,
 };
-use trunnion_dialect::{Action, CodeKind, Macros, Role};
+use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
+use unread::{ends_unknown, has_unread};
 
 /// Whether a fault means that its block does more than its motions and the modal state contain.
 pub(crate) fn has_other_effects(kind: &FaultKind) -> bool {
@@ -343,47 +346,6 @@ impl Iso<'_> {
         self.after_motion(codes, words, view);
     }
 
-    /// Codes of a block that moves, of which the control or the machine builder decides whether they act before the motion, with it or after it: they are
-    /// not the same as in a block of their own.
-    fn moment_effects(
-        &mut self,
-        codes: &[Found<'_>],
-        words: &Words,
-        motions: &[Motion],
-        block: trunnion_syntax::BlockId,
-    ) {
-        if motions.iter().all(|motion| matches!(motion.kind, MotionKind::Dwell(_))) {
-            return;
-        }
-        let cuts = motions.iter().any(Motion::is_feed);
-        let unsettled = |found: &Found<'_>| match found.code.action {
-            Action::SpindleStop => cuts,
-            Action::ToolChange => true,
-            Action::NoMotion => {
-                found.code.kind == CodeKind::M
-                    && !is_frame(found.code.action)
-                    && matches!(sort(found, words), Sort::Before)
-            }
-            _ => false,
-        };
-        let mut names: Vec<Argument> = codes
-            .iter()
-            .filter(|found| unsettled(found))
-            .map(|found| Argument::code(found.code.id.clone()))
-            .collect();
-        if words.builder_code {
-            names.push(Argument::code("M of the machine builder"));
-        }
-        if words.tool.is_given() && self.core.dialect.quirks.tool_word.changes() {
-            names.push(Argument::code("T"));
-        }
-        if !names.is_empty() {
-            names.sort_by(|a, b| a.name.cmp(&b.name));
-            names.push(Argument::code("in the block of a motion"));
-            self.core.effects.add(block, Effect::Unmodelled(names));
-        }
-    }
-
     /// What the codes of a block do after its motion.
     fn after_motion(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
@@ -421,33 +383,4 @@ impl Iso<'_> {
             }
         }
     }
-}
-
-/// Whether a word of the block has a value that is unknown.
-fn has_unread(words: &Words) -> bool {
-    let values = [
-        words.feed,
-        words.speed,
-        words.tool,
-        words.edge,
-        words.radius,
-        words.p,
-        words.length_offset,
-    ];
-    let mut letters = b"DEHIJKLMPQR"
-        .iter()
-        .copied()
-        .filter(|letter| words.letters & letter_bit(*letter) != 0);
-    words.axes.unread | words.centre.unread | words.vector.unread != 0
-        || letters.any(|letter| matches!(words.letter(letter), WordValue::Unread))
-        || values.iter().any(|said| matches!(said, WordValue::Unread))
-}
-
-/// Whether a motion has no known path, or no known end in one of the axes that its block names (bits).
-fn ends_unknown(motion: &Motion, named: u16) -> bool {
-    let no_path = matches!(
-        motion.kind,
-        MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
-    );
-    no_path || named & !motion.end.known != 0
 }

@@ -153,6 +153,11 @@ impl<'d> Iso<'d> {
         match found.code.action {
             Action::LocalShift => self.local_shift(found, words, block, report),
             Action::ProgrammableShift | Action::ProgrammableFrame => {
+                if block.count > 1 {
+                    // whether the words are those of the frame or of a motion (SINUMERIK 840D sl Programming Manual, Fundamentals: frame instructions)
+                    let message = format!("{} must stand alone in its block", found.code.id);
+                    self.refuse(words, crate::Refusal::GroupConflict, message, None, report);
+                }
                 self.programmable_frame(found, words, block, report);
             }
             Action::Pole => self.pole(found, words, block, report),

@@ -1,6 +1,7 @@
 //! ISO blocks to motions.
 
 mod engine;
+mod signs;
 mod whole;
 
 pub(crate) use engine::Iso;
@@ -232,6 +233,9 @@ impl<'d> Iso<'d> {
         }
         if words.other_spindle {
             self.core.state.spindle.lose();
+        }
+        if self.core.dialect.quirks.macro_b() {
+            self.signs(words, &block, report);
         }
         if words.builder_code {
             self.core.state.spindle.may_start();

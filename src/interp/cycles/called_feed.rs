@@ -11,7 +11,14 @@ impl Iso<'_> {
     pub(super) fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
         let unit = self.core.state.coordinates.unit_mm();
         match call.sort {
-            Sort::Ream => self.own_feed(call.number(6)),
+            Sort::Ream => {
+                let feed = self.own_feed(call.number(6));
+                if feed == Feed::Unknown {
+                    let what = format!("{}: the feed (FFR)", call.id);
+                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                }
+                feed
+            }
             Sort::Tap => {
                 // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
                 let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {

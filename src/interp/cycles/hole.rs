@@ -136,15 +136,8 @@ impl Iso<'_> {
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             return None;
         };
-        let upside_down = r.is_some_and(|r| r < bottom);
-        // on a lathe, in a mirrored frame or along another axis holes go in either direction
-        let downwards = axis == 2 && !self.memory.frames.active && !self.core.dialect.quirks.diameter;
-        if upside_down && downwards && self.core.state.motion != Some(Action::BackBoreCycle) {
-            let message = format!(
-                "{}: R is below the bottom of the hole, so that the tool goes there in rapid: R and Z are coordinates, and R is the higher one",
-                self.memory.cycle.id
-            );
-            self.refuse(words, Refusal::CannedCycle, message, None, report);
+        if r.is_some_and(|r| r < bottom) && self.drills_down(axis) {
+            self.upside_down(words, report);
             return None;
         }
         let feed = self.feed_of(MotionKind::Linear, words, report);
@@ -256,6 +249,7 @@ impl Iso<'_> {
             return;
         }
         self.down(plan, MotionKind::Rapid, plan.r, report);
+        let stood = self.tap_begins(action);
         match action {
             Action::PeckCycle | Action::ChipBreakCycle => self.steps(plan, action, report),
             _ => self.down(plan, MotionKind::Linear, Some(plan.bottom), report),
@@ -297,6 +291,9 @@ impl Iso<'_> {
                 });
             }
             _ => self.down(plan, MotionKind::Rapid, plan.back, report),
+        }
+        if stood {
+            self.core.state.spindle.turn(Some(false));
         }
     }
 

@@ -1,0 +1,35 @@
+//! What drilling cycles need before they go down: levels in order, and for taps a spindle.
+use crate::Refusal;
+use crate::core::Report;
+use crate::iso::Iso;
+use crate::words::Words;
+use trunnion_dialect::Action;
+
+impl Iso<'_> {
+    /// Whether holes go down along Z: on a lathe, in a frame that may mirror, along another axis, and back boring they go in either direction.
+    pub(super) fn drills_down(&self, axis: usize) -> bool {
+        axis == 2
+            && !self.memory.frames.active
+            && !self.core.dialect.quirks.diameter
+            && self.core.state.motion != Some(Action::BackBoreCycle)
+    }
+
+    /// R is below the bottom.
+    pub(super) fn upside_down(&self, words: &Words, report: &mut Report<'_>) {
+        let message = format!(
+            "{}: R is below the bottom of the hole, so that the tool would go there in rapid: R must be the higher level",
+            self.memory.cycle.id
+        );
+        self.refuse(words, Refusal::CannedCycle, message, None, report);
+    }
+
+    /// A tap with a spindle that stands: rigid tapping turns it, by M29 or by a parameter of the control, so it is not known to stand. True: it did.
+    pub(super) fn tap_begins(&mut self, action: Action) -> bool {
+        let taps = matches!(action, Action::TapCycle | Action::TapLeftCycle);
+        let stood = taps && self.core.dialect.quirks.macro_b() && self.core.state.spindle.on() == Some(false);
+        if stood {
+            self.core.state.spindle.turn(None);
+        }
+        stood
+    }
+}

@@ -1,0 +1,50 @@
+//! When the codes of a block act that also moves.
+use super::sort::{Sort, is_frame, sort};
+use crate::codes::Found;
+use crate::iso::Iso;
+use crate::words::Words;
+use crate::{Argument, Effect, Motion, MotionKind};
+use trunnion_dialect::{Action, CodeKind};
+
+impl Iso<'_> {
+    /// Codes of a block that moves, of which the control or the machine builder decides whether they act before the motion, with it or after it: they are
+    /// not the same as in a block of their own.
+    pub(super) fn moment_effects(
+        &mut self,
+        codes: &[Found<'_>],
+        words: &Words,
+        motions: &[Motion],
+        block: trunnion_syntax::BlockId,
+    ) {
+        if motions.iter().all(|motion| matches!(motion.kind, MotionKind::Dwell(_))) {
+            return;
+        }
+        let cuts = motions.iter().any(Motion::is_feed);
+        let unsettled = |found: &Found<'_>| match found.code.action {
+            Action::SpindleStop => cuts,
+            Action::ToolChange => true,
+            Action::NoMotion => {
+                found.code.kind == CodeKind::M
+                    && !is_frame(found.code.action)
+                    && matches!(sort(found, words), Sort::Before)
+            }
+            _ => false,
+        };
+        let mut names: Vec<Argument> = codes
+            .iter()
+            .filter(|found| unsettled(found))
+            .map(|found| Argument::code(found.code.id.clone()))
+            .collect();
+        if words.builder_code {
+            names.push(Argument::code("M of the machine builder"));
+        }
+        if words.tool.is_given() && self.core.dialect.quirks.tool_word.changes() {
+            names.push(Argument::code("T"));
+        }
+        if !names.is_empty() {
+            names.sort_by(|a, b| a.name.cmp(&b.name));
+            names.push(Argument::code("in the block of a motion"));
+            self.core.effects.add(block, Effect::Unmodelled(names));
+        }
+    }
+}

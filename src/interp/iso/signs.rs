@@ -1,0 +1,26 @@
+//! Numbers that may not be negative.
+use crate::Refusal;
+use crate::codes::BlockCodes;
+use crate::core::Report;
+use crate::iso::Iso;
+use crate::words::Words;
+
+impl Iso<'_> {
+    /// S, T, H, D, and the time of a dwell: a Fanuc refuses a minus there (alarm PS0006, illegal use of the minus sign).
+    pub(super) fn signs(&self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
+        let said = [
+            ("S", words.speed),
+            ("T", words.tool),
+            ("H", words.length_offset),
+            ("D", words.letter(b'D')),
+            ("P", words.p),
+        ];
+        for (name, value) in said {
+            let negative = value.number().is_some_and(|number| number.value < 0.0);
+            if negative && (name != "P" || block.dwell) {
+                let message = format!("{name} is negative: it must be 0 or more");
+                self.refuse(words, Refusal::Number, message, None, report);
+            }
+        }
+    }
+}

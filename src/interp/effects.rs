@@ -274,7 +274,7 @@ impl Iso<'_> {
             .any(|found| matches!(found.code.action, Action::WorkOffset | Action::WorkSystem));
         let lost = self.core.state.zero.values().iter().any(|value| value.is_nan()) || self.core.state.zero.is_lost();
         let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
-        let unread = has_unread(words);
+        let unread = has_unread(words) || self.core.state.motion == Some(Action::Polynomial);
         if frame && !unknown_frame {
             let words = written(view, self, words, Keep::All);
             self.core.effects.keep_frame(words);
@@ -288,8 +288,8 @@ impl Iso<'_> {
             self.core.effects.ambiguous_number(block);
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
-        if has_other_effects || unknown_end || unknown_frame || unread || words.polynomial {
-            let keep = if moved && !frame && !words.forgets_all && !words.polynomial {
+        if has_other_effects || unknown_end || unknown_frame || unread {
+            let keep = if moved && !frame && !words.forgets_all {
                 Keep::BesideMotion
             } else {
                 Keep::All

@@ -11,9 +11,9 @@ mod unread;
 
 use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::iso::Iso;
-use crate::words::{WordValue, Words};
+use crate::words::Words;
 use crate::written::{Keep, written};
-use crate::{Argument, Effect, FaultKind, Motion, MotionKind, Reach};
+use crate::{Argument, Effect, FaultKind, Motion, Reach};
 use assignments::{
     comments, declarations, named_effects, reads_machine_position, system_assignment, unknown_assignment,
 };
@@ -284,7 +284,7 @@ impl Iso<'_> {
             .any(|found| matches!(found.code.action, Action::WorkOffset | Action::WorkSystem));
         let lost = self.core.state.zero.values().iter().any(|value| value.is_nan()) || self.core.state.zero.is_lost();
         let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
-        let unread = has_unread(words);
+        let unread = has_unread(words) || self.core.state.motion == Some(Action::Polynomial);
         if frame && !unknown_frame {
             let words = written(view, self, words, Keep::All);
             self.core.effects.keep_frame(words);
@@ -299,8 +299,8 @@ impl Iso<'_> {
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
         self.moment_effects(codes, words, motions, block);
-        if has_other_effects || unknown_end || unknown_frame || unread || words.polynomial {
-            let keep = if moved && !frame && !words.forgets_all && !words.polynomial {
+        if has_other_effects || unknown_end || unknown_frame || unread {
+            let keep = if moved && !frame && !words.forgets_all {
                 Keep::BesideMotion
             } else {
                 Keep::All

@@ -32,7 +32,7 @@
 //! that the program changes to.
 //!
 //! # Sources
-//! * Haas mill operator's manual, setting 15: H and T code agreement.
+//! * Haas 96-8210 (mill operator's manual): setting 15, H and T code agreement.
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
 use trunnion_interp::LengthOf;

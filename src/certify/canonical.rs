@@ -43,6 +43,8 @@ mod setup;
 mod tags;
 
 #[cfg(test)]
+mod dialect_tests;
+#[cfg(test)]
 mod golden_tests;
 #[cfg(test)]
 mod obstacle_tests;

@@ -66,6 +66,12 @@ fn only_defines(program: &Program) -> bool {
     some
 }
 
+/// Whether a block of the text has M3 or M4.
+pub(crate) fn starts_spindle(program: &Program) -> bool {
+    let mut blocks = (0..program.block_count() as u32).map(BlockId);
+    blocks.any(|id| says(program, id, &["M3", "M4"]))
+}
+
 /// Whether a block has one of these codes; M2 is also M02.
 fn says(program: &Program, id: BlockId, wanted: &[&str]) -> bool {
     program.block(id).items().any(|item| match item {

@@ -1,5 +1,5 @@
 //! Feed motions while the spindle does not turn, put together: one cause is one stretch of the program.
-use crate::caller::Part;
+use crate::caller::{Part, starts_spindle};
 use crate::pass::ask;
 use crate::sink::{Active, Reporter};
 use crate::view::InForce;
@@ -178,7 +178,10 @@ impl Cuts {
                 ..*cuts
             };
             let told = |cuts: &&StillCuts| part == Part::Main || cuts.why != Still::SpeedUnsaid;
-            let measures = |cuts: &StillCuts| started == Started::No && cuts.why == Still::Off && cuts.probes;
+            let measures = |cuts: &StillCuts| {
+                let here = part == Part::Called && cuts.why == Still::Off && cuts.probes;
+                here && !starts_spindle(program)
+            };
             let before = self
                 .quiet
                 .iter()

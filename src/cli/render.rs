@@ -35,11 +35,7 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
     };
     let mut out = page.text(&found, &excerpts);
     let rest = short::rest(report, &found, &loaded.name);
-    if !rest.is_empty() {
-        for row in wrapped(&shown(&rest), "  ") {
-            let _ = writeln!(out, "{row}");
-        }
-    }
+    out.push_str(&shown(&rest));
     out
 }
 

@@ -73,21 +73,20 @@ pub(super) fn rest(report: &Report, shown: &[&Diagnostic], name: &str) -> String
     if left.is_empty() {
         return String::new();
     }
+    // the worst finding of each rule, and how many there are
     let mut rules: Vec<(u8, &str, usize)> = Vec::new();
     for d in &left {
-        match rules.iter_mut().find(|of| (of.0, of.1) == (rank(d), d.rule)) {
-            Some(of) => of.2 += 1,
+        match rules.iter_mut().find(|of| of.1 == d.rule) {
+            Some(of) => *of = (of.0.min(rank(d)), of.1, of.2 + 1),
             None => rules.push((rank(d), d.rule, 1)),
         }
     }
     rules.sort_by_key(|of| of.0);
-    let mut named: Vec<String> = rules
-        .iter()
-        .take(NAMED)
-        .map(|of| format!("{} {}", of.2, of.1))
-        .collect();
-    if rules.len() > NAMED {
-        let more: usize = rules[NAMED..].iter().map(|of| of.2).sum();
+    // one rule is named in no more room than "1 of other rules"
+    let names = if rules.len() <= NAMED + 1 { rules.len() } else { NAMED };
+    let mut named: Vec<String> = rules[..names].iter().map(|of| format!("{} {}", of.2, of.1)).collect();
+    if names < rules.len() {
+        let more: usize = rules[names..].iter().map(|of| of.2).sum();
         named.push(format!("{more} of other rules"));
     }
     let noun = if left.len() == 1 { "finding" } else { "findings" };

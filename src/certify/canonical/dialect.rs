@@ -108,9 +108,9 @@ impl Encode for Quirks {
                 .field(30, &has(Language::UserTask).then_some(true))
                 .field(31, &cycle_return_unknown.then_some(true))
                 .field(32, &dollar_commands.then_some(true))
-                .field(33, &tool_change_stops_spindle.then_some(true))
-                .field(34, &return_cancels_length.then_some(true))
-                .field(33, &skips_leader.then_some(true));
+                .field(33, &skips_leader.then_some(true))
+                .field(34, &tool_change_stops_spindle.then_some(true))
+                .field(35, &return_cancels_length.then_some(true));
         });
     }
 }

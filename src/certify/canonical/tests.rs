@@ -349,36 +349,8 @@ fn every_fact_of_a_dialect_counts() {
             |d| d.quirks.diameter ^= true,
             |d| d.quirks.own_parameters_to += 1,
             |d| d.quirks.machine_data_suppress_length ^= true,
-            |d| d.quirks.dollar_commands ^= true,
-            |d| d.quirks.tool_change_stops_spindle ^= true,
-            |d| d.quirks.return_cancels_length ^= true,
-            |d| d.quirks.skips_leader ^= true,
         ],
     );
-}
-
-/// Own tables that differ from the first in one letter, name, code or alarm.
-#[test]
-fn letters_names_and_codes_of_a_dialect_count() {
-    let table = |more: &str| {
-        let text = format!("name = \"mine\"\nextends = \"sinumerik-840d\"\n{more}");
-        Dialect::from_table(&text, "mine.toml").expect("a table")
-    };
-    let tables = [
-        "",
-        "[roles]\nE = \"parameter\"\n",
-        "[roles]\nE = \"feed\"\n",
-        "[addresses]\nQQ = \"parameter\"\n",
-        "[addresses]\nQQ = \"arc-radius\"\n",
-        "[codes]\nG999 = { action = \"no-motion\", doc = \"Nothing\" }\n",
-        "[codes]\nG999 = { action = \"rapid\", doc = \"Nothing\" }\n",
-        "[codes]\nG999 = { action = \"no-motion\", words = [\"P\"], doc = \"Nothing\" }\n",
-        "builder-codes = [\"M700\"]\n",
-        "[alarms]\nunused-word = { number = \"A1\" }\n",
-        "[codes]\nG999 = { action = \"no-motion\", group = \"motion\", doc = \"Nothing\" }\n",
-    ];
-    let digests: BTreeSet<_> = tables.iter().map(|more| dialect_digest(&table(more))).collect();
-    assert_eq!(digests.len(), tables.len());
 }
 
 #[test]

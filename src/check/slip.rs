@@ -19,7 +19,12 @@ pub(crate) fn letter_o(program: &Program, at: u32) -> Option<Slip> {
     let source = program.source();
     let at = at as usize;
     let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'+' | b'-' | b'_');
-    let before = source.get(..at)?.iter().rev().take(FAR).take_while(|byte| is_part(byte));
+    let before = source
+        .get(..at)?
+        .iter()
+        .rev()
+        .take(FAR)
+        .take_while(|byte| is_part(byte));
     let before = before.count();
     let after = source[at..].iter().take(FAR).take_while(|byte| is_part(byte)).count();
     if before == FAR || after == FAR {
@@ -130,8 +135,8 @@ mod tests {
             ("o100 if [#1 LT 3]", 5, None),
             ("I5 F3", 1, None),
             ("do5", 0, None),
-            (&format!("if [{}]", "1".repeat(400)), 300, Some("if")),
-            (&format!("if [{}]", "1".repeat(900)), 800, None),
+            (format!("if [{}]", "1".repeat(400)).as_str(), 300, Some("if")),
+            (format!("if [{}]", "1".repeat(900)).as_str(), 800, None),
             ("", 0, None),
         ] {
             let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
@@ -156,9 +161,9 @@ mod tests {
             ("X1.O.2", 3, None),
             ("N10 DO=5", 4, None),
             ("FOO(1)", 0, None),
-            (&format!("G1 {}X5O.", "Y1".repeat(200)), 405, Some("X50.")),
+            (format!("G1 {}X5O.", "Y1".repeat(200)).as_str(), 405, Some("X50.")),
             // no further than the longest block
-            (&format!("G1 {}X5O.", "Y1".repeat(400)), 805, None),
+            (format!("G1 {}X5O.", "Y1".repeat(400)).as_str(), 805, None),
             ("GO", 5, None),
         ] {
             let dialect = trunnion_dialect::builtin("iso-6983").expect("built in");

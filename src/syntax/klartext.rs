@@ -157,7 +157,9 @@ fn comment_end(source: &[u8], at: usize, alone: bool) -> usize {
 
 /// `~`, what is behind it on its line, and the line end: the block continues. Elsewhere it is a stray character.
 fn continuation(source: &[u8], at: usize, out: &mut Builder) -> (TokenKind, usize) {
-    let end = run(source, at + 1, |byte| byte.is_ascii_whitespace() && !matches!(byte, b'\n' | b'\r'));
+    let end = run(source, at + 1, |byte| {
+        byte.is_ascii_whitespace() && !matches!(byte, b'\n' | b'\r')
+    });
     if !matches!(source.get(end), None | Some(b'\n' | b'\r')) {
         return (TokenKind::Unknown, at + 1);
     }

@@ -171,7 +171,10 @@ fn axis(
         _ => {
             return Err(source.error(
                 text,
-                format!("{:?} is not an axis letter; use one of X Y Z A B C U V W", super::short(name)),
+                format!(
+                    "{:?} is not an axis letter; use one of X Y Z A B C U V W",
+                    super::short(name)
+                ),
             ));
         }
     };
@@ -181,7 +184,10 @@ fn axis(
         other => {
             return Err(source.error(
                 text,
-                format!("axis {name}: unknown type {:?}; write linear or rotary", super::short(other)),
+                format!(
+                    "axis {name}: unknown type {:?}; write linear or rotary",
+                    super::short(other)
+                ),
             ));
         }
     };

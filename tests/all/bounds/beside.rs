@@ -62,8 +62,7 @@ fn nested(open: &str, inside: &str, close: &str, n: usize) -> String {
     format!("{}{inside}{}", open.repeat(n), close.repeat(n))
 }
 
-const KINS: &str =
-    "[KINS]\nKINEMATICS = xyzac-trt-kins\nJOINTS = 5\n[TRAJ]\nCOORDINATES = XYZAC\nLINEAR_UNITS = mm\nANGULAR_UNITS = degree\n";
+const KINS: &str = "[KINS]\nKINEMATICS = xyzac-trt-kins\nJOINTS = 5\n[TRAJ]\nCOORDINATES = XYZAC\nLINEAR_UNITS = mm\nANGULAR_UNITS = degree\n";
 
 #[expect(clippy::too_many_lines, reason = "it is one list")]
 fn all() -> Vec<Beside> {
@@ -115,7 +114,10 @@ fn all() -> Vec<Beside> {
         }),
         beside("settings.toml", "obstacles", |n| {
             many(n, |i| {
-                format!("[[obstacle]]\ncylinder = {{ centre = [{}, 80], radius = 12.5, z = [0, 60] }}", i % 300)
+                format!(
+                    "[[obstacle]]\ncylinder = {{ centre = [{}, 80], radius = 12.5, z = [0, 60] }}",
+                    i % 300
+                )
             })
             .into()
         }),
@@ -123,23 +125,18 @@ fn all() -> Vec<Beside> {
             format!("[variables]\n{}", many(n, |i| format!("\"#{}\" = {i}", i + 500))).into()
         }),
         beside("settings.toml", "rules", |n| {
-            format!(
-                "[rules]\n{}",
-                many(n, |i| format!("missing-feed{i} = \"allow\""))
-            )
-            .into()
+            format!("[rules]\n{}", many(n, |i| format!("missing-feed{i} = \"allow\""))).into()
         }),
         beside("settings.toml", "paths", |n| {
-            format!(
-                "subprogram_path = [\n{}]\n",
-                many(n, |i| format!("\"folder/{i}/..\","))
-            )
-            .into()
+            format!("subprogram_path = [\n{}]\n", many(n, |i| format!("\"folder/{i}/..\","))).into()
         }),
         beside("table.toml", "codes", |n| {
             format!(
                 "name = \"own\"\ntitle = \"own\"\nsource = \"own\"\nextends = \"fanuc-30i\"\n[codes]\n{}",
-                many(n, |i| format!("M{} = {{ action = \"no-motion\", words = [\"Q\"], doc = \"d\" }}", i + 1000))
+                many(n, |i| format!(
+                    "M{} = {{ action = \"no-motion\", words = [\"Q\"], doc = \"d\" }}",
+                    i + 1000
+                ))
             )
             .into()
         }),
@@ -180,7 +177,20 @@ fn all() -> Vec<Beside> {
             let mut bytes = vec![b'b'; 80];
             bytes.extend((n as u32).to_le_bytes());
             for i in 0..n {
-                for value in [0.0, 0.0, 1.0, (i % 99) as f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, f32::MAX] {
+                for value in [
+                    0.0,
+                    0.0,
+                    1.0,
+                    (i % 99) as f32,
+                    0.0,
+                    0.0,
+                    1.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    1.0,
+                    f32::MAX,
+                ] {
                     bytes.extend(value.to_le_bytes());
                 }
                 bytes.extend([0, 0]);
@@ -217,7 +227,11 @@ fn all() -> Vec<Beside> {
             many(n, |i| format!("{}\t{i}.0", i + 1)).into()
         }),
         beside("machine.ini", "sections", |n| {
-            format!("{KINS}{}", many(n, |i| format!("[AXIS_{i}]\nMIN_LIMIT = -{i}\nMAX_LIMIT = 1e999"))).into()
+            format!(
+                "{KINS}{}",
+                many(n, |i| format!("[AXIS_{i}]\nMIN_LIMIT = -{i}\nMAX_LIMIT = 1e999"))
+            )
+            .into()
         }),
         beside("machine.ini", "one-section-many-times", |n| {
             format!(
@@ -229,7 +243,9 @@ fn all() -> Vec<Beside> {
         beside("machine.ini", "commands", |n| {
             format!(
                 "{KINS}[HAL]\n{}",
-                many(n, |i| format!("HALCMD = setp xyzac-trt-kins.x-offset {i}\nHALFILE = a{i}.hal"))
+                many(n, |i| format!(
+                    "HALCMD = setp xyzac-trt-kins.x-offset {i}\nHALFILE = a{i}.hal"
+                ))
             )
             .into()
         }),
@@ -243,7 +259,8 @@ fn all() -> Vec<Beside> {
             let axes = many(n, |i| {
                 format!("\"X{i}\": {{\"type\": \"linear\", \"min\": 0, \"max\": 1e999}},")
             });
-            format!("{{\"machine\": {{\"name\": \"m\", \"units\": \"metric\", \"axes\": {{{axes} \"X\": null}}}}}}").into()
+            format!("{{\"machine\": {{\"name\": \"m\", \"units\": \"metric\", \"axes\": {{{axes} \"X\": null}}}}}}")
+                .into()
         }),
     ];
     for file in [
@@ -282,8 +299,12 @@ fn all() -> Vec<Beside> {
             beside(file, "unknown-tables", |n| {
                 many(n, |i| format!("[[table{}]]\na = {i}", i % 9)).into()
             }),
-            beside(file, "a-long-text", |n| format!("name = \"{}\"\n", "é".repeat(n)).into()),
-            beside(file, "an-open-text", |n| format!("name = \"\"\"{}", "x\n".repeat(n)).into()),
+            beside(file, "a-long-text", |n| {
+                format!("name = \"{}\"\n", "é".repeat(n)).into()
+            }),
+            beside(file, "an-open-text", |n| {
+                format!("name = \"\"\"{}", "x\n".repeat(n)).into()
+            }),
             beside(file, "digits", |n| format!("schema = {}\n", "1".repeat(n)).into()),
         ]);
     }

@@ -40,11 +40,7 @@ pub(super) const COMMANDS: &[Command] = &[
     json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
     command("trace", "canon", &["canon", "FILE"]),
     command("fmt", "fmt", &["fmt", "--diff", "FILE"]),
-    command(
-        "fmt",
-        "fmt-renumber",
-        &["fmt", "--check", "--renumber", "10", "FILE"],
-    ),
+    command("fmt", "fmt-renumber", &["fmt", "--check", "--renumber", "10", "FILE"]),
     command("diff", "diff-itself", &["diff", "FILE", "FILE"]),
     json_command("diff", "diff-other", &["diff", "--format", "json", "FILE", "OTHER"]),
     command("diff", "certify", &["certify", "FILE", "FILE"]),
@@ -76,12 +72,16 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "plot",
         "plot-servo",
-        &["plot", "FILE", "--kind", "servo", "--at", "9", "--kv", "50", "--acc", "2000"],
+        &[
+            "plot", "FILE", "--kind", "servo", "--at", "9", "--kv", "50", "--acc", "2000",
+        ],
     ),
     json_command(
         "servo",
         "servo",
-        &["servo", "FILE", "--at", "9", "--kv", "50", "--acc", "2000", "--format", "json"],
+        &[
+            "servo", "FILE", "--at", "9", "--kv", "50", "--acc", "2000", "--format", "json",
+        ],
     ),
     command("servo", "surface", &["surface", "FILE", "--required", "required.toml"]),
     command(

@@ -145,9 +145,7 @@ pub(super) fn inputs() -> Vec<Input> {
             }))
         }),
         input("klartext-corners", |n| {
-            cut(&lines(n, |i| {
-                format!("L X+{i} Y+{} RL\nRND R9999\nCHF 5", i % 3)
-            }))
+            cut(&lines(n, |i| format!("L X+{i} Y+{} RL\nRND R9999\nCHF 5", i % 3)))
         }),
         input("klartext-approaches", |n| {
             cut(&lines(n, |i| {
@@ -175,7 +173,9 @@ pub(super) fn inputs() -> Vec<Input> {
             ))
         }),
         input("klartext-unknown-words", |n| {
-            cut(&lines(n, |i| format!("FK X+{i} PDX+1\nSEL PATTERN \"A{i}\"\nWIDGET {i}")))
+            cut(&lines(n, |i| {
+                format!("FK X+{i} PDX+1\nSEL PATTERN \"A{i}\"\nWIDGET {i}")
+            }))
         }),
         input("klartext-half-sentences", |n| {
             cut(&repeat(
@@ -186,7 +186,9 @@ pub(super) fn inputs() -> Vec<Input> {
         input("klartext-structured", |n| {
             cut(&format!("{}{}", repeat("IF Q1 == 1\n", n), repeat("END IF\n", n)))
         }),
-        input("klartext-no-begin", |n| repeat("L X+1 Y+1 R0 FMAX M3 M8 M99\n", n).into()),
+        input("klartext-no-begin", |n| {
+            repeat("L X+1 Y+1 R0 FMAX M3 M8 M99\n", n).into()
+        }),
         input("klartext-numbers", |n| {
             lines(n, |i| format!("{} L X+{},{i} Y-{i},5 R0 F MAX", i * 7 % 5, i % 5)).into()
         }),

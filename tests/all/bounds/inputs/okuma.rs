@@ -5,10 +5,8 @@ const NAME: &str = "okuma-osp";
 
 /// A program with a known position, then `body`.
 fn cut(body: &str) -> Vec<u8> {
-    format!(
-        "$P.MIN%\nG15 H1\nG17 G90 G94 G40 G80\nT1 M6\nS1000 M3\nG56 H1\nG0 X0 Y0 Z50\nG1 X1 F100\n{body}\nM02\n"
-    )
-    .into_bytes()
+    format!("$P.MIN%\nG15 H1\nG17 G90 G94 G40 G80\nT1 M6\nS1000 M3\nG56 H1\nG0 X0 Y0 Z50\nG1 X1 F100\n{body}\nM02\n")
+        .into_bytes()
 }
 
 /// A name of four letters for a number.
@@ -28,7 +26,9 @@ const fn input(name: &'static str, make: fn(usize) -> Vec<u8>) -> Input {
 #[expect(clippy::too_many_lines, reason = "it is one list")]
 pub(super) fn inputs() -> Vec<Input> {
     vec![
-        input("okuma-calls-itself", |_| cut("CALL OA\nM02\nOA\nG91 G1 X1\nCALL OA\nRTS")),
+        input("okuma-calls-itself", |_| {
+            cut("CALL OA\nM02\nOA\nG91 G1 X1\nCALL OA\nRTS")
+        }),
         input("okuma-calls-itself-with-values", |_| {
             cut("CALL OA DA=1\nM02\nOA\nG1 X=DA\nCALL OA DA=DA+1 DB=DA*2\nRTS")
         }),
@@ -50,7 +50,10 @@ pub(super) fn inputs() -> Vec<Input> {
             )
         }),
         input("okuma-calls-one-many-times", |n| {
-            cut(&format!("{}M02\nOA\nG1 X2\nG1 X1\nRTS", repeat("CALL OA DA=1 DB=2\n", n)))
+            cut(&format!(
+                "{}M02\nOA\nG1 X2\nG1 X1\nRTS",
+                repeat("CALL OA DA=1 DB=2\n", n)
+            ))
         }),
         input("okuma-calls-what-is-missing", |n| {
             cut(&lines(n, |i| format!("CALL O{} DA={i}", named(i))))
@@ -102,11 +105,7 @@ pub(super) fn inputs() -> Vec<Input> {
         }),
         input("okuma-system-variables", |n| {
             cut(&lines(n, |i| {
-                format!(
-                    "VZOFX[{i}]=V{}\nVTOFD[{i}]={i}\nVC{i}=VZOFX[{}]",
-                    i % 200,
-                    i % 100
-                )
+                format!("VZOFX[{i}]=V{}\nVTOFD[{i}]={i}\nVC{i}=VZOFX[{}]", i % 200, i % 100)
             }))
         }),
         input("okuma-continued", |n| {
@@ -141,7 +140,10 @@ pub(super) fn inputs() -> Vec<Input> {
         }),
         input("okuma-not-modelled", |n| {
             cut(&lines(n, |i| {
-                format!("LAA X{i} Y1 K9 J{}\nOMIT K{i}\nBHC I9 J{i}\nG116 T{i}\nNOEX G0 X1", i % 90)
+                format!(
+                    "LAA X{i} Y1 K9 J{}\nOMIT K{i}\nBHC I9 J{i}\nG116 T{i}\nNOEX G0 X1",
+                    i % 90
+                )
             }))
         }),
         input("okuma-lathe", |n| {

@@ -177,7 +177,10 @@ fn a_certificate_that_a_kill_left_beside_a_new_program_is_named() {
             ["new.nc", "proof.json"].map(|name| content(&path(name)))
         };
         let certify = || {
-            let output = trunnion_in(folder.path(), &["certify", before, "new.nc", "--certificate", "proof.json"]);
+            let output = trunnion_in(
+                folder.path(),
+                &["certify", before, "new.nc", "--certificate", "proof.json"],
+            );
             (status(&output), text(&output.stdout))
         };
         let [program, certificate] = run(second);

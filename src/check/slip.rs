@@ -10,13 +10,26 @@ pub(crate) struct Slip {
     pub(crate) meant: String,
 }
 
+/// How far from a byte its word, and the keyword of its line, are looked for: no control takes longer blocks, and each finding of a line of
+/// megabytes looks.
+const FAR: usize = 512;
+
 /// The word at a byte of a program's code, if it has a letter O in its number and is a word with zeros instead: `X5O.`, `GO`.
 pub(crate) fn letter_o(program: &Program, at: u32) -> Option<Slip> {
     let source = program.source();
     let at = at as usize;
     let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'+' | b'-' | b'_');
-    let before = source.get(..at)?.iter().rev().take_while(|byte| is_part(byte)).count();
-    let after = source[at..].iter().take_while(|byte| is_part(byte)).count();
+    let before = source
+        .get(..at)?
+        .iter()
+        .rev()
+        .take(FAR)
+        .take_while(|byte| is_part(byte));
+    let before = before.count();
+    let after = source[at..].iter().take(FAR).take_while(|byte| is_part(byte)).count();
+    if before == FAR || after == FAR {
+        return None;
+    }
     let end = at + after;
     let mut start = at - before;
     while start < end {
@@ -86,13 +99,19 @@ const KEYWORDS: &[&str] = &[
 pub(crate) fn bare_keyword(program: &Program, at: u32) -> Option<(&'static str, TextRange)> {
     let source = program.source();
     let before = source.get(..at as usize)?;
-    let mut start = memchr::memrchr(b'\n', before).map_or(0, |end| end + 1);
+    let near = before.len().saturating_sub(FAR);
+    let mut start = match memchr::memrchr(b'\n', &before[near..]) {
+        Some(end) => near + end + 1,
+        None if near > 0 => return None,
+        None => 0,
+    };
     start += source[start..]
         .iter()
+        .take(FAR)
         .take_while(|byte| matches!(byte, b' ' | b'\t'))
         .count();
     let is_letter = |byte: &&u8| byte.is_ascii_alphabetic();
-    let end = start + source[start..].iter().take_while(is_letter).count();
+    let end = start + source[start..].iter().take(FAR).take_while(is_letter).count();
     let word = source.get(start..end)?;
     let goes_on =
         matches!(source.get(end), Some(byte) if byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-' | b'#'));
@@ -116,6 +135,8 @@ mod tests {
             ("o100 if [#1 LT 3]", 5, None),
             ("I5 F3", 1, None),
             ("do5", 0, None),
+            (format!("if [{}]", "1".repeat(400)).as_str(), 300, Some("if")),
+            (format!("if [{}]", "1".repeat(900)).as_str(), 800, None),
             ("", 0, None),
         ] {
             let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
@@ -140,6 +161,9 @@ mod tests {
             ("X1.O.2", 3, None),
             ("N10 DO=5", 4, None),
             ("FOO(1)", 0, None),
+            (format!("G1 {}X5O.", "Y1".repeat(200)).as_str(), 405, Some("X50.")),
+            // no further than the longest block
+            (format!("G1 {}X5O.", "Y1".repeat(400)).as_str(), 805, None),
             ("GO", 5, None),
         ] {
             let dialect = trunnion_dialect::builtin("iso-6983").expect("built in");

@@ -158,7 +158,7 @@ fn draw(
         Kind::AxisPlane => {
             let after = match &command.after {
                 Some(file) => {
-                    let other = load::load(global, file)?;
+                    let other = load::load_for_steps(global, file)?;
                     Some(gather(&other, machine, None))
                 }
                 None => None,
@@ -177,7 +177,7 @@ fn draw(
         Kind::Deviation => deviation(&head("Deviation of the tool tip"), record, tolerance)?,
         Kind::Route => {
             let after = match &command.after {
-                Some(file) => Some(gather(&load::load(global, file)?, machine, None)),
+                Some(file) => Some(gather(&load::load_for_steps(global, file)?, machine, None)),
                 None => None,
             };
             let space = space(loaded, machine)?;

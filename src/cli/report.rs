@@ -85,8 +85,9 @@ struct Part {
 }
 
 fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
-    let loaded = load::load_any(global, file)?;
+    let mut loaded = load::load_any(global, file)?;
     let settings = loaded.resolved.settings();
+    let scope = settings.scope();
     let report = check(&loaded.program, &settings);
     let deny = global.deny.severity();
     let verdict = report.verdict(deny);
@@ -97,7 +98,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         machine: loaded.resolved.machine.as_ref().map(|m| m.id.as_str()),
         not_read: loaded.not_read(),
         read_as: None,
-        scope: settings.scope(),
+        scope,
         coverage: &report.coverage,
         assumptions: &report.assumptions,
         accepted: 0,
@@ -105,24 +106,24 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     let line = super::verdict::verdict_line(&judged, false);
     let denied = super::check::is_found(&report, deny, global.strict);
     let readable = loaded.not_read().is_none();
+    let facts = page::facts(&loaded, &report, scope);
+    let findings = page::findings(&loaded, &report);
+    // the verdict is that of a check; pictures and tables are of every step
+    loaded.resolved.setup.limits = loaded.resolved.setup.limits.of_steps();
     let (pictures, replay) = match &loaded.resolved.machine {
         Some(machine) if readable => drawn(&loaded, machine),
         _ => (Vec::new(), None),
     };
-    let mut input = loaded.input();
-    let mut setup = loaded.resolved.setup.clone();
-    setup.limits = setup.limits.of_steps();
-    input.setup = &setup;
     let sheet = if readable {
-        sheet::tables(&loaded, &Tally::of(input), report.cycle_time_s)
+        sheet::tables(&loaded, &Tally::of(loaded.input()), report.cycle_time_s)
     } else {
         Vec::new()
     };
     let part = Part {
         verdict,
         line,
-        facts: page::facts(&loaded, &report, settings.scope()),
-        findings: page::findings(&loaded, &report),
+        facts,
+        findings,
         assumptions: report.assumptions,
         pictures,
         replay,

@@ -101,6 +101,8 @@ pub(crate) struct Klartext<'d> {
     flow: Flow,
     /// Motions of the block that are ready.
     out: Vec<Motion>,
+    /// Motions that cycles have made in this run.
+    cycle_motions: u64,
 }
 
 impl<'d> Engine<'d> for Klartext<'d> {
@@ -141,6 +143,7 @@ impl<'d> Klartext<'d> {
             memory: Memory::default(),
             flow: Flow::default(),
             out: Vec::new(),
+            cycle_motions: 0,
         };
         if let Some(values) = base {
             engine.core.state.zero.choose(None, 0);

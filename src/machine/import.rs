@@ -19,5 +19,15 @@ pub struct Imported {
     pub open: Vec<String>,
 }
 
+/// The beginning of a text of the file, as a message quotes it.
+fn short(text: &str) -> String {
+    const MOST: usize = 60;
+    let mut short: String = text.chars().take(MOST).collect();
+    if short.len() < text.len() {
+        short.push_str("...");
+    }
+    short
+}
+
 #[cfg(test)]
 mod tests;

@@ -191,7 +191,7 @@ fn program(
     tolerance_mm: f64,
     out: &mut impl Write,
 ) -> Result<Found, Failure> {
-    let loaded = load::load(global, path)?;
+    let loaded = load::load_for_steps(global, path)?;
     let mut both = Both {
         comparison,
         follower: Follower::new(machine),

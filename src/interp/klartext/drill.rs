@@ -86,6 +86,14 @@ impl Klartext<'_> {
     /// Runs the cycle that is defined where the tool is.
     pub(crate) fn run_cycle(&mut self, report: &mut Report<'_>) {
         self.flush(report);
+        let most = self.core.setup.limits.blocks;
+        if self.cycle_motions > most && !matches!(self.memory.cycle, Cycle::None) {
+            self.not_modelled_once(
+                &format!("more than {most} motions in the cycles of the program ([limits] blocks)"),
+                report,
+            );
+            return self.work_unknown(report);
+        }
         match self.memory.cycle.clone() {
             Cycle::None => Self::rejected(Refusal::CannedCycle, "no cycle is defined before its call", report),
             Cycle::Hole(hole) => self.drill(&hole, report),
@@ -348,6 +356,7 @@ impl Klartext<'_> {
         };
         let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         self.memory.heading = None;
+        self.cycle_motions += 1;
         self.emit(&motion, report);
     }
 }

@@ -9,6 +9,9 @@ use crate::{FaultKind, Refusal};
 use trunnion_geometry::math::atan2;
 use trunnion_syntax::TextRange;
 
+/// Longest text of a QS parameter that is followed, bytes.
+const MOST_TEXT: usize = 4096;
+
 impl Klartext<'_> {
     /// `FN n: ...`, after FN.
     pub(crate) fn function_of_parameters(
@@ -73,7 +76,7 @@ impl Klartext<'_> {
             return Request::Next;
         }
         if target.kind == Kind::Text {
-            let text = self.text_of(&mut words);
+            let text = self.text_of(&mut words, report);
             self.memory.parameters.changes += 1;
             self.memory.parameters.texts.insert(target.number, text);
             return Request::Next;
@@ -94,8 +97,8 @@ impl Klartext<'_> {
         Request::Next
     }
 
-    /// Quoted texts and QS parameters, joined by `||`.
-    fn text_of(&self, words: &mut Words<'_>) -> Option<String> {
+    /// Quoted texts and QS parameters, joined by `||`. A text that is joined to itself doubles: one beyond [`MOST_TEXT`] is unknown.
+    fn text_of(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) -> Option<String> {
         let mut joined = String::new();
         loop {
             match words.next()?.value {
@@ -104,6 +107,10 @@ impl Klartext<'_> {
                     joined.push_str(self.memory.parameters.texts.get(&parameter.number)?.as_ref()?);
                 }
                 _ => return None,
+            }
+            if joined.len() > MOST_TEXT {
+                self.not_modelled_once(&format!("a text of more than {MOST_TEXT} bytes"), report);
+                return None;
             }
             if !words.takes(b'|') {
                 break;

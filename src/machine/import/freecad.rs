@@ -103,7 +103,10 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
             return Err(MachineError { message, span: None });
         }
         Some(other) => {
-            let message = format!("unknown units {other:?}; write \"metric\" or \"imperial\"");
+            let message = format!(
+                "unknown units {:?}; write \"metric\" or \"imperial\"",
+                super::short(other)
+            );
             return Err(MachineError { message, span: None });
         }
     };
@@ -130,8 +133,9 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
             && !machine.axes.contains_key(parent)
         {
             let message = format!(
-                "axis {} is mounted on {parent:?}, which is not an axis of this machine",
-                one.axis.letter
+                "axis {} is mounted on {:?}, which is not an axis of this machine",
+                one.axis.letter,
+                super::short(parent)
             );
             return Err(source.error(raw.get(), message));
         }
@@ -167,7 +171,10 @@ fn axis(
         _ => {
             return Err(source.error(
                 text,
-                format!("{name:?} is not an axis letter; use one of X Y Z A B C U V W"),
+                format!(
+                    "{:?} is not an axis letter; use one of X Y Z A B C U V W",
+                    super::short(name)
+                ),
             ));
         }
     };
@@ -177,7 +184,10 @@ fn axis(
         other => {
             return Err(source.error(
                 text,
-                format!("axis {name}: unknown type {other:?}; write linear or rotary"),
+                format!(
+                    "axis {name}: unknown type {:?}; write linear or rotary",
+                    super::short(other)
+                ),
             ));
         }
     };
@@ -185,7 +195,7 @@ fn axis(
         Some("table_linear" | "table_rotary") => Some("table"),
         Some("head_linear" | "head_rotary") => Some("head"),
         None => None,
-        Some(other) => return Err(source.error(text, format!("axis {name}: unknown role {other:?}"))),
+        Some(other) => return Err(source.error(text, format!("axis {name}: unknown role {:?}", super::short(other)))),
     };
     let (origin, direction) = match entry.joint {
         Some(Joint::Named { origin, axis }) => (Some(origin), Some(axis)),

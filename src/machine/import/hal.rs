@@ -98,7 +98,7 @@ impl<'a> Pins<'a> {
             text => match text.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(value),
                 _ => Err(MachineError {
-                    message: format!("HALCMD: {text:?} is not a number"),
+                    message: format!("HALCMD: {:?} is not a number", super::short(text)),
                     span: Some(span.clone()),
                 }),
             },

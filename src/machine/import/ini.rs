@@ -38,7 +38,7 @@ impl<'a> Ini<'a> {
                 continue;
             }
             let error = |message: &str| MachineError {
-                message: format!("{message}: {line:?}"),
+                message: format!("{message}: {:?}", super::short(line)),
                 span: Some(at..at + line.len()),
             };
             if let Some(name) = line.strip_prefix("#INCLUDE") {
@@ -85,7 +85,12 @@ impl Entry<'_> {
         match word.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             _ => Err(MachineError {
-                message: format!("{} = {:?} of [{}] is not a number", self.key, self.value, self.section),
+                message: format!(
+                    "{} = {:?} of [{}] is not a number",
+                    super::short(self.key),
+                    super::short(self.value),
+                    super::short(self.section)
+                ),
                 span: Some(self.span.clone()),
             }),
         }

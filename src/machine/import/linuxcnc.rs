@@ -22,7 +22,7 @@ pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Resul
         return Err(MachineError {
             message: format!(
                 "unknown kinematics module {:?}; known modules: {}",
-                kins.module,
+                super::short(&kins.module),
                 KNOWN.join(", ")
             ),
             span: Some(kins.span),
@@ -151,7 +151,7 @@ impl Scale {
                 match entry.number() {
                     Ok(units) if units > 0.0 => Ok(1.0 / units),
                     _ => Err(MachineError {
-                        message: format!("[TRAJ] {key} = {:?} is not a known unit", entry.value),
+                        message: format!("[TRAJ] {key} = {:?} is not a known unit", super::short(entry.value)),
                         span: Some(entry.span.clone()),
                     }),
                 }

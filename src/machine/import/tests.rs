@@ -218,6 +218,23 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
     assert!(missing.message.contains("[KINS] KINEMATICS is missing"), "{missing}");
 }
 
+#[test]
+fn a_message_quotes_the_beginning_of_a_long_text() {
+    let long = "a".repeat(100_000);
+    let fcm = |kind: &str| {
+        format!("{{\"machine\": {{\"units\": \"metric\", \"axes\": {{\"X\": {{\"type\": \"{kind}\"}}}}}}}}")
+    };
+    let errors = [
+        import_linuxcnc("m.ini", &long, &[]),
+        import_linuxcnc("m.ini", &format!("[KINS]\nKINEMATICS = {long}\n"), &[]),
+        import_freecad("m.fcm", &fcm(&long)),
+    ];
+    for (place, error) in errors.into_iter().enumerate() {
+        let message = error.expect_err("refused").message;
+        assert!(message.contains("aaa") && message.len() < 1000, "{place}: {message}");
+    }
+}
+
 /// A FreeCAD machine of our own: C is mounted on A.
 const FREECAD: &str = r#"{
   "freecad_version": "1.2.0",

@@ -1,9 +1,9 @@
 //! HEIDENHAIN Klartext: cycles of old controls, planes, corners, and what the control refuses.
 use crate::klartext::{NAME, program};
-use crate::support::{faults, lines, run_text, shared};
+use crate::support::{faults, lines, run_bytes, run_text, shared};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{atan2, hypot};
-use trunnion_interp::MotionKind;
+use trunnion_interp::{MotionKind, Setup};
 
 /// Clearance 2 and depth 10 from Z 2: 5, 10; t is 0.6 mm.
 #[test]
@@ -328,4 +328,53 @@ fn rigid_tapping_turns_the_spindle() {
     assert_eq!(tap("CYCL DEF 207 T", ""), [Some(true), Some(true), None]);
     assert_eq!(tap("CYCL DEF 207 T", "M3"), [Some(true), Some(true), None]);
     assert_eq!(tap("CYCL DEF 206 T", ""), [Some(false); 3]);
+}
+
+#[test]
+fn a_text_that_doubles_becomes_unknown() {
+    let doubled = |times: usize| {
+        let text = program(&format!(
+            "QS1 = \"down\"\n{}QS2 = QS1\nCALL LBL QS2\nL M30\nLBL \"down\"\nL Z-1\nLBL 0\n",
+            "QS1 = QS1 || QS1\n".repeat(times)
+        ));
+        faults(NAME, &text)
+    };
+    let bounded = |faults: &[String]| {
+        faults
+            .iter()
+            .any(|fault| fault.contains("a text of more than 4096 bytes"))
+    };
+    // 4 bytes, doubled ten times, are 4096
+    assert!(!bounded(&doubled(10)), "{:?}", doubled(10));
+    // and sixty times no computer holds them
+    assert!(bounded(&doubled(60)), "{:?}", doubled(60));
+}
+
+#[test]
+fn motions_of_cycles_count_towards_the_bound_of_blocks() {
+    let text = program(&format!(
+        "L X+0 Y+0 Z+50 FMAX M3\nCYCL DEF 200 BOHREN ~\n Q200=2 ~\n Q201=-20 ~\n Q206=150 ~\n Q202=0.1 ~\n Q210=0 ~\n Q203=+10 ~\n Q204=30 ~\n Q211=0\n{}",
+        "L IX+1 FMAX M99\n".repeat(50)
+    ));
+    let run = |blocks: u64| {
+        let mut setup = Setup::default();
+        setup.limits.blocks = blocks;
+        setup.control.peck_clearance_mm = Some(1.0);
+        run_bytes(NAME, text.as_bytes(), &setup).1
+    };
+    let whole = run(1_000_000);
+    assert!(whole.motions.len() > 50 * 500, "{}", whole.motions.len());
+    let bounded = run(3000);
+    // the hole in which the bound is reached is made to its end, each hole after it is one unknown motion
+    assert!(bounded.motions.len() < 3000 + 700 + 2 * 50, "{}", bounded.motions.len());
+    let unknown = bounded
+        .motions
+        .iter()
+        .filter(|motion| motion.kind == MotionKind::Unknown);
+    assert!(unknown.count() > 40);
+    let told = format!("{:?}", bounded.faults);
+    assert!(
+        told.contains("more than 3000 motions in the cycles of the program ([limits] blocks)"),
+        "{told}"
+    );
 }

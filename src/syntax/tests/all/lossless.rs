@@ -130,7 +130,31 @@ proptest! {
 #[test]
 fn deep_nesting_and_long_lines_take_linear_time_and_no_stack() {
     for piece in [
-        "[", "(", "#", "#<", "X[", "AB1", "-", "GOTO1", "/*", ")", "%", "X ", "'", "$", "GOTO/(", "1,", "o<", "IF1",
+        "[",
+        "(",
+        "#",
+        "#<",
+        "X[",
+        "AB1",
+        "-",
+        "GOTO1",
+        "/*",
+        ")",
+        "%",
+        "X ",
+        "'",
+        "$",
+        "GOTO/(",
+        "1,",
+        "o<",
+        "IF1",
+        "\"A\"",
+        "~ ",
+        "()",
+        "/**/",
+        "\u{2018}",
+        "\u{2018}A\u{2019}",
+        "\u{c}\u{b}\u{85}",
     ] {
         let source = piece.repeat(60_000 / piece.len());
         check_all(source.as_bytes());

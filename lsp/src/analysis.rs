@@ -1,5 +1,5 @@
 //! What requests read, immutable: a parsed version of a document, and its analysis.
-use crate::position::line_starts;
+use crate::{part::LARGE, position::line_starts};
 use std::{
     path::PathBuf,
     sync::{Arc, OnceLock},
@@ -8,7 +8,7 @@ use std::{
 use tower_lsp::lsp_types::Url;
 use trunnion_check::Session;
 use trunnion_ide::{Names, Node, TomlFile, names, outline};
-use trunnion_syntax::Program;
+use trunnion_syntax::{Block, Program};
 use trunnion_workspace::{LoadError, Overrides, Resolved, resolve};
 
 /// One version of a document, parsed.
@@ -17,8 +17,8 @@ pub(crate) struct Parsed {
     pub(crate) uri: Url,
     /// Version of the text.
     pub(crate) version: i32,
-    /// Text.
-    pub(crate) text: Arc<str>,
+    /// Text, which is UTF-8: the source of the program.
+    pub(crate) text: Arc<Vec<u8>>,
     /// Line starts of the text.
     pub(crate) starts: Vec<u32>,
     /// The program with its settings; or why the settings cannot be used.
@@ -27,18 +27,34 @@ pub(crate) struct Parsed {
     pub(crate) toml: Option<TomlFile>,
 }
 
+impl Parsed {
+    /// The text as characters; it is read through for that.
+    pub(crate) fn characters(&self) -> &str {
+        core::str::from_utf8(&self.text).unwrap_or_default()
+    }
+
+    /// Whether each line is a block of its own, so that their numbers agree.
+    pub(crate) fn blocks_are_lines(&self) -> bool {
+        let Ok(source) = &self.outcome else { return false };
+        let program = &source.program;
+        let begins = |(block, start): (Block<'_>, &u32)| block.range().start == *start;
+        // an empty line after the last line end is no block
+        program.block_count() + 1 >= self.starts.len() && program.blocks().zip(&self.starts).all(begins)
+    }
+}
+
 /// A program with its settings.
 pub(crate) struct Source {
     /// Program.
     pub(crate) program: Program,
     /// Settings.
-    pub(crate) resolved: Resolved,
+    pub(crate) resolved: Arc<Resolved>,
     names: OnceLock<Names>,
     outline: OnceLock<Vec<Node>>,
 }
 
 impl Source {
-    pub(crate) fn new(program: Program, resolved: Resolved) -> Self {
+    pub(crate) fn new(program: Program, resolved: Arc<Resolved>) -> Self {
         Self {
             program,
             resolved,
@@ -64,7 +80,9 @@ pub(crate) struct Analysed {
     /// What was analysed.
     pub(crate) parsed: Arc<Parsed>,
     /// Report and check-points; `None` where the settings cannot be used.
-    pub(crate) session: Option<Session>,
+    pub(crate) session: Option<Arc<Session>>,
+    /// The lines of a long text are its blocks: see [`Parsed::blocks_are_lines`].
+    pub(crate) lines_are_blocks: bool,
     /// How long it took.
     pub(crate) took: Duration,
 }
@@ -72,7 +90,7 @@ pub(crate) struct Analysed {
 impl Analysed {
     /// Program, settings and session, where there are any.
     pub(crate) fn judged(&self) -> Option<(&Source, &Session)> {
-        Some((self.parsed.outcome.as_ref().ok()?, self.session.as_ref()?))
+        Some((self.parsed.outcome.as_ref().ok()?, self.session.as_deref()?))
     }
 }
 
@@ -94,28 +112,40 @@ pub(crate) fn toml_file(uri: &Url, text: &str) -> Option<TomlFile> {
     .then_some(TomlFile::Machine)
 }
 
-/// Parses a version of a document.
-pub(crate) fn parse(uri: Url, version: i32, text: Arc<str>, overrides: &Overrides) -> Parsed {
-    let toml = toml_file(&uri, &text);
+/// The settings of a document with this text.
+pub(crate) fn settings_of(uri: &Url, text: &[u8], overrides: &Overrides) -> Result<Resolved, LoadError> {
     let path: Option<PathBuf> = uri.to_file_path().ok().or_else(|| {
         // An unsaved or remote document still has a name whose extension shows the dialect.
         uri.path_segments().and_then(|mut s| s.next_back().map(PathBuf::from))
     });
-    let outcome = if toml.is_some() {
+    let mut resolved = resolve(path.as_deref(), text, overrides)?;
+    // a document is judged at every key stroke
+    resolved.setup.limits = resolved.setup.limits.of_steps();
+    Ok(resolved)
+}
+
+/// Parses a version of a document, a long one on this many threads.
+pub(crate) fn parse(uri: Url, version: i32, text: String, overrides: &Overrides, threads: usize) -> Parsed {
+    let toml = toml_file(&uri, &text);
+    let starts = line_starts(text.as_bytes());
+    let text = text.into_bytes();
+    let settings = if toml.is_some() {
         Err(LoadError::new("this is no program"))
     } else {
-        resolve(path.as_deref(), text.as_bytes(), overrides).map(|mut resolved| {
-            // a document is judged at every key stroke
-            resolved.setup.limits = resolved.setup.limits.of_steps();
-            let program = trunnion_syntax::parse(text.as_bytes().to_vec(), resolved.dialect.lex);
-            Source::new(program, resolved)
-        })
+        settings_of(&uri, &text, overrides)
+    };
+    let (text, outcome) = match settings {
+        Err(error) => (Arc::new(text), Err(error)),
+        Ok(resolved) => {
+            let program = trunnion_syntax::parse_on(text, resolved.dialect.lex, threads);
+            (program.shared_source(), Ok(Source::new(program, Arc::new(resolved))))
+        }
     };
     Parsed {
-        starts: line_starts(&text),
         uri,
         version,
         text,
+        starts,
         outcome,
         toml,
     }
@@ -126,9 +156,13 @@ pub(crate) fn analyse(parsed: Arc<Parsed>, cancelled: &dyn Fn() -> bool) -> Opti
     let begun = Instant::now();
     let session = match &parsed.outcome {
         Err(_) => None,
-        Ok(source) => Some(Session::new(&source.program, &source.resolved.settings(), cancelled)?),
+        Ok(source) => {
+            let session = Session::new(&source.program, &source.resolved.settings(), cancelled)?;
+            Some(Arc::new(session))
+        }
     };
     Some(Analysed {
+        lines_are_blocks: parsed.text.len() > LARGE && parsed.blocks_are_lines(),
         parsed,
         session,
         took: begun.elapsed(),

@@ -37,7 +37,7 @@ use tower_lsp::{
         RenameParams, SelectionRange, SelectionRangeParams, SemanticTokens, SemanticTokensDeltaParams,
         SemanticTokensFullDeltaResult, SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
         SemanticTokensResult, ServerInfo, SignatureHelp, SignatureHelpParams, SymbolInformation,
-        TextDocumentPositionParams, TextEdit, Url, WorkspaceEdit, WorkspaceSymbolParams,
+        TextDocumentPositionParams, TextEdit, WorkspaceEdit, WorkspaceSymbolParams,
     },
 };
 
@@ -68,57 +68,9 @@ impl Backend {
     fn post(&self, event: Event) {
         let _ = self.inbox.send(event);
     }
-
-    /// Answers from a snapshot on a worker. A cancelled request drops this future, and its work is not begun.
-    async fn ask<T: Send + 'static>(
-        &self,
-        uri: &Url,
-        need: Need,
-        work: impl FnOnce(&Snapshot) -> Result<T> + Send + 'static,
-    ) -> Result<T> {
-        let (sender, answer) = oneshot::channel();
-        let work = move |snapshot: Option<Snapshot>| {
-            if !sender.is_closed() {
-                let _ =
-                    sender.send(snapshot.map_or_else(|| Err(Error::content_modified()), |snapshot| work(&snapshot)));
-            }
-        };
-        self.post(Event::Ask {
-            uri: uri.clone(),
-            need,
-            work: Box::new(work),
-        });
-        answer.await.unwrap_or_else(|_| Err(Error::content_modified()))
-    }
-
-    /// The same for an answer that is always there.
-    async fn show<T: Send + 'static>(
-        &self,
-        uri: &Url,
-        need: Need,
-        work: impl FnOnce(&Snapshot) -> T + Send + 'static,
-    ) -> Result<T> {
-        self.ask(uri, need, move |snapshot| Ok(work(snapshot))).await
-    }
 }
 
-impl Backend {
-    /// For the file of a call hierarchy, which need not be open: then one that is open beside it has the same folder.
-    async fn near<T: Send + 'static>(
-        &self,
-        uri: &Url,
-        work: impl FnOnce(&Snapshot) -> T + Send + 'static,
-    ) -> Result<Option<T>> {
-        let (sender, answer) = oneshot::channel();
-        let uri = uri.clone();
-        self.post(Event::AskAll(Box::new(move |folder, encoding| {
-            if !sender.is_closed() {
-                let _ = sender.send(Snapshot::of_file(&uri, folder, encoding).map(|snapshot| work(&snapshot)));
-            }
-        })));
-        answer.await.map_err(|_| Error::internal_error())
-    }
-}
+mod asking;
 
 /// Requests of our own clients.
 impl Backend {
@@ -197,8 +149,10 @@ impl LanguageServer for Backend {
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
         let at = params.text_document_position_params;
-        let work = move |snapshot: &Snapshot| hover::at(snapshot, at.position);
-        self.show(&at.text_document.uri, Need::Analysed, work).await
+        let line = at.position.line as usize;
+        let work = move |snapshot: &Snapshot| Ok(hover::at(snapshot, at.position));
+        self.ask_near(&at.text_document.uri, Need::Analysed, Some(line..line + 1), work)
+            .await
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
@@ -328,12 +282,14 @@ impl LanguageServer for Backend {
         let range = params.range;
         let work = move |snapshot: &Snapshot| {
             let data = writing::colours(snapshot, Some(range));
-            Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
+            Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
                 result_id: None,
                 data,
-            }))
+            })))
         };
-        self.show(&params.text_document.uri, Need::Parsed, work).await
+        let lines = range.start.line as usize..range.end.line as usize + 1;
+        self.ask_near(&params.text_document.uri, Need::Parsed, Some(lines), work)
+            .await
     }
 
     async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {

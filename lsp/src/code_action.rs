@@ -120,13 +120,13 @@ fn misspelt(message: &str) -> Option<(&str, Vec<&str>)> {
 
 /// Where a wrong name stands: at the problem, else in a comment for this program.
 fn name_at(parsed: &Parsed, problem: &Diagnostic, wrong: &str, encoding: Encoding) -> Option<Range> {
-    let text = &parsed.text;
+    let text = parsed.characters();
     let whole = |at: &usize| {
         let part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
         !text[..*at].ends_with(part) && !text[at + wrong.len()..].starts_with(part)
     };
     let from = if parsed.toml.is_some() {
-        offset(text, &parsed.starts, problem.range.start, encoding)
+        offset(&parsed.text, &parsed.starts, problem.range.start, encoding)
     } else {
         text.find("trunnion:")?
     };
@@ -136,7 +136,7 @@ fn name_at(parsed: &Parsed, problem: &Diagnostic, wrong: &str, encoding: Encodin
         return None;
     }
     let bytes = TextRange::new(at as u32, (at + wrong.len()) as u32);
-    Some(range(text, &parsed.starts, bytes, encoding))
+    Some(range(&parsed.text, &parsed.starts, bytes, encoding))
 }
 
 /// The rewrite for the whole program, and for the places that touch the asked range alone where it changes others too; or why it is refused.

@@ -1,28 +1,35 @@
 //! One open document: its text, kept by the client's edits.
 use crate::{
-    analysis::{Analysed, Parsed},
-    position::{Encoding, line_starts, offset},
+    analysis::{Analysed, Parsed, toml_file},
+    large::Large,
+    part::LARGE,
+    position::Encoding,
+    text::Text,
 };
 use std::{
-    borrow::Cow,
     sync::{
         Arc,
         atomic::{AtomicI32, Ordering},
     },
     time::Duration,
 };
-use tower_lsp::lsp_types::TextDocumentContentChangeEvent;
+use tower_lsp::lsp_types::{TextDocumentContentChangeEvent, Url};
 use trunnion_check::Diagnostic;
 use trunnion_syntax::TextRange;
 
 /// Shortest and longest pause between an edit and its analysis.
 const SHORTEST_PAUSE: Duration = Duration::ZERO;
+const LARGE_PAUSE: Duration = Duration::from_millis(200);
 const LONGEST_PAUSE: Duration = Duration::from_millis(500);
 
 /// One open document.
 pub(crate) struct Document {
     /// Text.
-    pub(crate) text: Arc<str>,
+    pub(crate) text: Text,
+    /// The same as it was opened, until it is parsed.
+    pub(crate) opened: Option<String>,
+    /// What is kept of a long one.
+    pub(crate) large: Option<Large>,
     /// The client's version of it.
     pub(crate) version: i32,
     /// The newest version, for work that wants to know whether it is still wanted; `i32::MAX` when closed.
@@ -31,11 +38,13 @@ pub(crate) struct Document {
     pub(crate) parsed: Option<Arc<Parsed>>,
     /// The pause after the last edit is over.
     pub(crate) due: bool,
+    /// The version whose parse has begun, of a long text.
+    pub(crate) parsing: Option<i32>,
     /// The analysis of this version has begun: it begins once.
     pub(crate) started: bool,
     /// Newest analysis, perhaps of an older version.
     pub(crate) analysed: Option<Arc<Analysed>>,
-    /// The edits since the newest analysis, bytes: start, end before, end after.
+    /// The edits since the newest analysis, bytes: start, end before, end after. Not kept of a long text.
     pub(crate) since: Vec<(u32, u32, u32)>,
     /// Its check is shown as work in progress until this is dropped.
     pub(crate) progress: Option<tokio::sync::oneshot::Sender<()>>,
@@ -45,13 +54,17 @@ pub(crate) struct Document {
 
 impl Document {
     /// A document as opened.
-    pub(crate) fn open(text: String, version: i32) -> Self {
+    pub(crate) fn open(uri: &Url, text: String, version: i32) -> Self {
+        let large = text.len() > LARGE && toml_file(uri, &text).is_none();
         Self {
-            text: text.into(),
+            text: Text::new(&text),
+            opened: Some(text),
+            large: large.then(Large::default),
             version,
             newest: Arc::new(AtomicI32::new(version)),
             parsed: None,
             due: true,
+            parsing: None,
             started: false,
             analysed: None,
             since: Vec::new(),
@@ -62,32 +75,35 @@ impl Document {
 
     /// Applies the client's edits in their order.
     pub(crate) fn change(&mut self, version: i32, changes: Vec<TextDocumentContentChangeEvent>, encoding: Encoding) {
-        let mut text = String::from(&*self.text);
-        let mut known = self
-            .parsed
-            .as_ref()
-            .filter(|parsed| parsed.version == self.version)
-            .map(|parsed| &*parsed.starts);
         for change in changes {
             let Some(range) = change.range else {
                 self.since = vec![(0, u32::MAX, u32::MAX)];
-                text = change.text;
-                known = None;
+                self.text = Text::new(&change.text);
+                self.large = (self.text.len() > LARGE).then(Large::default);
+                (self.parsed, self.analysed) = (None, None);
                 continue;
             };
-            // the lines of the parsed version are those of the text until the first edit
-            let starts = known
-                .take()
-                .map_or_else(|| Cow::Owned(line_starts(&text)), Cow::Borrowed);
-            let start = offset(&text, &starts, range.start, encoding);
-            let end = offset(&text, &starts, range.end, encoding).max(start);
-            self.since
-                .push((start as u32, end as u32, (start + change.text.len()) as u32));
-            text.replace_range(start..end, &change.text);
+            let start = self.text.offset(range.start, encoding);
+            let end = self.text.offset(range.end, encoding).max(start);
+            if let Some(large) = &mut self.large {
+                let lines = range.start.line as usize..range.end.line.max(range.start.line) as usize;
+                large.before(&self.text, lines.clone(), &change.text);
+                let before = self.text.lines();
+                self.text.replace(start..end, &change.text);
+                large.after(lines, self.text.lines() as i64 - before as i64);
+            } else {
+                let now = (start + change.text.len()) as u32;
+                self.since.push((start as u32, end as u32, now));
+                self.text.replace(start..end, &change.text);
+            }
         }
-        self.text = text.into();
+        self.opened = None;
         self.version = version;
         self.newest.store(version, Ordering::SeqCst);
+        if self.large.is_some() {
+            // the memory of a second whole version is not spent
+            (self.parsed, self.analysed) = (None, None);
+        }
     }
 
     /// A finding of the newest analysis where it stands now; `None` where its place was edited.
@@ -116,7 +132,12 @@ impl Document {
 
     /// How long to wait for the next key before analysing.
     pub(crate) fn pause(&self) -> Duration {
-        self.last_run.clamp(SHORTEST_PAUSE, LONGEST_PAUSE)
+        let shortest = if self.large.is_some() {
+            LARGE_PAUSE
+        } else {
+            SHORTEST_PAUSE
+        };
+        self.last_run.clamp(shortest, LONGEST_PAUSE)
     }
 
     /// Whether the newest analysis is of the newest text.

@@ -1,8 +1,10 @@
 //! What reaches the owner of the state.
 use crate::{
     analysis::{Analysed, Parsed},
+    part::Part,
     snapshot::{Need, Snapshot},
 };
+use core::ops::Range;
 use std::sync::Arc;
 use tower_lsp::lsp_types::{InitializeParams, TextDocumentContentChangeEvent, Url};
 use trunnion_check::Diagnostic;
@@ -36,8 +38,26 @@ pub(crate) enum Event {
     Cheap(Arc<Parsed>, Vec<Diagnostic>),
     /// An analysis is done.
     Analysed(Arc<Analysed>),
-    /// A request about a document.
-    Ask { uri: Url, need: Need, work: Work },
+    /// Lines of a long document are judged before the whole is; `None` where they cannot be.
+    Part {
+        uri: Url,
+        version: i32,
+        part: Option<Box<Part>>,
+    },
+    /// A request about a document; `near`: it asks about these lines alone, so that they are enough of a long document.
+    Ask {
+        uri: Url,
+        need: Need,
+        near: Option<Range<usize>>,
+        work: Work,
+    },
+    /// A request about some lines of a version, which the whole alone can answer.
+    AskWhole {
+        uri: Url,
+        version: i32,
+        need: Need,
+        work: Work,
+    },
     /// A request about the workspace.
     AskAll(Box<dyn FnOnce(crate::folder::Folder, crate::position::Encoding) + Send>),
 }

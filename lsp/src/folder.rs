@@ -120,7 +120,7 @@ impl Folder {
             return Some(other);
         }
         let text = std::fs::read_to_string(path).ok()?;
-        let parsed = Arc::new(parse(uri.clone(), 0, text.into(), &self.overrides));
+        let parsed = Arc::new(parse(uri.clone(), 0, text, &self.overrides, 1));
         let other = Arc::new(Other { uri, parsed });
         self.kept
             .lock()

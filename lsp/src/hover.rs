@@ -17,7 +17,7 @@ use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 /// The hover of a program, or of a settings or machine file.
 pub(crate) fn at(snapshot: &Snapshot, position: Position) -> Option<Hover> {
     if let Some(file) = snapshot.parsed.toml {
-        let (value, place) = toml_at(file, &snapshot.parsed.text, snapshot.offset(position) as usize)?;
+        let (value, place) = toml_at(file, snapshot.parsed.characters(), snapshot.offset(position) as usize)?;
         return Some(Hover {
             contents: HoverContents::Markup(MarkupContent {
                 kind: MarkupKind::Markdown,

@@ -16,15 +16,18 @@ mod exit;
 mod folder;
 mod frames;
 mod hover;
+mod large;
 mod names;
 mod navigate;
 mod outbox;
 mod owner;
+mod part;
 mod position;
 mod settings;
 mod snapshot;
 mod status;
 mod structure;
+mod text;
 mod to_proto;
 mod writing;
 

@@ -137,12 +137,8 @@ pub(crate) fn prepare(snapshot: &Snapshot, position: Position) -> Option<Prepare
     let of = at(snapshot, position)?;
     Some(PrepareRenameResponse::RangeWithPlaceholder {
         range: snapshot.range(of.range),
-        placeholder: snapshot
-            .parsed
-            .text
-            .get(of.range.as_usize())
-            .unwrap_or_default()
-            .to_owned(),
+        placeholder: String::from_utf8_lossy(snapshot.parsed.text.get(of.range.as_usize()).unwrap_or_default())
+            .into_owned(),
     })
 }
 

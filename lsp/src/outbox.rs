@@ -22,7 +22,7 @@ pub(crate) struct Status {
     pub(crate) dialect: Option<String>,
     /// Why this dialect; or what is wrong with the settings.
     pub(crate) reason: String,
-    /// pass, fail or unknown.
+    /// pass, fail or unknown; checking: only a part of a long program is judged so far, and the counts are zero.
     pub(crate) verdict: String,
     /// Count.
     pub(crate) errors: u64,

@@ -4,12 +4,12 @@ use crate::{
     backend::wants_utf8,
     cheap,
     document::Document,
-    event::{Event, Work},
+    event::Event,
     folder::Folder,
+    large::Large,
     outbox::Message,
     position::Encoding,
     settings::{self, Shown},
-    snapshot::{Need, Snapshot},
     status::status,
     to_proto,
 };
@@ -30,20 +30,12 @@ use tower_lsp::lsp_types::{InitializeParams, Url};
 /// The check of a program with more blocks is shown as work in progress.
 const LONG: usize = 20_000;
 
-/// A request that waits for its document's version.
-struct Waiting {
-    uri: Url,
-    version: i32,
-    need: Need,
-    work: Work,
-}
-
 pub(crate) struct Owner {
     inbox: mpsc::UnboundedSender<Event>,
     outbox: mpsc::UnboundedSender<Message>,
     runtime: Handle,
     documents: BTreeMap<Url, Document>,
-    waiting: Vec<Waiting>,
+    waiting: Vec<asked::Waiting>,
     folder: Folder,
     encoding: Encoding,
     shown: Shown,
@@ -51,7 +43,11 @@ pub(crate) struct Owner {
     progress: bool,
     refresh: bool,
     works: i32,
+    long: long::Worker,
 }
+
+mod asked;
+mod long;
 
 impl Owner {
     pub(crate) fn new(
@@ -71,6 +67,7 @@ impl Owner {
             progress: false,
             refresh: false,
             works: 0,
+            long: long::Worker::start(),
         }
     }
 
@@ -85,7 +82,7 @@ impl Owner {
         match event {
             Event::Initialize(params) => self.initialize(&params),
             Event::Open { uri, version, text } => {
-                self.documents.insert(uri.clone(), Document::open(text, version));
+                self.documents.insert(uri.clone(), Document::open(&uri, text, version));
                 self.start_parsing(&uri);
             }
             Event::Change { uri, version, changes } => self.change(&uri, version, changes),
@@ -99,13 +96,23 @@ impl Owner {
             Event::Due { uri, version } => {
                 if let Some(document) = self.documents.get_mut(&uri).filter(|d| d.version == version) {
                     document.due = true;
+                    if document.large.is_some() && !document.is_parsed() {
+                        self.start_parsing(&uri);
+                    }
                     self.start_analysis(&uri);
                 }
             }
+            Event::Part { uri, version, part } => self.take_part(&uri, version, part),
             Event::Parsed(parsed) => self.take_parsed(&parsed),
             Event::Cheap(parsed, found) => self.take_cheap(&parsed, found),
             Event::Analysed(analysed) => self.take(&analysed),
-            Event::Ask { uri, need, work } => self.ask(&uri, need, work),
+            Event::Ask { uri, need, near, work } => self.ask_near(&uri, need, near, work),
+            Event::AskWhole {
+                uri,
+                version,
+                need,
+                work,
+            } => self.ask_whole(&uri, version, need, work),
             Event::AskAll(work) => {
                 let (folder, encoding) = (self.folder(), self.encoding);
                 self.runtime.spawn_blocking(move || work(folder, encoding));
@@ -144,8 +151,13 @@ impl Owner {
         document.change(version, changes, self.encoding);
         (document.due, document.started) = (false, false);
         let (pause, inbox, due) = (document.pause(), self.inbox.clone(), uri.clone());
+        let large = document.large.as_ref().map(|large| large.base.is_some());
         self.drop_stale(uri, version);
-        self.start_parsing(uri);
+        match large {
+            Some(true) => self.start_part(uri),
+            // its beginning is read again
+            Some(false) | None => self.start_parsing(uri),
+        }
         self.runtime.spawn(async move {
             tokio::time::sleep(pause).await;
             let _ = inbox.send(Event::Due { uri: due, version });
@@ -168,8 +180,11 @@ impl Owner {
             if let Some(document) = self.documents.get_mut(&uri) {
                 // A run with the old settings must not be taken as the answer for the new ones.
                 (document.parsed, document.analysed, document.due) = (None, None, true);
-                document.started = false;
+                (document.started, document.parsing) = (false, None);
                 document.since.clear();
+                if let Some(large) = &mut document.large {
+                    *large = Large::default();
+                }
                 document.newest.store(i32::MIN, Ordering::SeqCst);
                 document.newest = Arc::new(AtomicI32::new(document.version));
             }
@@ -181,7 +196,11 @@ impl Owner {
         let Some(document) = self.documents.get_mut(uri) else {
             return;
         };
-        let (uri, version, text) = (uri.clone(), document.version, Arc::clone(&document.text));
+        if document.large.is_some() {
+            return self.start_large(uri);
+        }
+        let (uri, version) = (uri.clone(), document.version);
+        let text = document.opened.take().unwrap_or_else(|| document.text.whole());
         let (newest, overrides) = (Arc::clone(&document.newest), self.folder.overrides.clone());
         let inbox = self.inbox.clone();
         self.runtime.spawn_blocking(move || {
@@ -189,7 +208,7 @@ impl Owner {
             if cancelled() {
                 return;
             }
-            let parsed = Arc::new(parse(uri, version, text, &overrides));
+            let parsed = Arc::new(parse(uri, version, text, &overrides, 1));
             if cancelled() {
                 return;
             }
@@ -227,14 +246,20 @@ impl Owner {
                 .send(Message::Progress(self.works, "Checking the program".to_owned(), done));
         }
         let (newest, inbox, version) = (Arc::clone(&document.newest), self.inbox.clone(), document.version);
-        self.runtime.spawn_blocking(move || {
+        let is_long = document.large.is_some();
+        let job = move || {
             let cancelled = || newest.load(Ordering::SeqCst) != version;
             if let Some(analysed) = analyse(parsed, &cancelled)
                 && !cancelled()
             {
                 let _ = inbox.send(Event::Analysed(Arc::new(analysed)));
             }
-        });
+        };
+        if is_long {
+            self.long.run(job);
+        } else {
+            self.runtime.spawn_blocking(job);
+        }
     }
 
     /// Takes a parsed version, answers the requests that waited for it, and goes on to its analysis. The rules that need no machine wait
@@ -307,8 +332,11 @@ impl Owner {
         document.analysed = Some(Arc::clone(analysed));
         document.since.clear();
         document.progress = None;
+        let diagnostics = to_proto::diagnostics(analysed, self.encoding);
+        if let Some(large) = &mut document.large {
+            large.take(analysed, &diagnostics);
+        }
         if self.shown.push {
-            let diagnostics = to_proto::diagnostics(analysed, self.encoding);
             let message = Message::Diagnostics(parsed.uri.clone(), diagnostics, Some(parsed.version));
             let _ = self.outbox.send(message);
         }
@@ -317,82 +345,5 @@ impl Owner {
             let _ = self.outbox.send(Message::Refresh);
         }
         self.answer(&parsed.uri.clone());
-    }
-
-    fn folder(&self) -> Folder {
-        let parsed = |(uri, document): (&Url, &Document)| Some((uri.clone(), document.parsed.clone()?));
-        Folder {
-            open: Arc::new(self.documents.iter().filter_map(parsed).collect()),
-            ..self.folder.clone()
-        }
-    }
-
-    /// What a request may see now, if that is enough for it.
-    fn snapshot(&self, uri: &Url, need: Need) -> Option<Snapshot> {
-        let document = self.documents.get(uri)?;
-        let parsed = document.parsed.clone().filter(|_| document.is_parsed())?;
-        let analysed = document.analysed.clone().filter(|_| document.is_fresh());
-        if need == Need::Analysed && analysed.is_none() && parsed.toml.is_none() {
-            return None;
-        }
-        Some(Snapshot {
-            parsed,
-            analysed,
-            encoding: self.encoding,
-            shown: self.shown,
-            folder: self.folder(),
-        })
-    }
-
-    /// Answers a request from the document's version, now or when it is there. Answering may take time: not on the owner's thread.
-    fn ask(&mut self, uri: &Url, need: Need, work: Work) {
-        let Some(document) = self.documents.get(uri) else {
-            return work(None);
-        };
-        let version = document.version;
-        if let Some(snapshot) = self.snapshot(uri, need) {
-            drop(self.runtime.spawn_blocking(move || work(Some(snapshot))));
-        } else {
-            let waiting = Waiting {
-                uri: uri.clone(),
-                version,
-                need,
-                work,
-            };
-            self.waiting.push(waiting);
-            self.hurry(uri, need);
-        }
-    }
-
-    /// Who asks for what the analysis finds does not wait for the pause.
-    fn hurry(&mut self, uri: &Url, need: Need) {
-        if need == Need::Analysed {
-            if let Some(document) = self.documents.get_mut(uri) {
-                document.due = true;
-            }
-            self.start_analysis(uri);
-        }
-    }
-
-    /// Answers the requests about a document that now have what they need.
-    fn answer(&mut self, uri: &Url) {
-        for waiting in std::mem::take(&mut self.waiting) {
-            if waiting.uri == *uri {
-                self.ask(&waiting.uri, waiting.need, waiting.work);
-            } else {
-                self.waiting.push(waiting);
-            }
-        }
-    }
-
-    /// Requests on a version that is no longer the newest get "content modified".
-    fn drop_stale(&mut self, uri: &Url, newest: i32) {
-        let (stale, rest) = std::mem::take(&mut self.waiting)
-            .into_iter()
-            .partition(|w: &Waiting| w.uri == *uri && w.version != newest);
-        self.waiting = rest;
-        for waiting in stale {
-            (waiting.work)(None);
-        }
     }
 }

@@ -12,26 +12,30 @@ pub(crate) enum Encoding {
 }
 
 /// Byte offsets of line starts. Lines end with `\n`, `\r\n` or a lone `\r`, as the protocol says.
-pub(crate) fn line_starts(text: &str) -> Vec<u32> {
-    let bytes = text.as_bytes();
+pub(crate) fn line_starts(text: &[u8]) -> Vec<u32> {
     let mut starts = vec![0];
-    for i in memchr::memchr2_iter(b'\n', b'\r', bytes) {
-        if bytes[i] == b'\n' || bytes.get(i + 1) != Some(&b'\n') {
+    for i in memchr::memchr2_iter(b'\n', b'\r', text) {
+        if text[i] == b'\n' || text.get(i + 1) != Some(&b'\n') {
             starts.push(i as u32 + 1);
         }
     }
     starts
 }
 
-/// Byte offset of a position; beyond the end of a line or text it is that end.
-pub(crate) fn offset(text: &str, starts: &[u32], position: Position, encoding: Encoding) -> usize {
+/// The text of a piece of a document, which is UTF-8. A piece of a line costs as much as it is long, the whole text too.
+fn utf8(bytes: &[u8]) -> &str {
+    core::str::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Byte offset of a position in a text, which is UTF-8; beyond the end of a line or text it is that end.
+pub(crate) fn offset(text: &[u8], starts: &[u32], position: Position, encoding: Encoding) -> usize {
     let Some(&start) = starts.get(position.line as usize) else {
         return text.len();
     };
     let end = starts
         .get(position.line as usize + 1)
         .map_or(text.len(), |&next| next as usize);
-    let line = text[start as usize..end].trim_end_matches(['\n', '\r']);
+    let line = utf8(&text[start as usize..end]).trim_end_matches(['\n', '\r']);
     let mut units = 0;
     for (at, character) in line.char_indices() {
         if units >= position.character {
@@ -43,16 +47,17 @@ pub(crate) fn offset(text: &str, starts: &[u32], position: Position, encoding: E
 }
 
 /// Position of a byte offset.
-pub(crate) fn position(text: &str, starts: &[u32], offset: usize, encoding: Encoding) -> Position {
+pub(crate) fn position(text: &[u8], starts: &[u32], offset: usize, encoding: Encoding) -> Position {
     let mut offset = offset.min(text.len());
-    while !text.is_char_boundary(offset) {
+    // inside a character: 10xxxxxx
+    while text.get(offset).is_some_and(|byte| byte & 0xc0 == 0x80) {
         offset -= 1;
     }
     let line = starts
         .partition_point(|&start| start as usize <= offset)
         .saturating_sub(1);
     let start = starts.get(line).copied().unwrap_or(0) as usize;
-    let character = text[start..offset].chars().map(|c| units_of(c, encoding)).sum();
+    let character = utf8(&text[start..offset]).chars().map(|c| units_of(c, encoding)).sum();
     Position {
         line: line as u32,
         character,
@@ -60,7 +65,7 @@ pub(crate) fn position(text: &str, starts: &[u32], offset: usize, encoding: Enco
 }
 
 /// LSP range of a range of bytes.
-pub(crate) fn range(text: &str, starts: &[u32], bytes: TextRange, encoding: Encoding) -> Range {
+pub(crate) fn range(text: &[u8], starts: &[u32], bytes: TextRange, encoding: Encoding) -> Range {
     Range {
         start: position(text, starts, bytes.start as usize, encoding),
         end: position(text, starts, bytes.end as usize, encoding),
@@ -81,9 +86,10 @@ mod tests {
     #[test]
     fn utf16_columns_count_code_units() {
         let text = "(\u{1f527}\u{e4}) G1\r\nX2\rY3";
+        let g = text.find('G').expect("there");
+        let text = text.as_bytes();
         let starts = line_starts(text);
         assert_eq!(starts, [0, 13, 16]);
-        let g = text.find('G').expect("there");
         let at = position(text, &starts, g, Encoding::Utf16);
         assert_eq!((at.line, at.character), (0, 6), "the wrench counts two, the umlaut one");
         assert_eq!(offset(text, &starts, at, Encoding::Utf16), g);

@@ -1,6 +1,26 @@
 //! The state of a document for a status bar.
 use crate::{analysis::Analysed, outbox::Status};
+use tower_lsp::lsp_types::Url;
 use trunnion_check::{Severity, Verdict};
+use trunnion_workspace::Resolved;
+
+/// The state of a document of which only a part is judged so far: it has no verdict.
+pub(crate) fn checking(uri: &Url, version: i32, resolved: &Resolved) -> Status {
+    Status {
+        uri: uri.clone(),
+        machine: resolved.machine.as_ref().map(|machine| machine.id.clone()),
+        dialect: Some(resolved.dialect.name.clone()),
+        reason: resolved.dialect_reason.clone(),
+        verdict: "checking".into(),
+        errors: 0,
+        warnings: 0,
+        unknown: 0,
+        version,
+        blocks: 0,
+        blocks_run: 0,
+        cycle_time_s: None,
+    }
+}
 
 /// Verdict, machine, dialect, coverage and time of an analysis.
 pub(crate) fn status(analysed: &Analysed) -> Status {

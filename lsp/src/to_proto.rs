@@ -11,7 +11,7 @@ use trunnion_check::{Severity, Status};
 use trunnion_syntax::TextRange;
 
 /// More findings than this are useless in an editor; the last one then states how many there are.
-const MOST: usize = 2000;
+pub(crate) const MOST: usize = 2000;
 
 /// So many of the findings that one leads are links of it.
 const MOST_LED: usize = 50;
@@ -54,7 +54,7 @@ fn plain(code: &str, severity: DiagnosticSeverity, message: String) -> Diagnosti
 
 /// What is wrong with a settings or machine file.
 pub(crate) fn of_toml(parsed: &Parsed, encoding: Encoding) -> Vec<Diagnostic> {
-    let Some((message, place)) = parsed.toml.and_then(|file| file.problem(&parsed.text)) else {
+    let Some((message, place)) = parsed.toml.and_then(|file| file.problem(parsed.characters())) else {
         return Vec::new();
     };
     let bytes = place.map_or(TextRange::default(), |place| {

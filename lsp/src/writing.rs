@@ -24,7 +24,7 @@ fn markdown(value: String) -> MarkupContent {
 pub(crate) fn completion(snapshot: &Snapshot, position: Position) -> Vec<CompletionItem> {
     let offset = snapshot.offset(position);
     if let Some(file) = snapshot.parsed.toml {
-        let (keys, place) = toml_completions(file, &snapshot.parsed.text, offset as usize);
+        let (keys, place) = toml_completions(file, snapshot.parsed.characters(), offset as usize);
         let range = snapshot.range(TextRange::new(place.start as u32, place.end as u32));
         let one = |(key, docs): (String, String)| CompletionItem {
             label: key.clone(),
@@ -186,7 +186,7 @@ pub(crate) fn colours(snapshot: &Snapshot, range: Option<Range>) -> Vec<Semantic
     let Some(piece) = text.get(from..to) else {
         return Vec::new();
     };
-    let list = tokens(piece.as_bytes(), source.resolved.dialect.lex, source.resolved.dialect);
+    let list = tokens(piece, source.resolved.dialect.lex, source.resolved.dialect);
     let local = crate::position::line_starts(piece);
     let mut found = Vec::with_capacity(list.len());
     let (mut last_line, mut last_column) = (0, 0);

@@ -12,7 +12,6 @@ use crate::{coverage, unread};
 use core::ops::ControlFlow;
 use trunnion_dialect::Foreign;
 use trunnion_interp::{Interpreter, directives};
-use trunnion_machine::Follower;
 use trunnion_syntax::{BlockId, Program};
 
 /// Executed blocks between two check-points, and between two questions whether to continue.
@@ -21,12 +20,7 @@ pub(crate) const CHECK_POINT_BLOCKS: u64 = 1024;
 /// Observes the run of a program.
 pub(crate) trait Watch {
     /// Before each 1024th executed block, with the modal state there; `Break` ends the check.
-    fn pause(
-        &mut self,
-        executed: u64,
-        interpreter: &Interpreter<'static>,
-        follower: Option<&Follower<'_>>,
-    ) -> ControlFlow<()>;
+    fn pause(&mut self, executed: u64, interpreter: &Interpreter<'static>, pass: &Pass<'_>) -> ControlFlow<()>;
     /// After each block: how many ran before it, and whether it ran for the first time.
     fn ran(&mut self, executed: u64, block: BlockId, first: bool);
 }
@@ -35,7 +29,7 @@ pub(crate) trait Watch {
 struct NoObserver;
 
 impl Watch for NoObserver {
-    fn pause(&mut self, _: u64, _: &Interpreter<'static>, _: Option<&Follower<'_>>) -> ControlFlow<()> {
+    fn pause(&mut self, _: u64, _: &Interpreter<'static>, _: &Pass<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
     fn ran(&mut self, _: u64, _: BlockId, _: bool) {}
@@ -145,7 +139,7 @@ fn run(
     watch: &mut impl Watch,
 ) -> Option<Interpreter<'static>> {
     for executed in 0.. {
-        if executed % CHECK_POINT_BLOCKS == 0 && watch.pause(executed, &interpreter, pass.follower()).is_break() {
+        if executed % CHECK_POINT_BLOCKS == 0 && watch.pause(executed, &interpreter, pass).is_break() {
             return None;
         }
         let Some(block) = interpreter.advance(program, pass) else {

@@ -75,6 +75,12 @@ impl Diagnostic {
     pub fn own_severity(&self) -> Severity {
         self.own_severity.unwrap_or(self.severity)
     }
+
+    /// Whether it follows from the blocks at its place and shortly before: not where it is reported once for the program, and not where it
+    /// was found by looking at the program as a whole.
+    pub fn is_of_place(&self) -> bool {
+        !self.origin.of_whole
+    }
 }
 
 /// How a run came to a finding.
@@ -84,4 +90,6 @@ pub(crate) struct Origin {
     pub(crate) chain: ChainId,
     /// Counter of what later passes find here.
     pub(crate) later: Option<u32>,
+    /// It is reported once for the program, or follows from all of it.
+    pub(crate) of_whole: bool,
 }

@@ -22,7 +22,10 @@ use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, Pl
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program};
 
+mod partial;
 mod text;
+
+pub(crate) use partial::PassMemory;
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -60,6 +63,8 @@ pub(crate) struct Pass<'a> {
     /// `None` where motions are not judged.
     cuts: Option<Cuts>,
     start: Start,
+    /// Only a part of the program is checked; whether the rest decides how it goes on.
+    part: Option<bool>,
 }
 
 impl<'a> Pass<'a> {
@@ -108,6 +113,7 @@ impl<'a> Pass<'a> {
             tally: Tally::new(settings.dialect),
             assumed_radii: BTreeSet::new(),
             start: Start::new(settings),
+            part: None,
             cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
@@ -126,11 +132,6 @@ impl<'a> Pass<'a> {
         self.pace
             .as_ref()
             .is_some_and(|pace| pace.wants_effects(self.reporter.program()))
-    }
-
-    /// The current position of the machine.
-    pub(crate) fn follower(&self) -> Option<&Follower<'a>> {
-        self.follower.as_ref()
     }
 
     /// How many blocks of the file have content.
@@ -289,7 +290,7 @@ impl Sink for Pass<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        if text_rule_reported(self.reporter.program(), &fault) {
+        if text_rule_reported(self.reporter.program(), &fault) || self.leaves_part(&fault) {
             return;
         }
         if let (true, Some(Lacks::Radius(number))) = (self.assume.tool_length, fault.kind.lacks()) {

@@ -1,9 +1,11 @@
 //! A program that stays open: check-points let any block be described without running the whole file again.
 use crate::analysis::{Watch, judge};
+use crate::pass::{Pass, PassMemory};
+use crate::suppress::Suppressions;
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
 use trunnion_interp::{Fault, Interpreter, ModalState, Motion, ProgramRun, Sink};
-use trunnion_machine::{Follower, Memory, Row, row};
+use trunnion_machine::{Follower, Row, row};
 use trunnion_syntax::{BlockId, Program};
 
 /// At most this many blocks are run again to describe one, where a program of loops leaves no check-point nearer to it.
@@ -51,7 +53,7 @@ struct CheckPoint {
     /// How many blocks ran before.
     executed: u64,
     interpreter: Interpreter<'static>,
-    machine: Option<Memory>,
+    pass: PassMemory,
 }
 
 /// An analysed program with check-points, 1024 executed blocks or more apart.
@@ -61,6 +63,8 @@ pub struct Session {
     pub report: Report,
     check_points: Vec<CheckPoint>,
     order: Order,
+    /// Rules that comments allow in the whole program.
+    allowed: Vec<String>,
 }
 
 /// In which order the blocks ran for the first time.
@@ -68,6 +72,8 @@ pub struct Session {
 enum Order {
     /// Block after block; this many of them.
     Straight(u64),
+    /// Block after block, of a part of the program: the first, and one past the last.
+    Part(u64, u64),
     /// How many ran before it, for each block; `u64::MAX`: it never ran.
     First(Vec<u64>),
 }
@@ -77,6 +83,7 @@ impl Order {
     fn of(&self, block: BlockId) -> Option<u64> {
         match self {
             Self::Straight(ran) => Some(u64::from(block.0)).filter(|at| at < ran),
+            Self::Part(first, end) => Some(u64::from(block.0)).filter(|at| (first..end).contains(&at)),
             Self::First(first) => first.get(block.0 as usize).copied().filter(|at| *at != u64::MAX),
         }
     }
@@ -93,17 +100,12 @@ struct Keeper<'c> {
 }
 
 impl Watch for Keeper<'_> {
-    fn pause(
-        &mut self,
-        executed: u64,
-        interpreter: &Interpreter<'static>,
-        follower: Option<&Follower<'_>>,
-    ) -> ControlFlow<()> {
+    fn pause(&mut self, executed: u64, interpreter: &Interpreter<'static>, pass: &Pass<'_>) -> ControlFlow<()> {
         if std::mem::take(&mut self.news) || executed == 0 {
             self.check_points.push(CheckPoint {
                 executed,
                 interpreter: interpreter.clone(),
-                machine: follower.map(Follower::memory),
+                pass: pass.memory(),
             });
         }
         if (self.cancelled)() {
@@ -128,7 +130,7 @@ impl Watch for Keeper<'_> {
                     *at = executed;
                 }
             }
-            Order::First(_) => {}
+            Order::First(_) | Order::Part(..) => {}
         }
     }
 }
@@ -148,6 +150,7 @@ impl Session {
             report,
             check_points: keeper.check_points,
             order: keeper.order,
+            allowed: Suppressions::new(program, &trunnion_interp::directives(program)).of_program(),
         })
     }
 
@@ -161,7 +164,7 @@ impl Session {
         let after = self.check_points.partition_point(|point| point.executed <= wanted_at);
         let point = self.check_points.get(after.wrapping_sub(1));
         let mut interpreter = point.map_or_else(|| settings.interpreter(), |point| point.interpreter.clone());
-        let memory = point.and_then(|point| point.machine.as_ref());
+        let memory = point.and_then(|point| point.pass.follower());
         let follower = settings.machine.map(|machine| match memory {
             Some(memory) => Follower::resume(machine, memory),
             None => Follower::new(machine),
@@ -197,6 +200,8 @@ impl Session {
         }
     }
 }
+
+mod part;
 
 /// Follows motions and keeps the rows of one block.
 struct Walk<'m> {

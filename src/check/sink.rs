@@ -56,6 +56,10 @@ pub(crate) struct Reporter<'a> {
     wording: bool,
     /// The running rule has reported or counted something.
     spoke: bool,
+    /// The running rule reads the program as a whole, or has asked whether it said this before.
+    of_whole: bool,
+    /// An earlier part of the program is not known: what it may have said once is not said.
+    continues: bool,
     part: OnceCell<Part>,
     judges_machine: bool,
     /// Findings of legs that are no errors are left out.
@@ -64,6 +68,8 @@ pub(crate) struct Reporter<'a> {
     slips: BTreeSet<u32>,
     near: NearCodes<'a>,
 }
+
+mod scope;
 
 impl<'a> Reporter<'a> {
     pub(crate) fn new(program: &'a Program, dialect: &'a Dialect, suppressions: &'a Suppressions) -> Self {
@@ -82,35 +88,14 @@ impl<'a> Reporter<'a> {
             told: Keyed::default(),
             wording: false,
             spoke: false,
+            of_whole: false,
+            continues: false,
             part: OnceCell::new(),
             judges_machine: false,
             objections_only: false,
             slips: BTreeSet::new(),
             near: NearCodes::new(dialect),
         }
-    }
-
-    /// The axes of a machine are judged.
-    pub(crate) fn judging_machine(mut self, judges: bool) -> Self {
-        self.judges_machine = judges;
-        self
-    }
-
-    /// Leaves out findings of legs that are no errors.
-    pub(crate) fn objections_only(&mut self) {
-        self.objections_only = true;
-    }
-
-    /// Whether the axes of a machine are judged.
-    pub(crate) fn judges_machine(&self) -> bool {
-        self.judges_machine
-    }
-
-    /// Whether the file is a main program or a subprogram.
-    pub(crate) fn part(&self) -> Part {
-        *self
-            .part
-            .get_or_init(|| crate::caller::part(self.program, self.dialect))
     }
 
     /// The program that is checked.
@@ -258,7 +243,7 @@ impl<'a> Reporter<'a> {
         self.spoke = true;
         let origin = Origin {
             chain: self.chain,
-            later: None,
+            ..Origin::default()
         };
         let block = self.block.unwrap_or_default();
         self.pending
@@ -306,7 +291,8 @@ impl<'a> Reporter<'a> {
 
     /// True the first time the running rule asks about `cause`, so that one cause is reported once.
     pub(crate) fn once(&mut self, cause: u64) -> bool {
-        self.told.insert((cause, self.name), ())
+        self.of_whole = true;
+        !self.continues && self.told.insert((cause, self.name), ())
     }
 
     /// Names the rule that runs next and the block it looks at. `sequence` counts blocks for merging.
@@ -317,7 +303,7 @@ impl<'a> Reporter<'a> {
         self.level = rule.level;
         self.block = block;
         self.sequence = sequence;
-        self.spoke = false;
+        (self.spoke, self.of_whole) = (false, !rule.wake.is_of_place());
     }
 
     /// How the run came to what the rules see next: whether its block ran `again`, and in which calls.
@@ -354,6 +340,7 @@ impl<'a> Reporter<'a> {
             {
                 diagnostic.severity = level;
             }
+            diagnostic.origin.of_whole = self.of_whole || merge.is_some_and(|merge| merge.everywhere);
             if (block.0 as usize) < program.block_count() {
                 diagnostic.block = program
                     .block(block)

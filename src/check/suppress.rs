@@ -47,6 +47,20 @@ impl Suppressions {
         found
     }
 
+    /// The rules that are allowed in the whole program.
+    pub(crate) fn of_program(&self) -> Vec<String> {
+        self.everywhere.iter().map(|entry| entry.rule.clone()).collect()
+    }
+
+    /// Allows rules in the whole program that a comment elsewhere in it allows.
+    pub(crate) fn allow_everywhere(&mut self, rules: &[String]) {
+        self.everywhere.extend(rules.iter().map(|rule| Allowed {
+            rule: rule.clone(),
+            range: TextRange::default(),
+            used: Cell::new(false),
+        }));
+    }
+
     /// Whether findings of `rule` in `block` are allowed; the caller has such a finding.
     #[inline]
     pub(crate) fn allows(&self, rule: &str, block: BlockId) -> bool {

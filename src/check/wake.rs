@@ -77,6 +77,15 @@ macro_rules! wakes {
                 }
             }
 
+            /// Whether what it reads is known once the run has come to it, wherever the program goes on.
+            pub(crate) fn is_of_place(self) -> bool {
+                match self {
+                    Self::Text(_) | Self::Fault(_) | Self::Refused(..) $(| Self::$motion(_))* $(| Self::$leg(_))* => true,
+                    Self::Unreadable(_) | Self::Foreign(_) | Self::End(_) | Self::Program(_) | Self::Port(_) => false,
+                    Self::Coverage(_) | Self::Still(_) | Self::Open(_) | Self::Overrun(_) | Self::Pace(..) => false,
+                }
+            }
+
             /// Its place in the masks of [`possible_of_motion`] and [`possible_of_leg`].
             fn mask(self) -> u32 {
                 match self {

@@ -22,6 +22,8 @@ pub(crate) struct Drawing {
     chamfer: bool,
     /// The program is still to be read for them.
     unread: bool,
+    /// A longer text that begins with the one that was read could use them otherwise.
+    open: bool,
 }
 
 impl Drawing {
@@ -32,7 +34,13 @@ impl Drawing {
             angle: lathe && two_axes,
             chamfer: lathe && two_axes,
             unread: lathe && !two_axes && !setup.control.has_rotary,
+            open: false,
         }
+    }
+
+    /// Whether the letters could be read otherwise if the text that was read went on.
+    pub(crate) fn is_open(self) -> bool {
+        self.open
     }
 
     /// Reads, once, what the program does with the letters.
@@ -48,6 +56,7 @@ impl Drawing {
             self.angle &= angle;
             self.chamfer &= chamfer;
         }
+        self.open = self.angle || self.chamfer;
     }
 }
 

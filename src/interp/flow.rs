@@ -111,6 +111,11 @@ impl Trail {
         Arc::clone(self.indexes[place].get_or_insert_with(|| Arc::new(read())))
     }
 
+    /// Whether no call is open and no jump, loop or call had to look for its target.
+    pub(crate) fn follows_nothing(&self) -> bool {
+        self.course.depth() == 0 && self.indexes.is_empty()
+    }
+
     /// The same of a file that was indexed before.
     pub(crate) fn known_index(&self, file: u16) -> Option<&Arc<Index>> {
         self.indexes.get(usize::from(file))?.as_ref()

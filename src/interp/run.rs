@@ -98,6 +98,38 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => engine.advance(program, sink))
     }
 
+    /// Reads what the run needs of the whole text before its first block; whether that could be something else if the text went on.
+    pub fn reads_whole(&mut self, program: &Program) -> bool {
+        with_engine!(&mut self.engine, engine => {
+            let core = engine.core_mut();
+            core.declare(program);
+            core.standing.is_open() || core.drawing.is_open()
+        })
+    }
+
+    /// Whether a clone continues as this run would on another text that is the same up to here: no jump, loop or call was followed, no motion
+    /// is held back, and the engine keeps nothing of the text.
+    pub fn may_continue_elsewhere(&self) -> bool {
+        match &self.engine {
+            Engines::Iso(engine) => {
+                let core = engine.core();
+                let read = !core.standing.is_open() && !core.drawing.is_open();
+                read && engine.is_straight() && !engine.motions_wait()
+            }
+            Engines::Apt(_) | Engines::Klartext(_) | Engines::Ngc(_) => false,
+        }
+    }
+
+    /// Whether a jump, loop or call was followed, where the engine says so.
+    pub fn follows_flow(&self) -> bool {
+        matches!(&self.engine, Engines::Iso(engine) if !engine.is_straight())
+    }
+
+    /// Whether LinuxCNC's own engine runs.
+    pub fn is_linuxcnc(&self) -> bool {
+        matches!(self.engine, Engines::Ngc(_))
+    }
+
     /// What is in effect.
     #[inline]
     pub fn state(&self) -> &ModalState {

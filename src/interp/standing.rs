@@ -19,6 +19,8 @@ pub(crate) struct Standing {
     unnamed: u16,
     /// The program is still to be read for them.
     unread: bool,
+    /// A longer text that begins with the one that was read could name more of them.
+    open: bool,
     /// On a lathe only Y may be left out.
     lathe: bool,
 }
@@ -30,6 +32,7 @@ impl Standing {
             absent,
             unnamed: 0,
             unread: setup.unnamed_stand && absent == 0,
+            open: false,
             lathe: dialect.quirks.diameter,
         }
     }
@@ -42,6 +45,11 @@ impl Standing {
     /// Only those that the machine lacks.
     pub(crate) fn absent(self) -> Self {
         Self { unnamed: 0, ..self }
+    }
+
+    /// Whether they could be others if the text that was read went on.
+    pub(crate) fn is_open(self) -> bool {
+        self.open
     }
 
     /// Puts them at 0.
@@ -64,7 +72,9 @@ impl Standing {
     pub(crate) fn read(&mut self, program: &Program, dialect: &Dialect) {
         if self.unread {
             self.unread = false;
-            self.unnamed = (if self.lathe { Y } else { XYZ }) & !named(program, dialect);
+            let named = named(program, dialect);
+            self.open = named != XYZ;
+            self.unnamed = (if self.lathe { Y } else { XYZ }) & !named;
             if self.unnamed == XYZ {
                 self.unnamed = 0;
             }

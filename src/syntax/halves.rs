@@ -50,7 +50,7 @@ fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
 
 /// Adds blocks that were lexed as a separate text, which begins at byte `cut`. Touching fresh memory costs more than writing to it, so both
 /// threads share that work.
-fn join(out: &mut Builder, behind: &Builder, cut: u32) {
+pub(crate) fn join(out: &mut Builder, behind: &Builder, cut: u32) {
     let first = out.table.kinds.len() as u32;
     let (kinds, starts) = (&mut out.table.kinds, &mut out.table.starts);
     std::thread::scope(|scope| {

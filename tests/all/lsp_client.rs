@@ -163,7 +163,7 @@ impl Client {
             let done = self
                 .last_status
                 .as_ref()
-                .is_some_and(|s| s["uri"] == uri && s["version"] == version);
+                .is_some_and(|s| s["uri"] == uri && s["version"] == version && s["verdict"] != "checking");
             let at = self
                 .published
                 .iter()
@@ -175,6 +175,16 @@ impl Client {
             }
             self.pump();
         }
+    }
+
+    /// The verdict of the next status.
+    pub(crate) fn verdict(&mut self) -> String {
+        self.last_status = None;
+        while self.last_status.is_none() {
+            self.pump();
+        }
+        let status = self.last_status.as_ref().expect("there");
+        status["verdict"].as_str().expect("a text").to_owned()
     }
 
     /// The next findings published of a version of a document, whether they are all or not.

@@ -18,6 +18,7 @@ mod lsp_client;
 mod lsp_edits;
 mod lsp_features;
 mod lsp_fixes;
+mod lsp_large;
 mod lsp_malformed;
 mod lsp_writing;
 mod mutated_formats;

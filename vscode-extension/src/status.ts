@@ -9,7 +9,8 @@ export interface Status {
   dialect: string | null;
   /** Why this dialect was taken, or what is wrong with the settings. */
   reason: string;
-  verdict: 'pass' | 'fail' | 'unknown';
+  /** `checking`: only a part of a long program is judged so far, and the counts are zero. */
+  verdict: 'pass' | 'fail' | 'unknown' | 'checking';
   errors: number;
   warnings: number;
   unknown: number;
@@ -21,7 +22,7 @@ export interface Status {
   cycle_time_s: [number, number] | null;
 }
 
-const ICONS = { pass: '$(pass)', fail: '$(error)', unknown: '$(question)' } as const;
+const ICONS = { pass: '$(pass)', fail: '$(error)', unknown: '$(question)', checking: '$(sync~spin)' } as const;
 
 export class StatusItem implements vscode.Disposable {
   private readonly item = vscode.window.createStatusBarItem('trunnion.status', vscode.StatusBarAlignment.Right, 90);
@@ -85,6 +86,9 @@ function time([low, high]: [number, number]): string {
 function tooltip(status: Status | undefined): string {
   if (!status) {
     return 'Trunnion: not checked yet. Click to choose the machine.';
+  }
+  if (status.verdict === 'checking') {
+    return ['Checking the program: what is shown so far is of the visible lines.', status.reason, 'Click to choose the machine.'].join('\n');
   }
   const counts = `${status.errors} errors, ${status.warnings} warnings, ${status.unknown} unknown`;
   const lines = [

@@ -153,6 +153,12 @@ impl<'d> Iso<'d> {
         engine
     }
 
+    /// Whether the blocks so far ran one after the other, each for itself.
+    pub(crate) fn is_straight(&self) -> bool {
+        let trail = self.flow.trail.as_ref();
+        trail.is_none_or(|trail| trail.follows_nothing()) && self.memory.passed_over.is_none() && !self.flow.finished
+    }
+
     /// Runs one block, for callers that choose the blocks themselves.
     pub(crate) fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
         self.flow.follows = false;

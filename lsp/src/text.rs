@@ -1,0 +1,229 @@
+//! The text of a document in pieces, so that an edit copies one of them and not the file.
+use crate::position::{Encoding, line_starts, offset};
+use core::ops::Range;
+use std::sync::Arc;
+use tower_lsp::lsp_types::Position;
+
+/// Pieces have about this many bytes.
+const PIECE: usize = 1 << 15;
+
+/// Whole lines, the last one of a text perhaps without its end.
+#[derive(Debug)]
+struct Piece {
+    text: String,
+    /// How many line ends it has.
+    ends: usize,
+}
+
+/// See the module. Every piece but the last ends with a line feed. A clone shares the pieces.
+#[derive(Clone, Debug)]
+pub(crate) struct Text {
+    pieces: Vec<Arc<Piece>>,
+}
+
+/// Cuts a text after line feeds.
+fn cut(mut text: &str) -> Vec<Arc<Piece>> {
+    let mut pieces = Vec::with_capacity(text.len() / PIECE + 1);
+    while !text.is_empty() {
+        let end =
+            memchr::memchr(b'\n', &text.as_bytes()[PIECE.min(text.len())..]).map_or(text.len(), |at| PIECE + at + 1);
+        let (piece, rest) = text.split_at(end);
+        pieces.push(Arc::new(Piece {
+            text: piece.to_owned(),
+            ends: line_starts(piece.as_bytes()).len() - 1,
+        }));
+        text = rest;
+    }
+    pieces
+}
+
+impl Text {
+    pub(crate) fn new(text: &str) -> Self {
+        Self { pieces: cut(text) }
+    }
+
+    /// Bytes.
+    pub(crate) fn len(&self) -> usize {
+        self.pieces.iter().map(|piece| piece.text.len()).sum()
+    }
+
+    /// Lines; the empty one after the last line end counts.
+    pub(crate) fn lines(&self) -> usize {
+        self.pieces.iter().map(|piece| piece.ends).sum::<usize>() + 1
+    }
+
+    /// The piece of a line, its first byte and its first line; the end of the text for a line behind it.
+    fn piece_of(&self, line: usize) -> (usize, usize, usize) {
+        let (mut byte, mut first) = (0, 0);
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let last = index + 1 == self.pieces.len();
+            if line < first + piece.ends || last && line == first + piece.ends {
+                return (index, byte, first);
+            }
+            byte += piece.text.len();
+            first += piece.ends;
+        }
+        (self.pieces.len(), byte, first)
+    }
+
+    /// First byte of a line; the end of the text for a line behind it.
+    pub(crate) fn start_of(&self, line: usize) -> usize {
+        let (index, byte, first) = self.piece_of(line);
+        let Some(piece) = self.pieces.get(index) else {
+            return byte;
+        };
+        byte + line_starts(piece.text.as_bytes())[line - first] as usize
+    }
+
+    /// Byte of a position; beyond the end of a line or text it is that end.
+    pub(crate) fn offset(&self, position: Position, encoding: Encoding) -> usize {
+        let (index, byte, first) = self.piece_of(position.line as usize);
+        let Some(piece) = self.pieces.get(index) else {
+            return byte;
+        };
+        let inside = Position::new(position.line - first as u32, position.character);
+        let text = piece.text.as_bytes();
+        byte + offset(text, &line_starts(text), inside, encoding)
+    }
+
+    /// Whole lines.
+    pub(crate) fn of_lines(&self, lines: Range<usize>) -> String {
+        self.of_bytes(self.start_of(lines.start)..self.start_of(lines.end.max(lines.start)))
+    }
+
+    /// A part of the text. Its ends must be those of characters.
+    fn of_bytes(&self, bytes: Range<usize>) -> String {
+        let mut out = String::with_capacity(bytes.len());
+        let mut at = 0;
+        for piece in &self.pieces {
+            let end = at + piece.text.len();
+            let (from, to) = (bytes.start.clamp(at, end), bytes.end.clamp(at, end));
+            out.push_str(&piece.text[from - at..to - at]);
+            at = end;
+            if at >= bytes.end {
+                break;
+            }
+        }
+        out
+    }
+
+    /// The text from a line on.
+    pub(crate) fn behind(&self, line: usize) -> impl Iterator<Item = &str> {
+        let mut skip = self.start_of(line);
+        self.pieces.iter().map(move |piece| {
+            let left = skip.min(piece.text.len());
+            skip -= left;
+            &piece.text[left..]
+        })
+    }
+
+    /// All of it.
+    pub(crate) fn whole(&self) -> String {
+        self.of_bytes(0..self.len())
+    }
+
+    /// Replaces bytes.
+    pub(crate) fn replace(&mut self, bytes: Range<usize>, new: &str) {
+        let (mut at, mut index) = (0, 0);
+        while let Some(piece) = self.pieces.get(index)
+            && at + piece.text.len() < bytes.start
+        {
+            at += piece.text.len();
+            index += 1;
+        }
+        let first = index;
+        let mut text = String::new();
+        // the pieces that the range touches, and then on to a line feed
+        while let Some(piece) = self.pieces.get(index)
+            && (at <= bytes.end || !text.ends_with('\n'))
+        {
+            let end = at + piece.text.len();
+            if (at..=end).contains(&bytes.start) && index == first {
+                text.push_str(&piece.text[..bytes.start - at]);
+                text.push_str(new);
+            }
+            text.push_str(&piece.text[bytes.end.clamp(at, end) - at..]);
+            at = end;
+            index += 1;
+        }
+        if index == first {
+            // behind the last piece, or there is none
+            text.push_str(new);
+        }
+        drop(self.pieces.splice(first..index, cut(&text)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PIECE, Text};
+    use crate::position::{Encoding, line_starts, offset};
+    use tower_lsp::lsp_types::Position;
+
+    fn compare(text: &Text, plain: &str) {
+        assert_eq!(text.whole(), plain);
+        let starts = line_starts(plain.as_bytes());
+        assert_eq!(text.lines(), starts.len());
+        let half = starts.len() / 2;
+        assert_eq!(text.behind(half).collect::<String>(), plain[starts[half] as usize..]);
+        let lines = [0, 1, starts.len() / 2, starts.len() - 1, starts.len(), starts.len() + 5];
+        for line in lines {
+            let start = starts.get(line).map_or(plain.len(), |start| *start as usize);
+            assert_eq!(text.start_of(line), start, "{line}");
+            for character in [0, 3, 99] {
+                let at = Position::new(line as u32, character);
+                let expected = offset(plain.as_bytes(), &starts, at, Encoding::Utf16);
+                assert_eq!(text.offset(at, Encoding::Utf16), expected, "{at:?}");
+            }
+            let end = starts.get(line + 2).map_or(plain.len(), |start| *start as usize);
+            assert_eq!(text.of_lines(line..line + 2), plain[start..end.max(start)]);
+        }
+        let all = text.pieces.len();
+        assert!(
+            text.pieces[..all.saturating_sub(1)]
+                .iter()
+                .all(|piece| piece.text.ends_with('\n'))
+        );
+    }
+
+    #[test]
+    fn edits_are_those_of_a_plain_text() {
+        let mut plain = "N1 G1 X1 (\u{e4}\u{1f527})\r\nX2\rX3\n".repeat(9000);
+        let mut text = Text::new(&plain);
+        assert!(text.pieces.len() > 5);
+        compare(&text, &plain);
+        let mut seed = 7_u64;
+        let mut random = |below: usize| {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 33) as usize % (below + 1)
+        };
+        let long = "Y1\n".repeat(PIECE);
+        let new = ["", "\n", "\r", "X1", "\r\n", "G1\nG2\n", &long];
+        for turn in 0..300 {
+            let mut start = random(plain.len());
+            // the ends of pieces are where mistakes are
+            if turn % 3 == 0 {
+                let piece = random(text.pieces.len());
+                start = text.pieces[..piece].iter().map(|piece| piece.text.len()).sum();
+                start = (start + random(2)).saturating_sub(1).min(plain.len());
+            }
+            let mut end = (start + random(if turn % 7 == 0 { 3 * PIECE } else { 4 })).min(plain.len());
+            while !plain.is_char_boundary(start) {
+                start -= 1;
+            }
+            while !plain.is_char_boundary(end) {
+                end += 1;
+            }
+            let new = new[random(new.len() - 1)];
+            text.replace(start..end, new);
+            plain.replace_range(start..end, new);
+            compare(&text, &plain);
+        }
+        text.replace(0..plain.len(), "");
+        compare(&text, "");
+        text.replace(0..0, "G1");
+        compare(&text, "G1");
+    }
+}

@@ -1,0 +1,36 @@
+//! How much of a program is judged, and how much of what is found is wanted.
+use super::Reporter;
+use crate::caller::Part;
+use core::cell::OnceCell;
+
+impl Reporter<'_> {
+    /// The axes of a machine are judged.
+    pub(crate) fn judging_machine(mut self, judges: bool) -> Self {
+        self.judges_machine = judges;
+        self
+    }
+
+    /// Leaves out findings of legs that are no errors.
+    pub(crate) fn objections_only(&mut self) {
+        self.objections_only = true;
+    }
+
+    /// What follows is a part of the program; `continues`: one after its beginning. Whether the whole is a subprogram is not known, so what
+    /// is right in one is not reported.
+    pub(crate) fn only_part(&mut self, continues: bool) {
+        self.continues = continues;
+        self.part = OnceCell::from(Part::Called);
+    }
+
+    /// Whether the axes of a machine are judged.
+    pub(crate) fn judges_machine(&self) -> bool {
+        self.judges_machine
+    }
+
+    /// Whether the file is a main program or a subprogram.
+    pub(crate) fn part(&self) -> Part {
+        *self
+            .part
+            .get_or_init(|| crate::caller::part(self.program, self.dialect))
+    }
+}

@@ -167,21 +167,18 @@ impl Owner {
             if need == Need::Parsed {
                 return work(Some(snapshot(Arc::new(plan.read()), None)));
             }
-            match plan.judge().filter(|part| part.reaches(&lines)) {
-                Some(part) => {
-                    let analysed = Arc::new(part.analysed);
-                    work(Some(snapshot(Arc::clone(&analysed.parsed), Some(analysed))));
-                }
+            if let Some(part) = plan.judge().filter(|part| part.reaches(&lines)) {
+                let analysed = Arc::new(part.analysed);
+                work(Some(snapshot(Arc::clone(&analysed.parsed), Some(analysed))));
+            } else {
                 // only the whole says what runs there
-                None => {
-                    let version = plan.version;
-                    let _ = inbox.send(Event::AskWhole {
-                        uri,
-                        version,
-                        need,
-                        work,
-                    });
-                }
+                let version = plan.version;
+                let _ = inbox.send(Event::AskWhole {
+                    uri,
+                    version,
+                    need,
+                    work,
+                });
             }
         });
     }

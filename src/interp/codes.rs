@@ -184,7 +184,13 @@ impl<'d> Iso<'d> {
             Action::CompensationRight => self.compensation(42, found, words, report),
             Action::ToolLengthOn => {
                 self.end_tcp_of_group(found.code);
-                self.length_on(words.length_offset, found.range, report);
+                // H is modal, and which one is in effect at the start of the program is not known
+                let no_number = !words.length_offset.is_given() && self.memory.length_offset.is_none();
+                if no_number && self.core.dialect.quirks.macro_b() {
+                    self.unstated_length("a length offset without H", found.range, report);
+                } else {
+                    self.length_on(words.length_offset, found.range, report);
+                }
             }
             Action::ToolLengthOff => {
                 self.end_tcp_of_group(found.code);

@@ -77,7 +77,11 @@ impl Iso<'_> {
                     held = u32::MAX;
                 }
                 // after the motion
-                Sort::Setting(_) if found.code.action == Action::SpindleStop => {}
+                Sort::Setting(_) if found.code.action == Action::SpindleStop => {
+                    let own = crate::unused::letters(found.code) & words.letters;
+                    free &= !own;
+                    held |= own;
+                }
                 Sort::Setting(key) => {
                     let mut to = vec![Argument::code(found.code.id.clone())];
                     // S and D are settings of their own
@@ -372,7 +376,8 @@ impl Iso<'_> {
                     }
                 }
                 _ if found.code.action == Action::SpindleStop => {
-                    let to = vec![Argument::code(found.code.id.clone())];
+                    let mut to = vec![Argument::code(found.code.id.clone())];
+                    to.extend(arguments(words, crate::unused::letters(found.code) & words.letters));
                     self.core.effects.add(block, Effect::set("spindle", to));
                 }
                 _ if found.code.action == Action::ProgramEnd => {

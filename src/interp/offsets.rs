@@ -122,10 +122,7 @@ impl<'d> Iso<'d> {
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
     pub(crate) fn length_on(&mut self, offset: WordValue, range: TextRange, report: &mut Report<'_>) {
-        let quirks = &self.core.dialect.quirks;
-        let none_yet = quirks.macro_b() && self.memory.length_offset.is_none();
-        if (quirks.user_task() || none_yet) && !offset.is_given() {
-            // H is modal, and which one is in effect at the start of the program is not known
+        if self.core.dialect.quirks.user_task() && !offset.is_given() {
             return self.unstated_length("a length offset without H", range, report);
         }
         if let Some(number) = offset.index() {
@@ -156,8 +153,8 @@ impl<'d> Iso<'d> {
         self.take_length(tool, (&key, of), range, report);
     }
 
-    /// What no source states of the length offsets of an Okuma: positions are unknown until G56 H or G53.
-    fn unstated_length(&mut self, what: &str, range: TextRange, report: &mut Report<'_>) {
+    /// What no source states of the length offsets of an Okuma, and G43 of a Fanuc before the first H: positions are unknown until the next H.
+    pub(crate) fn unstated_length(&mut self, what: &str, range: TextRange, report: &mut Report<'_>) {
         report.fault(range, FaultKind::NotModelled { what: what.to_owned() });
         self.length_after_tip_control();
     }

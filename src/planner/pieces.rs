@@ -221,11 +221,9 @@ fn push(
     pieces: &mut Vec<Piece>,
 ) -> Option<()> {
     let (mut cap, mut by) = (course.feed, Limit::Feed);
-    let (mut free_cap, mut free_by) = (cap, by);
+    let (mut free_cap, mut free_by, mut limited) = (cap, by, cap.is_finite());
     let (mut acceleration, mut jerk, mut jerk_time, mut slowest) = (f64::INFINITY, f64::INFINITY, 0.0_f64, 0);
-    let mut limited = course.feed.is_finite();
     let (mut speed_cap, mut bend_cap, mut bend_jerk) = (course.feed, (f64::INFINITY, 0), f64::INFINITY);
-    // LinuxCNC divides the acceleration of an arc for the fastest that its axes allow, without F
     let mut fastest = f64::INFINITY;
     for (joint, axis) in machine.axes.iter().enumerate() {
         let (rate, bend, number) = (rates[joint], bends[joint], joint as u8);
@@ -288,7 +286,8 @@ fn push(
     if bend_cap.0 < 0.7 * speed_cap && course.bend.is_none_or(|(least, _)| bend_cap.0 < least) {
         course.bend = Some(bend_cap);
     }
-    // what bends leave along the path: of each axis at the speed that F and its own acceleration allow, so that a higher limit of another one takes nothing
+    // what bends leave along the path: of each axis at the speed that F and its own acceleration allow, so that a higher limit of another one takes
+    // nothing. LinuxCNC divides the acceleration for the fastest that its axes allow, without F
     let mut along = acceleration;
     for (joint, axis) in machine.axes.iter().enumerate() {
         if let (Some(most), true) = (axis.max_acceleration, bends[joint] > 0.0) {

@@ -46,7 +46,7 @@ impl Proof<'_> {
         if !same_turning || !same_speed || !same_full_turns {
             let [was, now] = [old, new].map(turning);
             let way_out = if old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(false) {
-                "; where a tool change stops it on the target, program M3 or M4 after the tool change"
+                "; where a tool change or a stop (M0) stops it on the target, program M3 or M4 after it"
             } else {
                 ""
             };

@@ -24,8 +24,7 @@
 //!
 //! # Sources
 //! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019): the priority of operators, p. 444.
-//! * Fanuc Series 30i operator's manual, custom macro, priority of operations: functions, then *, / and AND, then +, -, OR and XOR; conditional
-//!   expressions compare what these give.
+//! * Fanuc B-63944EN: custom macro, priority of operations.
 use crate::prelude::*;
 use trunnion_dialect::Language;
 

@@ -196,8 +196,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                     .text(TextRange::new(call.range.end.min(end), end))
                     .to_ascii_uppercase();
                 if !rest.contains("GOTO") && !rest.contains("THEN") {
-                    let message =
-                        "IF without GOTO or THEN: what depends on the condition stands in the same block".to_owned();
+                    let message = "IF without GOTO or THEN in its block".to_owned();
                     let kind = rejected(self.dialect, Mistake::Format, Refusal::Structure, message);
                     (self.report)(call.range, kind);
                 }

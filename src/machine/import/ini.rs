@@ -38,7 +38,7 @@ impl<'a> Ini<'a> {
                 continue;
             }
             let error = |message: &str| MachineError {
-                message: format!("{message}: {:?}", super::short(line)),
+                message: format!("{message}: \"{}\"", super::short(line).escape_debug()),
                 span: Some(at..at + line.len()),
             };
             if let Some(name) = line.strip_prefix("#INCLUDE") {

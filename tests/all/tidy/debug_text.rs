@@ -28,10 +28,6 @@ const PRINTED: &[(&str, &str)] = &[
     ),
     ("src/cli/parse/tree.rs", "\"kind\": format!(\"{:?}\", e.kind)"),
     (
-        "src/machine/import/ini.rs",
-        "message: format!(\"{message}: {line:?}\"),",
-    ),
-    (
         "src/machine/file/validate.rs",
         "message: format!(\"{:?} {why}\", word.get_ref()),",
     ),

@@ -228,8 +228,16 @@ fn codes_of_the_machine_before_are_written_anew() {
     assert!(first.text.contains("M22"), "{}", first.text);
     let from = ("haas-ngc", Some(&old));
     let second = written(&first.text, from, "haas-ngc", &new, &options(false, false));
+    // a tool change of a Haas stops the spindle, which is written out
+    let codes = |text: &str| -> Vec<String> {
+        let blocks = text
+            .lines()
+            .map(|line| line.split_once(' ').map_or(line, |(_, rest)| rest));
+        let kept = blocks.filter(|block| !["M5", "M30"].contains(block));
+        kept.map(str::to_owned).collect()
+    };
     let renamed = first.text.replace("M2", "M1");
-    assert_eq!(second.text.replace("M30", ""), renamed.replace("M30", ""));
+    assert_eq!(codes(&second.text), codes(&renamed));
     assert_eq!(second.left_out, []);
 }
 

@@ -58,7 +58,7 @@ fn five_axes_under_tip_control() {
 
 #[test]
 fn what_an_okuma_cannot_say_is_refused_by_name() {
-    let part = PART.replace("G4 P500", "G64 G1 X30. F100");
+    let part = PART.replace("G4 P500", "G61 G1 X30. F100");
     let refused = to(
         (&part, "fanuc-30i", "mill-3axis"),
         "okuma-osp",
@@ -66,7 +66,7 @@ fn what_an_okuma_cannot_say_is_refused_by_name() {
         &Options::default(),
     );
     let message = refused.err().map(|refused| refused.to_string()).unwrap_or_default();
-    assert!(message.contains("continuous-path"), "{message}");
+    assert!(message.contains("exact-stop"), "{message}");
     let inch = Options {
         units: trunnion_convert::Units::Inch,
         ..Options::default()

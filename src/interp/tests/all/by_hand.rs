@@ -258,9 +258,9 @@ fn frames() {
                 &["R X1 Y1 Z1", "R X-5 Y1 Z1 machine"],
             ),
             (
-                "G91 G53 is no motion by increments",
+                "where G91 G53 goes is not known",
                 "G90G0X1.Y1.Z1.\nG91G53G0X-5.\n",
-                &["R X1 Y1 Z1", "R X-5 Y1 Z1 machine"],
+                &["R X1 Y1 Z1", "U Y1 Z1 machine"],
             ),
             (
                 "rotation under G91 turns the increments",

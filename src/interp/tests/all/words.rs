@@ -11,10 +11,10 @@ fn incremental_holds_for_rotary_axes_too() {
 }
 
 #[test]
-fn machine_coordinates_are_absolute_even_when_incremental() {
+fn machine_coordinates_under_incremental_words_are_unknown() {
     assert_eq!(
         lines("fanuc-30i", "G0 X1. Y1. Z1.\nG91\nG53 G0 X300.\n"),
-        ["R X1 Y1 Z1", "R X300 Y1 Z1 machine"]
+        ["R X1 Y1 Z1", "U Y1 Z1 machine"]
     );
 }
 

@@ -206,6 +206,11 @@ impl EventCollector<'_> {
         }
         if let Some(number) = ran.tool.filter(|_| ran.tool != self.tool) {
             self.tool = ran.tool;
+            // where the change stops the spindle, and the original program's does not, it is started again
+            let target = self.post.and_then(|post| trunnion_dialect::builtin(&post.dialect));
+            if target.is_some_and(|dialect| dialect.quirks.tool_change_stops_spindle) {
+                self.spindle = Spindle::Unknown;
+            }
             self.job.push(Event::Tool(number), block);
             self.job.tool_mut(number);
         }

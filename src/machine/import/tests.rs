@@ -221,13 +221,12 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
 #[test]
 fn a_message_quotes_the_beginning_of_a_long_text() {
     let long = "a".repeat(100_000);
-    let fcm = |kind: &str| {
-        format!("{{\"machine\": {{\"units\": \"metric\", \"axes\": {{\"X\": {{\"type\": \"{kind}\"}}}}}}}}")
-    };
+    let kins = format!("[TRAJ]\nCOORDINATES = X Y Z\n[KINS]\nKINEMATICS = {long}\n");
+    let fcm = format!("{{\"machine\": {{\"units\": \"metric\", \"axes\": {{\"X\": {{\"type\": \"{long}\"}}}}}}}}");
     let errors = [
         import_linuxcnc("m.ini", &long, &[]),
-        import_linuxcnc("m.ini", &format!("[KINS]\nKINEMATICS = {long}\n"), &[]),
-        import_freecad("m.fcm", &fcm(&long)),
+        import_linuxcnc("m.ini", &kins, &[]),
+        import_freecad("m.fcm", &fcm),
     ];
     for (place, error) in errors.into_iter().enumerate() {
         let message = error.expect_err("refused").message;

@@ -66,7 +66,7 @@ fn what_an_okuma_cannot_say_is_refused_by_name() {
         &Options::default(),
     );
     let message = refused.err().map(|refused| refused.to_string()).unwrap_or_default();
-    assert!(message.contains("exact-stop"), "{message}");
+    assert!(message.contains("G61 sets how exactly"), "{message}");
     let inch = Options {
         units: trunnion_convert::Units::Inch,
         ..Options::default()

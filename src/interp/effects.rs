@@ -79,8 +79,7 @@ impl Iso<'_> {
                 // after the motion
                 Sort::Setting(_) if found.code.action == Action::SpindleStop => {
                     let own = crate::unused::letters(found.code) & words.letters;
-                    free &= !own;
-                    held |= own;
+                    (free, held) = (free & !own, held | own);
                 }
                 Sort::Setting(key) => {
                     let mut to = vec![Argument::code(found.code.id.clone())];

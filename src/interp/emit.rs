@@ -75,13 +75,8 @@ impl Iso<'_> {
             let feed = self.feed_of(kind, words, report);
             self.turning_feed(kind, feed, words, [&start, &end])
         };
-        if block.machine_coordinates && self.core.state.tool_axis.tcp() {
-            self.machine_words_under_tcp(words, &mut kind, &mut end, report);
-        } else if block.machine_coordinates
-            && self.core.state.coordinates.incremental()
-            && self.core.dialect.quirks.macro_b()
-        {
-            self.machine_words_incremental(words, &mut kind, &mut end, report);
+        if block.machine_coordinates {
+            self.machine_words(words, &mut kind, &mut end, report);
         }
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
@@ -128,6 +123,15 @@ impl Iso<'_> {
         // G16 H0 of an Okuma: whether the length acts is not stated by a source
         let acts = self.core.dialect.quirks.user_task() && self.core.state.length.is_undeclared();
         motion.undeclared.length |= acts && moved & LINEAR != 0;
+    }
+
+    /// Machine coordinates of which it is not known where they lead.
+    fn machine_words(&mut self, words: &Words, kind: &mut MotionKind, end: &mut Position, report: &mut Report<'_>) {
+        if self.core.state.tool_axis.tcp() {
+            self.machine_words_under_tcp(words, kind, end, report);
+        } else if self.core.state.coordinates.incremental() && self.core.dialect.quirks.macro_b() {
+            self.machine_words_incremental(words, kind, end, report);
+        }
     }
 
     /// Linear machine coordinates under tool centre point control: G53 of a Fanuc may be refused there; SUPA of a Sinumerik suppresses frames,

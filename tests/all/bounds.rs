@@ -89,7 +89,7 @@ impl Form {
                 }
                 // of the commands of a group the short form takes one for each program
                 let members = COMMANDS.iter().filter(|other| other.group == named.group).count();
-                if !self.long && (input + *place) % members != 0 {
+                if !self.long && !(input + *place).is_multiple_of(members) {
                     continue;
                 }
                 // one after the other: a program meets every dialect, and so does a command

@@ -128,7 +128,7 @@ fn setup() -> Setup {
 
 fn compare(seed: u64) -> usize {
     let mut random = Random::new(seed);
-    let part = Part::random(&mut random, seed % 3 == 0);
+    let part = Part::random(&mut random, seed.is_multiple_of(3));
     let controls: Vec<Control> = ALL
         .into_iter()
         .filter(|control| *control != Control::Okuma || !part.tilts())

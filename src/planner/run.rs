@@ -106,7 +106,7 @@ impl Run {
     fn filtered(&self) -> Filtered {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
         const ROUNDS: u32 = 24;
-        /// A search is not worth less than this for each block, s: half a servo cycle.
+        /// The longest filter is taken without a search if it costs no more than this for each motion, s: half a servo cycle of 1 ms.
         const WORTH: f64 = 0.0005;
         let longest = 2.0 * self.pieces.iter().map(|piece| piece.jerk_time).fold(0.0, f64::max);
         let mut best = self.with_filter(longest);

@@ -1,4 +1,4 @@
-//! Programs for controls that are told apart by signs, most of which are not read.
+//! Small programs in the style of many controls: which control each is taken for. Most of these controls are not supported.
 use super::detection::{content, named};
 use crate::{Foreign, detect};
 

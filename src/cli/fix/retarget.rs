@@ -7,7 +7,7 @@ use crate::cli::{
     load::Loaded,
 };
 use trunnion_certify::conversion::Assume;
-use trunnion_convert::{Converted, Options, Source, convert};
+use trunnion_convert::{Options, Source, convert};
 use trunnion_rewrite::{Attempt, Judged, State};
 use trunnion_syntax::{BlockId, LineIndex};
 
@@ -18,7 +18,7 @@ pub(super) const NAME: &str = "retarget";
 pub(super) struct Retargeted {
     /// Its text.
     pub(super) text: String,
-    /// What is proved, for people; the first line is about the whole.
+    /// What is proved, for people, as `convert` says it; the first line is about the whole.
     pub(super) summary: Vec<String>,
     /// The certificate of the conversion, if it was asked for.
     pub(super) certificate: Option<String>,
@@ -76,7 +76,14 @@ pub(super) fn apply(command: &Fix, loaded: &Loaded, chosen: &Chosen, before: &[u
             let certificate = wanted
                 .then(|| certified(loaded, before, machine, &converted))
                 .transpose()?;
-            step(loaded, before, State::Proved, Some(retargeted(converted, certificate)))
+            let summary = summary(&loaded.name, &converted);
+            let text = converted.text;
+            let retargeted = Retargeted {
+                text,
+                summary,
+                certificate,
+            };
+            step(loaded, before, State::Proved, Some(retargeted))
         }
         Err(refused) => {
             let place = refused
@@ -90,14 +97,6 @@ pub(super) fn apply(command: &Fix, loaded: &Loaded, chosen: &Chosen, before: &[u
             )
         }
     })
-}
-
-fn retargeted(converted: Converted, certificate: Option<String>) -> Retargeted {
-    Retargeted {
-        summary: summary(NAME, &converted),
-        text: converted.text,
-        certificate,
-    }
 }
 
 /// One place: the whole program.

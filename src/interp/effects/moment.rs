@@ -1,5 +1,5 @@
 //! When the codes of a block act that also moves.
-use super::sort::{Sort, is_frame, sort};
+use super::sort::{Sort, sort};
 use crate::codes::Found;
 use crate::iso::Iso;
 use crate::words::Words;
@@ -21,13 +21,10 @@ impl Iso<'_> {
         }
         let cuts = motions.iter().any(Motion::is_feed);
         let unsettled = |found: &Found<'_>| match found.code.action {
-            Action::SpindleStop => cuts,
+            // a rapid does not mind when the spindle stops; an oriented stop (M19) is there for what moves with it
+            Action::SpindleStop => cuts || found.code.id != "M5",
             Action::ToolChange => true,
-            Action::NoMotion => {
-                found.code.kind == CodeKind::M
-                    && !is_frame(found.code.action)
-                    && matches!(sort(found, words), Sort::Before)
-            }
+            Action::NoMotion => found.code.kind == CodeKind::M && matches!(sort(found, words), Sort::Before),
             _ => false,
         };
         let mut names: Vec<Argument> = codes

@@ -2,6 +2,8 @@
 //!
 //! Notification handlers contain no `.await`: tower-lsp polls handlers in wire order, so nothing yields before the event
 //! is in the inbox and edits cannot overtake each other.
+mod asking;
+
 use crate::{
     backplot::{self, Backplot, BackplotParams},
     call_hierarchy,
@@ -69,8 +71,6 @@ impl Backend {
         let _ = self.inbox.send(event);
     }
 }
-
-mod asking;
 
 /// Requests of our own clients.
 impl Backend {

@@ -35,18 +35,14 @@ pub(crate) fn status(analysed: &Analysed) -> Status {
                 Verdict::Unknown => "unknown",
             };
             Status {
-                uri,
-                machine: source.resolved.machine.as_ref().map(|m| m.id.clone()),
-                dialect: Some(source.resolved.dialect.name.clone()),
-                reason: source.resolved.dialect_reason.clone(),
                 verdict: verdict.into(),
                 errors: report.summary.errors,
                 warnings: report.summary.warnings,
                 unknown: report.summary.unknown,
-                version,
                 blocks: report.coverage.blocks,
                 blocks_run: report.coverage.blocks_run,
                 cycle_time_s: report.cycle_time_s,
+                ..checking(&uri, version, &source.resolved)
             }
         }
         (outcome, _) => Status {

@@ -1,7 +1,7 @@
-//! The layout of one APT statement: blanks at line ends and double blanks are removed, everything else stays. Texts, comments, case and continuations
+//! The layout of one APT statement or Klartext block: blanks at line ends and double blanks are removed, everything else stays. Texts, comments, case and continuations
 //! (`$` with what follows it) are kept byte for byte, since post processors read columns, names and texts.
 use crate::blanks::is_plain_blank;
-use trunnion_syntax::{Block, Program, TextRange, TokenKind};
+use trunnion_syntax::{Block, Format, Program, TextRange, TokenKind};
 
 /// Whether nothing of a statement may be touched: problems, and bytes without meaning.
 pub(crate) fn stays(program: &Program, block: &Block<'_>) -> bool {
@@ -42,7 +42,8 @@ pub(crate) fn write(program: &Program, block: &Block<'_>, out: &mut Vec<u8>) {
                 || matches!(kind, TokenKind::Comment | TokenKind::FreeText | TokenKind::Continuation);
             match kind {
                 _ if kept => out.extend_from_slice(program.bytes(blank)),
-                TokenKind::Comma => {}
+                // in Klartext it is the decimal point
+                TokenKind::Comma if program.options().format == Format::Apt => {}
                 _ => out.push(b' '),
             }
         }

@@ -55,9 +55,7 @@ impl Backend {
     ) -> Result<T> {
         self.ask(uri, need, move |snapshot| Ok(work(snapshot))).await
     }
-}
 
-impl Backend {
     /// For the file of a call hierarchy, which need not be open: then one that is open beside it has the same folder.
     pub(super) async fn near<T: Send + 'static>(
         &self,

@@ -166,3 +166,11 @@ fn lines_are_not_made_longer_than_the_control_reads() {
         "371 characters would be refused by RS274/NGC"
     );
 }
+
+/// A comma in Klartext is the decimal point: a blank before it stays.
+#[test]
+fn a_comma_in_klartext_gets_no_nearer_to_its_number() {
+    for text in ["L X+1 ,5 FMAX\n", "L X+1,5 FMAX\n"] {
+        assert_eq!(laid(text, "heidenhain-klartext"), text);
+    }
+}

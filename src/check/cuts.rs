@@ -13,6 +13,8 @@ use trunnion_syntax::{Address, BlockId, Program, Value, Word};
 pub(crate) enum Still {
     /// The program switched the spindle off.
     Off,
+    /// It turned before a tool change of the machine builder, and was not started after it.
+    ToolChange,
     /// It is on, with S0.
     NoSpeed,
     /// It is on, and the program has given no S.
@@ -105,6 +107,7 @@ impl Cuts {
                 return;
             }
             Some(false) => Still::Off,
+            None if in_force.spindle_left => Still::ToolChange,
             None if in_force.spindle_unread => {
                 self.open = None;
                 return;

@@ -9,7 +9,7 @@ mod pole;
 mod posture;
 mod travel;
 
-pub(crate) use axes::{CableAxis, ClampedTurn, LongTurn, OverTravel};
+pub(crate) use axes::{CableAxis, ClampedTurn, IdleTip, LongTurn, OverTravel};
 pub(crate) use cut::{Cut, HeldBackCut, OtherLength, StrayingCut, UncertainCut, VectorCut};
 pub(crate) use motion::{CutSpindleUnlimited, FirstApproach, FirstCut, UnsaidUnits};
 pub(crate) use place::{Arrival, LostArc, LostEnd, Passing};

@@ -77,6 +77,8 @@ pub(crate) struct InForce {
     pub(crate) speed_programmed: bool,
     /// Something that is not modelled may have switched the spindle or given S.
     pub(crate) spindle_unread: bool,
+    /// The spindle turned before a tool change that may have stopped it.
+    pub(crate) spindle_left: bool,
     /// Clamps of rotary axes.
     pub(crate) clamps: Clamps,
     /// Work offset.
@@ -99,6 +101,7 @@ impl InForce {
             unit_programmed: state.coordinates.unit_programmed(),
             speed_programmed: state.spindle.speed_programmed(),
             spindle_unread: state.spindle.is_unread(),
+            spindle_left: state.spindle.is_left_by_tool_change(),
             clamps: state.clamps,
             offset: state.zero.offset().map(OffsetName::new).unwrap_or_default(),
             length_of: state.length.of(),

@@ -3,7 +3,7 @@ use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, LongTurn,
+    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, IdleTip, LongTurn,
     LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass,
     PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
@@ -202,6 +202,8 @@ wakes! {
         CableAxis,
         /// Any leg on a machine with an axis that must not turn while cutting, or that codes clamp.
         ClampedTurn,
+        /// The tip is led on a machine without a rotary axis.
+        IdleTip,
         /// A motion on a machine with obstacles.
         Passing,
         /// A feed motion to which rapid motions led.

@@ -206,9 +206,9 @@ impl EventCollector<'_> {
         }
         if let Some(number) = ran.tool.filter(|_| ran.tool != self.tool) {
             self.tool = ran.tool;
-            // where the change stops the spindle, and the original program's does not, it is started again
+            // the change stops the spindle, or may do so: it is started again; a turret leaves it alone
             let target = self.post.and_then(|post| trunnion_dialect::builtin(&post.dialect));
-            if target.is_some_and(|dialect| dialect.quirks.tool_change_stops_spindle) {
+            if target.is_some_and(|dialect| !dialect.quirks.tool_word.changes()) {
                 self.spindle = Spindle::Unknown;
             }
             self.job.push(Event::Tool(number), block);

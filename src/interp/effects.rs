@@ -231,10 +231,18 @@ impl Iso<'_> {
         if codes.iter().any(|found| found.code.action == Action::ToolChange) {
             let change = vec![Argument::code("tool change")];
             self.core.effects.add(block, Effect::Event(change));
-            if self.core.dialect.quirks.tool_change_stops_spindle {
+            let quirks = &self.core.dialect.quirks;
+            let left = if quirks.tool_change_stops_spindle {
+                Some("M5")
+            } else if !quirks.tool_word.changes() && self.core.state.spindle.on() != Some(false) {
+                Some("as the tool change leaves it")
+            } else {
+                None
+            };
+            if let Some(left) = left {
                 self.core
                     .effects
-                    .add(block, Effect::set("spindle", [Argument::code("M5")]));
+                    .add(block, Effect::set("spindle", [Argument::code(left)]));
             }
         }
         if words.edge.is_given() {

@@ -193,8 +193,11 @@ impl Iso<'_> {
             None => self.core.forget_linear(),
         }
         self.tcp_at_tool_change(report);
+        // a turret that T turns does not concern the spindle
         if self.core.dialect.quirks.tool_change_stops_spindle {
             self.core.state.spindle.switch(false);
+        } else if !self.core.dialect.quirks.tool_word.changes() {
+            self.core.state.spindle.leave_to_tool_change();
         }
         if !self.core.tools.load_prepared() {
             return;

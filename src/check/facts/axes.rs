@@ -74,7 +74,22 @@ impl<'v> CableAxis<'v> {
 pub(crate) struct ClampedTurn<'v> {
     view: &'v LegView<'v>,
 }
-over_view!(LongTurn, OverTravel, CableAxis, ClampedTurn);
+over_view!(LongTurn, OverTravel, CableAxis, ClampedTurn, IdleTip);
+
+/// The tip is led on a machine without a rotary axis.
+pub(crate) struct IdleTip<'v> {
+    view: &'v LegView<'v>,
+}
+
+impl<'v> IdleTip<'v> {
+    #[inline]
+    pub(crate) fn may(look: &Look<'_>) -> bool {
+        look.leg.motion.tcp && look.of.machine.rotary.is_empty()
+    }
+    pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
+        (view.leg.motion.tcp && view.machine.rotary.is_empty()).then_some(Self { view })
+    }
+}
 
 impl<'v> ClampedTurn<'v> {
     #[inline]

@@ -24,12 +24,14 @@
 //! # Guarantee
 //! Sound for programs that switch the spindle by codes that are modelled; one finding for each stretch of feed motions
 //! between two changes of the spindle. Where nothing in the program starts a spindle, `spindle-unset` reports that once
-//! instead: the tool may be one that does not turn. S0 is not reported where the dialect says that S may be the power of
-//! a laser (grbl), and is a warning where other motions of the same tool have a speed. Where the same tool probes (G38.2
-//! to G38.5, G31) without a cut with a turning spindle between, it is a warning too, and in a subprogram that starts no
-//! spindle it is not reported: the tool is a probe, or is measured. Before the first code of the spindle its
-//! state is unknown, as it is in a subprogram and after a code of the machine builder. Feed motions in machine
-//! coordinates, and probing, are not judged. Whether there is material is not known.
+//! instead: the tool may be one that does not turn. M6 stops the spindle on some controls (Haas, LinuxCNC). On the others
+//! a program of the machine builder decides that: feed motions after it without a new M3 or M4 are unknown.
+//! S0 is not reported where the dialect says that S may be the power of a laser (grbl), and is a warning where other
+//! motions of the same tool have a speed. Where the same tool probes (G38.2 to G38.5, G31) without a cut with a turning
+//! spindle between, it is a warning too, and in a subprogram that starts no spindle it is not reported: the tool is a
+//! probe, or is measured. Before the first code of the spindle its state is unknown, as it is in a subprogram and after
+//! a code of the machine builder. Feed motions in machine coordinates, and probing, are not judged. Whether there is
+//! material is not known.
 //!
 //! # Sources
 //! * docs/contract.md#what-counts-as-a-cut
@@ -53,6 +55,12 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
             .report_block("this feed motion runs with the spindle off")
             .note("the program switched the spindle off earlier, by M5 or by a tool change")
             .help("switch the spindle on (M3, M4), or use a rapid; if the tool does not turn (probe, drag knife), allow the rule and give that reason"),
+        Still::ToolChange => out
+            .report_block("whether the spindle turns in this feed motion is not known: the tool change before it may have stopped the spindle")
+            .severity(Info)
+            .unknown()
+            .note("the machine builder's tool change stops the spindle on most machines, and few start it again")
+            .help("write M3 or M4 after the tool change"),
         Still::NoSpeed => {
             let draft = out.report_block("this feed motion runs with S0: the spindle is on and does not turn");
             if still.other_speed {
@@ -72,12 +80,34 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
 #[cfg(test)]
 mod tests {
     use crate::fixture::assert_drawn;
-    use crate::{Settings, Severity, check};
+    use crate::{Settings, Severity, Status, check};
     use trunnion_interp::Setup;
 
     #[test]
     fn an_unknown_spindle_is_no_finding() {
         assert_drawn("gcode", "G0 X0\nG1 X10 F100\nM3 S100\nX20\nM5\nG0 X30\n");
+    }
+
+    /// The change program of the machine builder decides it; Haas documents that the spindle stops.
+    #[test]
+    fn a_spindle_after_a_tool_change_is_unknown_until_it_is_started() {
+        let body = "G21 G90\nT1 M6\nM3 S100\nG1 X10. F100.\nT2 M6\nX20.\nX30.\nM3\nX40.\nM5\nT3 M6\nX50.\nM30\n";
+        for (dialect, wanted) in [
+            ("fanuc-30i", vec![(Status::Unknown, 2), (Status::Fail, 1)]),
+            ("sinumerik-840d", vec![(Status::Unknown, 2), (Status::Fail, 1)]),
+            ("haas-ngc", vec![(Status::Fail, 2), (Status::Fail, 1)]),
+            // T turns the turret
+            ("fanuc-30i-lathe-a", vec![(Status::Fail, 1)]),
+        ] {
+            let dialect = trunnion_dialect::builtin(dialect).expect("built in");
+            let settings = Settings::new(dialect, None, Setup::default());
+            let report = check(
+                &trunnion_syntax::parse(body.as_bytes().to_vec(), dialect.lex),
+                &settings,
+            );
+            let own = report.diagnostics.iter().filter(|d| d.rule == "spindle-off-cut");
+            assert_eq!(own.map(|d| (d.status, d.count)).collect::<Vec<_>>(), wanted, "{}", dialect.name);
+        }
     }
 
     #[test]

@@ -29,14 +29,25 @@
 //! # Guarantee
 //! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same
 //! tool; a feed motion under it with a tool whose length is not active; a tool change or machine coordinates under
-//! it; a code that wants H and has none, where no H of this tool was programmed before. `path-deviation` judges the resulting path.
+//! it; a machine without a rotary axis; a code that wants H and has none, where no H of this tool was programmed before. `path-deviation` judges the resulting path.
 //!
 //! # Sources
 //! * docs/contract.md#tool-centre-point-control
 use crate::prelude::*;
 use trunnion_interp::TcpMistake;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check), Wake::IdleTip(idle)]);
+
+/// Nothing turns that the control could compensate for.
+fn idle(view: &facts::IdleTip<'_>, out: &mut Reporter<'_>) {
+    out.finding(view, Merge::once(0), |draft| {
+        draft
+            .severity(Error)
+            .say(format!("tool centre point control is on, but {} has no rotary axis", view.machine.id))
+            .note("a control without this option stops with an alarm")
+            .help("name the machine that the program was written for, or remove the code of tool centre point control");
+    });
+}
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::TcpState(mistake) = &fault.kind else {
@@ -112,6 +123,19 @@ mod tests {
         assert_eq!(found("fanuc-30i", before), ["tool centre point control x1"]);
         let none = "T1 M6 D0\nTRAORI\nG0 X0 Y0 Z50 A20 C0 D0\nG1 X10 F500\nX20\nM30\n";
         assert_eq!(found("sinumerik-840d", none), ["the tool cuts under x1"]);
+    }
+
+    #[test]
+    fn a_machine_without_a_rotary_axis_leads_no_tip() {
+        for (dialect, text) in [
+            ("fanuc-30i", "T1 M6\nG43.4 H1\nG0 X0. Y0. Z50.\nG1 X10. F500.\nX20.\nM30\n"),
+            ("sinumerik-840d", "T1 M6\nD1\nTRAORI\nG0 X0 Y0 Z50\nG1 X10 F500\nX20\nM30\n"),
+        ] {
+            let report = Fixture::parse(&format!("gcode {dialect} mill-3axis"), text).check().unwrap();
+            let told: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "tcp-state").collect();
+            assert_eq!(told.len(), 1, "{dialect}");
+            assert!(told[0].message.contains("mill-3axis has no rotary axis"));
+        }
     }
 
     #[test]

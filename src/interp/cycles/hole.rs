@@ -38,6 +38,15 @@ impl Iso<'_> {
             );
             return;
         }
+        if self.tip_is_led_aslant() {
+            self.lost(
+                words,
+                axis,
+                "a drilling cycle under tool centre point control with the tool not along Z: whether it drills along Z or along the tool",
+                report,
+            );
+            return;
+        }
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
             _ if words.flow && words.p.is_given() => Some(1),

@@ -1,5 +1,5 @@
 //! What drilling cycles need before they go down: levels in order, and for taps a spindle.
-use crate::Refusal;
+use crate::{Orientation, Refusal};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
@@ -12,6 +12,25 @@ impl Iso<'_> {
             && !self.memory.frames.active
             && !self.core.dialect.quirks.diameter
             && self.core.state.motion != Some(Action::BackBoreCycle)
+    }
+
+    /// Whether the tip is led and the tool may be out of Z: no source says what a drilling cycle does there. C alone turns around Z.
+    pub(super) fn tip_is_led_aslant(&self) -> bool {
+        const A_AND_B: u16 = 0b1_1000;
+        let state = &self.core.state;
+        // in a tilted plane Z is another one, and rules compare the tool with it
+        if !state.tool_axis.tcp() || self.memory.frames.tilt.is_some() || self.memory.frames.active {
+            return false;
+        }
+        match state.orientation {
+            Orientation::Vector(_, axis) => axis.z < 1.0 - 1e-12,
+            Orientation::Words => {
+                let position = state.position;
+                let upright = |axis: usize| position.get(axis).is_some_and(|value| value == 0.0);
+                let none = position.known & A_AND_B == 0;
+                none || (3..5).any(|axis| position.known & (1 << axis) != 0 && !upright(axis))
+            }
+        }
     }
 
     /// R is below the bottom.

@@ -10,6 +10,7 @@ pub struct Spindle {
     limit_rpm: Option<f64>,
     speed_programmed: bool,
     is_unread: bool,
+    by_tool_change: bool,
     was_started: bool,
 }
 
@@ -42,6 +43,10 @@ impl Spindle {
     pub fn is_unread(&self) -> bool {
         self.is_unread
     }
+    /// It turned before a tool change that may have stopped it.
+    pub fn is_left_by_tool_change(&self) -> bool {
+        self.by_tool_change
+    }
     /// The program has started a spindle; what is not modelled may have done so, too, see [`Self::is_unread`].
     pub fn was_started(&self) -> bool {
         self.was_started
@@ -49,6 +54,7 @@ impl Spindle {
     /// The program switches it on or off.
     pub fn switch(&mut self, on: bool) {
         self.on = Some(on);
+        self.by_tool_change = false;
         self.was_started |= on;
     }
     /// Within a cycle it turns, stops, or goes on as before, without a word of the program.
@@ -79,7 +85,15 @@ impl Spindle {
     /// What is not modelled may have switched it: whether it turns is unknown.
     pub fn lose(&mut self) {
         self.on = None;
+        self.by_tool_change = false;
         self.is_unread = true;
+    }
+    /// A tool is changed by a program of the machine builder, which stops the spindle on most machines, and starts it again on few.
+    pub fn leave_to_tool_change(&mut self) {
+        if self.on == Some(true) {
+            self.on = None;
+            self.by_tool_change = true;
+        }
     }
     /// The same, and its speed is unknown, too.
     pub fn forget(&mut self) {

@@ -2,7 +2,7 @@
 //!
 //! # Why
 //! CL data hold words for the post-processor. Those that are listed here do not change the path as it is computed. A post-processor may
-//! still do something with them, for example clamp an axis or split the output; so they are not passed over in silence.
+//! still do something with them, for example clamp an axis or split the output; so they are listed.
 //!
 //! # Example
 //! ```gcode apt

@@ -33,7 +33,7 @@
 //!
 //! # Traps
 //! - Another program that jumps to a number of this one is not known here.
-//! - A computed target, or a number that is there twice and is named, is refused.
+//! - A computed target, or a number that occurs twice and is the target of a jump, is refused.
 //!
 //! # Sources
 //! docs/decisions/0057-arcs-through-points.md; the layout floor.

@@ -75,7 +75,7 @@ fn check(arrival: &facts::Arrival<'_>, out: &mut Reporter<'_>) {
         out.event(|draft| {
             let (way, direct) = (mm(rapids.way_mm), mm(least_mm));
             let which = if past.is_some() {
-                "the shortest way past the obstacles"
+                "the shortest path past the obstacles"
             } else {
                 "the direct distance"
             };

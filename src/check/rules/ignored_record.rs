@@ -51,5 +51,5 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     };
     out.report(first.first, what)
         .note("they are words for the post-processor; the path does not depend on them as it is computed here")
-        .help("look whether the post-processor moves or clamps something at one of them");
+        .help("check whether the post-processor moves or clamps something at one of them");
 }

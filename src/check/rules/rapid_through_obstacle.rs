@@ -75,7 +75,7 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 leg,
                 out,
                 UNDECLARED,
-                &format!("{what} is not declared, so it is unknown where the tool is against {name}"),
+                &format!("{what} is not declared, so it is unknown where the tool is relative to {name}"),
             );
             return;
         }
@@ -95,7 +95,7 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 out.finding(leg, Merge::runs(THROUGH | key, 0.0), |draft| {
                     draft
                         .say(format!("the tool goes through {name} {how}"))
-                        .help("go round it or above it; if it stands elsewhere, correct its [[obstacle]]")
+                        .help("go round it or above it; if it is elsewhere, correct its [[obstacle]]")
                         .value_text("obstacle", name.clone());
                     if rapid {
                         draft.fix_rapid(leg);

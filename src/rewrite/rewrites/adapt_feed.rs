@@ -328,7 +328,9 @@ impl<'a> Writer<'a> {
             let value = (goal * scale).floor() / scale;
             if value >= 0.99 * goal || decimals >= MOST_DECIMALS {
                 if value <= 0.0 {
-                    return Err(format!("the axes allow a feed of {goal:.6} only, which F cannot say"));
+                    return Err(format!(
+                        "the axes allow a feed of {goal:.6} only, which F cannot express"
+                    ));
                 }
                 return Ok(if target > cut.feed { value.max(before) } else { value });
             }

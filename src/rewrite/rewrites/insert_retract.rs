@@ -215,7 +215,7 @@ fn summary(heights: &[f64]) -> String {
         count => format!("{count} cuts"),
     };
     let highest = heights.iter().copied().fold(0.0, f64::max);
-    format!("before {cuts} the machine turns over in the air, up to {highest:.1} mm above the part")
+    format!("before {cuts} the machine changes its posture in the air, up to {highest:.1} mm above the part")
 }
 
 /// The lines of an excursion, before the line of the cut.

@@ -36,7 +36,7 @@
 //! - A computed target, or a number that occurs twice and is the target of a jump, is refused.
 //!
 //! # Sources
-//! docs/decisions/0057-arcs-through-points.md; the layout floor.
+//! src/layout/renumber.rs, which `trunnion fmt --renumber` uses too.
 use super::Body;
 use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;

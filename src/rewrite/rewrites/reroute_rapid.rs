@@ -76,12 +76,12 @@ const SAME_MM: f64 = 1e-6;
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err(Refusal::missing(
-            "no machine is named, and obstacles stand in a machine (--machine)",
+            "no machine is named, and obstacles belong to a machine (--machine)",
         ));
     };
     if machine.obstacles.only_parts() {
         return Err(Refusal::missing(
-            "no obstacle is declared, so nothing says what a shorter way would pass: [[obstacle]] in trunnion.toml",
+            "no obstacle is declared, so it is unknown what a shorter path would pass: [[obstacle]] in trunnion.toml",
         ));
     }
     let keep = machine.tolerances.clearance_mm();

@@ -37,7 +37,7 @@ pub(crate) fn adapted(
     }
     if [was, is].iter().any(|leg| feed_is_ambiguous(machine, rotary_feed, leg)) {
         return Err(Wrong::Unknown(
-            "what F means while rotary axes move is a parameter of the control, so the feed must stay: the machine file says it by [control] feed = \"xyz\" or \"combined\"",
+            "what F means while rotary axes move is a parameter of the control, so the feed must stay unless the machine file declares it: [control] feed = \"xyz\" or \"combined\"",
         ));
     }
     match (was.motion.feed, is.motion.feed) {

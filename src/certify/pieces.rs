@@ -66,9 +66,7 @@ pub(crate) fn piece(
     let was = begun.map_or(0.0, |begun| begun.share);
     let share = if last { 1.0 } else { share(machine, [from, to], end) };
     if !(share > was && share <= 1.0) {
-        return Err(Wrong::Refuted(
-            "a point that was put in lies behind the one before it".into(),
-        ));
+        return Err(Wrong::Refuted("an inserted point is behind the previous one".into()));
     }
     for &joint in &machine.rotary {
         let expected = from.joints[joint] + share * (to.joints[joint] - from.joints[joint]);

@@ -180,7 +180,7 @@ impl Judge<'_> {
         let pose = start_of(cut, line)?;
         let (mm, degrees) = self.claim.tolerances();
         if above(start.tip_distance_to(pose), mm) || above(deg(angle_between(&start.axis, &pose.axis)), degrees) {
-            return self.refute(line, "the tool leaves the part where the program before does not cut");
+            return self.refute(line, "the tool leaves the part where the original program does not cut");
         }
         Ok(())
     }
@@ -258,7 +258,7 @@ impl Judge<'_> {
             return Err(unknown(
                 line,
                 &format!(
-                    "on the ramp the tool axis is up to {turned:.6} deg away from the cut before; {degrees} deg is allowed"
+                    "on the ramp the tool axis is up to {turned:.6} deg away from the previous cut; {degrees} deg is allowed"
                 ),
             ));
         }
@@ -271,7 +271,7 @@ impl Judge<'_> {
             return self.refute(
                 line,
                 &format!(
-                    "the ramp is not above the cut before, but {:.6} mm off; {mm} mm is allowed",
+                    "the ramp is not above the previous cut, but {:.6} mm off; {mm} mm is allowed",
                     off.max(-height)
                 ),
             );

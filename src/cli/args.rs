@@ -38,7 +38,7 @@ pub(crate) struct Args {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Options of all commands")]
 pub(crate) struct Global {
-    /// The machine: the name of an embedded one (`trunnion machine list`) or a TOML file.
+    /// The machine: the name of a built-in one (`trunnion machine list`) or a TOML file.
     #[arg(long, global = true, value_name = "NAME|FILE")]
     pub(crate) machine: Option<String>,
     /// The dialect of the program. Default: its modeline comment, then trunnion.toml, then file extension and content.
@@ -59,7 +59,8 @@ pub(crate) struct Global {
     /// Also report what would change its meaning on this control (name of a dialect; may be repeated).
     #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
     pub(crate) port_to: Vec<String>,
-    /// Take undeclared values as zero: work-offset, tool-length (with a comma between them). The verdict lists them.
+    /// Take what is not declared as zero (work-offset, tool-length) or as usual at power-on (power-on); write commas between several. The
+    /// verdict lists it.
     #[arg(long, global = true, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) assume: Vec<String>,
     /// Blocks that begin with `/`: run them (off) or skip them (on). Default: trunnion.toml; without it, check judges both.
@@ -283,11 +284,11 @@ pub(crate) struct Machine {
 
 #[derive(Subcommand)]
 pub(crate) enum MachineCommand {
-    /// List the embedded machines.
+    /// List the built-in machines.
     List,
     /// Print the chain of axes, signs and limits in words and numbers.
     Show {
-        /// The name of an embedded machine, or a TOML file.
+        /// The name of a built-in machine, or a TOML file.
         name: String,
         /// In words, or as the machine file itself: a start for your own.
         #[arg(long, value_enum, default_value = "text")]
@@ -295,18 +296,20 @@ pub(crate) enum MachineCommand {
     },
     /// Test the kinematics: on random poses, forward after inverse kinematics must return the same pose.
     Check {
-        /// The name of an embedded machine, or a TOML file.
+        /// The name of a built-in machine, or a TOML file.
         name: String,
         /// The number of random poses.
         #[arg(long, default_value_t = 10_000)]
         poses: usize,
     },
-    /// Compare two machine files: how far the tip is off if the control believes one and the other is true. With a program, along its path;
+    /// Compare two machine files: how far the tip is off if the control assumes one and the other is true. With a program, along its path;
     /// without one, with the tip held still while the rotary axes sweep, and on random poses.
     Compare {
-        /// The machine that the control assumes: an embedded name or a TOML file.
+        /// The machine that the control assumes: the name of a built-in one, or a TOML file.
+        #[arg(value_name = "ASSUMED")]
         believed: String,
-        /// The machine as it really is, for example as measured: an embedded name or a TOML file.
+        /// The machine as it really is, for example as measured: the name of a built-in one, or a TOML file.
+        #[arg(value_name = "TRUE")]
         truth: String,
         /// A program to run on both machines.
         program: Option<PathBuf>,

@@ -76,7 +76,7 @@ fn text(global: &Global, dialects: &BTreeMap<String, usize>) -> String {
         _ => out.push_str("\n# dialect = \"fanuc-30i\"   # default: found out for each program\n"),
     }
     out.push_str(
-        "\n# Where the part zero lies in machine coordinates, in mm. What depends on an undeclared offset is unknown.\n\
+        "\n# Where the part zero is in machine coordinates, in mm. What depends on an undeclared offset is unknown.\n\
          # [work_offsets]\n# G54 = { X = 0.0, Y = 0.0, Z = 0.0 }\n\n\
          # Tools: number, shape (ball, flat, bull), sizes in mm.\n\
          # [[tool]]\n# number = 1\n# shape = \"ball\"\n# diameter = 10.0\n# length = 120.0\n\n\

@@ -34,7 +34,7 @@ impl Loaded {
     pub(crate) fn machine_or_fail(&self, what: &str) -> Result<&Machine, Failure> {
         self.resolved.machine.as_ref().ok_or_else(|| {
             Failure::new(format!(
-                "{what} needs a machine: add --machine NAME (`trunnion machine list` names the embedded ones) or \
+                "{what} needs a machine: add --machine NAME (`trunnion machine list` lists the built-in ones) or \
                  `machine = \"NAME\"` in trunnion.toml"
             ))
         })

@@ -225,7 +225,7 @@ pub(super) fn run(global: &Global, command: &Sample) -> Result<Done, Failure> {
 
 fn needs_machine(what: &str) -> Failure {
     Failure::new(format!(
-        "{what} needs a machine: add --machine NAME (`trunnion machine list` names the embedded ones)"
+        "{what} needs a machine: add --machine NAME (`trunnion machine list` lists the built-in ones)"
     ))
 }
 

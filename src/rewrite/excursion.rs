@@ -162,7 +162,7 @@ impl Planner<'_> {
             }
         }
         best.map(|(_, q)| q).ok_or_else(|| {
-            refused("from no posture inside the travel of the axes can the cut be made without turning over")
+            refused("from no posture inside the travel of the axes can the cut be made without a change of posture")
         })
     }
 

@@ -163,7 +163,7 @@ impl Planner<'_> {
         }
         let frame = self.frame(&space, middle.clone())?;
         points = rounded(&space, &frame, &points, grid, &cost)
-            .ok_or("no way past the obstacles could be written in the digits of the program")?;
+            .ok_or("no path past the obstacles could be written in the digits of the program")?;
         let length = |points: &[Vec3]| points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>();
         let lengths = [length(&places[middle.start..=middle.end]), length(&points)];
         let words = points[1..].iter().map(|point| frame.to_words(point)).collect();
@@ -225,7 +225,7 @@ impl Planner<'_> {
                     let end = if end == 0 { "start" } else { "end" };
                     format!("the {end} is inside the clearance of {}", space.obstacles()[which].name)
                 }
-                NoRoute::Enclosed => "no way past the obstacles stays inside the travel of the axes".to_owned(),
+                NoRoute::Enclosed => "no path past the obstacles stays inside the travel of the axes".to_owned(),
             })
     }
 

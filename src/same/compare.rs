@@ -139,7 +139,7 @@ fn walk(
                             claim,
                         ))
                 {
-                    found.what += "; one motion may be a part of the other, but their way up to here is unknown";
+                    found.what += "; one motion may be a part of the other, but their path up to here is unknown";
                     verdict = Verdict::Unknown(found.clone());
                 }
                 twins.judge(was, is, Err(verdict))?;

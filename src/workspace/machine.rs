@@ -65,7 +65,7 @@ pub(crate) fn machine_of_comment(
         }
     }
     Err(LoadError::new(format!(
-        "a comment of the program names the machine `{name}`, which was not opened: a comment may name an embedded machine, or a .toml file \
+        "a comment of the program names the machine `{name}`, which was not opened: a comment may name a built-in machine, or a .toml file \
          in the folder of the program or below a folder of `machine_path` in trunnion.toml. Use --machine to name another file"
     )))
 }

@@ -109,7 +109,10 @@ impl Proof<'_> {
             None => self.renamed.push((was.clone(), now.clone())),
             Some((old, new)) if old == was && new == now => {}
             Some((old, new)) => {
-                return self.refute(is, format!("{now} stands for {was}, but before {new} stood for {old}"));
+                return self.refute(
+                    is,
+                    format!("{now} corresponds to {was}, but earlier {new} corresponded to {old}"),
+                );
             }
         }
         Ok(())

@@ -21,7 +21,7 @@
 //!
 //! # Guarantee
 //! Sound for coordinates, arc centres, radii and, on a Haas, feeds that are written as numbers other than zero.
-//! Coordinates are reported once in the program, and feeds once, with the number of blocks; each block counts by its first such word.
+//! Coordinates are reported once in the program, and feeds once, with the number of blocks; each block counts once, by its first such word.
 //!
 //! # Sources
 //! * FANUC Series 30i B-64490EN (parameter manual): parameter 3401, bit 0 (DPI).

@@ -1,7 +1,7 @@
 //! At the programmed feed an axis would need more acceleration in a bend of the path than it has.
 //!
 //! # Why
-//! On a small arc, or where a rotary axis changes its speed, the feed alone asks for acceleration. The control slows down there, or the axis
+//! On a small arc, or where a rotary axis changes its speed, even a constant feed needs acceleration. The control slows down there, or the axis
 //! lags behind and the arc becomes smaller than programmed.
 //!
 //! # Example
@@ -26,9 +26,9 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing. An axis that moves in a cut and declares no acceleration is reported as unknown, once; its marks, swings of the feed and times
-//! (`dwell-mark`, `feed-oscillation`, `stats --time`) are unknown with it. Feed motions with the spindle on are judged. The whole acceleration of an
-//! axis is taken for the bend. Where the tip is guided while rotary axes turn, the bend is sampled. Consecutive blocks with the same axis are one finding.
+//! Silence proves nothing. An axis that moves in a cut and declares no acceleration is reported as unknown, once; what depends on it
+//! (`dwell-mark`, `feed-oscillation`, `stats --time`) is then unknown too. Feed motions with the spindle on are judged. A bend may use the whole
+//! acceleration of an axis. Where the tip is guided while rotary axes turn, the bend is sampled. Consecutive blocks with the same axis are one finding.
 //!
 //! # Thresholds
 //! `amax` of each axis in the machine file; 70 % of the programmed feed.

@@ -1,7 +1,7 @@
 //! An axis leaves its travel, at the end of a block or inside it.
 //!
 //! # Why
-//! The control stops with an alarm in the middle of the cut, or the axis runs onto its limit switch. With tool
+//! The control stops with an alarm in the middle of the cut, or the axis runs into its limit switch. With tool
 //! centre point control a linear axis can leave its travel inside a block although both ends are within it.
 //!
 //! # Example
@@ -20,7 +20,7 @@
 //! # Guarantee
 //! Sound for axes whose position is known: inside a block it uses a bound on the motion of the axes, not samples.
 //! Where a work offset or tool length is not declared, a chain of linear axes is judged by how far the path spans:
-//! it fails if no zero point fits, else the zero points that fit are reported and the result is unknown.
+//! it fails if no zero point fits; otherwise the zero points that fit are reported and the result is unknown.
 //! An axis that was never positioned is not judged. Travel inside a rapid block is unknown where the machine file
 //! does not say whether the axes arrive together, and also where it says that they do not while the control guides
 //! the tip.

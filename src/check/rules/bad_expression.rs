@@ -21,7 +21,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound where the run reaches the block with known values. An expression of unknown values is reported as not
+//! Sound where the run reaches the block with known values. An expression with unknown values is reported as not
 //! decided.
 //!
 //! # Sources

@@ -1,8 +1,8 @@
 //! The servo loops cut a corner by more than the tolerance.
 //!
 //! # Why
-//! The axes follow the reference with a lag. At a corner the lag of one axis ends before that of the other begins, and the tool goes round the
-//! inside: material stays, or is gouged at a concave corner.
+//! The axes follow the reference with a lag. At a corner the lag of one axis ends before that of the other begins, and the tool cuts the
+//! corner on the inside: material stays, or is gouged at a concave corner.
 //!
 //! # Example
 //! ```gcode fanuc-30i boring-mill-w
@@ -27,8 +27,8 @@
 //!
 //! # Guarantee
 //! Silence proves nothing. A machine that declares `kv` for none of its linear axes has no model of its servo loops and is not judged; one that declares it for
-//! some of the first three, or not the same `kv` and `kff` for all, is unknown, once. It needs accelerations, and looks at corners
-//! between feed motions with the spindle on in which no rotary axis turns. The error is that of a lag of the first order, at the planned speed at the
+//! some of the first three, or not the same `kv` and `kff` for all, is unknown, once. The rule needs accelerations, and judges corners
+//! between feed motions with the spindle on in which no rotary axis turns. The error is that of a first-order lag, at the planned speed at the
 //! corner; `trunnion servo FILE --at LINE` simulates it. Consecutive corners are one finding with the worst of them.
 //!
 //! # Thresholds

@@ -2,7 +2,7 @@
 //!
 //! # Why
 //! Where the tip hardly moves while the spindle turns, the tool rubs and heats the same spot: it leaves a mark that can be seen and felt. It happens
-//! where rotary axes turn far while the tip goes a short way, for example next to the pole.
+//! where rotary axes turn far while the tip moves only a short distance, for example next to the pole.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -26,8 +26,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing. It judges the planned speed of feed motions with the spindle on, on machines that declare the accelerations of their axes.
-//! A dwell that the program asks for is no finding. Consecutive blocks are one finding.
+//! Silence proves nothing. The rule judges the planned speed of feed motions with the spindle on, on machines that declare the accelerations of their axes.
+//! A dwell that the program asks for is not a finding. Consecutive blocks are one finding.
 //!
 //! # Thresholds
 //! Below 5 % of the programmed feed for more than 0.05 s without a break, in one block or over several.

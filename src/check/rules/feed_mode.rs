@@ -25,7 +25,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing. It compares the distance of the tip's positions on the part with the length along which F is measured, in feed motions with the
+//! Silence proves nothing. The rule compares the distance of the tip's positions on the part with the length along which F is measured, in feed motions with the
 //! spindle on whose position on the part is known. Consecutive blocks are one finding with the worst of them.
 //!
 //! # Thresholds

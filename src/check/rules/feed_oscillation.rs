@@ -1,7 +1,7 @@
 //! The feed falls and rises again several times within a short path.
 //!
 //! # Why
-//! Each time the machine slows down and speeds up again the load on the tool changes. Short blocks with sharp corners, or limits that come and go,
+//! Each time the machine slows down and speeds up again, the load on the tool changes. Short blocks with sharp corners, or limits that come and go,
 //! leave a pattern of marks on the surface.
 //!
 //! # Example
@@ -30,8 +30,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing. It judges the planned speed of feed motions with the spindle on, on machines that declare the accelerations of their axes. A
-//! single corner is no swing: the feed has to fall below 70 % and recover twice. Blocks in which rotary axes turn are not judged. Consecutive blocks are one finding.
+//! Silence proves nothing. The rule judges the planned speed of feed motions with the spindle on, on machines that declare the accelerations of their axes. A
+//! single corner does not count as a swing: the feed has to fall below 70 % and recover twice. Blocks in which rotary axes turn are not judged. Consecutive blocks are one finding.
 //!
 //! # Thresholds
 //! 30 % of the feed, twice within 2 mm of path.

@@ -2,7 +2,7 @@
 //!
 //! # Why
 //! CL data hold words for the post-processor. Those that are listed here do not change the path as it is computed. A post-processor may
-//! still do something with them, for example clamp an axis or split the output; so they are not passed over in silence.
+//! still do something with them, for example clamp an axis or split the output; so they are listed.
 //!
 //! # Example
 //! ```gcode apt
@@ -51,5 +51,5 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     };
     out.report(first.first, what)
         .note("they are words for the post-processor; the path does not depend on them as it is computed here")
-        .help("look whether the post-processor moves or clamps something at one of them");
+        .help("check whether the post-processor moves or clamps something at one of them");
 }

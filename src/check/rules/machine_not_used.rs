@@ -20,7 +20,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for what could change a verdict of the present rules: margins before limits. `trunnion machine show` lists
+//! Sound for what could change a verdict of the present rules: margins to limits. `trunnion machine show` lists
 //! everything else that is declared and not used yet. Each item is reported once per file, at its first byte.
 //!
 //! # Sources

@@ -68,7 +68,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         if in_control && refused.is_none() {
             draft
                 .unknown()
-                .note("the control itself is supplied with subprograms".to_owned());
+                .note("this control has subprograms of its own: this may be one of them".to_owned());
         }
         if let Some(alarm) = alarm {
             draft.note(format!("the control says: {alarm}"));

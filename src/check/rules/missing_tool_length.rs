@@ -27,8 +27,8 @@
 //!
 //! # Guarantee
 //! Heuristic: a program without G43 is right where all lengths are included in the work offset, or where the
-//! builder's tool change switches the length on; an offset with another number than the tool is right in shops that
-//! number them so. Reported once for each tool. Only for controls that switch the length on by G43, and for tools
+//! builder's tool change switches the length on; an offset with a number other than that of the tool is right in shops that
+//! number them like that. Reported once for each tool. Only for controls that switch the length on by G43, and for tools
 //! that the program changes to.
 //!
 //! # Sources

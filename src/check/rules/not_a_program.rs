@@ -2,7 +2,7 @@
 //!
 //! # Why
 //! A folder of programs holds other files too, and a wrong file may be sent to a machine. Nothing in it can be checked, and
-//! a list of a thousand strange characters helps nobody.
+//! a list of a thousand strange characters would not help.
 //!
 //! # Example
 //! ```gcode detected
@@ -22,8 +22,8 @@
 //!
 //! # Guarantee
 //! Sound: a file that is recognised as not being a program gets this finding and no other. A text is taken as prose if hardly any line is
-//! a block and no sign of a control is in it; a dialect named in the settings or on the command line says that it is a program
-//! (but not of a picture or a binary).
+//! a block and no sign of a control is in it; if the settings or the command line name a dialect, a text is taken as a program
+//! (a picture or a binary is not).
 //!
 //! # Sources
 //! * docs/contract.md#verdicts

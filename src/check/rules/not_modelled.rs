@@ -68,7 +68,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
 fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>) {
     if !what.starts_with("cutter radius compensation") && !what.starts_with("tool nose radius compensation") {
         return (
-            "what depends on it is unknown, and not checked, until the program sets it again",
+            "everything that depends on it is unknown and not checked, until the program sets it anew",
             None,
         );
     }
@@ -77,14 +77,14 @@ fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>)
     let remedy = match kind.lacks() {
         Some(Lacks::Radius(_)) => format!("{declare}; or take its radius as zero: --assume tool-length"),
         _ if what.contains("diameter of the tool is not declared") => declare.to_owned(),
-        _ => "keep more than the tool radius clear of walls and limits, or try it on the machine without a part"
+        _ => "keep more than the tool radius away from walls and limits, or run the program on the machine without a part"
             .to_owned(),
     };
     (note, Some(remedy))
 }
 
 /// What to do where no setting helps.
-const BY_HAND: &str = "look through what depends on it by hand, or try it on the machine without a part";
+const BY_HAND: &str = "inspect by hand what depends on it, or run the program on the machine without a part";
 
 /// What is not modelled, and what to declare so that it is: `a cycle (declare [control] key)` says both.
 fn divided(what: &str) -> (&str, Option<String>) {

@@ -22,7 +22,7 @@
 //! # Guarantee
 //! Sound; one finding per file, at the first such block, with all line ranges. Text before the first `%` of a Fanuc program is a finding of
 //! its own, an info: the control skips it. Whether a block moves is judged by its
-//! words alone, and in doubt it does. Blocks that the settings skip (`--block-delete on`) are not reported, nor those after a
+//! words alone; in doubt, it counts as moving. Blocks that the settings skip (`--block-delete on`) are not reported, nor those after a
 //! place where another finding says why the run stopped.
 //!
 //! # Sources

@@ -2,7 +2,7 @@
 //!
 //! # Why
 //! While two postures are possible, the tool can be guided around a limit or the pole by changing from one to the
-//! other. Beyond a limit of the tilting axis only one is left: the program cannot be unwound or swapped there, and
+//! other. Beyond a limit of the tilting axis only one is left: there the program can neither be unwound nor take the other posture, and
 //! another machine may not reach the position at all.
 //!
 //! # Example

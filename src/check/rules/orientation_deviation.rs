@@ -27,7 +27,7 @@
 //! # Guarantee
 //! Sound: silence rests on a proven bound, not on samples. The deviation is the angle to the great-circle arc
 //! between the two vectors. There is none where the program gives rotary words and the control interpolates them
-//! linearly, or where it gives vectors and the control keeps to the great circle. The rule says unknown, once,
+//! linearly, or where it gives vectors and the control follows the great circle. The rule says unknown, once,
 //! where neither the program nor the machine file says which applies and linear interpolation would exceed the
 //! tolerance. It also says unknown where samples are within the tolerance but the bound does not prove it, and
 //! where the vectors at the ends are opposite. Up to 8 consecutive blocks are reported one by one; a longer run is

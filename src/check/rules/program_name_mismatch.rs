@@ -1,7 +1,7 @@
 //! END PGM names another program or unit than BEGIN PGM.
 //!
 //! # Why
-//! Both blocks of a Klartext program name it, with its unit. Where they differ, the end of another program was pasted, or a part of the
+//! BEGIN PGM and END PGM both name the Klartext program and its unit. Where they differ, the end of another program was pasted in, or a part of the
 //! program is missing.
 //!
 //! # Example

@@ -1,8 +1,8 @@
 //! The tool goes through a declared obstacle, or passes it in rapid nearer than the clearance.
 //!
 //! # Why
-//! A tool that meets a clamp breaks, and often the spindle with it. Clamps, vices and stops do not move with the drawing of the part, so a program that
-//! was right on one table is wrong on another.
+//! A tool that meets a clamp breaks, and often the spindle with it. The drawing of the part does not show where clamps, vices and stops are, so a program that
+//! was right on one table can be wrong on another.
 //!
 //! # Example
 //! ```gcode mill-3axis+wall
@@ -27,8 +27,8 @@
 //! Sound for the obstacles that are declared (`[[obstacle]]` in trunnion.toml or in the machine file): silence is a proof. An upright tool on a
 //! straight line is judged exactly, as a column from its tip to the spindle, with its holder where `[[tool]] holder` declares one. While rotary axes
 //! turn, on arcs, and where the tool is tilted against the obstacle it is a cylinder of its length, and each point of it is bounded over the whole
-//! block. Where that does not decide, where the diameter of the tool, its length or the work offset is not declared, or where the axes of
-//! a rapid may arrive one after the other, the verdict is unknown. In a cut the tool may come as near as it likes without touching.
+//! block. Where that does not settle it, where the diameter of the tool, its length or the work offset is not declared, or where the axes of
+//! a rapid may arrive one after the other, the verdict is unknown. In a cut the tool may come as near as it likes, as long as it does not touch.
 //!
 //! # Thresholds
 //! `clearance`: 1 mm, for rapid motions; nearer than that is a warning, touching is an error.
@@ -75,7 +75,7 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 leg,
                 out,
                 UNDECLARED,
-                &format!("{what} is not declared, so it is unknown where the tool is against {name}"),
+                &format!("{what} is not declared, so it is unknown where the tool is relative to {name}"),
             );
             return;
         }
@@ -95,7 +95,7 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 out.finding(leg, Merge::runs(THROUGH | key, 0.0), |draft| {
                     draft
                         .say(format!("the tool goes through {name} {how}"))
-                        .help("go round it or above it; if it stands elsewhere, correct its [[obstacle]]")
+                        .help("go round it or above it; if it is elsewhere, correct its [[obstacle]]")
                         .value_text("obstacle", name.clone());
                     if rapid {
                         draft.fix_rapid(leg);

@@ -1,4 +1,4 @@
-//! Blocks are shorter than the control can process them.
+//! Blocks take less time than the control needs to process them.
 //!
 //! # Why
 //! A control needs some time for each block. Where the program has more blocks than it can process at the programmed feed, it slows down, or
@@ -26,7 +26,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing on a machine that declares no `block_time`; else each feed motion with the spindle on is judged on its length and feed.
+//! Silence proves nothing on a machine that declares no `block_time`; otherwise each feed motion with the spindle on is judged by its length and feed.
 //! Consecutive blocks are one finding.
 //!
 //! # Thresholds

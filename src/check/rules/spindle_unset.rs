@@ -1,7 +1,7 @@
 //! A main program cuts, and nothing in it starts the spindle or says how fast it turns.
 //!
 //! # Why
-//! The spindle stands still unless the operator or the program before has started it, and the tool is pushed through the
+//! The spindle stands still unless the operator or the previous program has started it, and the tool is pushed through the
 //! material without turning. Without any S the control uses the last S of another program, or none.
 //!
 //! # Example
@@ -20,8 +20,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30) are judged: what
-//! calls a subprogram may start the spindle. After a code of the machine builder, and after a program that was not found,
+//! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30) are judged: the
+//! caller of a subprogram may start the spindle. After a code of the machine builder, and after a program that was not found,
 //! the spindle may turn, and feed motions there are not reported. Feed motions in machine coordinates, and probing, are not judged.
 //!
 //! # Sources

@@ -2,8 +2,8 @@
 //!
 //! # Why
 //! With tool centre point control X Y Z position the tip, and the control compensates for the rotary axes. Without
-//! it X Y Z position the axes. Rotary words after it was switched off, a tool without active length under it, a
-//! tool change or machine coordinates under it: each is correct syntax and sends the tip to another place.
+//! it X Y Z position the axes. Rotary words after it was switched off; a tool without an active length, a
+//! tool change or machine coordinates while it is on: each is correct syntax and sends the tip to another place.
 //!
 //! # Example
 //! ```gcode fanuc-30i mikron-ucp710
@@ -29,7 +29,8 @@
 //! # Guarantee
 //! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same
 //! tool; a feed motion under it with a tool whose length is not active; a tool change or machine coordinates under
-//! it; a machine without a rotary axis; a code that wants H and has none, where no H of this tool was programmed before. `path-deviation` judges the resulting path.
+//! it; a machine without a rotary axis; a code that needs H and has none, where no H of this tool was programmed
+//! before. `path-deviation` judges the resulting path.
 //!
 //! # Sources
 //! * docs/contract.md#tool-centre-point-control

@@ -1,8 +1,8 @@
-//! AND, OR or XOR stands between two comparisons without brackets.
+//! AND, OR or XOR joins two comparisons that have no brackets.
 //!
 //! # Why
-//! On a Sinumerik comparisons bind weaker than AND, OR and XOR: `R1>5 AND R2<3` is `(R1 > (5 AND R2)) < 3`, which is
-//! true whatever the two variables hold. The control takes it without an alarm. In Custom Macro B, too, EQ, NE, GT, LT, GE and LE bind weaker.
+//! On a Sinumerik comparisons bind less tightly than AND, OR and XOR: `R1>5 AND R2<3` is `(R1 > (5 AND R2)) < 3`, which is
+//! true whatever the two variables hold. The control accepts it without an alarm. In Custom Macro B, too, EQ, NE, GT, LT, GE and LE bind less tightly.
 //!
 //! # Example
 //! ```gcode sinumerik-840d
@@ -20,7 +20,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: it reports every such operator in the text, also in blocks that do not run.
+//! Sound: the rule reports every such operator in the text, also in blocks that do not run.
 //!
 //! # Sources
 //! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019): the priority of operators, p. 444.

@@ -135,13 +135,9 @@ impl Baseline {
     /// Says how many of its findings are not found any more.
     pub(super) fn remark_gone(&self, quiet: bool, gone: u64) {
         if gone > 0 {
-            let noun = if gone == 1 {
-                "finding of it is"
-            } else {
-                "findings of it are"
-            };
+            let noun = if gone == 1 { "finding" } else { "findings" };
             let text = format!(
-                "{}: {gone} {noun} not found any more; --write-baseline writes it anew",
+                "{}: {gone} accepted {noun} changed or did not occur again; when no new ones are left, --write-baseline replaces it",
                 self.path.display()
             );
             remark(quiet, &text);

@@ -9,7 +9,7 @@ use trunnion_machine::Machine;
 fn renamed(name: &str, converted: &Converted) -> Option<String> {
     let (was, now) = converted.renamed_offset.as_ref()?;
     Some(format!(
-        "{name}: {now} stands for {was} of the original: set the same zero point there"
+        "{name}: {now} takes the place of {was} in the original: set the same zero point there"
     ))
 }
 

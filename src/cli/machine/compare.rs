@@ -42,7 +42,7 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
     );
     let comparison = Comparison::new(&believed, &truth).map_err(Failure::new)?;
     let mut out = Out::standard();
-    writeln!(out, "believed {}, truth {}", believed.id, truth.id)?;
+    writeln!(out, "assumed {}, true {}", believed.id, truth.id)?;
     let entries = comparison.entries();
     if entries.is_empty() {
         writeln!(out, "  axes, points, signs, travels and speeds are the same")?;

@@ -209,7 +209,7 @@ impl Iso<'_> {
     /// control leaves an allowance.
     fn thread_in_one(&self, words: &Words) -> Result<Data, &'static str> {
         if words.p.is_given() && words.p.index() != Some(1) {
-            return Err("a way of cutting (P) other than 1");
+            return Err("a cutting method (P) other than 1");
         }
         let size = |letter| self.one_block_length(words, letter).filter(|size| *size > 0.0);
         let (Some(height), Some(first)) = (size(b'K'), size(b'D')) else {

@@ -178,7 +178,7 @@ impl<'d> Iso<'d> {
         self.core.forget_if(ended);
         self.core.state.zero.lose(self.core.unknown.any());
         if moves {
-            let what = "CYCLE800: the way on which it retracts and turns back when it ends".to_owned();
+            let what = "CYCLE800: the path on which it retracts and turns back when it ends".to_owned();
             report.fault(found.range, FaultKind::NotModelled { what });
             let mut motion = self.unknown_motion(&Words::default(), report);
             self.core.forget_position();

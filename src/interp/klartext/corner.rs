@@ -103,7 +103,7 @@ impl Klartext<'_> {
     fn corner(&mut self, found: Corner, report: &mut Report<'_>) {
         match &mut self.memory.waiting {
             Some(Waiting::Corner(_, corner @ Corner::Awaited)) => *corner = found,
-            _ => Self::rejected(Refusal::Other, "no path block stands before the corner", report),
+            _ => Self::rejected(Refusal::Other, "no path block precedes the corner", report),
         }
     }
 

@@ -64,7 +64,7 @@ impl Klartext<'_> {
         self.flush(report);
         let opened = self.memory.opened_cycle.replace(cycle);
         if line != 0 && opened != Some(cycle) {
-            let message = format!("CYCL DEF {cycle}.{line} stands without CYCL DEF {cycle}.0");
+            let message = format!("CYCL DEF {cycle}.{line} needs CYCL DEF {cycle}.0 before it");
             Self::rejected(Refusal::Syntax, message, report);
         }
         match cycle {

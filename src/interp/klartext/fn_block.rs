@@ -68,11 +68,7 @@ impl Klartext<'_> {
             return Request::Next;
         };
         if !words.takes(b'=') {
-            Self::rejected(
-                Refusal::Syntax,
-                format!("{target} stands alone: `=` is missing"),
-                report,
-            );
+            Self::rejected(Refusal::Syntax, format!("`=` is missing after {target}"), report);
             return Request::Next;
         }
         if target.kind == Kind::Text {

@@ -83,7 +83,7 @@ impl Klartext<'_> {
                 let message = "radius compensation begins in an arc: it begins in a straight line";
                 Self::rejected(Refusal::Other, message, report);
             } else if before != 0 {
-                let message = "RL and RR follow each other: R0 must stand between them";
+                let message = "RL and RR follow each other: R0 must come between them";
                 Self::rejected(Refusal::Other, message, report);
             }
         }

@@ -108,7 +108,7 @@ impl Klartext<'_> {
                 self.memory.has_tool_axis = true;
             }
             None if chosen.is_some() && !self.memory.has_tool_axis => {
-                self.not_modelled_once("TOOL CALL without the tool axis: that of the program before", report);
+                self.not_modelled_once("TOOL CALL without the tool axis: that of the previous program", report);
             }
             None => {}
         }

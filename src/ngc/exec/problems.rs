@@ -88,7 +88,7 @@ problems! {
     SPINDLE_RANGE_M51 Number "Invalid spindle ($) number in M51 command" "This machine has fewer spindles."
     SPINDLE_RANGE_M19 Number "Spindle ($) number out of range in M19 Command" "M19 must name a spindle that this machine has."
     M19_R Number "R value must be within 0..360 with M19" "Write the angle as 0 to 360 degrees."
-    M19_P Number "P value must be 0,1,or 2 with M19" "P is 0 for the shorter way, 1 for clockwise, 2 for counter-clockwise."
+    M19_P Number "P value must be 0,1,or 2 with M19" "P is 0 for the shorter turn, 1 for clockwise, 2 for counter-clockwise."
     M19_Q Number "Q word with M19 requires a value > 0" "Q is the longest wait in seconds."
     P_NOT_INTEGER Number "P value not an integer with M19 G2 or G3" "Write a whole number."
     P_TURNS Number "P value should be 1 or greater with G2 or G3" "P is the number of turns."

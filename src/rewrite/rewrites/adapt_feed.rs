@@ -1,7 +1,7 @@
 //! Writes the feed that the axes allow, where the programmed one asks for more.
 //!
 //! # Why
-//! Near the pole, or far from the rotary axes, a feed that looks harmless asks an axis for more than its highest speed; on a small arc it asks for more than its
+//! Near the pole, or far from the rotary axes, a feed that looks harmless demands more than the highest speed of an axis; on a small arc it demands more than its
 //! acceleration. Some controls slow down,
 //! some stop with an alarm, and some leave the path. A feed that the axes can follow is the same on every control, and the time of
 //! the program is then known.
@@ -34,17 +34,17 @@
 //! ```
 //!
 //! # Claim
-//! The programs do the same but for the feeds of cuts. No feed is higher than before (or than `--feed`), a feed is lower only where an axis would exceed its
+//! The programs do the same except for the feeds of cuts. No feed is higher than before (or than `--feed`), a feed is lower only where an axis would exceed its
 //! highest speed or, in a bend, its acceleration, and no axis does with a feed that was changed.
 //!
 //! # Traps
 //! - A lower feed changes the load of the tooth and may rub; a path around the pole (`smooth-pole`, `switch-angles`) is better where it
 //!   exists. `fix` applies this rewrite last.
-//! - The acceleration along the path is not looked at: a short block may not reach its feed whatever F says. `stats --time` shows where.
+//! - The acceleration along the path is not considered: a short block may not reach its feed whatever F says. `stats --time` shows where.
 //! - Axes whose acceleration is not declared limit no bend.
 //! - `--feed` makes plunges faster too: name the lines with `--lines`.
 //! - Where a parameter of the control decides what F means (Fanuc and Haas without tool centre point control while rotary axes move), the feed
-//!   stays until `[control] feed` of the machine file says it.
+//!   stays until `[control] feed` of the machine file declares it.
 //! - Feeds per revolution, feeds of motions of rotary axes alone, and F words with expressions are left as they are.
 //!
 //! # Sources
@@ -328,7 +328,9 @@ impl<'a> Writer<'a> {
             let value = (goal * scale).floor() / scale;
             if value >= 0.99 * goal || decimals >= MOST_DECIMALS {
                 if value <= 0.0 {
-                    return Err(format!("the axes allow a feed of {goal:.6} only, which F cannot say"));
+                    return Err(format!(
+                        "the axes allow a feed of {goal:.6} only, which F cannot express"
+                    ));
                 }
                 return Ok(if target > cut.feed { value.max(before) } else { value });
             }

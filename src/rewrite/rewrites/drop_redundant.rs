@@ -1,13 +1,13 @@
 //! Drops points on straight lines, blocks that move nothing, and words that repeat what is in effect.
 //!
 //! # Why
-//! A post processor that writes every point of a straight line, every coordinate and every G1 makes files that are longer than what they say.
-//! Each block costs the control time, and hides what changes from whoever reads the program.
+//! A post processor that writes every point of a straight line, every coordinate and every G1 makes files longer than they need to be.
+//! Each block costs the control time, and hides from the reader what changes.
 //!
 //! # How
 //! In a chain of lines with one feed and nothing between them, points on the straight line between two others are left out: the fewest lines
 //! are found. Without `--tolerance-mm` only points that are on the line exactly (to a billionth of their coordinates). Then words of X, Y and Z that
-//! repeat the position, and G1 and F that are in effect, are deleted, and blocks of which nothing is left.
+//! repeat the position are deleted, then G1 and F that are already in effect, then blocks of which nothing is left.
 //!
 //! # Example
 //! ```gcode before fanuc-30i mill-3axis
@@ -35,7 +35,7 @@
 //! a mm without one.
 //!
 //! # Traps
-//! - A program that is started in the middle relies on repeated words: after this rewrite begin at a block that names all that it needs.
+//! - A program that is started in the middle relies on repeated words: after this rewrite begin at a block that contains all that it needs.
 //! - Blocks with a comment and blocks with other words stay; only X, Y and Z are deleted there where they repeat the position.
 //! - Left alone, with the reason: G91, G93, exact stop, G41 and G42, moving rotary axes, frames.
 //!

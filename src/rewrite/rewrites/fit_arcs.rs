@@ -1,15 +1,15 @@
 //! Puts short lines together into arcs, helices and longer lines: the fewest blocks within a tolerance.
 //!
 //! # Why
-//! A curve as a thousand short lines makes a long file, a control that runs out of blocks, and facets on the part. G2 and G3 say the same in a
+//! A curve made of a thousand short lines makes a long file, lets the control run out of blocks, and leaves facets on the part. G2 and G3 say the same in a
 //! few blocks, and the control keeps its feed.
 //!
 //! # How
 //! A chain of lines with one feed and nothing between them is divided into the fewest arcs and lines: the shortest path over its points.
 //! A part may become an arc if a circle through its two ends comes near all its points (`--source points`), and also near the lines
-//! between them (`--source chords`, the default). All centres that serve are found, and then one whose numbers, rounded to the digits of the
-//! program, still serve. A part that cannot be written so is divided again. Where that saves blocks, arcs meet beside the points of the program,
-//! within the tolerance. Lines that come back to where they began become one whole circle.
+//! between them (`--source chords`, the default). All suitable centres are found, and then one that is still suitable when its numbers are rounded to the digits of the
+//! program. A part that cannot be written in this form is divided again. Where that saves blocks, arcs meet beside the points of the program,
+//! within the tolerance. Lines that come back to where they began become one full circle.
 //!
 //! # Example
 //! ```gcode before fanuc-30i mill-3axis
@@ -40,9 +40,9 @@
 //!
 //! # Traps
 //! - A control slows down in arcs where it does not on lines; the programmed feed stays as it is.
-//! - Arcs are at most 350 degrees and 10 m in radius, or whole circles.
+//! - Arcs are at most 350 degrees and 10 m in radius, or full circles.
 //! - A block with a comment begins a new piece, so comments stay. Words other than a number, G1, X, Y, Z and F end a chain.
-//! - On a Sinumerik arcs are only written in the active plane, because another plane turns the tool's length.
+//! - On a Sinumerik arcs are only written in the active plane, because another plane changes the axis along which the tool length acts.
 //! - Left alone, with the reason: G41 and G42, G91, G93, exact stop, tool centre point control, moving rotary axes, frames, G90.1.
 //! - With `--source points` no arc passes a corner of more than 30 degrees.
 //!

@@ -1,13 +1,13 @@
 //! Puts points into lines on which rotary axes turn, so that the tip stays near the programmed segment.
 //!
 //! # Why
-//! Without tool centre point control the axes run linearly from one end of a block to the other, and the tip runs on a bow between them.
-//! Points on the programmed segment cut the bow in pieces: the deviation falls with the square of their number.
+//! Without tool centre point control the axes run linearly from one end of a block to the other, and the tip runs on a curve between them.
+//! Points on the programmed segment cut the curve into pieces: the deviation falls with the square of their number.
 //!
 //! # How
-//! From the start of the line, the farthest point is searched up to which the proven bound of the deviation stays within the tolerance; from there
-//! the next one, and so on. So there are no more points than needed. Then the points are moved together until all
-//! pieces deviate alike. Each point is where the rotary axes come past on the line as written, and X Y Z are solved so that the tip is on the segment. The first piece keeps the words of the block; the others are new lines with
+//! From the start of the line, the rewrite searches for the farthest point up to which the proven bound of the deviation stays within the tolerance; from there
+//! for the next one, and so on. So there are no more points than needed. Then the points are moved together until all
+//! pieces deviate equally. At each point the rotary axes are at positions that they also pass on the original line, and X Y Z are solved so that the tip is on the segment. The first piece keeps the words of the block; the others are new lines with
 //! axis words only.
 //!
 //! # Example
@@ -36,8 +36,8 @@
 //! ```
 //!
 //! # Claim
-//! The programs do the same, but lines are made in pieces. Each piece keeps the tip within the tolerance of the segment that the original line
-//! programs, and its rotary axes are where that line brings them.
+//! The programs do the same, except that lines are divided into pieces. Each piece keeps the tip within the tolerance of the segment that the original line
+//! programs, and its rotary axes are where that line takes them.
 //!
 //! # Traps
 //! - The tolerance is the one of `path-deviation` (`tip` of `[tolerances]`), unless `--tolerance-mm` is given.

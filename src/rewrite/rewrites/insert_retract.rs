@@ -1,14 +1,14 @@
-//! Takes the tool away from the part where the machine must turn over in a cut, turns there, and brings it back.
+//! Retracts the tool where the machine must change its posture in a cut, changes it there, and brings the tool back.
 //!
 //! # Why
 //! Where an axis reaches its limit, the machine takes the other posture: the table turns by half a turn while the tool should hardly move.
 //! In the cut that leaves a mark or a gouge. `switch-angles` finds another choice of postures for the whole program; where there is none,
-//! the machine must turn over, but not at the part.
+//! the machine must change its posture, but not at the part.
 //!
 //! # How
-//! Before the cut that would turn over, the tool leaves the part along its own axis, up to the first of a series of heights at which
+//! Before the cut that would change the posture, the tool leaves the part along its own axis, up to the first of a series of heights at which
 //! it clears all declared obstacles while the axes turn. There the axes take the posture in which the cut ends. Under tool centre point control the tool comes down above
-//! the cut before and joins it on a ramp, so that it does not stand still on the surface; else it comes straight down, at the feed of the cut.
+//! the previous cut and joins it on a ramp, so that it does not stand still on the surface; otherwise it comes straight down, at the feed of the cut.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710+part
@@ -40,12 +40,12 @@
 //!
 //! # Claim
 //! The programs do the same, but between two cuts the tool leaves the part along its axis, clears all declared obstacles by the clearance, and comes back
-//! along its axis, or on a ramp above the cut before. The cut after it ends where it did, changes no posture and turns no axis farther.
+//! along its axis, or on a ramp above the previous cut. The cut after it ends where it did, changes no posture and turns no axis farther.
 //!
 //! # Traps
 //! - The part must be declared (`[[obstacle]]` with `part = true`), and its clamps as other obstacles: nothing else is known of the space in which the machine turns.
 //! - Shape and diameter of the tool must be declared: a tool that is wider than its shank must not be pulled out along its axis.
-//! - Where the axes of a rapid may arrive at different times, it is often unknown what the tool passes. Then it turns at the feed of the cut, and `pole-flip`
+//! - Where the axes of a rapid may arrive at different times, it is often unknown what the tool passes. Then the machine turns at the feed of the cut, and `pole-flip`
 //!   and `branch-swap` report that turn as they would in the cut.
 //! - Where the tool leaves the part it stands still for a moment and may leave a mark.
 //! - Tool vectors, incremental coordinates, tilted planes and inverse time are left alone.
@@ -215,7 +215,7 @@ fn summary(heights: &[f64]) -> String {
         count => format!("{count} cuts"),
     };
     let highest = heights.iter().copied().fold(0.0, f64::max);
-    format!("before {cuts} the machine turns over in the air, up to {highest:.1} mm above the part")
+    format!("before {cuts} the machine changes its posture in the air, up to {highest:.1} mm above the part")
 }
 
 /// The lines of an excursion, before the line of the cut.

@@ -33,10 +33,10 @@
 //!
 //! # Traps
 //! - Another program that jumps to a number of this one is not known here.
-//! - A computed target, or a number that is there twice and is named, is refused.
+//! - A computed target, or a number that occurs twice and is the target of a jump, is refused.
 //!
 //! # Sources
-//! docs/decisions/0057-arcs-through-points.md; the layout floor.
+//! src/layout/renumber.rs, which `trunnion fmt --renumber` uses too.
 use super::Body;
 use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;

@@ -1,14 +1,14 @@
-//! Leads rapid motions past the declared obstacles on the shortest or quickest way.
+//! Leads rapid motions past the declared obstacles on the shortest or quickest path.
 //!
 //! # Why
-//! A rapid through a clamp breaks the tool; a long detour around one costs time in every part. Where obstacles are declared, the shortest way past them
+//! A rapid through a clamp breaks the tool; a long detour around one costs time in every part. Where obstacles are declared, the shortest path past them
 //! is known exactly.
 //!
 //! # How
 //! Each obstacle is a prism or cylinder (`[[obstacle]]`). In a plane it becomes a control barrier: its sides moved outward by the radius of the tool, or
-//! of its holder, plus the clearance, with mitred corners. Barriers that touch are one. The shortest way round them turns only at their
-//! corners; it is found exactly (visibility graph, A*). The tool may also pass above: at each height at which an obstacle ends, the way
-//! past the higher ones is compared. The measure is the length of the way, or with `--cost time` the time of the slowest axis.
+//! of its holder, plus the clearance, with mitred corners. Barriers that touch are one. The shortest path round them turns only at their
+//! corners; it is found exactly (visibility graph, A*). The tool may also pass above: at each height at which an obstacle ends, the path
+//! past the higher ones is compared. The measure is the length of the path, or with `--cost time` the time of the slowest axis.
 //! A straight retract along the tool at the beginning of a run of rapid motions, and a straight approach at its end, stay as they are.
 //! Points are written in the digits of the program, rounded away from the obstacles.
 //!
@@ -45,8 +45,8 @@
 //!   lower along the tool than before.
 //! - The diameter of the tool must be declared, and the work offset and tool length that the program uses.
 //! - Blocks with other words than G0, X, Y and Z stay as they are; so do motions in which a rotary axis turns, G91, G53 and tilted planes.
-//! - New blocks get no block number.
-//! - The column above the tool up to the spindle counts, a tool below an overhanging obstacle is not allowed.
+//! - New blocks have no block number.
+//! - The column above the tool up to the spindle counts too: the tool may not pass below an overhanging obstacle.
 //!
 //! # Sources
 //! Minimum-route paper (control barrier); docs/kinematics.md#obstacles; Hart, Nilsson, Raphael, A formal basis for the
@@ -76,12 +76,12 @@ const SAME_MM: f64 = 1e-6;
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err(Refusal::missing(
-            "no machine is named, and obstacles stand in a machine (--machine)",
+            "no machine is named, and obstacles belong to a machine (--machine)",
         ));
     };
     if machine.obstacles.only_parts() {
         return Err(Refusal::missing(
-            "no obstacle is declared, so nothing says what a shorter way would pass: [[obstacle]] in trunnion.toml",
+            "no obstacle is declared, so it is unknown what a shorter path would pass: [[obstacle]] in trunnion.toml",
         ));
     }
     let keep = machine.tolerances.clearance_mm();

@@ -1,7 +1,7 @@
 //! Writes the program for another control or another machine, and proves that the tool does the same there.
 //!
 //! # Why
-//! A part moves to another machine: other axes, another place of the rotary axes, another control. Posting it anew needs the CAM system; editing
+//! A part moves to another machine: other axes, rotary axes in other places, another control. Posting it again needs the CAM system; editing
 //! it by hand goes wrong where postures, work planes and cycles differ.
 //!
 //! # How
@@ -36,8 +36,8 @@
 //! # Traps
 //! - Without a target nothing is written.
 //! - What has no counterpart on the target is refused by name, or listed as left out.
-//! - The whole program is written anew: comments get lines of their own, numbers have the decimals of the target.
-//! - `--write` is refused, because a program for another control belongs into its own file: use `-o FILE`.
+//! - The whole program is rewritten: comments get lines of their own, numbers have the decimals of the target.
+//! - `--write` is refused, because a program for another control belongs in its own file: use `-o FILE`.
 //!
 //! # Sources
 //! docs/decisions/0180-retarget-is-the-last-rewrite.md; docs/certificates.md.

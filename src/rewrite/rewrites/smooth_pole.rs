@@ -48,7 +48,7 @@
 //!
 //! # Claim
 //! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes, but for the comment
+//! `--tolerance-mm`. No cut swaps the posture where it did not before. No feed, no spindle word and no other byte changes, except for the comment
 //! `trunnion: turned`. The
 //! certificate states a measured value and a proven bound of how far apart the paths are between block ends.
 //!

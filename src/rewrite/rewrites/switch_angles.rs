@@ -10,7 +10,7 @@
 //! Each position of the rotary axes has a state for every posture and winding inside the travel of all axes. A motion costs the rotary
 //! travel (`--cost travel`: the root of the sum of squares), the time of the slowest rotary axis (`--cost time`) or the deviation of the
 //! tip from its line (`--cost deviation`). The cheapest path through the states is found exactly. The first position is free.
-//! A cut may change the posture only where the pole lies inside the block (the tool axis passes it inside the pole cone, or the rotary
+//! A cut may change the posture only where the pole is inside the block (the tool axis passes it inside the pole cone, or the rotary
 //! travel exceeds that of the same posture by no more than `swap_excess`), and never turns an axis by more than half a turn, unless the
 //! program did so before.
 //!
@@ -41,10 +41,10 @@
 //! # Traps
 //! - Without tool centre point control X Y Z change with the posture. Tool length and work offset must be declared.
 //! - Under feed per minute a motion without tool centre point control takes another time when its axes travel another distance.
-//! - Between the ends of a block the tool takes another path: the certificate says how far the paths lie apart, and the checker
+//! - Between the ends of a block the tool takes another path: the certificate says how far apart the paths are, and the checker
 //!   judges the result like any program.
 //! - At the pole the first rotary axis is free: it takes one of the values of the neighbouring positions, not any value in between.
-//! - Of an axis with more than 31 turns of travel the turns nearest to the program are looked at.
+//! - Of an axis with more than 31 turns of travel only the turns nearest to the program are considered.
 //! - Tool vectors, G91, tilted planes and cycles that turn an axis are kept as they are written, or the rewrite is refused.
 //!
 //! # Sources

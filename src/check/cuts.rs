@@ -21,6 +21,8 @@ pub(crate) enum Still {
     SpeedUnsaid,
     /// Nothing in the program starts a spindle.
     NeverStarted,
+    /// The program starts one, after these feed motions.
+    StartedLater,
 }
 
 /// Whether a spindle turned at any time of the run.
@@ -163,7 +165,7 @@ impl Cuts {
         cuts.count = cuts.count.saturating_add(1);
     }
 
-    /// All stretches in the order of their blocks. Only of a main program it is said that nothing starts the spindle, or gives S: the
+    /// All stretches, those before the first code of the spindle first. Only of a main program it is said that nothing starts the spindle, or gives S: the
     /// caller of a subprogram may have done so, as may what comes before a part of a program.
     /// A subprogram that probes and starts no spindle moves a probe, or a tool that it measures.
     fn finish(&self, program: &Program, part: Part, started: Started) -> Vec<StillCuts> {
@@ -188,9 +190,17 @@ impl Cuts {
             let before = self
                 .quiet
                 .iter()
-                .filter(|_| started == Started::Perhaps && part == Part::Main);
+                .filter(|_| started != Started::No && part == Part::Main);
             let found = self.found.values().filter(told).map(may_turn);
-            return before.copied().chain(found.filter(|cuts| !measures(cuts))).collect();
+            let before = before.map(|cuts| StillCuts {
+                why: if started == Started::Yes {
+                    Still::StartedLater
+                } else {
+                    cuts.why
+                },
+                ..*cuts
+            });
+            return before.chain(found.filter(|cuts| !measures(cuts))).collect();
         }
         let quiet = self.quiet.iter().filter(|_| part == Part::Main);
         let whole = quiet.chain(self.found.values()).copied().reduce(|mut whole, cuts| {

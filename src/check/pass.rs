@@ -18,7 +18,7 @@ use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use std::collections::BTreeSet;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, ModalState, Motion, Placed, ProgramRun, Sink};
+use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, LengthOf, ModalState, Motion, Placed, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program};
 
@@ -39,6 +39,7 @@ pub(crate) struct Pass<'a> {
     in_force: Option<InForce>,
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
+    last_length: Option<LengthOf>,
     last_approach: Option<u32>,
     looker: Option<Looker<'a>>,
     assume: Assume,
@@ -91,6 +92,7 @@ impl<'a> Pass<'a> {
             legs: waiting(legs),
             in_force: None,
             last_cut: None,
+            last_length: None,
             last_approach: None,
             looker: settings.judged_machine().map(Looker::new),
             assume: settings.assume,
@@ -342,11 +344,13 @@ impl Pass<'_> {
             motion,
             in_force,
             last_cut: self.last_cut,
+            last_length: self.last_length,
             last_approach: self.last_approach,
             dialect: self.dialect,
         };
         if motion.is_feed() {
             self.last_cut = motion.tool;
+            self.last_length = in_force.tool_length_mm.map(|_| in_force.length_of);
         }
         if motion.is_feed() || view.approaches() {
             self.last_approach = motion.tool;

@@ -146,10 +146,21 @@ impl<'a> Reporter<'a> {
                 slip.range,
                 format!("`{text}` contains the letter O; did you mean `{meant}`?"),
             )
+            .severity(Severity::Error)
             .help(format!("write {meant}, with the digit 0"))
             .replace_with(meant);
         }
         true
+    }
+
+    /// The same where names are words, too: the word has a digit or a point besides the letter O, before it or right after it.
+    pub(crate) fn is_slip_of_digits(&mut self, range: TextRange) -> bool {
+        let Some(slip) = letter_o(self.program, range.start) else {
+            return false;
+        };
+        let text = self.program.text(slip.range);
+        let is_name = text.bytes().nth(1).is_some_and(|byte| byte.is_ascii_alphabetic()) && !text.contains('.');
+        !is_name && self.is_slip(range)
     }
 
     /// Whether a place is in a word that has the letter O for a zero.

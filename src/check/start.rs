@@ -37,8 +37,8 @@ pub(crate) struct Start {
     feed: Option<BlockId>,
     /// The first arc.
     arc: Option<BlockId>,
-    /// Lengths are used before the program or the settings name their unit.
-    unit: bool,
+    /// The first motion with a length whose unit the program has not named, as far as that is known without its text.
+    unit: Option<BlockId>,
 }
 
 impl Start {
@@ -49,7 +49,7 @@ impl Start {
             motion: None,
             feed: None,
             arc: None,
-            unit: false,
+            unit: None,
         }
     }
 
@@ -63,7 +63,13 @@ impl Start {
         if matches!(motion.kind, MotionKind::Dwell(_)) {
             return;
         }
-        self.unit |= !view.in_force.unit_programmed && view.changes_a_length();
+        // where the settings name a unit, the text says whether the program does, too
+        if self.unit.is_none()
+            && (!view.in_force.unit_programmed || self.declared.units.is_some())
+            && view.changes_a_length()
+        {
+            self.unit = Some(motion.block);
+        }
         if !motion.machine_coordinates {
             self.motion = self.motion.or(Some(motion.block));
         }
@@ -85,7 +91,8 @@ impl Start {
         let mut rely = |group: &[Action], own: Action| {
             let code = dialect.codes().iter().find(|code| code.action == own);
             let Some(code) = code else { return };
-            let declared = declared_at_power_on(dialect, &self.declared, group);
+            let units = group == UNITS.as_slice() && self.declared.units.is_some();
+            let declared = units || declared_at_power_on(dialect, &self.declared, group);
             out[usize::from(declared)].push(code.id.clone());
         };
         let uses = Uses::of(program, dialect, self);
@@ -102,7 +109,7 @@ impl Start {
                 },
             );
         }
-        if self.unit {
+        if uses.unit {
             let inch = state.coordinates.unit_mm() != 1.0;
             rely(&UNITS, if inch { Action::Inch } else { Action::Metric });
         }
@@ -147,6 +154,7 @@ struct Uses {
     plane: bool,
     distance: bool,
     feed: bool,
+    unit: bool,
 }
 
 impl Uses {
@@ -157,6 +165,7 @@ impl Uses {
             plane: false,
             distance: start.motion.is_some(),
             feed: start.feed.is_some(),
+            unit: start.unit.is_some(),
         };
         let mut plane_open = true;
         for block in program.blocks() {
@@ -165,8 +174,9 @@ impl Uses {
                 !plane_open,
                 !(uses.distance || uses.motion) || after(start.motion, id),
                 !uses.feed || after(start.feed, id),
+                !uses.unit || after(start.unit, id) || start.declared.units.is_none(),
             ];
-            if settled == [true; 3] {
+            if settled == [true; 4] {
                 break;
             }
             let codes = actions(&block, dialect);
@@ -180,6 +190,7 @@ impl Uses {
             uses.motion &= settled[1] || !(has(&MOTIONS) || codes.iter().any(|code| moves_itself(*code)));
             uses.distance &= settled[1] || !has(&DISTANCES);
             uses.feed &= settled[2] || !has(&FEEDS);
+            uses.unit &= settled[3] || !has(&UNITS);
         }
         uses
     }

@@ -50,6 +50,8 @@ pub(crate) struct MotionView<'a> {
     pub(crate) in_force: &'a InForce,
     /// The tool of the last feed motion.
     pub(crate) last_cut: Option<u32>,
+    /// Which tool's length was compensated in the last feed motion, where one was.
+    pub(crate) last_length: Option<LengthOf>,
     /// The tool of the last rapid to another Z, or feed motion.
     pub(crate) last_approach: Option<u32>,
     /// The dialect of the program.

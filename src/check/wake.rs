@@ -3,9 +3,9 @@ use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, IdleTip, LongTurn,
-    LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass,
-    PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, IdleTip,
+    LengthLeft, LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing,
+    PoleCrossing, PolePass, PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -160,6 +160,8 @@ wakes! {
     motions {
         /// The first feed motion with a tool.
         FirstCut,
+        /// A feed motion without the length that the cut before had with the same tool.
+        LengthLeft,
         /// The first rapid to another Z with a tool, before its first feed motion.
         FirstApproach,
         /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.

@@ -146,11 +146,22 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         self.role_word(role, letter, word);
     }
 
+    /// Whether another word than a block number is before a place in its block: a program number is no such word.
+    fn is_within_a_block(&self, range: TextRange) -> bool {
+        let block = self.program.block(self.block);
+        let before = block.words().find(|word| word.address != Address::Letter(b'N'));
+        before.is_some_and(|word| word.range.start < range.start)
+    }
+
     pub(crate) fn role_word(&mut self, role: Role, letter: u8, word: &Word) {
         match role {
             Role::BlockNumber => return,
             Role::ProgramNumber => {
                 let is_slip = matches!(word.value, Value::Bad | Value::Missing);
+                if !is_slip && self.is_within_a_block(word.range) {
+                    self.words.forgets_all = true;
+                    return (self.report)(word.range, FaultKind::UnknownWord);
+                }
                 self.words.program_number = Some(word.range).filter(|_| !is_slip);
                 return;
             }

@@ -30,6 +30,10 @@ macro_rules! plain {
 plain! {
     /// The first feed motion after the tool of the feed motions changed.
     FirstCut = |view| view.motion.is_feed() && view.motion.tool != view.last_cut;
+    /// A feed motion with the tool of the one before, which had a length that is not in effect any more.
+    LengthLeft = |view| view.motion.is_feed()
+        && view.motion.tool == view.last_cut
+        && view.last_length.is_some_and(|last| view.in_force.tool_length_mm.is_none() || view.in_force.length_of != last);
     /// The first rapid to another Z with a tool, before its first feed motion.
     FirstApproach = |view| view.motion.tool != view.last_approach && view.approaches();
     /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.

@@ -3,7 +3,7 @@ use super::Pass;
 use crate::Report;
 use crate::trail::Trail;
 use crate::view::InForce;
-use trunnion_interp::{ChainId, Fault, FaultKind, Refusal};
+use trunnion_interp::{ChainId, Fault, FaultKind, LengthOf, Refusal};
 use trunnion_machine::{Follower, Memory};
 
 /// What a pass remembers of the blocks before.
@@ -12,6 +12,7 @@ pub(crate) struct PassMemory {
     follower: Option<Memory>,
     in_force: Option<InForce>,
     last_cut: Option<u32>,
+    last_length: Option<LengthOf>,
     posture: i8,
     trail: Trail,
     motions: u64,
@@ -31,6 +32,7 @@ impl<'a> Pass<'a> {
             follower: self.follower.as_ref().map(Follower::memory),
             in_force: self.in_force,
             last_cut: self.last_cut,
+            last_length: self.last_length,
             posture: self.posture,
             trail: self.trail,
             motions: self.summary.motions,
@@ -46,7 +48,7 @@ impl<'a> Pass<'a> {
             let machine: &'a trunnion_machine::Machine = follower.machine();
             *follower = Follower::resume(machine, kept);
         }
-        (self.in_force, self.last_cut) = (memory.in_force, memory.last_cut);
+        (self.in_force, self.last_cut, self.last_length) = (memory.in_force, memory.last_cut, memory.last_length);
         (self.posture, self.trail) = (memory.posture, memory.trail);
         self.summary.motions = memory.motions;
     }

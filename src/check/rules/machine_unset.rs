@@ -38,7 +38,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         TextRange::new(0, first),
         "no machine is named: axes, limits and speeds were not checked",
     );
-    draft.help("name the machine: --machine NAME or FILE, or `machine = \"NAME\"` in trunnion.toml");
+    draft.help("name the machine: --machine NAME or FILE, or `machine = \"NAME\"` in trunnion.toml; `trunnion machine list` lists the built-in ones");
     if scope.is_some() {
         draft.unknown();
     }

@@ -54,7 +54,14 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 Some(why) => format!("program `{name}`{caller} is not read: {why}"),
             },
         );
-        let folders: Vec<&str> = searched.iter().map(|place| place.folder.as_str()).collect();
+        let shown = |folder: &'_ str| {
+            if folder == "." {
+                "the current folder".to_owned()
+            } else {
+                folder.to_owned()
+            }
+        };
+        let folders: Vec<String> = searched.iter().map(|place| shown(place.folder.as_str())).collect();
         draft.note(if searched.is_empty() {
             "only the program itself was searched".to_owned()
         } else {

@@ -28,7 +28,8 @@
 //! # Guarantee
 //! Heuristic: a program without G43 is right where all lengths are included in the work offset, or where the
 //! builder's tool change switches the length on; an offset with a number other than that of the tool is right in shops that
-//! number them like that. Reported once for each tool. Only for controls that switch the length on by G43, and for tools
+//! number them like that. Reported once for each tool, and once more
+//! where a tool cuts without the length, or with another tool's, after it has cut with one. The first cut counts only for controls that switch the length on by G43, and for tools
 //! that the program changes to.
 //!
 //! # Sources
@@ -37,7 +38,14 @@
 use crate::prelude::*;
 use trunnion_interp::LengthOf;
 
-pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::FirstCut(check), Wake::FirstApproach(approach)]);
+pub(super) const RULE: Body = Body::heuristic(
+    Warning,
+    &[
+        Wake::FirstCut(check),
+        Wake::FirstApproach(approach),
+        Wake::LengthLeft(left),
+    ],
+);
 
 fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     let (motion, in_force) = (cut.motion, cut.in_force);
@@ -100,6 +108,32 @@ fn approach(rapid: &facts::FirstApproach<'_>, out: &mut Reporter<'_>) {
     }
 }
 
+/// A cut after which the same tool cuts with its length switched off, or with the length of another tool.
+fn left(cut: &facts::LengthLeft<'_>, out: &mut Reporter<'_>) {
+    const LEFT: u64 = 1 << 40;
+    let (motion, in_force) = (cut.motion, cut.in_force);
+    let Some(tool @ 1..) = motion.tool else { return };
+    if motion.tcp || motion.machine_coordinates || in_force.frame_unknown || cut.dialect.quirks.diameter {
+        return;
+    }
+    match (in_force.tool_length_mm, in_force.length_of) {
+        (None, _) if out.once(LEFT | u64::from(tool)) => out
+            .report_block(format!(
+                "T{tool} cuts without its length, which was compensated in the cut before: it was switched off between them"
+            ))
+            .help("switch the length on again before this cut, or retract in rapid"),
+        (Some(_), LengthOf::Tool(Some(number)))
+            if number != tool && cut.dialect.length_by_code() && out.once(LEFT | u64::from(tool)) =>
+        {
+            out.report_block(format!(
+                "T{tool} cuts with the length offset H{number}, which is that of another tool, and cut with another one before"
+            ))
+            .help(format!("write H{tool}, or allow the rule and give the reason"))
+        }
+        _ => return,
+    };
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::assert_drawn;
@@ -122,6 +156,30 @@ mod tests {
         assert_drawn(
             "gcode sinumerik-840d",
             "T1\nM6\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n",
+        );
+    }
+
+    /// Out of the cut a length may be switched off; in the next cut it is missing.
+    #[test]
+    fn a_length_that_is_switched_off_between_cuts_is_missing() {
+        let first = "T1 M6\nS100 M3\nG43 H1 G0 X0. Y0. Z5.\nG1 Z-1. F100.\n";
+        for (rest, dialect) in [
+            (
+                "G49\nG1 X5.\n;^^^^^ missing-tool-length: T1 cuts without its length, which was compensated in the cut before\nX6.\nM30\n",
+                "fanuc-30i",
+            ),
+            (
+                "G43 H2\nG1 X5.\n;^^^^^ missing-tool-length: T1 cuts with the length offset H2\nX6.\nM30\n",
+                "fanuc-30i",
+            ),
+            ("G49\nG0 Z50.\nM30\n", "fanuc-30i"),
+            ("G49\nG43 H1\nG1 X5.\nM30\n", "fanuc-30i"),
+        ] {
+            assert_drawn(&format!("gcode {dialect}"), &format!("{first}{rest}"));
+        }
+        assert_drawn(
+            "gcode sinumerik-840d",
+            "T1 M6\nD1 S100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nD0\nX5\n;^ missing-tool-length: T1 cuts without its length\nM30\n",
         );
     }
 

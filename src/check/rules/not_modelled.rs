@@ -46,6 +46,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         return;
     }
     if let FaultKind::NotModelled { what } = &fault.kind {
+        if out.is_slip_of_digits(fault.range) {
+            return;
+        }
         let (note, remedy) = radius_advice(&fault.kind, what);
         let (what, declare) = divided(what);
         let near = out.near_code(what);

@@ -72,7 +72,7 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
                 draft.help("program S above zero, for example S8000 M3")
             }
         }
-        Still::SpeedUnsaid | Still::NeverStarted => return,
+        Still::SpeedUnsaid | Still::NeverStarted | Still::StartedLater => return,
     }
     .spans(still.count, still.last);
 }
@@ -106,7 +106,12 @@ mod tests {
                 &settings,
             );
             let own = report.diagnostics.iter().filter(|d| d.rule == "spindle-off-cut");
-            assert_eq!(own.map(|d| (d.status, d.count)).collect::<Vec<_>>(), wanted, "{}", dialect.name);
+            assert_eq!(
+                own.map(|d| (d.status, d.count)).collect::<Vec<_>>(),
+                wanted,
+                "{}",
+                dialect.name
+            );
         }
     }
 

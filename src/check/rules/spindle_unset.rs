@@ -22,7 +22,8 @@
 //! # Guarantee
 //! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30) are judged: the
 //! caller of a subprogram may start the spindle. After a code of the machine builder, and after a program that was not found,
-//! the spindle may turn, and feed motions there are not reported. Feed motions in machine coordinates, and probing, are not judged.
+//! the spindle may turn, and feed motions there are not reported. Where the program starts a spindle later, the feed motions
+//! before that are one finding. Feed motions in machine coordinates, and probing, are not judged.
 //!
 //! # Sources
 //! * docs/contract.md#what-counts-as-a-cut
@@ -36,6 +37,10 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
         Still::NeverStarted => out
             .report_block("nothing in the program starts a spindle, and this feed motion needs one unless its tool does not turn")
             .help("write S and M3 before the first cut; for a pen, a laser or a drag knife, allow the rule and give that reason"),
+        Still::StartedLater => out
+            .report_block("no spindle is started before this feed motion; the program starts one later")
+            .note("the spindle stands still here, unless the operator or the previous program has started it")
+            .help("write S and M3 before the first cut; if the tool does not turn, allow the rule and give that reason"),
         Still::SpeedUnsaid if out.once(0) => out
             .report_block("the spindle was started without a speed: the program gives no S before this feed motion")
             .note("the control uses the S of the previous program, or none")
@@ -64,6 +69,13 @@ mod tests {
     }
 
     #[test]
+    fn cuts_before_the_first_start_are_reported() {
+        let text = "G21 G17 G90 G94\nG0 X0 S3000\nG1 X10 F100\n;^^^^^^^^^^ spindle-unset: no spindle is started before this feed motion\nX20\nM3 S100\nG1 X30\nM5\nM30\n";
+        let report = assert_drawn("gcode", text);
+        assert_eq!(report.diagnostics[0].count, 2);
+    }
+
+    #[test]
     fn what_may_start_the_spindle_is_believed() {
         for (dialect, text, wanted) in [
             ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM30\n", true),
@@ -75,7 +87,7 @@ mod tests {
             (
                 "fanuc-30i",
                 "O1\nG21 G0 X0.\nG1 X10. F100.\nM98 P777\nM3 S100\nM30\n",
-                false,
+                true,
             ),
             ("iso-6983", "G21 G0 X0\nG1 X10 F100\n", false),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nG1 X10 F100\nM2\n", true),
@@ -83,7 +95,8 @@ mod tests {
             ("sinumerik-840d", "G71 G0 X0\nG1 X10 F100\nM30\n", true),
             ("sinumerik-840d", "G71 G0 X0\nS2=500 M2=3\nG1 X10 F100\nM30\n", false),
             ("sinumerik-840d", "PROC SLOT\nG71 G0 X0\nG1 X10 F100\nRET\n", false),
-            ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM3 S100\nM30\n", false),
+            ("fanuc-30i", "O1\nG21 G0 X0.\nG1 X10. F100.\nM3 S100\nM30\n", true),
+            ("fanuc-30i", "O1\nG21 G0 X0.\nM13\nG1 X10. F100.\nM3 S100\nM30\n", false),
             ("fanuc-30i", "O1\nG21 M3\nG1 X10. F100.\nM30\n", true),
             ("fanuc-30i", "O1\nG21 M3\nG1 X10. F100.\nM99\n", false),
         ] {

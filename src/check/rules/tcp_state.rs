@@ -39,17 +39,6 @@ use trunnion_interp::TcpMistake;
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check), Wake::IdleTip(idle)]);
 
-/// Nothing turns that the control could compensate for.
-fn idle(view: &facts::IdleTip<'_>, out: &mut Reporter<'_>) {
-    out.finding(view, Merge::once(0), |draft| {
-        draft
-            .severity(Error)
-            .say(format!("tool centre point control is on, but {} has no rotary axis", view.machine.id))
-            .note("a control without this option stops with an alarm")
-            .help("name the machine that the program was written for, or remove the code of tool centre point control");
-    });
-}
-
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::TcpState(mistake) = &fault.kind else {
         return;
@@ -85,6 +74,19 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         .note(note)
         .help(help)
         .merge(Merge::run(*mistake as u64, 0.0));
+}
+
+/// Nothing turns that the control could compensate for.
+fn idle(view: &facts::IdleTip<'_>, out: &mut Reporter<'_>) {
+    out.finding_as(Error, view, Merge::once(0), |draft| {
+        draft
+            .say(format!(
+                "tool centre point control is on, but {} has no rotary axis",
+                view.machine.id
+            ))
+            .note("a control without this option stops with an alarm")
+            .help("name the machine that the program was written for, or remove the code of tool centre point control");
+    });
 }
 
 #[cfg(test)]
@@ -129,10 +131,18 @@ mod tests {
     #[test]
     fn a_machine_without_a_rotary_axis_leads_no_tip() {
         for (dialect, text) in [
-            ("fanuc-30i", "T1 M6\nG43.4 H1\nG0 X0. Y0. Z50.\nG1 X10. F500.\nX20.\nM30\n"),
-            ("sinumerik-840d", "T1 M6\nD1\nTRAORI\nG0 X0 Y0 Z50\nG1 X10 F500\nX20\nM30\n"),
+            (
+                "fanuc-30i",
+                "T1 M6\nG43.4 H1\nG0 X0. Y0. Z50.\nG1 X10. F500.\nX20.\nM30\n",
+            ),
+            (
+                "sinumerik-840d",
+                "T1 M6\nD1\nTRAORI\nG0 X0 Y0 Z50\nG1 X10 F500\nX20\nM30\n",
+            ),
         ] {
-            let report = Fixture::parse(&format!("gcode {dialect} mill-3axis"), text).check().unwrap();
+            let report = Fixture::parse(&format!("gcode {dialect} mill-3axis"), text)
+                .check()
+                .unwrap();
             let told: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "tcp-state").collect();
             assert_eq!(told.len(), 1, "{dialect}");
             assert!(told[0].message.contains("mill-3axis has no rotary axis"));

@@ -28,14 +28,25 @@
 //! * NISTIR 6556 (2000), section 3.5.7 on length units.
 //! * FANUC Series 30i B-64484EN: G20 and G21, which keep the unit of the last session after power-off.
 use crate::prelude::*;
+use trunnion_dialect::Action;
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::UnsaidUnits(check)]);
 
 fn check(_: &facts::UnsaidUnits<'_>, out: &mut Reporter<'_>) {
     if out.once(0) {
+        let codes = |own: Action| {
+            let mut codes = out.dialect().codes().iter();
+            codes.find(|code| code.action == own).map(|code| code.id.clone())
+        };
+        let write = match (codes(Action::Metric), codes(Action::Inch)) {
+            (Some(metric), Some(inch)) => format!("write {metric} or {inch}"),
+            _ => "write UNITS/MM or UNITS/INCHES".to_owned(),
+        };
         out.report_block("it is not declared whether lengths are in inches or millimetres: they are taken as mm")
             .note("the control uses the unit that it was left in, or that its parameters set")
-            .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine file");
+            .help(format!(
+                "{write}, or declare `[control] units = \"mm\"` in trunnion.toml or in the machine file"
+            ));
     }
 }
 

@@ -80,6 +80,32 @@ fn the_machine_declares_what_is_in_effect() {
     );
 }
 
+/// A unit of the settings is listed where the program names none, or names it too late; rotary words have none.
+#[test]
+fn a_declared_unit_is_listed_where_the_program_names_none() {
+    let dialect = trunnion_dialect::builtin("fanuc-30i").expect("built in");
+    let listed = |text: &str| {
+        let control = ControlData {
+            units: Some(trunnion_interp::LengthUnit::Millimetre),
+            ..ControlData::default()
+        };
+        let setup = Setup {
+            control,
+            ..Setup::default()
+        };
+        let settings = Settings::new(dialect, None, setup);
+        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+        check(&program, &settings).assumptions.join("; ")
+    };
+    assert_eq!(listed("G17 G90 G94\nG0 X1. Y1.\nM30\n"), "G21 at power-on (declared)");
+    assert_eq!(
+        listed("G17 G90 G94\nG0 X1. Y1.\nG21\nX2.\nM30\n"),
+        "G21 at power-on (declared)"
+    );
+    assert_eq!(listed("G17 G90 G94\nG21 G0 X1. Y1.\nM30\n"), "");
+    assert_eq!(listed("G17 G90 G94\nG0 B45.\nM30\n"), "");
+}
+
 /// A motion before any motion code is unknown on a Fanuc, whose parameter decides; declared or assumed it is a rapid.
 #[test]
 fn the_first_motion_code_is_declared_or_assumed() {

@@ -1,8 +1,8 @@
 //! What drilling cycles need before they go down: levels in order, and for taps a spindle.
-use crate::{Orientation, Refusal};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::{Orientation, Refusal};
 use trunnion_dialect::Action;
 
 impl Iso<'_> {

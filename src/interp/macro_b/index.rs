@@ -41,8 +41,17 @@ pub(crate) fn index(program: &Program) -> Index {
 impl Builder {
     fn block(&mut self, program: &Program, block: &Block<'_>, open: &mut Vec<Open>) {
         let BlockId(at) = block.id();
+        // O begins a program at the beginning of a block alone: within it O is a slip for 0
+        let mut first = true;
         for item in block.items() {
+            let is_first = first;
+            first &= match item {
+                Item::Word(word) => word.address == Address::Letter(b'N'),
+                Item::Comment(_) | Item::Skip(..) | Item::Percent(_) => true,
+                _ => false,
+            };
             match item {
+                Item::Word(word) if word.address == Address::Letter(b'O') && !is_first => {}
                 Item::Word(word) => match (word.address, word.value) {
                     (Address::Letter(b'N'), Value::Number(number)) => {
                         if let Some(number) = whole(number) {

@@ -28,7 +28,20 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     pub(crate) fn own_assignment(&mut self, name: TextRange, word: &Word) {
         self.words.has_values = true;
         let name = self.text(name);
+        self.undefined_name(&name, word);
         self.own_value(&name, word);
+    }
+
+    /// A name that no DEF of the program defines: the machine may have such data (GUD), or the control stops at a misspelt name.
+    fn undefined_name(&mut self, name: &str, word: &Word) {
+        let Some(own) = self.own.as_ref().filter(|own| !own.is_task) else {
+            return;
+        };
+        let stem = name.split('[').next().unwrap_or_default().trim();
+        if stem.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_') && !own.is_declared(stem) {
+            let what = format!("{stem}: no DEF of the program defines it; the machine may (GUD)");
+            (self.report)(word.range, FaultKind::NotModelled { what });
+        }
     }
 
     /// `H2=6`, `Q=6` where the program declares a variable with that name (DEF REAL H2): it is no address then. False: it is one.

@@ -57,6 +57,8 @@ pub struct Config {
     pub fix: FixSettings,
     /// Axis letters in `[work_offsets]` with their bytes in the file.
     pub offset_axes: Vec<(u8, core::ops::Range<usize>)>,
+    /// The bytes of the name of each entry in `[work_offsets]`, the name, and the axis letters that it gives.
+    pub offsets: Vec<(core::ops::Range<usize>, String, Vec<u8>)>,
     /// `[[obstacle]]`: added to those of the machine, each with bytes in the file where an axis that the machine lacks is reported.
     pub obstacles: Vec<(Obstacle, core::ops::Range<usize>)>,
 }
@@ -153,6 +155,32 @@ impl Config {
                 span: Some(span.clone()),
             }),
         }
+    }
+
+    /// Whether each work offset of the file gives all of X, Y and Z that the machine has: an axis that is left out would be taken as zero.
+    ///
+    /// # Errors
+    /// The first offset that lacks one, with its place.
+    pub fn check_offsets(&self, machine: &Machine) -> Result<(), ConfigError> {
+        for (span, name, given) in &self.offsets {
+            let has = |letter: &u8| machine.axes.iter().any(|axis| axis.letter == *letter);
+            let lacks: Vec<char> = [b'X', b'Y', b'Z']
+                .into_iter()
+                .filter(|letter| has(letter) && !given.contains(letter))
+                .map(char::from)
+                .collect();
+            if let Some(first) = lacks.first() {
+                let letters = lacks.iter().map(char::to_string).collect::<Vec<_>>().join(" and ");
+                return Err(ConfigError {
+                    message: format!(
+                        "{name} lacks {letters}: {} has this axis, and a zero that is not declared is unknown; write for example `{first} = 0.0`",
+                        machine.id
+                    ),
+                    span: Some(span.clone()),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// The machine with this file's tolerances in place of its own, and its obstacles in addition to its own.

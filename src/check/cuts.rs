@@ -13,8 +13,8 @@ use trunnion_syntax::{Address, BlockId, Program, Value, Word};
 pub(crate) enum Still {
     /// The program switched the spindle off.
     Off,
-    /// It turned before a tool change of the machine builder, and was not started after it.
-    ToolChange,
+    /// It turned before a tool change, a program stop or a tap that may have stopped it, and was not started after it.
+    Left,
     /// It is on, with S0.
     NoSpeed,
     /// It is on, and the program has given no S.
@@ -109,8 +109,8 @@ impl Cuts {
                 return;
             }
             Some(false) => Still::Off,
-            None if in_force.spindle_left => Still::ToolChange,
-            None if in_force.spindle_unread => {
+            None if in_force.spindle_left => Still::Left,
+            None if in_force.spindle_unread || in_force.spindle_started => {
                 self.open = None;
                 return;
             }

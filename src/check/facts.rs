@@ -11,7 +11,9 @@ mod travel;
 
 pub(crate) use axes::{CableAxis, ClampedTurn, IdleTip, LongTurn, OverTravel};
 pub(crate) use cut::{Cut, HeldBackCut, OtherLength, StrayingCut, UncertainCut, VectorCut};
-pub(crate) use motion::{CutSpindleUnlimited, FirstApproach, FirstCut, LengthLeft, UnsaidUnits};
+pub(crate) use motion::{
+    CutSpindleUnlimited, FirstApproach, FirstCut, LengthLeft, LengthOffZ, SteepHelix, UnsaidUnits,
+};
 pub(crate) use place::{Arrival, LostArc, LostEnd, Passing};
 pub(crate) use pole::{NearPole, PoleCrossing, PolePass, first_pass};
 pub(crate) use posture::{OneSidedCut, OpenPosture, PostureSwap};

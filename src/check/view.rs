@@ -4,7 +4,7 @@ use crate::datum::OffsetName;
 use crate::trail::Trail;
 use core::cell::OnceCell;
 use core::f64::consts::TAU;
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Plane};
 use trunnion_geometry::{deg, math};
 use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, MotionKind, Tilt, Tool};
 use trunnion_machine::{
@@ -69,6 +69,8 @@ pub(crate) struct InForce {
     pub(crate) tool: Option<Tool>,
     /// Coordinates are in a frame that is not modelled.
     pub(crate) frame_unknown: bool,
+    /// The working plane.
+    pub(crate) plane: Plane,
     /// S is a cutting speed (G96).
     pub(crate) surface_speed: bool,
     /// Limit of the spindle's speed, 1/min.
@@ -79,8 +81,10 @@ pub(crate) struct InForce {
     pub(crate) speed_programmed: bool,
     /// Something that is not modelled may have switched the spindle or given S.
     pub(crate) spindle_unread: bool,
-    /// The spindle turned before a tool change that may have stopped it.
+    /// The spindle turned before a tool change, a stop or a tap that may have stopped it.
     pub(crate) spindle_left: bool,
+    /// The program has started a spindle before.
+    pub(crate) spindle_started: bool,
     /// Clamps of rotary axes.
     pub(crate) clamps: Clamps,
     /// Work offset.
@@ -98,12 +102,14 @@ impl InForce {
             own_length_mm: state.tool.own_length_mm(),
             tool: state.tool.data(),
             frame_unknown: state.zero.is_lost(),
+            plane: state.coordinates.plane(),
             surface_speed: state.spindle.surface_speed(),
             spindle_limit_rpm: state.spindle.limit_rpm(),
             unit_programmed: state.coordinates.unit_programmed(),
             speed_programmed: state.spindle.speed_programmed(),
             spindle_unread: state.spindle.is_unread(),
-            spindle_left: state.spindle.is_left_by_tool_change(),
+            spindle_started: state.spindle.was_started(),
+            spindle_left: state.spindle.is_left_to_machine(),
             clamps: state.clamps,
             offset: state.zero.offset().map(OffsetName::new).unwrap_or_default(),
             length_of: state.length.of(),

@@ -4,8 +4,9 @@ use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
     Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, IdleTip,
-    LengthLeft, LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing,
-    PoleCrossing, PolePass, PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    LengthLeft, LengthOffZ, LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel,
+    Passing, PoleCrossing, PolePass, PostureSwap, SteepHelix, StrayingCut, UncertainCut, UnsaidUnits, VectorCut,
+    WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -164,6 +165,10 @@ wakes! {
         LengthLeft,
         /// The first rapid to another Z with a tool, before its first feed motion.
         FirstApproach,
+        /// A helix whose F may be that of its arc alone.
+        SteepHelix,
+        /// A motion in G18 or G19 with a length, where the plane says along which axis the length acts.
+        LengthOffZ,
         /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
         CutSpindleUnlimited,
         /// A length of which nothing says whether it is inch or mm.

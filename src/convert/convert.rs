@@ -2,17 +2,18 @@
 use crate::emit::{parts, parts_without};
 use crate::emit_code::Written;
 use crate::events::{job, refusal};
+use crate::job::Job;
 use crate::plan::{Out, Planner};
 use crate::setting::Setting;
 use crate::travel::{Beyond, Travel, travel, zeros_declared};
-use crate::{Options, Refused, Target};
+use crate::{Options, Post, Refused, Target};
 use std::cell::OnceCell;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
     Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on, read,
 };
 use trunnion_dialect::Dialect;
-use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks};
+use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks, LengthOf};
 use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
 use trunnion_syntax::{Format, LineIndex, Program};
 
@@ -34,6 +35,8 @@ pub struct Converted {
     pub left_out: Vec<(String, u32)>,
     /// A zero point that the target cannot name (a preset, G15 H1), and the work offset that stands for it.
     pub renamed_offset: Option<(String, String)>,
+    /// Tools whose length the original compensates, where the target compensates none: the operator sets the zero of Z with each.
+    pub set_by_hand: Vec<u32>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
     /// Axes that leave their travel, each limit once, computed from an undeclared zero point. Where it is declared, such a program is
@@ -124,6 +127,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .iter()
             .map(|(what, block)| (what.clone(), line(*block)))
             .collect(),
+        set_by_hand: set_by_hand(&reading, &job, setting.post),
         renamed_offset: job.renamed_offset,
         swaps: swaps
             .iter()
@@ -134,6 +138,19 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         clamps: setting.clamps_left(),
         told,
     })
+}
+
+/// See [`Converted::set_by_hand`].
+fn set_by_hand(reading: &Reading, job: &Job, post: Option<&Post>) -> Vec<u32> {
+    let compensates = reading.motions.iter().any(|posed| posed.length_of != LengthOf::Nothing);
+    if !compensates || post.is_none_or(|post| post.template("length-on") != Some("")) {
+        return Vec::new();
+    }
+    job.tools
+        .iter()
+        .map(|(number, _)| *number)
+        .filter(|&number| number > 0)
+        .collect()
 }
 
 /// Refuses a conversion in which the control takes another posture inside a cut, unless the user allows it.

@@ -39,6 +39,8 @@ pub(crate) struct Writer<'a> {
     pub(crate) tool: Option<u32>,
     /// Coolant other than through the spindle is on.
     pub(crate) coolant_outside: bool,
+    /// A plane other than G17 is in effect, for an arc.
+    pub(crate) off_plane: bool,
     pub(crate) zero: [f64; 9],
     /// Klartext is written.
     pub(crate) klartext: bool,
@@ -79,6 +81,7 @@ impl<'a> Writer<'a> {
             length_set: false,
             tool: None,
             coolant_outside: false,
+            off_plane: false,
             zero: [0.0; 9],
             klartext: setting.klartext(),
         }
@@ -289,6 +292,9 @@ impl<'a> Writer<'a> {
             }
             Event::Tool(tool) => {
                 self.not_ready()?;
+                if let Some(plane) = self.usual_plane() {
+                    self.line(&plane);
+                }
                 self.template("tool-change", block, |name| (name == "tool").then(|| tool.to_string()))?;
                 self.tool = Some(*tool);
                 self.modal_reset();

@@ -66,6 +66,15 @@ impl Writer<'_> {
         Ok(())
     }
 
+    /// G17, where an arc has left another plane in effect: a tool's length and cycles follow the plane on some controls.
+    pub(crate) fn usual_plane(&mut self) -> Option<String> {
+        let usual = PLANES[2].0.to_owned();
+        std::mem::take(&mut self.off_plane).then(|| {
+            self.modal.set("plane", usual.clone());
+            usual
+        })
+    }
+
     pub(crate) fn one(&mut self, one: &Move, block: BlockId) -> Result<(), Refused> {
         if self.klartext {
             return self.sentence(one, block);
@@ -79,6 +88,9 @@ impl Writer<'_> {
         let axis = arc.map(|arc| (0..3).find(|axis| arc.normal[*axis].abs() > 0.5).unwrap_or(2));
         if let Some(axis) = axis {
             words.extend(self.modal.change("plane", PLANES[axis].0.to_owned()));
+            self.off_plane = axis != 2;
+        } else {
+            words.extend(self.usual_plane());
         }
         let code = match (one.shape, arc.zip(axis)) {
             (Shape::Rapid, _) => "G0",

@@ -187,7 +187,12 @@ impl EventCollector<'_> {
             self.job.push(Event::Motion(index), block);
         }
         self.spindle(ran.spindle_on, ran.spindle_rpm, turns, block)?;
+        let stops = after.iter().any(|event| matches!(event, Event::Stop(_)));
         self.say(after, block);
+        if stops {
+            // a stop may end it: the next motion starts it again, where it turns in the original
+            self.spindle = Spindle::Unknown;
+        }
         Ok(())
     }
 

@@ -63,8 +63,10 @@ pub struct Quirks {
     pub cycle_level_optional: bool,
     /// Where a drilling cycle returns to is not stated by a source that is read here.
     pub cycle_return_unknown: bool,
-    /// M6 stops the spindle, and nothing starts it again.
+    /// M6 stops the spindle and the coolant, and nothing starts them again.
     pub tool_change_stops_spindle: bool,
+    /// M0 stops the spindle and the coolant, and nothing starts them again.
+    pub program_stop_stops_spindle: bool,
     /// G28 cancels the length of the tool.
     pub return_cancels_length: bool,
     /// A line that begins with `$` is a command to the control, and `!`, `~` and `?` act when they arrive (grbl).

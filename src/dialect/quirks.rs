@@ -33,6 +33,7 @@ pub(crate) struct QuirksRow {
     cycle_level_optional: Option<bool>,
     cycle_return_unknown: Option<bool>,
     tool_change_stops_spindle: Option<bool>,
+    program_stop_stops_spindle: Option<bool>,
     return_cancels_length: Option<bool>,
     dollar_commands: Option<bool>,
     skips_leader: Option<bool>,
@@ -67,6 +68,9 @@ impl QuirksRow {
             cycle_level_optional: self.cycle_level_optional.unwrap_or(base.cycle_level_optional),
             cycle_return_unknown: self.cycle_return_unknown.unwrap_or(base.cycle_return_unknown),
             tool_change_stops_spindle: self.tool_change_stops_spindle.unwrap_or(base.tool_change_stops_spindle),
+            program_stop_stops_spindle: self
+                .program_stop_stops_spindle
+                .unwrap_or(base.program_stop_stops_spindle),
             return_cancels_length: self.return_cancels_length.unwrap_or(base.return_cancels_length),
             dollar_commands: self.dollar_commands.unwrap_or(base.dollar_commands),
             skips_leader: self.skips_leader.unwrap_or(base.skips_leader),

@@ -47,6 +47,8 @@ pub(crate) struct BlockCodes {
     pub(crate) modal_call: bool,
     /// M5: after the motion of the block.
     pub(crate) stops_spindle: bool,
+    /// M0 or M1, after the motion of the block; whether it is the optional one.
+    pub(crate) stops_program: Option<bool>,
 }
 
 /// Place in the order of execution (RS274/NGC, version 3, section 3.8: feed mode, F, S, T, tool change, spindle, dwell, plane,
@@ -172,7 +174,8 @@ impl<'d> Iso<'d> {
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";
             }
-            Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
+            Action::ProgramStop => block.stops_program = Some(found.code.id != "M0"),
+            Action::NoMotion | Action::PathMode | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
     }

@@ -232,17 +232,8 @@ impl Iso<'_> {
             let change = vec![Argument::code("tool change")];
             self.core.effects.add(block, Effect::Event(change));
             let quirks = &self.core.dialect.quirks;
-            let left = if quirks.tool_change_stops_spindle {
-                Some("M5")
-            } else if !quirks.tool_word.changes() && self.core.state.spindle.on() != Some(false) {
-                Some("as the tool change leaves it")
-            } else {
-                None
-            };
-            if let Some(left) = left {
-                self.core
-                    .effects
-                    .add(block, Effect::set("spindle", [Argument::code(left)]));
+            if !quirks.tool_word.changes() {
+                self.stop_effects(quirks.tool_change_stops_spindle, block);
             }
         }
         if words.edge.is_given() {
@@ -252,6 +243,15 @@ impl Iso<'_> {
             self.core
                 .effects
                 .add(block, Effect::set("H", [said("H", words.length_offset)]));
+        }
+    }
+
+    /// The spindle and the coolant stop, or may do so.
+    fn stop_effects(&mut self, stop: bool, block: trunnion_syntax::BlockId) {
+        let off: &[Argument] = if stop { &[Argument::code("M5")] } else { &[] };
+        for (key, off) in [("spindle", off), ("flood coolant", &[]), ("mist coolant", &[])] {
+            let effect = if stop { Effect::set(key, off) } else { Effect::left(key) };
+            self.core.effects.add(block, effect);
         }
     }
 
@@ -376,6 +376,10 @@ impl Iso<'_> {
                     }
                     // the operator may do anything at a stop; the control continues from where it was
                     self.core.effects.add_with(block, Effect::Event(event), Reach::Itself);
+                    if found.code.action == Action::ProgramStop {
+                        let stops = self.core.dialect.quirks.program_stop_stops_spindle && found.code.id == "M0";
+                        self.stop_effects(stops, block);
+                    }
                 }
                 Sort::Group => {
                     for (key, _) in coolant(found.code).into_iter().flatten().filter(|(_, on)| !*on) {

@@ -253,6 +253,11 @@ impl<'d> Iso<'d> {
         if block.stops_spindle {
             self.core.state.spindle.switch(false);
         }
+        match block.stops_program {
+            Some(false) if self.core.dialect.quirks.program_stop_stops_spindle => self.core.state.spindle.switch(false),
+            Some(_) => self.core.state.spindle.leave_to_machine(),
+            None => {}
+        }
         if words.forgets_all {
             self.core.losses += 1;
             self.core.forget_position();

@@ -68,6 +68,6 @@ pub use trunnion_vocabulary::{
     FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library, Limits, Loaded,
     ModalState, Motion, MotionKind, Nose, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Reach,
     Refusal, RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool,
-    ToolShape, Undeclared, Value, WorkOffset, same_number,
+    ToolShape, Undeclared, Value, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

@@ -197,7 +197,7 @@ impl Iso<'_> {
         if self.core.dialect.quirks.tool_change_stops_spindle {
             self.core.state.spindle.switch(false);
         } else if !self.core.dialect.quirks.tool_word.changes() {
-            self.core.state.spindle.leave_to_tool_change();
+            self.core.state.spindle.leave_to_machine();
         }
         if !self.core.tools.load_prepared() {
             return;

@@ -108,6 +108,15 @@ impl Waiting {
     pub(crate) fn is_own_code(&self) -> bool {
         matches!(self.what, Waits::Effect(_, Reach::Everything))
     }
+
+    /// Whether it is an M code that is not modelled.
+    pub(crate) fn is_builder_code(&self) -> bool {
+        let is_m = |word: &Argument| {
+            let digits = word.name.strip_prefix('M').unwrap_or_default();
+            !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+        };
+        matches!(&self.what, Waits::Effect(Effect::Unmodelled(words), _) if words.iter().any(is_m))
+    }
     /// Whether its effect is not modelled.
     pub(crate) fn is_unmodelled(&self) -> bool {
         matches!(self.what, Waits::Effect(Effect::Unmodelled(_), _))

@@ -21,17 +21,20 @@ impl Steps<'_> {
         // in order of `before`; while motions are held back, what came before this block waits too
         let new = self.run.waiting.partition_point(|waiting| waiting.before <= effects);
         let mut own = false;
-        let mut opaque = false;
+        let (mut opaque, mut builder) = (false, false);
         for waiting in self.run.waiting.range(new..) {
             own |= waiting.is_own_code();
             opaque |= waiting.is_unmodelled() || waiting.is_own_code();
+            builder |= waiting.is_builder_code();
         }
         if opaque {
             let around = Arc::new(Around {
                 situations: [before.0, self.interpreter.situation()],
                 process: before.1,
             });
-            let mut variables = (lost || own).then(|| self.interpreter.known_variables());
+            // an M code of the machine builder may call a macro, which reads common variables; locals are its own
+            let own_locals = own_locals || builder && !(lost || own);
+            let mut variables = (lost || own || builder).then(|| self.interpreter.known_variables());
             self.run.actions.add_variables(variables.as_ref().map_or(0, Vec::len));
             if let Some(variables) = variables.as_mut().filter(|_| own_locals) {
                 variables.retain(|variable| !is_local(&variable.name));

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_dialect::{Dialect, Plane};
-use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, same_number};
+use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, is_left, same_number};
 
 /// Settings by their key; a key that is absent was never set, or has its initial value again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,7 +50,10 @@ impl Process {
 
     /// Sets a key; whether that changes anything.
     pub(crate) fn set(this: &mut Arc<Self>, key: Cow<'static, str>, to: &[Argument]) -> bool {
-        if this.get(&key) == to {
+        let was = this.get(&key);
+        // what is off does not start when something may stop it
+        let is_off = was.is_empty() || matches!(was, [only] if only.name == "M5");
+        if was == to || is_left(to) && is_off {
             return false;
         }
         let this = Arc::make_mut(this);
@@ -138,7 +141,8 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     } else {
         was.differences(is)
     };
-    let open = |key: &str| was.is_open(key) || is.is_open(key);
+    let left = |key: &str| is_left(was.get(key)) || is_left(is.get(key));
+    let open = |key: &str| was.is_open(key) || is.is_open(key) || left(key);
     let certain = found.iter().find(|(key, ..)| !open(key));
     if let Some((key, from, to)) = certain.or_else(|| found.first()) {
         let is_unknown = open(key);

@@ -113,6 +113,19 @@ impl Effect {
             to: to.into(),
         }
     }
+
+    /// A setting that was on may end here: the machine decides. One that is off stays off.
+    pub fn left(key: impl Into<Cow<'static, str>>) -> Self {
+        Self::set(key, [Argument::code(LEFT)])
+    }
+}
+
+/// See [`Effect::left`].
+const LEFT: &str = "as the machine leaves it";
+
+/// Whether a setting has the value of [`Effect::left`].
+pub fn is_left(to: &[Argument]) -> bool {
+    matches!(to, [only] if only.name == LEFT)
 }
 
 /// What an effect may change in addition to what it names.

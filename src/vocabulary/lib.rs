@@ -16,7 +16,7 @@ mod sink;
 pub use action::{Action, Plane};
 pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
-pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
+pub use effect::{Argument, Effect, Placed, Reach, Value, is_left, same_number};
 pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
 pub use modal::{

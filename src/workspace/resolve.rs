@@ -110,6 +110,11 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let config_path = config_file.as_ref().map(|(path, _)| path.clone());
     let mode = trunnion_dialect::modeline(source);
     let (machine, machine_reason) = machine_for(path, overrides, &mode, &config, config_file.as_ref())?;
+    if let (Some(found), Some((file, text))) = (&machine, &config_file)
+        && let Err(error) = config.check_offsets(&found.machine)
+    {
+        return Err(LoadError::at(file, text, error.span.as_ref(), &error.message));
+    }
     let (machine, machine_file) = machine.map_or((None, None), |found| (Some(found.machine), found.file));
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
     let (detected, dialect_file) = dialect_for(

@@ -1,9 +1,11 @@
 //! Programs that were judged wrongly once, each the smallest that shows it: what is reported of them, and how many of their motions have a
 //! known end. What cannot be seen so is shown by the test that is named.
 mod items;
+mod state;
 
 use crate::cli::tools::{json, trunnion, write};
 use items::ITEMS;
+use state::STATE;
 use std::{fmt::Write, fs, path::Path};
 use tempfile::TempDir;
 use trunnion::check::{Assume, Diagnostic, Settings, Severity, Status, check};
@@ -49,7 +51,7 @@ fn findings(found: &[Diagnostic], text: &str) -> Vec<String> {
 #[test]
 fn each_is_judged_as_it_should_be() {
     let mut wrong = String::new();
-    for (name, [dialect, machine], text, wanted, motions) in ITEMS {
+    for (name, [dialect, machine], text, wanted, motions) in ITEMS.iter().chain(STATE) {
         let dialect = trunnion::dialect::builtin(dialect).expect("built in");
         let machine = trunnion::machine::builtin(machine);
         let mut setup = Setup::default();

@@ -68,6 +68,7 @@ impl Encode for Quirks {
             cycle_level_optional,
             cycle_return_unknown,
             tool_change_stops_spindle,
+            program_stop_stops_spindle,
             return_cancels_length,
             dollar_commands,
             skips_leader,
@@ -110,7 +111,8 @@ impl Encode for Quirks {
                 .field(32, &dollar_commands.then_some(true))
                 .field(33, &skips_leader.then_some(true))
                 .field(34, &tool_change_stops_spindle.then_some(true))
-                .field(35, &return_cancels_length.then_some(true));
+                .field(35, &return_cancels_length.then_some(true))
+                .field(36, &program_stop_stops_spindle.then_some(true));
         });
     }
 }

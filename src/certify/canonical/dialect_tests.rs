@@ -21,6 +21,7 @@ fn letters_names_and_codes_of_a_dialect_count() {
         "[codes]\nG999 = { action = \"no-motion\", words = [\"P\"], doc = \"Nothing\" }\n",
         "[quirks]\ndollar-commands = true\n",
         "[quirks]\ntool-change-stops-spindle = true\n",
+        "[quirks]\nprogram-stop-stops-spindle = true\n",
         "[quirks]\nreturn-cancels-length = true\n",
         "[quirks]\nskips-leader = true\n",
         "builder-codes = [\"M700\"]\n",

@@ -144,6 +144,8 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
             .keys()
             .filter_map(|axis| Some((*axis.get_ref().as_bytes().first()?, axis.span())));
         config.offset_axes.extend(axes);
+        let given = values.keys().filter_map(|axis| axis.get_ref().bytes().next()).collect();
+        config.offsets.push((name.span(), name.get_ref().clone(), given));
         config.setup.work_offsets.push(work_offset(&name, &values)?);
     }
     Ok(config)

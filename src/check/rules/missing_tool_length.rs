@@ -50,13 +50,19 @@ pub(super) const RULE: Body = Body::heuristic(
 fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     let (motion, in_force) = (cut.motion, cut.in_force);
     let Some(tool @ 1..) = motion.tool else { return };
-    if !cut.dialect.length_by_code() || !out.once(u64::from(tool)) {
+    // where a tool change selects its first edge, no length at all means that the program switched it off (D0)
+    let by_edge = cut.dialect.quirks.edge_at_tool_change;
+    if !(cut.dialect.length_by_code() || by_edge && in_force.tool_length_mm.is_none()) || !out.once(u64::from(tool)) {
         return;
     }
     if motion.tcp || motion.machine_coordinates || in_force.frame_unknown {
         return;
     }
-    let help = format!("write G43 H{tool} with the first Z move after the tool change");
+    let help = if by_edge {
+        "write D1, or the edge that is meant, before the first Z move".to_owned()
+    } else {
+        format!("write G43 H{tool} with the first Z move after the tool change")
+    };
     match (in_force.tool_length_mm, motion.other_length(in_force.own_length_mm)) {
         (Some(active), Some(own)) => {
             out.report_block(format!(
@@ -177,6 +183,10 @@ mod tests {
         ] {
             assert_drawn(&format!("gcode {dialect}"), &format!("{first}{rest}"));
         }
+        assert_drawn(
+            "gcode sinumerik-840d",
+            "G710\nT1 D0\nM6\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\n;^^^^^^^^^^^ missing-tool-length: T1 cuts without its length\nM30\n",
+        );
         assert_drawn(
             "gcode sinumerik-840d",
             "T1 M6\nD1 S100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nD0\nX5\n;^ missing-tool-length: T1 cuts without its length\nM30\n",

@@ -20,10 +20,49 @@
 //!
 //! # Sources
 //! * docs/contract.md#verdicts
+//! * FANUC Series 15i-MA B-63324EN/03, helical interpolation: bit HTG (parameter 1401; of the Series 30i 1403).
+//! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019), p. 750: the plane assigns the lengths of a tool to axes, setting data 42940.
 use crate::prelude::*;
+use trunnion_dialect::Plane;
 use trunnion_interp::Lacks;
 
-pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
+pub(super) const RULE: Body = Body::sound(
+    Info,
+    &[Wake::Fault(check), Wake::LengthOffZ(length), Wake::SteepHelix(helix)],
+);
+
+/// The plane says along which axis the length of a mill's tool acts: G18 along Y, G19 along X.
+fn length(motion: &facts::LengthOffZ<'_>, out: &mut Reporter<'_>) {
+    if !out.once(hash("length off Z")) {
+        return;
+    }
+    let (plane, axis) = match motion.in_force.plane {
+        Plane::Zx => ("G18", "Y"),
+        Plane::Yz => ("G19", "X"),
+        Plane::Xy => return,
+    };
+    out.report_block(format!(
+        "not modelled: the tool's length in {plane}, which acts along {axis} unless setting data 42940 ($SC_TOOL_LENGTH_CONST) keeps it on Z"
+    ))
+    .unknown()
+    .note("the axes are judged here with the length along Z")
+    .help("program the arc in G17, or as CIP; if the setting data are 17, allow the rule and give that reason");
+}
+
+/// F along the arc (HTG = 0) or along the helix (HTG = 1).
+fn helix(helix: &facts::SteepHelix<'_>, out: &mut Reporter<'_>) {
+    if !out.once(hash("feed of a helix")) {
+        return;
+    }
+    out.report_block(format!(
+        "not modelled: F of a helix, which parameter HTG applies to the arc or to the helix: this one is {:.3} times as long as its arc",
+        helix.ratio
+    ))
+    .unknown()
+    .note("times, feeds and speeds of the axes are judged here with F along the helix; along the arc the tool moves faster by this factor")
+    .help("divide F by this factor if HTG is 0; if it is 1, allow the rule and give that reason")
+    .value("helix_to_arc", helix.ratio);
+}
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind.lacks() == Some(Lacks::ReferencePoint) && !out.judges_machine() {

@@ -24,8 +24,9 @@
 //! # Guarantee
 //! Sound for programs that switch the spindle by codes that are modelled; one finding for each stretch of feed motions
 //! between two changes of the spindle. Where nothing in the program starts a spindle, `spindle-unset` reports that once
-//! instead: the tool may be one that does not turn. M6 stops the spindle on some controls (Haas, LinuxCNC). On the others
-//! a program of the machine builder decides that: feed motions after it without a new M3 or M4 are unknown.
+//! instead: the tool may be one that does not turn. M6 stops the spindle on some controls (Haas, LinuxCNC), M0 on some
+//! (Haas, Klartext). On the others the machine builder decides that, as a parameter does after a tap: feed motions after
+//! them without a new M3 or M4 are unknown.
 //! S0 is not reported where the dialect says that S may be the power of a laser (grbl), and is a warning where other
 //! motions of the same tool have a speed. Where the same tool probes (G38.2 to G38.5, G31) without a cut with a turning
 //! spindle between, it is a warning too, and in a subprogram that starts no spindle it is not reported: the tool is a
@@ -55,12 +56,12 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
             .report_block("this feed motion runs with the spindle off")
             .note("the program switched the spindle off earlier, by M5 or by a tool change")
             .help("switch the spindle on (M3, M4), or use a rapid; if the tool does not turn (probe, drag knife), allow the rule and give that reason"),
-        Still::ToolChange => out
-            .report_block("whether the spindle turns in this feed motion is not known: the tool change before it may have stopped the spindle")
+        Still::Left => out
+            .report_block("whether the spindle turns in this feed motion is not known: the tool change, the program stop or the tap before it may have stopped the spindle")
             .severity(Info)
             .unknown()
-            .note("the machine builder's tool change stops the spindle on most machines, and few start it again")
-            .help("write M3 or M4 after the tool change"),
+            .note("the machine builder, or a parameter of the control, decides whether the spindle goes on")
+            .help("write M3 or M4 before this cut"),
         Still::NoSpeed => {
             let draft = out.report_block("this feed motion runs with S0: the spindle is on and does not turn");
             if still.other_speed {

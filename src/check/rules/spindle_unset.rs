@@ -45,7 +45,7 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
             .report_block("the spindle was started without a speed: the program gives no S before this feed motion")
             .note("the control uses the S of the previous program, or none")
             .help("write S with M3 or M4, for example S8000 M3"),
-        Still::SpeedUnsaid | Still::Off | Still::ToolChange | Still::NoSpeed => return,
+        Still::SpeedUnsaid | Still::Off | Still::Left | Still::NoSpeed => return,
     }
     .spans(still.count, still.last);
 }

@@ -13,6 +13,18 @@ fn renamed(name: &str, converted: &Converted) -> Option<String> {
     ))
 }
 
+/// Tools whose length the output does not compensate.
+fn by_hand(name: &str, converted: &Converted) -> Option<String> {
+    let tools: Vec<String> = converted.set_by_hand.iter().map(|tool| format!("T{tool}")).collect();
+    (!tools.is_empty()).then(|| {
+        format!(
+            "{name}: {} compensates no tool length: set the zero of Z with the tip of each tool after its change ({})",
+            converted.dialect.name,
+            tools.join(", ")
+        )
+    })
+}
+
 /// What was proved, in words.
 pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     let (proof, claim) = (&converted.proof, &converted.claim);
@@ -56,6 +68,7 @@ pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
         ));
     }
     lines.extend(renamed(name, converted));
+    lines.extend(by_hand(name, converted));
     if !converted.swaps.is_empty() {
         let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
@@ -130,6 +143,7 @@ pub(super) fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &C
         },
         "left_out": left_out,
         "renamed_offset": converted.renamed_offset.as_ref().map(|(was, now)| json!({ "was": was, "now": now })),
+        "set_z_zero_for_tools": converted.set_by_hand,
         "swap_lines": converted.swaps,
         "beyond_travel": beyond,
         "travel_undecided_lines": converted.travel_undecided,

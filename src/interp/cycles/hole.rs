@@ -258,7 +258,7 @@ impl Iso<'_> {
             return;
         }
         self.down(plan, MotionKind::Rapid, plan.r, report);
-        let stood = self.tap_begins(action);
+        let tapped = self.tap_begins(action);
         match action {
             Action::PeckCycle | Action::ChipBreakCycle => self.steps(plan, action, report),
             _ => self.down(plan, MotionKind::Linear, Some(plan.bottom), report),
@@ -301,16 +301,16 @@ impl Iso<'_> {
             }
             _ => self.down(plan, MotionKind::Rapid, plan.back, report),
         }
-        if stood {
-            self.core.state.spindle.turn(Some(false));
+        if let Some(before) = tapped {
+            self.tap_ends(before, report);
         }
     }
 
     fn with_spindle_off(&mut self, run: impl FnOnce(&mut Self)) {
-        let before = self.core.state.spindle.on();
+        let before = self.core.state.spindle;
         self.core.state.spindle.turn(Some(false));
         run(self);
-        self.core.state.spindle.turn(before);
+        self.core.state.spindle = before;
     }
 
     /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and

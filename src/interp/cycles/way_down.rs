@@ -2,8 +2,9 @@
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Orientation, Refusal};
+use crate::{Effect, Orientation, Refusal};
 use trunnion_dialect::Action;
+use trunnion_vocabulary::Spindle;
 
 impl Iso<'_> {
     /// Whether holes go down along Z: on a lathe, in a frame that may mirror, along another axis, and back boring they go in either direction.
@@ -42,13 +43,27 @@ impl Iso<'_> {
         self.refuse(words, Refusal::CannedCycle, message, None, report);
     }
 
-    /// A tap with a spindle that stands: rigid tapping turns it, by M29 or by a parameter of the control, so it is not known to stand. True: it did.
-    pub(super) fn tap_begins(&mut self, action: Action) -> bool {
+    /// A tap of Fanuc's kind turns the spindle itself where it is rigid, by M29 or by a parameter of the control: it is not known to stand then.
+    /// The spindle before it.
+    pub(super) fn tap_begins(&mut self, action: Action) -> Option<Spindle> {
         let taps = matches!(action, Action::TapCycle | Action::TapLeftCycle);
-        let stood = taps && self.core.dialect.quirks.macro_b() && self.core.state.spindle.on() == Some(false);
-        if stood {
+        let before = self.core.state.spindle;
+        if !taps || !self.core.dialect.quirks.macro_b() {
+            return None;
+        }
+        if before.on() != Some(true) {
             self.core.state.spindle.turn(None);
         }
-        stood
+        Some(before)
+    }
+
+    /// A spindle that turned before a tap of Fanuc's kind may stand after it: rigid tapping ends with a stop, and the parameter decides.
+    pub(super) fn tap_ends(&mut self, before: Spindle, report: &Report<'_>) {
+        self.core.state.spindle = before;
+        self.core.state.spindle.leave_to_machine();
+        if self.core.effects.wanted() {
+            let block = self.core.main_block(report.block);
+            self.core.effects.add(block, Effect::left("spindle"));
+        }
     }
 }

@@ -230,7 +230,7 @@ impl Klartext<'_> {
                 // M0 stops the spindle and the coolant too (TNC 155 programming manual, p. 15; TNC 640 user's manual, M functions)
                 0 | 5 => self.core.state.spindle.switch(false),
                 // where the operator has chosen the optional stop, so does M1
-                1 => self.core.state.spindle.turn(None),
+                1 => self.core.state.spindle.leave_to_machine(),
                 2 | 30 => {
                     self.core.state.spindle.switch(false);
                     self.core.state.ended = true;

@@ -10,7 +10,7 @@ pub struct Spindle {
     limit_rpm: Option<f64>,
     speed_programmed: bool,
     is_unread: bool,
-    by_tool_change: bool,
+    left: bool,
     was_started: bool,
 }
 
@@ -43,9 +43,9 @@ impl Spindle {
     pub fn is_unread(&self) -> bool {
         self.is_unread
     }
-    /// It turned before a tool change that may have stopped it.
-    pub fn is_left_by_tool_change(&self) -> bool {
-        self.by_tool_change
+    /// It turned before something that stops it on some machines: a tool change, a program stop, a tapping cycle.
+    pub fn is_left_to_machine(&self) -> bool {
+        self.left
     }
     /// The program has started a spindle; what is not modelled may have done so, too, see [`Self::is_unread`].
     pub fn was_started(&self) -> bool {
@@ -54,12 +54,13 @@ impl Spindle {
     /// The program switches it on or off.
     pub fn switch(&mut self, on: bool) {
         self.on = Some(on);
-        self.by_tool_change = false;
+        self.left = false;
         self.was_started |= on;
     }
     /// Within a cycle it turns, stops, or goes on as before, without a word of the program.
     pub fn turn(&mut self, on: Option<bool>) {
         self.on = on;
+        self.left = false;
     }
     /// A speed is programmed, 1/min; `None`: its value is unknown. Under constant cutting speed S is no speed of the spindle.
     pub fn set_rpm(&mut self, rpm: Option<f64>) {
@@ -85,14 +86,14 @@ impl Spindle {
     /// What is not modelled may have switched it: whether it turns is unknown.
     pub fn lose(&mut self) {
         self.on = None;
-        self.by_tool_change = false;
+        self.left = false;
         self.is_unread = true;
     }
-    /// A tool is changed by a program of the machine builder, which stops the spindle on most machines, and starts it again on few.
-    pub fn leave_to_tool_change(&mut self) {
+    /// The machine builder, or a parameter, decides whether it stops here: at a tool change, a program stop, the end of a tap.
+    pub fn leave_to_machine(&mut self) {
         if self.on == Some(true) {
             self.on = None;
-            self.by_tool_change = true;
+            self.left = true;
         }
     }
     /// The same, and its speed is unknown, too.

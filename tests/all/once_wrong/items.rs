@@ -1,10 +1,10 @@
 //! The programs.
 
 /// The head of a program for a mill with a macro B control.
-const HEAD: &str = "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 X0 Y0\nG43 H1 Z50.\n";
+pub(super) const HEAD: &str = "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 X0 Y0\nG43 H1 Z50.\n";
 
 /// The head of a Sinumerik program.
-const SINUMERIK: &str = "G17 G90 G94 G54 G71\nT1 D1 M6\nS1000 M3 F100\nG0 X0 Y0 Z10\n";
+pub(super) const SINUMERIK: &str = "G17 G90 G94 G54 G71\nT1 D1 M6\nS1000 M3 F100\nG0 X0 Y0 Z10\n";
 
 /// The head of a program for a Haas lathe.
 const LATHE: &str = "G21 G18 G99 G40\nT0101\nG97 S1000 M3\nG0 X40. Z2.\n";

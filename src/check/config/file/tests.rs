@@ -164,3 +164,18 @@ fn an_axis_that_the_machine_lacks_has_its_place() {
     let error = config.check_axes(machine("mill-3axis")).unwrap_err();
     assert_eq!(&text[error.span.unwrap()], "A");
 }
+
+#[test]
+fn a_work_offset_gives_all_linear_axes_of_the_machine() {
+    let text = "[work_offsets]\nG55 = { X = 1, Y = 2, Z = 3 }\nG54 = { X = 1, Y = 2 }";
+    let config = parse(text).unwrap();
+    let machine = |name| trunnion_machine::builtin(name).unwrap();
+    let error = config.check_offsets(machine("mill-3axis")).unwrap_err();
+    assert_eq!(&text[error.span.unwrap()], "G54");
+    assert!(error.message.starts_with("G54 lacks Z"), "{}", error.message);
+    // a lathe has no Y; rotary axes may be left out
+    let lathe = parse("[work_offsets]\nG54 = { X = 0, Z = 0 }").unwrap();
+    assert_eq!(lathe.check_offsets(machine("lathe-2axis")), Ok(()));
+    let whole = parse("[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }").unwrap();
+    assert_eq!(whole.check_offsets(machine("mikron-ucp710")), Ok(()));
+}

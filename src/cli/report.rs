@@ -59,13 +59,25 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
         &format!(
             "{}: {}",
             command.output.display(),
-            super::verdict::counted(parts.len() as u64, "program")
+            total(&parts)
         ),
     );
     if !failures.is_empty() {
         return Err(Failure::new("not every file could be checked (see above)"));
     }
     Ok(if denied { Done::Found } else { Done::Clean })
+}
+
+/// How many programs, and their verdicts.
+fn total(parts: &[Part]) -> String {
+    let of = |verdict: Verdict| parts.iter().filter(|part| part.verdict == verdict).count();
+    let programs = super::verdict::counted(parts.len() as u64, "program");
+    format!(
+        "{programs}: {} passed, {} unknown, {} failed",
+        of(Verdict::Pass),
+        of(Verdict::Unknown),
+        of(Verdict::Fail)
+    )
 }
 
 /// What the page says about one program.

@@ -163,7 +163,7 @@ impl Config {
     /// The first offset that lacks one, with its place.
     pub fn check_offsets(&self, machine: &Machine) -> Result<(), ConfigError> {
         for (span, name, given) in &self.offsets {
-            let has = |letter: &u8| machine.axes.iter().any(|axis| axis.letter == *letter);
+            let has = |letter: &u8| machine.own_axes().any(|(_, axis)| axis.letter == *letter);
             let lacks: Vec<char> = [b'X', b'Y', b'Z']
                 .into_iter()
                 .filter(|letter| has(letter) && !given.contains(letter))

@@ -56,11 +56,7 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     target.write(page::page(&parts, &failures).as_bytes(), None)?;
     remark(
         global.quiet,
-        &format!(
-            "{}: {}",
-            command.output.display(),
-            total(&parts)
-        ),
+        &format!("{}: {}", command.output.display(), total(&parts)),
     );
     if !failures.is_empty() {
         return Err(Failure::new("not every file could be checked (see above)"));

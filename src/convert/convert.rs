@@ -143,7 +143,13 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
 /// See [`Converted::set_by_hand`].
 fn set_by_hand(reading: &Reading, job: &Job, post: Option<&Post>) -> Vec<u32> {
     let compensates = reading.motions.iter().any(|posed| posed.length_of != LengthOf::Nothing);
-    if !compensates || post.is_none_or(|post| post.template("length-on") != Some("")) {
+    let none = |post: &Post| {
+        let dialect = trunnion_dialect::builtin(&post.dialect);
+        // elsewhere the call of the tool brings its length
+        let brings = |dialect: &Dialect| dialect.quirks.edge_at_tool_change || !dialect.lex.format.has_words();
+        post.template("length-on") == Some("") && !dialect.is_some_and(brings)
+    };
+    if !compensates || !post.is_some_and(none) {
         return Vec::new();
     }
     job.tools

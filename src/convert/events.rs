@@ -43,6 +43,8 @@ pub(crate) fn job(
             ..Job::default()
         },
         spindle: Spindle::Unknown,
+        keeps_coolant: program.options().format == Format::Apt || dialect.quirks.rs274(),
+        flowing: Vec::new(),
         tool: None,
         work_offset: None,
         options,
@@ -94,6 +96,10 @@ struct EventCollector<'p> {
     post: Option<&'p Post>,
     job: Job,
     spindle: Spindle,
+    /// Neither a stop nor a tool change ends the coolant in the original.
+    keeps_coolant: bool,
+    /// The coolants that the original has switched on.
+    flowing: Vec<Coolant>,
     tool: Option<u32>,
     work_offset: Option<String>,
     options: &'p Options,
@@ -110,6 +116,14 @@ impl EventCollector<'_> {
     ) -> Result<(Vec<Event>, Vec<Event>), Refused> {
         let (mut before, mut after) = (Vec::new(), Vec::new());
         for asked in asks {
+            if let Ask::Coolant(coolant) = &asked.ask {
+                match coolant {
+                    Coolant::Off => self.flowing.clear(),
+                    Coolant::ThruOff => self.flowing.retain(|on| *on != Coolant::Thru),
+                    on if self.flowing.contains(on) => {}
+                    on => self.flowing.push(*on),
+                }
+            }
             match &asked.ask {
                 Ask::Coolant(coolant @ (Coolant::Off | Coolant::ThruOff)) => after.push(Event::Coolant(*coolant)),
                 Ask::Coolant(coolant) => before.push(Event::Coolant(*coolant)),
@@ -192,6 +206,7 @@ impl EventCollector<'_> {
         if stops {
             // a stop may end it: the next motion starts it again, where it turns in the original
             self.spindle = Spindle::Unknown;
+            self.flow_again(block);
         }
         Ok(())
     }
@@ -199,6 +214,15 @@ impl EventCollector<'_> {
     fn say(&mut self, events: Vec<Event>, block: BlockId) {
         for event in events {
             self.job.push(event, block);
+        }
+    }
+
+    /// The coolant goes on after a stop or a tool change, where the original's language says so, and the target may end it.
+    fn flow_again(&mut self, block: BlockId) {
+        if self.keeps_coolant {
+            for coolant in &self.flowing {
+                self.job.push(Event::Coolant(*coolant), block);
+            }
         }
     }
 
@@ -217,6 +241,7 @@ impl EventCollector<'_> {
                 self.spindle = Spindle::Unknown;
             }
             self.job.push(Event::Tool(number), block);
+            self.flow_again(block);
             self.job.tool_mut(number);
         }
         if let (Some(number), Some(data)) = (ran.tool, ran.tool_data) {

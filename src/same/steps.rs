@@ -9,7 +9,7 @@ use crate::process::{Held, Process};
 use crate::since::Since;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use trunnion_interp::{Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion};
+use trunnion_interp::{Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, is_left};
 use trunnion_interp::{Placed, ProgramRun as _, Reach, Sink, Value};
 use trunnion_machine::{Follower, Leg};
 use trunnion_syntax::BlockId;
@@ -350,7 +350,7 @@ impl<'a> Steps<'a> {
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows
-                    let happens = key.starts_with("spindle") && !key.ends_with("words");
+                    let happens = key.starts_with("spindle") && !key.ends_with("words") && !is_left(&to);
                     if !Process::set(&mut run.process, key, &to) || !happens {
                         continue;
                     }

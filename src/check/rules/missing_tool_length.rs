@@ -122,6 +122,11 @@ fn left(cut: &facts::LengthLeft<'_>, out: &mut Reporter<'_>) {
     if motion.tcp || motion.machine_coordinates || in_force.frame_unknown || cut.dialect.quirks.diameter {
         return;
     }
+    // `other-tool-length` reports a turn with a declared length that is not in effect
+    let turns = (3..6).any(|axis| motion.start.get(axis) != motion.end.get(axis));
+    if turns && out.judges_machine() && in_force.own_length_mm.is_some() {
+        return;
+    }
     match (in_force.tool_length_mm, in_force.length_of) {
         (None, _) if out.once(LEFT | u64::from(tool)) => out
             .report_block(format!(

@@ -38,7 +38,11 @@ fn planted_faults_are_found() {
         assert_eq!(status(&output), 1, "{fault}: {}", text(&output.stdout));
     }
     let config = folder.path().join("trunnion.toml");
-    std::fs::write(&config, "[work_offsets]\nG54 = { X = 0 }\nG55 = { X = 5 }\n").expect("writable");
+    std::fs::write(
+        &config,
+        "[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\nG55 = { X = 5, Y = 0, Z = 0 }\n",
+    )
+    .expect("writable");
     let output = trunnion(&["diff", str(&good), str(&planted("shift-g54")), "--machine", MACHINE]);
     assert_eq!(status(&output), 1, "{}", text(&output.stdout));
 }

@@ -21,14 +21,14 @@ pub(super) const STATE: &[Item] = &[
         ["fanuc-30i", ""],
         [HEAD, "G84 X10. Y10. Z-10. R2. F100.\nG80\nG1 X20.\nM30\n"],
         &["8 unknown spindle-off-cut"],
-        [6, 7],
+        [7, 8],
     ),
     (
         "tip control on a machine without rotary axes",
         ["fanuc-30i", "mill-3axis"],
         [HEAD, "G49\nG43.4 H1\nG0 X0. Y0. Z50.\nG1 X10. F100.\nM30\n"],
         &["8 error tcp-state"],
-        [3, 4],
+        [4, 4],
     ),
     (
         "a hole with a tilted tool under tip control",
@@ -38,7 +38,7 @@ pub(super) const STATE: &[Item] = &[
             "G49\nG43.4 H1\nG0 X0. Y0. Z50. A30. C0.\nG81 X5. Z-5. R5. F100.\nG80\nM30\n",
         ],
         &["9 unknown not-modelled"],
-        [1, 3],
+        [2, 4],
     ),
     (
         "the letter O in a word of a Fanuc",
@@ -52,7 +52,7 @@ pub(super) const STATE: &[Item] = &[
         ["sinumerik-840d", ""],
         [SINUMERIK, "G1 X2O.969\nX5\nM30\n"],
         &["5 error not-modelled"],
-        [2, 3],
+        [1, 3],
     ),
     (
         "a name that no DEF defines",
@@ -86,6 +86,6 @@ pub(super) const STATE: &[Item] = &[
         ["fanuc-30i", ""],
         [HEAD, "G2 X0. Y0. Z-50. I5. F1000.\nM30\n"],
         &["6 unknown not-modelled"],
-        [1, 2],
+        [2, 3],
     ),
 ];

@@ -246,15 +246,6 @@ impl Iso<'_> {
         }
     }
 
-    /// The spindle and the coolant stop, or may do so.
-    fn stop_effects(&mut self, stop: bool, block: trunnion_syntax::BlockId) {
-        let off: &[Argument] = if stop { &[Argument::code("M5")] } else { &[] };
-        for (key, off) in [("spindle", off), ("flood coolant", &[]), ("mist coolant", &[])] {
-            let effect = if stop { Effect::set(key, off) } else { Effect::left(key) };
-            self.core.effects.add(block, effect);
-        }
-    }
-
     /// Letters of parameters in the block that no active cycle reads.
     fn free_letters(&self, words: &Words) -> u32 {
         let parameters = (b'A'..=b'Z')

@@ -112,8 +112,8 @@ impl Waiting {
     /// Whether it is an M code that is not modelled.
     pub(crate) fn is_builder_code(&self) -> bool {
         let is_m = |word: &Argument| {
-            let digits = word.name.strip_prefix('M').unwrap_or_default();
-            !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+            let number = word.name.strip_prefix('M');
+            number.is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))
         };
         matches!(&self.what, Waits::Effect(Effect::Unmodelled(words), _) if words.iter().any(is_m))
     }

@@ -61,20 +61,20 @@ fn lost(dialect: &str, before: &str, after: &str, why: &str) {
 fn a_tap_made_of_feed_motions_is_refuted() {
     lost(
         "fanuc-30i",
-        "G84 Z-5. R2. F500.\nG80",
-        "Z2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.",
+        "G84 Z-5. R2. F500.\nG80\nM3",
+        "Z2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.\nM3",
         "G84 R2. F500. (line 5 of the original) is lost",
     );
     lost(
         "haas-ngc",
-        "G74 Z-5. R2. F500.\nG80",
-        "Z2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.",
+        "G74 Z-5. R2. F500.\nG80\nM3",
+        "Z2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.\nM3",
         "is lost",
     );
     lost(
         "fanuc-30i",
-        "G84 Z-5. R2. F500.\nG80",
-        "G85 Z-5. R2. F500.\nG80",
+        "G84 Z-5. R2. F500.\nG80\nM3",
+        "G85 Z-5. R2. F500.\nG80\nM3",
         "is lost",
     );
     lost(

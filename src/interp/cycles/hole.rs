@@ -95,25 +95,6 @@ impl Iso<'_> {
         }
     }
 
-    /// Whether the current block, or the cycles of the run together, have made more motions than are computed.
-    pub(super) fn is_full(&self) -> bool {
-        self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
-    }
-
-    /// Why a block is full.
-    pub(super) fn full(&self) -> String {
-        let blocks = self.core.setup.limits.blocks;
-        if self.cycle_motions > blocks {
-            return format!("more than {blocks} motions in the cycles of the program ([limits] blocks)");
-        }
-        format!("more than {MOST_MOTIONS} motions in one block")
-    }
-
-    pub(super) fn too_many(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) {
-        let why = self.full();
-        self.lost(words, axis, &why, report);
-    }
-
     /// Numbers of the hole; says what is missing.
     fn plan(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) -> Option<Plan> {
         let hole = self.memory.cycle.hole;
@@ -195,7 +176,7 @@ impl Iso<'_> {
     }
 
     /// The block's places are not known after it.
-    fn lost(&mut self, words: &Words, axis: usize, why: &str, report: &mut Report<'_>) {
+    pub(super) fn lost(&mut self, words: &Words, axis: usize, why: &str, report: &mut Report<'_>) {
         if !why.is_empty() {
             let what = format!("{}: {why}", self.memory.cycle.id);
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });

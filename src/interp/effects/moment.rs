@@ -44,4 +44,13 @@ impl Iso<'_> {
             self.core.effects.add(block, Effect::Unmodelled(names));
         }
     }
+
+    /// The spindle and the coolant stop, or may do so.
+    pub(super) fn stop_effects(&mut self, stop: bool, block: trunnion_syntax::BlockId) {
+        let off: &[Argument] = if stop { &[Argument::code("M5")] } else { &[] };
+        for (key, off) in [("spindle", off), ("flood coolant", &[]), ("mist coolant", &[])] {
+            let effect = if stop { Effect::set(key, off) } else { Effect::left(key) };
+            self.core.effects.add(block, effect);
+        }
+    }
 }

@@ -38,7 +38,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             return;
         };
         let stem = name.split('[').next().unwrap_or_default().trim();
-        if stem.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_') && !own.is_declared(stem) {
+        let is_name = stem.len() > 1 && stem.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+        let is_known = self.dialect.name(&stem.to_ascii_uppercase()).is_some() || own.is_declared(stem);
+        if is_name && !is_known {
             let what = format!("{stem}: no DEF of the program defines it; the machine may (GUD)");
             (self.report)(word.range, FaultKind::NotModelled { what });
         }

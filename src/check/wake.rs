@@ -3,7 +3,7 @@ use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, LongTurn,
+    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, Curved, FarCut, FirstApproach, FirstCut, HeldBackCut, LongTurn,
     LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass,
     PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
@@ -206,6 +206,8 @@ wakes! {
         Passing,
         /// A feed motion to which rapid motions led.
         Arrival,
+        /// A piece of a curve where it matters that it is followed as lines.
+        Curved,
         /// An end at which the machine's position is unknown, or that it cannot reach.
         LostEnd,
         /// An arc from a start that is unknown.

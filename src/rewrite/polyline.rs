@@ -50,6 +50,16 @@ impl Chain {
 /// Why lines were left alone, most frequent reasons of a program first.
 pub(crate) type Reasons = Vec<(&'static str, u32)>;
 
+/// Why other lines were not looked at, for people.
+pub(crate) fn left_alone(reasons: &Reasons) -> Option<String> {
+    let texts: Vec<String> = reasons
+        .iter()
+        .take(3)
+        .map(|(why, count)| format!("{count} lines ({why})"))
+        .collect();
+    (!texts.is_empty()).then(|| texts.join("; "))
+}
+
 /// What a rewrite of chains sees of a program.
 pub(crate) struct Chains {
     /// In the order of the text.

@@ -177,6 +177,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tool: modal.tool.number(),
             tilt: crate::Tilt::default(),
             effects: core.effects.count(),
+            slack_mm: self.calls.slack_mm,
         };
         let named = state.named_axes & !motion.end.known != 0;
         let no_path = matches!(
@@ -362,6 +363,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             _ => (1, 2),
         };
         let last = places.len().saturating_sub(1);
+        self.calls.slack_mm = SPLINE_TOLERANCE_MM;
         for (index, [a, b]) in places.into_iter().enumerate() {
             let mut pose = *end;
             (pose[first], pose[second]) = (a, b);
@@ -372,6 +374,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             };
             self.motion(MotionKind::Linear, to, &shift, feed, at, state);
         }
+        self.calls.slack_mm = 0.0;
     }
 
     /// Where the probe touches is known to the machine only: the position of every axis that the block moves is lost.

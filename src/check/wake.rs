@@ -3,9 +3,9 @@ use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, Curved, FarCut, FirstApproach, FirstCut, HeldBackCut, LongTurn,
-    LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing, PolePass,
-    PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    Arrival, CableAxis, ClampedTurn, Curved, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut,
+    LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, Passing, PoleCrossing,
+    PolePass, PostureSwap, StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;

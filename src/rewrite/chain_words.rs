@@ -55,6 +55,9 @@ fn plane_code(plane: Plane) -> u8 {
     }
 }
 
+/// So many edits are made for one block at most before its other lines are deleted.
+const LATEST: usize = 32;
+
 /// Edits of one block: insertions at one place stay in their order.
 #[derive(Default)]
 pub(crate) struct Edits(Vec<TextEdit>);
@@ -91,7 +94,8 @@ impl Edits {
 
     fn insert(&mut self, at: u32, new_text: &str) {
         let range = TextRange::new(at, at);
-        match self.0.iter_mut().find(|edit| edit.range == range) {
+        // other insertions at this place were made just before: a search of all would take quadratic time
+        match self.0.iter_mut().rev().take(LATEST).find(|edit| edit.range == range) {
             Some(edit) => edit.new_text.push_str(new_text),
             None => self.0.push(TextEdit {
                 range,

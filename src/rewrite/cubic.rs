@@ -191,7 +191,9 @@ impl Data {
         for ((index, direction), length) in directions.iter().zip(found.iter()) {
             inner[*index] += direction * *length;
         }
-        let along = |index: usize| tangents[index].is_none_or(|_| found[if index == 0 { 0 } else { directions.len() - 1 }] > 0.0);
+        let along = |index: usize| {
+            tangents[index].is_none_or(|_| found[if index == 0 { 0 } else { directions.len() - 1 }] > 0.0)
+        };
         (along(0) && along(1)).then_some(Cubic([start, inner[0], inner[1], end]))
     }
 }
@@ -210,7 +212,9 @@ mod tests {
     }
 
     fn points(count: u32) -> Vec<Vec3> {
-        (0..=count).map(|step| curve().at(f64::from(step) / f64::from(count))).collect()
+        (0..=count)
+            .map(|step| curve().at(f64::from(step) / f64::from(count)))
+            .collect()
     }
 
     #[test]
@@ -223,7 +227,9 @@ mod tests {
             [Some(tangents[0]), None],
             [None, None],
         ] {
-            let found = Data::new(&points(40), false).and_then(|data| data.fit(given, 0.01)).expect("a fit");
+            let found = Data::new(&points(40), false)
+                .and_then(|data| data.fit(given, 0.01))
+                .expect("a fit");
             for step in 0..=20 {
                 let t = f64::from(step) / 20.0;
                 let nearest = (0..=4000).map(|i| (found.at(f64::from(i) / 4000.0) - curve().at(t)).norm());
@@ -231,7 +237,11 @@ mod tests {
             }
         }
         let back = [Some(-tangents[0]), Some(tangents[1])];
-        assert!(Data::new(&points(40), false).and_then(|data| data.fit(back, 0.01)).is_none());
+        assert!(
+            Data::new(&points(40), false)
+                .and_then(|data| data.fit(back, 0.01))
+                .is_none()
+        );
     }
 
     #[test]

@@ -37,6 +37,8 @@ pub(crate) struct Terms {
     pub style: NumberStyle,
     /// mm per programmed length unit.
     pub unit_mm: f64,
+    /// How far the control may be from the curve that is written, mm.
+    pub control_mm: f64,
 }
 
 /// A curve as it is written, in the place of the lines between two points of a chain.
@@ -137,7 +139,9 @@ impl<T: Fn(usize, usize) -> bool> Run<'_, T> {
             }
         }
         // a rest that is too short for a curve takes some lines of the curve before it
-        let before = found[first..].last().map(|spline| (spline.from - self.start, spline.to - self.start));
+        let before = found[first..]
+            .last()
+            .map(|spline| (spline.from - self.start, spline.to - self.start));
         if let Some((from, to)) = before.filter(|(_, to)| *to + 2 <= last && last < to + LEAST)
             && last >= from + 2 * LEAST
             && let Some(left) = self.spline(from, last - LEAST)
@@ -220,7 +224,9 @@ impl<T: Fn(usize, usize) -> bool> Run<'_, T> {
         }
         let [s2, s3, s4] = sums;
         let direction = linear * s4 - square * s3;
-        (s2 * s4 - s3 * s3 > 0.0).then(|| direction.try_normalize(0.0)).flatten()
+        (s2 * s4 - s3 * s3 > 0.0)
+            .then(|| direction.try_normalize(0.0))
+            .flatten()
     }
 }
 
@@ -249,7 +255,9 @@ fn write(cubic: &Cubic, terms: &Terms) -> Option<([Vec<String>; 3], Cubic)> {
             numbers[axis] = vec![first.0];
         }
     }
-    if numbers.iter().all(Vec::is_empty) || terms.form == Form::Handles && read.iter().any(|handle| handle.norm() == 0.0) {
+    if numbers.iter().all(Vec::is_empty)
+        || terms.form == Form::Handles && read.iter().any(|handle| handle.norm() == 0.0)
+    {
         return None;
     }
     let written = match terms.form {
@@ -278,5 +286,5 @@ fn apart(points: &[Vec3], cubic: &Cubic, terms: &Terms) -> Option<f64> {
     } else {
         abreast.apart()
     };
-    (at == points.len() && on == lines.len()).then_some(found + flat + ROUNDING)
+    (at == points.len() && on == lines.len()).then_some(found + flat + ROUNDING + terms.control_mm)
 }

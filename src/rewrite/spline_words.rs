@@ -19,7 +19,9 @@ impl Pen<'_> {
     /// Whether the lines between two points of a chain can be written as one block: it has words of an axis to put the curve at, and the point at which
     /// it ends can be written.
     pub(crate) fn takes(&self, chain: &Chain, from: usize, to: usize) -> bool {
-        let Some(line) = chain.lines.get(from) else { return false };
+        let Some(line) = chain.lines.get(from) else {
+            return false;
+        };
         let leads = self.program.block(line.block).words().any(|word| is_axis(&word));
         let said = (0..3).all(|axis| {
             let moves = self.form == Form::Handles && axis < 2 || chain.point(from)[axis] != chain.point(to)[axis];
@@ -31,7 +33,10 @@ impl Pen<'_> {
     /// The number of an axis at the end of a curve: the last one that its lines say, or else that of the point.
     fn end(&self, chain: &Chain, (from, to): (usize, usize), axis: usize) -> Option<String> {
         let letter = Address::Letter(b'X' + axis as u8);
-        let mut blocks = chain.lines[from..to].iter().rev().map(|line| self.program.block(line.block));
+        let mut blocks = chain.lines[from..to]
+            .iter()
+            .rev()
+            .map(|line| self.program.block(line.block));
         let said = blocks.find_map(|block| {
             let word = block.words().filter(|word| word.address == letter).last()?;
             Some(self.program.text(word.value_range).into_owned())
@@ -70,11 +75,18 @@ impl Pen<'_> {
     }
 
     fn block(&self, chain: &Chain, spline: &Spline, edits: &mut Edits) {
-        let blocks: Vec<BlockId> = chain.lines[spline.from..spline.to].iter().map(|line| line.block).collect();
-        let Some((&first, rest)) = blocks.split_first() else { return };
+        let blocks: Vec<BlockId> = chain.lines[spline.from..spline.to]
+            .iter()
+            .map(|line| line.block)
+            .collect();
+        let Some((&first, rest)) = blocks.split_first() else {
+            return;
+        };
         let block = self.program.block(first);
         let words: Vec<Word> = block.words().collect();
-        let Some(leading) = words.iter().find(|word| is_axis(word)) else { return };
+        let Some(leading) = words.iter().find(|word| is_axis(word)) else {
+            return;
+        };
         let lower = self.program.source()[leading.range.start as usize].is_ascii_lowercase();
         let text = self.words(chain, spline, lower);
         for word in &words {
@@ -83,7 +95,11 @@ impl Pen<'_> {
                 edits.delete(with_blanks(self.program, &block, word.range));
             }
         }
-        edits.replace(self.program, leading.range, &self.apart_from_others(&block, leading.range, &text));
+        edits.replace(
+            self.program,
+            leading.range,
+            &self.apart_from_others(&block, leading.range, &text),
+        );
         edits.delete_blocks(self.program, rest);
     }
 
@@ -124,7 +140,11 @@ impl Pen<'_> {
                 }
                 for (place, letters) in [['I', 'J'], ['P', 'Q']].into_iter().enumerate() {
                     for (axis, letter) in letters.into_iter().enumerate() {
-                        words.extend(spline.numbers[axis].get(place).map(|number| format!("{}{number}", case(letter))));
+                        words.extend(
+                            spline.numbers[axis]
+                                .get(place)
+                                .map(|number| format!("{}{number}", case(letter))),
+                        );
                     }
                 }
             }

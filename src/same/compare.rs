@@ -210,13 +210,11 @@ fn pair(
             if let (Some(refit), None) = (claim.refit, &following)
                 && (open.curve.is_some() || curve::begins(was, is))
             {
-                return Ok(
-                    match curve::judged(was, is, (refit, claim), judge, &mut open.curve)? {
-                        Walked::First => Paired::FirstInPart,
-                        Walked::Second => Paired::SecondInPart,
-                        Walked::Both => Paired::Both,
-                    },
-                );
+                return Ok(match curve::judged(was, is, (refit, claim), judge, &mut open.curve)? {
+                    Walked::First => Paired::FirstInPart,
+                    Walked::Second => Paired::SecondInPart,
+                    Walked::Both => Paired::Both,
+                });
             }
             if let Some(refit) = claim.refit {
                 let together = following.is_some() || begin_together(was, is);

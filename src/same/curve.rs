@@ -30,9 +30,8 @@ pub(crate) fn begins(was: &Step, is: &Step) -> bool {
 /// The same line that stands for a piece of a curve in the same way, or two lines that stand for none.
 pub(crate) fn same_piece(a: &Motion, b: &Motion) -> bool {
     let near = |from: f64, to: f64| from.to_bits() == to.to_bits() || (from - to).abs() <= 1e-9;
-    let ends = |axis: usize| {
-        near(a.start.values[axis], b.start.values[axis]) && near(a.end.values[axis], b.end.values[axis])
-    };
+    let ends =
+        |axis: usize| near(a.start.values[axis], b.start.values[axis]) && near(a.end.values[axis], b.end.values[axis]);
     a.slack_mm.to_bits() == b.slack_mm.to_bits() && (a.slack_mm == 0.0 || (0..3).all(ends))
 }
 
@@ -108,7 +107,10 @@ fn walk(
     // not a number is above every limit
     if off.is_nan() || off > refit.mm {
         let what = if refit.points_only { "a point" } else { "the path" };
-        let what = format!("{what} is up to {off:.6} mm from the new path; {} mm is allowed", refit.mm);
+        let what = format!(
+            "{what} is up to {off:.6} mm from the new path; {} mm is allowed",
+            refit.mm
+        );
         return Err(Verdict::Differs(place(what)));
     }
     if walked != Walked::Both || (to - end).norm() > JOINT {

@@ -51,14 +51,16 @@ fn margin(view: &LegView<'_>) -> Option<Margin> {
     };
     let feed = view.programmed_feed().unwrap_or(0.0);
     let linear = view.machine.axes.iter().enumerate();
-    linear.filter(|(_, axis)| axis.kind == AxisKind::Linear).find_map(|(joint, axis)| {
-        if near(joint, axis) && !view.rests_on_undeclared(joint) {
-            return Some(Margin::Travel(joint));
-        }
-        let moves = start.joints[joint] != end.joints[joint];
-        let slow = axis.max_speed.is_some_and(|most| growth * feed > 60.0 * most);
-        (moves && slow).then_some(Margin::Speed(joint))
-    })
+    linear
+        .filter(|(_, axis)| axis.kind == AxisKind::Linear)
+        .find_map(|(joint, axis)| {
+            if near(joint, axis) && !view.rests_on_undeclared(joint) {
+                return Some(Margin::Travel(joint));
+            }
+            let moves = start.joints[joint] != end.joints[joint];
+            let slow = axis.max_speed.is_some_and(|most| growth * feed > 60.0 * most);
+            (moves && slow).then_some(Margin::Speed(joint))
+        })
 }
 
 /// By how much a short way of the tip may grow to that of a linear joint: 1 where the linear axes are square to each other.

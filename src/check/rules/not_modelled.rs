@@ -228,19 +228,34 @@ mod tests {
     /// A curve that keeps clear of all limits passes; nearer to one than its lines are to it, it is unknown.
     #[test]
     fn a_curve_is_unknown_only_where_its_margin_counts() {
-        let text = |x: &str, feed: u32| format!("G17 G90 G71 G94 G54\nS900 M3\nG0 X0 Y0 Z5\nG1 F{feed}\nPOLY PO[X]=({x},-2) PO[Y]=(4,3,1)\nG1 Y9\nG0 Z50\nM30\n");
+        let text = |x: &str, feed: u32| {
+            format!(
+                "G17 G90 G71 G94 G54\nS900 M3\nG0 X0 Y0 Z5\nG1 F{feed}\nPOLY PO[X]=({x},-2) PO[Y]=(4,3,1)\nG1 Y9\nG0 Z50\nM30\n"
+            )
+        };
         let found = |text: &str| {
-            let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mill-3axis", text).check().unwrap();
+            let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mill-3axis", text)
+                .check()
+                .unwrap();
             let own = report.diagnostics.iter().filter(|d| d.rule == "not-modelled");
-            (own.map(|d| d.message.clone()).collect::<Vec<_>>(), report.verdict(Severity::Error))
+            (
+                own.map(|d| d.message.clone()).collect::<Vec<_>>(),
+                report.verdict(Severity::Error),
+            )
         };
         assert_eq!(found(&text("10", 500)), (Vec::new(), crate::Verdict::Pass));
         let (near, verdict) = found(&text(&format!("{}", limit() - 0.000_004), 500));
-        assert!(near.len() == 1 && near[0].contains("X comes nearer than that to the end of its travel"), "{near:?}");
+        assert!(
+            near.len() == 1 && near[0].contains("X comes nearer than that to the end of its travel"),
+            "{near:?}"
+        );
         assert_eq!(verdict, crate::Verdict::Unknown);
         assert_eq!(found(&text(&format!("{}", limit() - 0.000_1), 500)).0, [""; 0]);
         let (fast, _) = found(&text("10", 200_000));
-        assert!(fast.iter().any(|message| message.contains("may be too fast")), "{fast:?}");
+        assert!(
+            fast.iter().any(|message| message.contains("may be too fast")),
+            "{fast:?}"
+        );
     }
 
     /// The end of the travel of X on mill-3axis, mm.

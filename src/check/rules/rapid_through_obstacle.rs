@@ -104,7 +104,10 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 });
             }
             Nearness::Near(_) if !rapid => {
-                let what = format!("this curve is followed as lines that it leaves by at most {} mm, and they come nearer than that to {name}", number(keep));
+                let what = format!(
+                    "this curve is followed as lines that it leaves by at most {} mm, and they come nearer than that to {name}",
+                    number(keep)
+                );
                 not_known(leg, out, UNDECIDED | key, &what);
             }
             Nearness::Near(by) => {

@@ -8,7 +8,14 @@ fn prove_of(before: &str, after: &str, tolerance_mm: f64, source: RefitSource) -
     let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("built in");
     let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
     let claim = Claim::RefittedPath { tolerance_mm, source };
-    certify(before.as_bytes(), after.as_bytes(), dialect, machine, &Setup::default(), &claim)
+    certify(
+        before.as_bytes(),
+        after.as_bytes(),
+        dialect,
+        machine,
+        &Setup::default(),
+        &claim,
+    )
 }
 
 fn prove(before: &str, after: &str, tolerance_mm: f64) -> Outcome {
@@ -59,9 +66,34 @@ fn lines_become_a_polynomial_within_their_sag() {
     let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("built in");
     let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
     let stored = Certificate::from_json(&certificate.to_json()).expect("JSON");
-    let again = |before: &str| recheck(&stored, before.as_bytes(), after.as_bytes(), dialect, machine, &Setup::default());
+    let again = |before: &str| {
+        recheck(
+            &stored,
+            before.as_bytes(),
+            after.as_bytes(),
+            dialect,
+            machine,
+            &Setup::default(),
+        )
+    };
     proved(again(&before));
     refused(again(&before.replace("X10.0000", "X10.0010")));
+    // forged and sealed again: a finer tolerance, a smaller distance, one more line
+    let forge = |change: &dyn Fn(&mut Certificate)| {
+        let mut forged = certificate.clone();
+        change(&mut forged);
+        let forged = forged.sealed();
+        recheck(&forged, before.as_bytes(), after.as_bytes(), dialect, machine, &Setup::default())
+    };
+    proved(forge(&|_| {}));
+    refused(forge(&|forged| {
+        forged.claim = Claim::RefittedPath {
+            tolerance_mm: 0.9 * sag,
+            source: RefitSource::Chords,
+        };
+    }));
+    refused(forge(&|forged| forged.worst.path_bound_mm.value *= 0.99));
+    refused(forge(&|forged| forged.motions.changed += 1));
     // the other way round, and a curve in the place of another
     proved(prove(&after, &before, 0.003));
     proved(prove(&after, &around("", "POLY X20 PO[Y]=(4,12.001,-8)\n"), 0.003));
@@ -104,7 +136,14 @@ fn a_curve_is_not_the_lines_near_it() {
         tolerance_deg: 0.001,
     };
     let same = |before: &str, after: &str| {
-        certify(before.as_bytes(), after.as_bytes(), dialect, machine, &Setup::default(), &claim)
+        certify(
+            before.as_bytes(),
+            after.as_bytes(),
+            dialect,
+            machine,
+            &Setup::default(),
+            &claim,
+        )
     };
     let short = around("", "POLY X1 PO[Y]=(1,0.00001)\n");
     proved(same(&short, &short.replace("POLY X1", "POLY X1.0")));

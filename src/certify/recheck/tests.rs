@@ -2,7 +2,6 @@
 use super::{certify, recheck};
 use crate::{Certificate, Claim, Outcome};
 use trunnion_interp::Setup;
-mod curved;
 mod refitted;
 mod switch;
 mod unmeasured;

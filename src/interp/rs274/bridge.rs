@@ -346,11 +346,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let target = shift.coordinates(end);
         let feed = self.feed(&shift.machine(&target), true, at, state);
         let arcs = self.core.setup.control.spline_arcs_mm;
-        let own = if arcs.is_some() {
-            DECLARED_TOLERANCE_MM
-        } else {
-            SPLINE_TOLERANCE_MM
-        };
+        let own = arcs.map_or(SPLINE_TOLERANCE_MM, |_| DECLARED_TOLERANCE_MM);
         let places = chords(order as usize, points, knots, own / state.units.mm());
         match (&places, arcs) {
             (Some(_), Some(_)) => {}

@@ -126,7 +126,9 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             };
             // G5 is refused in other planes
             let in_plane = form == Form::Powers || chain.plane == Plane::Xy;
-            let splines = splines(&chain.points(), &terms, &|from, to| in_plane && pen.takes(chain, from, to));
+            let splines = splines(&chain.points(), &terms, &|from, to| {
+                in_plane && pen.takes(chain, from, to)
+            });
             let saved: usize = splines.iter().map(|spline| spline.to - spline.from - 1).sum();
             was += chain.lines.len();
             is += chain.lines.len() - saved;

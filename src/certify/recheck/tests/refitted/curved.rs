@@ -83,7 +83,14 @@ fn lines_become_a_polynomial_within_their_sag() {
         let mut forged = certificate.clone();
         change(&mut forged);
         let forged = forged.sealed();
-        recheck(&forged, before.as_bytes(), after.as_bytes(), dialect, machine, &Setup::default())
+        recheck(
+            &forged,
+            before.as_bytes(),
+            after.as_bytes(),
+            dialect,
+            machine,
+            &Setup::default(),
+        )
     };
     proved(forge(&|_| {}));
     refused(forge(&|forged| {

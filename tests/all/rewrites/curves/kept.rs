@@ -112,6 +112,19 @@ fn linuxcnc_gets_g5_where_its_arcs_are_declared() {
         "{after}"
     );
     asked_of_the_control(&after);
+    // other controls get no lines for a curve
+    let source = trunnion::convert::Source {
+        text: after.as_bytes(),
+        dialect: settings.dialect,
+        machine: settings.machine,
+        setup: &settings.setup,
+        assume: trunnion::certify::conversion::Assume::default(),
+    };
+    let target = trunnion::convert::Target::Code {
+        post: trunnion::convert::builtin_post("fanuc-30i").expect("a post"),
+        machine: settings.machine,
+    };
+    assert!(trunnion::convert::convert(&source, &target, &trunnion::convert::Options::default()).is_err());
     // it cannot be nearer than its arcs, and Z does not move in G5
     assert!(
         run("fit-splines", &text, &settings, &options(0.002, RefitSource::Chords))

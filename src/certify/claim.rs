@@ -112,8 +112,8 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
-    /// Lines may be put together into fewer lines, arcs and helices (`fit-arcs`, `drop-redundant`). The two paths are nowhere farther apart than
-    /// `tolerance_mm`, both walked from start to end and neither going back; `source` says whether the old path is the lines or only their
+    /// Lines may be put together into fewer lines, arcs, helices and curves (`fit-arcs`, `fit-splines`, `drop-redundant`). The two paths are nowhere
+    /// farther apart than `tolerance_mm`, both walked from start to end and neither going back; `source` says whether the old path is the lines or only their
     /// ends. Feed, spindle, tool, offsets and rotary axes are the same at each line, and all else is as in [`Self::SameToolPath`] within
     /// 1e-6 mm and deg.
     RefittedPath {

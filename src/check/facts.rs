@@ -2,6 +2,7 @@
 //! computed (`may`): `may` is never false where the rules that the fact wakes would report something; debug builds check that.
 //! A new fact is a type here and a line in `wake.rs`.
 mod axes;
+mod curve;
 mod cut;
 mod motion;
 mod place;
@@ -10,6 +11,7 @@ mod posture;
 mod travel;
 
 pub(crate) use axes::{CableAxis, ClampedTurn, IdleTip, LongTurn, OverTravel};
+pub(crate) use curve::{Curved, Margin};
 pub(crate) use cut::{Cut, HeldBackCut, OtherLength, StrayingCut, UncertainCut, VectorCut};
 pub(crate) use motion::{
     CutSpindleUnlimited, FirstApproach, FirstCut, LengthLeft, LengthOffZ, SteepHelix, UnsaidUnits,

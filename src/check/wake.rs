@@ -3,10 +3,10 @@ use crate::coverage::Coverage;
 use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut, IdleTip,
-    LengthLeft, LengthOffZ, LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel,
-    Passing, PoleCrossing, PolePass, PostureSwap, SteepHelix, StrayingCut, UncertainCut, UnsaidUnits, VectorCut,
-    WindingCut,
+    Arrival, CableAxis, ClampedTurn, Curved, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut,
+    IdleTip, LengthLeft, LengthOffZ, LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength,
+    OverTravel, Passing, PoleCrossing, PolePass, PostureSwap, SteepHelix, StrayingCut, UncertainCut, UnsaidUnits,
+    VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -215,6 +215,8 @@ wakes! {
         Passing,
         /// A feed motion to which rapid motions led.
         Arrival,
+        /// A piece of a curve where it matters that it is followed as lines.
+        Curved,
         /// An end at which the machine's position is unknown, or that it cannot reach.
         LostEnd,
         /// An arc from a start that is unknown.

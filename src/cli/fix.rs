@@ -39,7 +39,7 @@ pub(crate) enum CostOf {
     Deviation,
 }
 
-/// What `fit-arcs` keeps to.
+/// What `fit-arcs` and `fit-splines` keep to.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum SourceOf {
     /// The ends of the lines.

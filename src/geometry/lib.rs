@@ -1,6 +1,7 @@
 //! Floor 0: space without G-code. Lengths are mm, angles rad, unless a name says otherwise (`_deg`).
 //!
 //! It does not know programs, dialects or machines.
+pub mod abreast;
 pub mod along;
 pub mod arc;
 pub mod math;

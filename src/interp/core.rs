@@ -270,6 +270,7 @@ impl<'d> Core<'d> {
             tool: state.tool.number(),
             tilt: Tilt::default(),
             effects: self.effects.count(),
+            slack_mm: 0.0,
         }
     }
 

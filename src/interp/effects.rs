@@ -286,7 +286,7 @@ impl Iso<'_> {
             .any(|found| matches!(found.code.action, Action::WorkOffset | Action::WorkSystem));
         let lost = self.core.state.zero.values().iter().any(|value| value.is_nan()) || self.core.state.zero.is_lost();
         let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
-        let unread = has_unread(words) || self.core.state.motion == Some(Action::Polynomial);
+        let unread = has_unread(words);
         if frame && !unknown_frame {
             let words = written(view, self, words, Keep::All);
             self.core.effects.keep_frame(words);

@@ -29,6 +29,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, MotionKind, Position};
 use trunnion_dialect::Action;
+use trunnion_geometry::Vec3;
 
 /// X, Y, Z in [`crate::AXIS_LETTERS`].
 pub(crate) const XYZ: u16 = 0b111;
@@ -106,6 +107,27 @@ impl Frames {
         self.synced = work;
         self.active = self.is_needed();
         work
+    }
+    /// By how much a short way may grow from the coordinates of the words to work coordinates: 1 unless something is scaled.
+    pub(crate) fn most_growth(&self) -> f64 {
+        if !self.active {
+            return 1.0;
+        }
+        let at = |axis: Option<usize>| {
+            let mut words = Position::default();
+            (0..3).for_each(|index| words.set(index, if Some(index) == axis { 1.0 } else { 0.0 }));
+            let work = self.shape.to_work(&words);
+            Vec3::new(work.values[0], work.values[1], work.values[2])
+        };
+        let middle = at(None);
+        let columns = [0, 1, 2].map(|axis| at(Some(axis)) - middle);
+        let square = |pair: [usize; 2]| columns[pair[0]].dot(&columns[pair[1]]).abs() <= 1e-9;
+        let rigid = columns.iter().all(|column| (column.norm() - 1.0).abs() <= 1e-9)
+            && [[0, 1], [0, 2], [1, 2]].into_iter().all(square);
+        if rigid {
+            return 1.0;
+        }
+        columns.iter().map(Vec3::norm_squared).sum::<f64>().sqrt()
     }
     /// The kind of a motion in work coordinates.
     pub(crate) fn kind_to_work(&self, kind: MotionKind) -> MotionKind {

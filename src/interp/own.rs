@@ -107,8 +107,6 @@ pub(crate) struct Own {
     pub(crate) path: crate::sinumerik::PathWords,
     /// PO and PL of the current block.
     pub(crate) polynomial: crate::sinumerik::PolynomialWords,
-    /// The bound of the lines that stand for polynomials was reported.
-    pub(crate) polynomial_told: bool,
     /// What path words of blocks before leave behind.
     pub(crate) contour: crate::sinumerik::Contour,
     /// The kind of spline, where the motion in effect is one.

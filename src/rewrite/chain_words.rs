@@ -33,7 +33,7 @@ impl Hand {
         }
     }
 
-    fn code(&self, number: u8, lower: bool) -> String {
+    pub(crate) fn code(&self, number: u8, lower: bool) -> String {
         let letter = if lower { 'g' } else { 'G' };
         if self.two_digits {
             format!("{letter}{number:02}")
@@ -43,7 +43,7 @@ impl Hand {
     }
 }
 
-fn is_number(word: &Word, number: i64) -> bool {
+pub(crate) fn is_number(word: &Word, number: i64) -> bool {
     matches!(word.value, Value::Number(value) if value.to_integer() == Some(number))
 }
 
@@ -55,12 +55,15 @@ fn plane_code(plane: Plane) -> u8 {
     }
 }
 
+/// So many edits are made for one block at most before its other lines are deleted.
+const LATEST: usize = 32;
+
 /// Edits of one block: insertions at one place stay in their order.
 #[derive(Default)]
-struct Edits(Vec<TextEdit>);
+pub(crate) struct Edits(Vec<TextEdit>);
 
 impl Edits {
-    fn replace(&mut self, program: &Program, range: TextRange, new_text: &str) {
+    pub(crate) fn replace(&mut self, program: &Program, range: TextRange, new_text: &str) {
         if program.text(range) != new_text {
             self.0.push(TextEdit {
                 range,
@@ -69,16 +72,30 @@ impl Edits {
         }
     }
 
-    fn delete_blocks(&mut self, program: &Program, blocks: &[BlockId]) {
+    pub(crate) fn delete_blocks(&mut self, program: &Program, blocks: &[BlockId]) {
         self.0.extend(blocks.iter().map(|block| TextEdit {
             range: TextRange::new(program.block(*block).range().start, start_of_next(program, *block)),
             new_text: String::new(),
         }));
     }
 
+    pub(crate) fn delete(&mut self, range: TextRange) {
+        self.0.push(TextEdit {
+            range,
+            new_text: String::new(),
+        });
+    }
+
+    /// All, in the order of the text.
+    pub(crate) fn sorted(mut self) -> Vec<TextEdit> {
+        self.0.sort_by_key(|edit| (edit.range.start, edit.range.end));
+        self.0
+    }
+
     fn insert(&mut self, at: u32, new_text: &str) {
         let range = TextRange::new(at, at);
-        match self.0.iter_mut().find(|edit| edit.range == range) {
+        // other insertions at this place were made just before: a search of all would take quadratic time
+        match self.0.iter_mut().rev().take(LATEST).find(|edit| edit.range == range) {
             Some(edit) => edit.new_text.push_str(new_text),
             None => self.0.push(TextEdit {
                 range,
@@ -139,8 +156,7 @@ pub(crate) fn write(program: &Program, hand: &Hand, chains: &[(&Chain, Vec<Piece
     if let (Some(block), true) = (chains.last().and_then(|(chain, _)| chain.next_line), turns) {
         write_block(program, hand, &[block], (&[1], &[], [false; 3]), None, &mut edits);
     }
-    edits.0.sort_by_key(|edit| (edit.range.start, edit.range.end));
-    edits.0
+    edits.sorted()
 }
 
 /// The edits that write `pieces` of a chain, all lines, without words that repeat what is in effect, sorted.
@@ -184,8 +200,13 @@ pub(crate) fn lean(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Piec
     edits.0
 }
 
+/// Gives a line the code of a line, which another motion code before it has taken away.
+pub(crate) fn write_line_code(program: &Program, hand: &Hand, block: BlockId, edits: &mut Edits) {
+    write_block(program, hand, &[block], (&[1], &[], [false; 3]), None, edits);
+}
+
 /// The word with the blanks before it; at the start of a block with those after it.
-fn with_blanks(program: &Program, block: &Block<'_>, range: TextRange) -> TextRange {
+pub(crate) fn with_blanks(program: &Program, block: &Block<'_>, range: TextRange) -> TextRange {
     let source = program.source();
     let is_blank = |byte: &&u8| **byte == b' ' || **byte == b'\t';
     let (begin, end) = (block.range().start as usize, block.range().end as usize);
@@ -300,7 +321,7 @@ fn write_block(
     edits.delete_blocks(program, rest);
 }
 
-fn is_axis(word: &Word) -> bool {
+pub(crate) fn is_axis(word: &Word) -> bool {
     matches!(word.address, Address::Letter(b'X'..=b'Z' | b'A'..=b'C' | b'U'..=b'W'))
 }
 

@@ -50,6 +50,16 @@ impl Chain {
 /// Why lines were left alone, most frequent reasons of a program first.
 pub(crate) type Reasons = Vec<(&'static str, u32)>;
 
+/// Why other lines were not looked at, for people.
+pub(crate) fn left_alone(reasons: &Reasons) -> Option<String> {
+    let texts: Vec<String> = reasons
+        .iter()
+        .take(3)
+        .map(|(why, count)| format!("{count} lines ({why})"))
+        .collect();
+    (!texts.is_empty()).then(|| texts.join("; "))
+}
+
 /// What a rewrite of chains sees of a program.
 pub(crate) struct Chains {
     /// In the order of the text.
@@ -103,6 +113,9 @@ impl Sink for Collector {
     fn fault(&mut self, _: Fault) {}
 }
 
+/// Why a line that stands for a piece of a curve is left alone.
+const CURVE: &str = "it is a curve already";
+
 /// Both ends of a line that may be put together with others; else why not.
 fn ends(motion: &Motion, state: &ModalState) -> Result<(Vec3, Vec3), &'static str> {
     if motion.kind != MotionKind::Linear {
@@ -111,7 +124,9 @@ fn ends(motion: &Motion, state: &ModalState) -> Result<(Vec3, Vec3), &'static st
     let stands =
         (3..9).all(|axis| motion.start.get(axis) == motion.end.get(axis) && motion.says_way & (1 << axis) == 0);
     let turned = matches!(motion.orientation, Orientation::Vector(start, end) if start != Some(end));
-    if motion.chain != ChainId::MAIN {
+    if motion.slack_mm > 0.0 {
+        Err(CURVE)
+    } else if motion.chain != ChainId::MAIN {
         Err("it is in a called program")
     } else if state.coordinates.incremental() {
         Err("it is incremental (G91)")
@@ -234,7 +249,8 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
     let mut at = 0;
     let mut close = |open: &mut Option<Chain>, next: Option<&Seen>| {
         if let Some(mut chain) = open.take().filter(|chain| chain.lines.len() >= least) {
-            chain.next_line = next.filter(|next| next.linear).map(|next| next.block);
+            let line = |next: &&Seen| next.linear && next.ends != Err(CURVE);
+            chain.next_line = next.filter(line).map(|next| next.block);
             found.chains.push(chain);
         }
     };
@@ -260,6 +276,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         let one = &seen[at];
         at += motions;
         let why = match &one.ends {
+            Err(why) if *why == CURVE => Some(*why),
             _ if motions > 1 => Some("a block makes several motions"),
             Err(why) => Some(*why),
             Ok(_) if stops => Some("exact stop is on (G61, G60): each block ends with a stop"),

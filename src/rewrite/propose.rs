@@ -20,7 +20,7 @@ pub struct Options {
     pub given_mm: Option<f64>,
     /// Cuts that are slower than this are made as fast as the axes allow, up to this, mm/min (`adapt-feed`). 0: none is made faster.
     pub feed_mm_min: f64,
-    /// What a refitted path must be near (`fit-arcs`).
+    /// What a refitted path must be near (`fit-arcs`, `fit-splines`).
     pub source: RefitSource,
     /// Which point of a ball X Y Z are (`smooth-pole`).
     pub point: ProgrammedPoint,

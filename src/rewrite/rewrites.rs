@@ -3,6 +3,7 @@
 mod adapt_feed;
 mod drop_redundant;
 mod fit_arcs;
+mod fit_splines;
 mod insert_points;
 mod insert_retract;
 mod renumber;
@@ -51,6 +52,7 @@ static REWRITES: &[&Rewrite] = table![
     insert_retract,
     reroute_rapid,
     fit_arcs,
+    fit_splines,
     drop_redundant,
     insert_points,
     adapt_feed,

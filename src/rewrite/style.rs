@@ -1,4 +1,6 @@
 //! How a program writes its numbers, and numbers written that way.
+use core::ops::RangeInclusive;
+use trunnion_syntax::{Address, Program, Value};
 
 /// How the words of one letter are written in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +15,28 @@ pub(crate) struct NumberStyle {
     pub leading_zero: bool,
 }
 
+/// How the numbers of some letters are written in a program.
+pub(crate) fn of_letters(program: &Program, letters: RangeInclusive<u8>) -> Option<NumberStyle> {
+    let mut ranges = Vec::new();
+    for block in program.blocks() {
+        let words = block.words().filter(|word| {
+            matches!(word.value, Value::Number(_))
+                && matches!(word.address, Address::Letter(letter) if letters.contains(&letter))
+        });
+        ranges.extend(words.map(|word| word.value_range));
+    }
+    NumberStyle::learn(ranges.into_iter().map(|range| program.text(range)))
+}
+
 impl NumberStyle {
+    /// Where a program shows none.
+    pub(crate) const USUAL: Self = Self {
+        decimals: 3,
+        trims: false,
+        whole_point: true,
+        leading_zero: true,
+    };
+
     /// Learns from numbers as written. `None` when there is none, or none that is a plain decimal.
     pub(crate) fn learn<T: AsRef<str>>(texts: impl Iterator<Item = T>) -> Option<Self> {
         let mut style: Option<Self> = None;

@@ -3,6 +3,7 @@
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
 use crate::begin::{begin_alike, may_be_part, way_is_open};
+use crate::curve::{self, Curve};
 use crate::cut::{cut, is_idle, may_be_cut};
 use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
@@ -11,13 +12,14 @@ use crate::item::{Item, Sort, Step};
 use crate::judge::Judge;
 use crate::process::{motion_difference, unlike};
 use crate::rapids;
-use crate::refit::{Followed, Following, Joint, Refit, begin_together, follow, may_begin};
+use crate::refit::{Followed, Following, Joint, Refit, begin_apart, begin_together, follow, may_begin};
 use crate::retracts;
 use crate::sentences::{kind, only_one, undecided};
 use crate::steps::Steps;
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
 use std::collections::VecDeque;
+use trunnion_geometry::abreast::Walked;
 use trunnion_interp::{MotionKind, Orientation, same_number};
 
 /// What is claimed to be the same.
@@ -87,7 +89,7 @@ fn walk(
 ) -> Result<(), Verdict> {
     let mut a = next(before, claim);
     let mut b = next(after, claim);
-    let mut following = None;
+    let mut open = Open::default();
     // motions of the program before that were followed beyond the end of a new one
     let mut again = VecDeque::new();
     while let (Some(was), Some(is)) = (&mut a, &mut b) {
@@ -113,7 +115,7 @@ fn walk(
             b = retracts::excursion(cut, away, after, claim, judge)?;
             continue;
         }
-        let found = pair(was, is, claim, judge, &mut following);
+        let found = pair(was, is, claim, judge, &mut open);
         let moved_on = match found {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
@@ -178,12 +180,19 @@ enum Paired {
     EndedBefore(Box<Joint>),
 }
 
+/// What takes the place of several motions and goes on.
+#[derive(Default)]
+struct Open {
+    following: Option<Following>,
+    curve: Option<Curve>,
+}
+
 fn pair(
     was: &mut Item,
     is: &mut Item,
     claim: &Claim,
     judge: &mut dyn Judge,
-    following: &mut Option<Following>,
+    open: &mut Open,
 ) -> Result<Paired, Verdict> {
     match (&mut *was, &mut *is) {
         (Item::Motion(was), Item::Motion(is)) => {
@@ -196,6 +205,16 @@ fn pair(
                 if let Some(last) = judge.piece(was, is)? {
                     return Ok(if last { Paired::Both } else { Paired::SecondInPart });
                 }
+            }
+            let following = &mut open.following;
+            if let (Some(refit), None) = (claim.refit, &following)
+                && (open.curve.is_some() || curve::begins(was, is))
+            {
+                return Ok(match curve::judged(was, is, (refit, claim), judge, &mut open.curve)? {
+                    Walked::First => Paired::FirstInPart,
+                    Walked::Second => Paired::SecondInPart,
+                    Walked::Both => Paired::Both,
+                });
             }
             if let Some(refit) = claim.refit {
                 let together = following.is_some() || begin_together(was, is);
@@ -212,11 +231,7 @@ fn pair(
                     };
                 }
                 if !together {
-                    return Err(Verdict::Differs(Difference {
-                        before: Some(was.motion.block),
-                        after: Some(is.motion.block),
-                        what: "they begin at different places".to_owned(),
-                    }));
+                    return Err(begin_apart(was, is));
                 }
             }
             held(was, is, claim)?;
@@ -234,6 +249,9 @@ fn pair(
                 begin_alike(was, is, claim)?;
             }
             judge.pair(was, is)?;
+            if !curve::same_piece(&was.motion, &is.motion) {
+                return Err(curve::unlike(was, is));
+            }
         }
         (Item::Happens { .. }, Item::Happens { .. }) => happens(was, is, claim)?,
         _ => return Err(only_one(Some(was), Some(is))),

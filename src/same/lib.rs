@@ -9,6 +9,7 @@ mod actions;
 mod begin;
 mod compare;
 mod counted;
+mod curve;
 mod cut;
 mod ending;
 mod exact;

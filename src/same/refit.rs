@@ -173,9 +173,17 @@ pub(crate) fn begin_together(was: &Step, is: &Step) -> bool {
     })
 }
 
+pub(crate) fn begin_apart(was: &Step, is: &Step) -> Verdict {
+    Verdict::Differs(Difference {
+        before: Some(was.motion.block),
+        after: Some(is.motion.block),
+        what: "they begin at different places".to_owned(),
+    })
+}
+
 /// Why the shape of the path does not follow from the programmed coordinates of X, Y and Z, or why a motion must not be made in another
 /// number of pieces.
-fn not_comparable(was: &Step, is: &Step, claim: &Claim) -> Option<String> {
+pub(crate) fn not_comparable(was: &Step, is: &Step, claim: &Claim) -> Option<String> {
     let (a, b) = (&was.motion, &is.motion);
     let why = if !may_be_cut(was) || !may_be_cut(is) {
         "under exact stop, inverse time, cycles or threading the number of blocks matters"

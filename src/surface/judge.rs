@@ -140,7 +140,7 @@ impl<'a> Judge<'a> {
         );
         self.left = self.left.saturating_sub(found.samples);
         let found = Found {
-            bound: found.bound + required.off,
+            bound: found.bound + required.off + leg.motion.slack_mm,
             ..self.found(block, &way, found, true)
         };
         keep(&mut self.errors.from_surface, found);
@@ -156,7 +156,10 @@ impl<'a> Judge<'a> {
                 options.close,
             );
             self.left = self.left.saturating_sub(found.samples);
-            let found = self.found(block, &way, found, false);
+            let found = Found {
+                bound: found.bound + leg.motion.slack_mm,
+                ..self.found(block, &way, found, false)
+            };
             keep(&mut self.errors.same_place, found);
         }
         if let Some(deviation) = tip_deviation(self.machine, leg, 0.0) {

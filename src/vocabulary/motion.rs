@@ -244,6 +244,8 @@ pub struct Motion {
     pub tilt: Tilt,
     /// How many effects ([`crate::Effect`]) the run had before the motion; 0 if effects are not requested.
     pub effects: u32,
+    /// The motion stands for a piece of a curve, which leaves it by at most so much, and it leaves the piece by no more, mm. 0: it is the path itself.
+    pub slack_mm: f64,
 }
 
 impl Motion {
@@ -282,6 +284,7 @@ impl Motion {
             tool: None,
             tilt: Tilt::default(),
             effects: 0,
+            slack_mm: 0.0,
         }
     }
     /// Its words are machine coordinates: no offset, no length and no tool centre point control applies. `moved`: the axes that it names, bits

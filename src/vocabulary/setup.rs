@@ -176,6 +176,8 @@ pub struct ControlData {
     pub thread_least_cut_mm: Option<f64>,
     /// G76 in one block: what the last cut is left, mm (Fanuc parameter 5141, Haas setting 86).
     pub thread_finish_mm: Option<f64>,
+    /// LinuxCNC: how far the arcs that it makes of G5, G5.1 and G5.2 are at most from the curve, mm. `None`: unknown.
+    pub spline_arcs_mm: Option<f64>,
     /// Path of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
     /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: unknown, they are run.

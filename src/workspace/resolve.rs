@@ -200,6 +200,7 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     control.roughing_retract_mm = control.roughing_retract_mm.or(of.roughing_retract_mm);
     control.thread_least_cut_mm = control.thread_least_cut_mm.or(of.thread_least_cut_mm);
     control.thread_finish_mm = control.thread_finish_mm.or(of.thread_finish_mm);
+    control.spline_arcs_mm = control.spline_arcs_mm.or(of.spline_arcs_mm);
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }

@@ -1,5 +1,6 @@
 //! Rewrites and their certificates on published rows, on hard cases and on random chains.
 
+mod curves;
 mod deleted;
 mod everywhere;
 mod feeds;

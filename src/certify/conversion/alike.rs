@@ -15,6 +15,12 @@ const LENGTH_MM: f64 = 1e-6;
 impl Proof<'_> {
     /// Kind, tool and spindle; where the motion moves along the tool, also its length.
     pub(super) fn alike(&mut self, old: &Posed, new: &Posed, is: usize, moves_z: bool) -> Result<(), Outcome> {
+        // the bounds of a conversion have no room for what a curve may be beside its lines
+        if [old, new].iter().any(|posed| posed.motion.slack_mm > 0.0) {
+            return Err(Outcome::unknown(
+                "a curve (G5, POLY) is followed as lines near it, and what lies between is not compared: a program with curves is not converted",
+            ));
+        }
         let fits = match (old.motion.kind, new.motion.kind) {
             (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
             (MotionKind::Rapid, MotionKind::Rapid)

@@ -69,6 +69,7 @@ pub(super) struct FileControl {
     roughing_retract: Option<Spanned<f64>>,
     thread_least_cut: Option<Spanned<f64>>,
     thread_finish: Option<Spanned<f64>>,
+    spline_arcs: Option<Spanned<f64>>,
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
@@ -105,6 +106,7 @@ impl FileControl {
             roughing_retract_mm: length("roughing_retract", self.roughing_retract.as_ref())?,
             thread_least_cut_mm: length("thread_least_cut", self.thread_least_cut.as_ref())?,
             thread_finish_mm: length("thread_finish", self.thread_finish.as_ref())?,
+            spline_arcs_mm: length("spline_arcs", self.spline_arcs.as_ref())?,
             outer_corner: match self.outer_corner {
                 Some(Corner::Arc) => OuterCorner::Arc,
                 Some(Corner::Lines) | None => OuterCorner::Lines,

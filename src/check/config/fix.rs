@@ -45,7 +45,7 @@ pub struct FixSettings {
     pub cost: Option<FixCost>,
     /// `point`: of `smooth-pole`.
     pub point: Option<FixPoint>,
-    /// `source`: of `fit-arcs`.
+    /// `source`: of `fit-arcs` and `fit-splines`.
     pub source: Option<FixSource>,
     /// `feed_mm_min`: of `adapt-feed`, mm/min.
     pub feed_mm_min: Option<f64>,

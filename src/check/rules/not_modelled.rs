@@ -15,6 +15,9 @@
 //! N10 G0 X12
 //! ```
 //!
+//! A curve of a Sinumerik (POLY) is followed as lines that it leaves by at most 0.00001 mm. Where that could decide whether an axis
+//! stays within its travel or its speed, this rule says so.
+//!
 //! # Guarantee
 //! Sound: what is not modelled is reported, once per cause.
 //!
@@ -22,13 +25,19 @@
 //! * docs/contract.md#verdicts
 //! * FANUC Series 15i-MA B-63324EN/03, helical interpolation: bit HTG (parameter 1401; of the Series 30i 1403).
 //! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019), p. 750: the plane assigns the lengths of a tool to axes, setting data 42940.
+use crate::facts::Margin;
 use crate::prelude::*;
 use trunnion_dialect::Plane;
 use trunnion_interp::Lacks;
 
 pub(super) const RULE: Body = Body::sound(
     Info,
-    &[Wake::Fault(check), Wake::LengthOffZ(length), Wake::SteepHelix(helix)],
+    &[
+        Wake::Fault(check),
+        Wake::Curved(too_near),
+        Wake::LengthOffZ(length),
+        Wake::SteepHelix(helix),
+    ],
 );
 
 /// The plane says along which axis the length of a mill's tool acts: G18 along Y, G19 along X.
@@ -62,6 +71,28 @@ fn helix(helix: &facts::SteepHelix<'_>, out: &mut Reporter<'_>) {
     .note("times, feeds and speeds of the axes are judged here with F along the helix; along the arc the tool moves faster by this factor")
     .help("divide F by this factor if HTG is 0; if it is 1, allow the rule and give that reason")
     .value("helix_to_arc", helix.ratio);
+}
+
+/// Keys of merging: one for each axis and kind.
+const TRAVEL: u64 = 1 << 40;
+const SPEED: u64 = 2 << 40;
+
+fn too_near(leg: &facts::Curved<'_>, out: &mut Reporter<'_>) {
+    let slack = number(leg.motion().slack_mm);
+    let (joint, key, what) = match leg.why {
+        Margin::Travel(joint) => (joint, TRAVEL, "comes nearer than that to the end of its travel"),
+        Margin::Speed(joint) => (joint, SPEED, "may be too fast where the curve turns into its direction"),
+    };
+    let axis = &leg.machine.axes[joint];
+    out.unknown(leg, Merge::once(key + u64::from(axis.letter)), |draft| {
+        draft
+            .say(format!(
+                "this curve is followed as lines that it leaves by at most {slack} mm, and {} {what}",
+                letter(axis.letter)
+            ))
+            .note("whether the axis exceeds it is unknown")
+            .help("keep the path farther from the limit, or reduce the feed");
+    });
 }
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
@@ -238,6 +269,49 @@ mod tests {
                 "{fence}: {:?}",
                 found.notes
             );
+        }
+    }
+
+    /// A curve that keeps clear of all limits passes; nearer to one than its lines are to it, it is unknown.
+    #[test]
+    fn a_curve_is_unknown_only_where_its_margin_counts() {
+        let text = |x: &str, feed: u32| {
+            format!(
+                "G17 G90 G71 G94 G54\nS900 M3\nG0 X0 Y0 Z5\nG1 F{feed}\nPOLY PO[X]=({x},-2) PO[Y]=(4,3,1)\nG1 Y9\nG0 Z50\nM30\n"
+            )
+        };
+        let found = |text: &str| {
+            let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mill-3axis", text)
+                .check()
+                .unwrap();
+            let own = report.diagnostics.iter().filter(|d| d.rule == "not-modelled");
+            (
+                own.map(|d| d.message.clone()).collect::<Vec<_>>(),
+                report.verdict(Severity::Error),
+            )
+        };
+        assert_eq!(found(&text("10", 500)), (Vec::new(), crate::Verdict::Pass));
+        let (near, verdict) = found(&text(&format!("{}", limit() - 0.000_004), 500));
+        assert!(
+            near.len() == 1 && near[0].contains("X comes nearer than that to the end of its travel"),
+            "{near:?}"
+        );
+        assert_eq!(verdict, crate::Verdict::Unknown);
+        assert_eq!(found(&text(&format!("{}", limit() - 0.000_1), 500)).0, [""; 0]);
+        let (fast, _) = found(&text("10", 200_000));
+        assert!(
+            fast.iter().any(|message| message.contains("may be too fast")),
+            "{fast:?}"
+        );
+    }
+
+    /// The end of the travel of X on mill-3axis, mm.
+    fn limit() -> f64 {
+        let machine = trunnion_machine::builtin("mill-3axis").unwrap();
+        let axis = machine.axes.iter().find(|axis| axis.letter == b'X').unwrap();
+        match axis.limits {
+            trunnion_machine::Limits::Range(_, high) => high,
+            _ => f64::NAN,
         }
     }
 

@@ -52,7 +52,8 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
     let keep = if rapid {
         leg.machine.tolerances.clearance_mm()
     } else {
-        0.0
+        // the lines that stand for a curve must be clear by as much as it may leave them
+        leg.motion().slack_mm
     };
     let declared = leg.trail.tool.as_ref().and_then(ToolBody::of);
     // a tool of no width: what it meets, every tool meets
@@ -101,6 +102,13 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                         draft.fix_rapid(leg);
                     }
                 });
+            }
+            Nearness::Near(_) if !rapid => {
+                let what = format!(
+                    "this curve is followed as lines that it leaves by at most {} mm, and they come nearer than that to {name}",
+                    number(keep)
+                );
+                not_known(leg, out, UNDECIDED | key, &what);
             }
             Nearness::Near(by) => {
                 let by = by.filter(|_| declared.is_some());

@@ -22,7 +22,7 @@ pub(crate) struct Fix {
     /// switch-angles: what the postures of the whole program are chosen by. Default: `cost` of [fix] in trunnion.toml, else travel.
     #[arg(long, value_enum)]
     pub(crate) cost: Option<crate::cli::fix::CostOf>,
-    /// fit-arcs: what the new path must be near, the lines as they are programmed or only their ends. Default: `source` of [fix] in trunnion.toml, else
+    /// fit-arcs, fit-splines: what the new path must be near, the lines as they are programmed or only their ends. Default: `source` of [fix] in trunnion.toml, else
     /// chords.
     #[arg(long, value_enum)]
     pub(crate) source: Option<crate::cli::fix::SourceOf>,

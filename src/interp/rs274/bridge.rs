@@ -18,6 +18,8 @@ const FURTHER_AXES: u16 = 0b111 << 6;
 
 /// Chords stay within this of a spline, mm.
 const SPLINE_TOLERANCE_MM: f64 = 0.001;
+/// The same where it is declared how far the control's own arcs are from the curve.
+const DECLARED_TOLERANCE_MM: f64 = 1e-5;
 
 /// Receives canonical calls.
 pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
@@ -177,6 +179,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tool: modal.tool.number(),
             tilt: crate::Tilt::default(),
             effects: core.effects.count(),
+            slack_mm: self.calls.slack_mm,
         };
         let named = state.named_axes & !motion.end.known != 0;
         let no_path = matches!(
@@ -342,16 +345,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let shift = self.shift(state);
         let target = shift.coordinates(end);
         let feed = self.feed(&shift.machine(&target), true, at, state);
-        let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
-        let places = chords(order as usize, points, knots, tolerance);
-        let judged = if places.is_some() {
-            format!(
-                "spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as its own arcs"
-            )
-        } else {
-            "spline: its path".to_owned()
-        };
-        self.not_modelled(at, 50..=63, judged);
+        let arcs = self.core.setup.control.spline_arcs_mm;
+        let own = arcs.map_or(SPLINE_TOLERANCE_MM, |_| DECLARED_TOLERANCE_MM);
+        let places = chords(order as usize, points, knots, own / state.units.mm());
+        match (&places, arcs) {
+            (Some(_), Some(_)) => {}
+            (Some(_), None) => self.not_modelled(
+                at,
+                50..=63,
+                format!("spline: judged along chords within {own} mm of it; the control runs it as its own arcs: declare [control] spline_arcs"),
+            ),
+            (None, _) => self.not_modelled(at, 50..=63, "spline: its path".to_owned()),
+        }
         let Some(places) = places else {
             self.motion(MotionKind::Unknown, target, &shift, feed, at, state);
             return;
@@ -362,6 +367,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             _ => (1, 2),
         };
         let last = places.len().saturating_sub(1);
+        self.calls.slack_mm = own + arcs.unwrap_or(0.0);
         for (index, [a, b]) in places.into_iter().enumerate() {
             let mut pose = *end;
             (pose[first], pose[second]) = (a, b);
@@ -372,6 +378,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             };
             self.motion(MotionKind::Linear, to, &shift, feed, at, state);
         }
+        self.calls.slack_mm = 0.0;
     }
 
     /// Where the probe touches is known to the machine only: the position of every axis that the block moves is lost.

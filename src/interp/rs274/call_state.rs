@@ -45,6 +45,8 @@ pub(super) struct CallState {
     pub(super) machine_frame: bool,
     /// It was reported that nothing declares the axes U V W.
     pub(super) further_said: bool,
+    /// How far a curve may leave the lines that stand for it, mm; 0: none is being followed.
+    pub(super) slack_mm: f64,
     /// The line that set `#<_value>` to something unknown.
     pub(super) returned: Option<Vec<crate::Argument>>,
     /// The kinematics were switched, and it is not known to which: X Y Z say nothing about the machine.

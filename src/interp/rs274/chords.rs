@@ -53,7 +53,7 @@ struct Curve<'a> {
 }
 
 /// No chord is halved more often.
-const DEEPEST: u32 = 12;
+const DEEPEST: u32 = 18;
 
 impl Curve<'_> {
     /// Control point `index` (from 0) of the part of a span from `from` to `to`: the polar form at `index` times `to`, else `from`.
@@ -81,6 +81,22 @@ impl Curve<'_> {
         [x / weight, y / weight]
     }
 
+    /// Whether the control points come one after the other along the chord, and so the curve; or all are so near that the order does not matter.
+    fn is_in_order((a, b): ([f64; 2], [f64; 2]), inner: impl Iterator<Item = [f64; 2]>, tolerance: f64) -> bool {
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let mut reached = 0.0;
+        let (mut in_order, mut extent) = (true, (dx * dx + dy * dy).sqrt());
+        let length = dx * dx + dy * dy;
+        for [x, y] in inner {
+            let (px, py) = (x - a[0], y - a[1]);
+            let share = px * dx + py * dy;
+            in_order &= share >= reached && share <= length;
+            reached = share;
+            extent = extent.max((px * px + py * py).sqrt());
+        }
+        in_order || extent <= 0.5 * tolerance
+    }
+
     fn divide(
         &self,
         span: usize,
@@ -92,8 +108,9 @@ impl Curve<'_> {
     ) -> Option<()> {
         let degree = self.order - 1;
         let (a, b) = (self.at(span, from, to, 0), self.at(span, from, to, degree));
-        let straight = (1..degree).all(|index| distance(self.at(span, from, to, index), a, b) <= tolerance);
-        if straight {
+        let inner = |index: usize| self.at(span, from, to, index);
+        let near = (1..degree).all(|index| distance(inner(index), a, b) <= tolerance);
+        if near && Self::is_in_order((a, b), (1..degree).map(inner), tolerance) {
             out.push(b);
             return Some(());
         }
@@ -142,6 +159,24 @@ mod tests {
         let chords = chords(4, &points, &[], 1e-6).expect("a curve");
         assert!(chords.iter().all(|[_, y]| *y == 0.0));
         assert_eq!(chords.last(), Some(&[3.0, 0.0]));
+    }
+
+    /// On a straight line from 0 to 1 that goes back in between: no chord may skip the turns.
+    #[test]
+    fn a_curve_that_turns_back_is_no_line() {
+        let points = [0.0, 6.0, -5.0, 1.0].map(|x| [x, 0.0, 1.0]);
+        let found = chords(4, &points, &[], 1e-3).expect("a curve");
+        let turns: Vec<f64> = found
+            .windows(3)
+            .filter(|three| (three[1][0] - three[0][0]) * (three[2][0] - three[1][0]) < 0.0)
+            .map(|three| three[1][0])
+            .collect();
+        // Bezier's definition as powers
+        let at = |p: f64| 18.0 * p - 51.0 * p * p + 34.0 * p * p * p;
+        let samples = (0..=10_000).map(|step| at(f64::from(step) / 10_000.0));
+        let (low, high) = samples.fold((0.0_f64, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
+        let near = |wanted: f64| turns.iter().any(|turn| (turn - wanted).abs() < 1e-3);
+        assert!(near(low) && near(high), "{turns:?} {low} {high}");
     }
 
     /// An S whose quarters lie on the chord: samples there would take it for a line.

@@ -4,8 +4,9 @@
 //! denominator of constant 1; ends are those of the quotient. Axes without PO run linear. Source: Sinumerik 840D Programming Guide Advanced
 //! (04.00), 5-163 to 5-167; Job Planning (03/2006), 5-17; 840D sl Programming Manual (12/2019), p. 610.
 //!
-//! The path becomes lines that leave it by at most [`CHORD_MM`]. The bound is proved: between two values of p the curve is inside the hull of
-//! its Bernstein points while the weights are positive, and no point is farther from the line. What is not computed has a known end.
+//! The path becomes lines that leave it by at most [`CHORD_MM`], in order; each carries that bound ([`Motion::slack_mm`]). It is proved: between
+//! two values of p the curve is inside the hull of its Bernstein points while the weights are positive, and no point is farther from the line.
+//! If they come one after the other along the line, so does the curve. What is not computed has a known end.
 use crate::codes::BlockCodes;
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::iso::Iso;
@@ -184,15 +185,18 @@ fn is_flat(piece: &Piece) -> bool {
     let (from, to) = (point(piece[0]), point(piece[N - 1]));
     let way = to - from;
     let square = way.norm_squared();
-    piece[1..N - 1].iter().all(|inner| {
+    let mut reached = 0.0;
+    let (mut near, mut in_order, mut extent) = (true, true, way.norm());
+    for inner in &piece[1..N - 1] {
         let arm = point(*inner) - from;
-        let share = if square > 0.0 {
-            (arm.dot(&way) / square).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        (arm - way * share).norm() <= CHORD_MM
-    })
+        let share = if square > 0.0 { arm.dot(&way) / square } else { 0.0 };
+        near &= (arm - way * share.clamp(0.0, 1.0)).norm() <= CHORD_MM;
+        in_order &= share >= reached && share <= 1.0;
+        reached = share;
+        extent = extent.max(arm.norm());
+    }
+    // where the path turns back, no part of it is in order, but a short one is near any order
+    near && in_order || extent <= 0.5 * CHORD_MM
 }
 
 /// The ends of the lines; `None`: the denominator has a zero, or there are too many.
@@ -256,16 +260,14 @@ impl Iso<'_> {
             motion.kind = MotionKind::Unknown;
             return motion;
         };
-        if !std::mem::replace(&mut self.memory.own.polynomial_told, true) {
-            let what = format!("POLY: lines that leave the path by at most {CHORD_MM} mm are followed");
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-        }
         let feed = match motion.feed {
             Feed::InverseTime(_) => Feed::Unknown,
             feed => feed,
         };
         let last = self.core.state.position;
         self.core.state.position = from;
+        let slack_mm = CHORD_MM * self.memory.frames.most_growth();
+        let first = self.memory.out.len();
         for place in ends.iter().take(ends.len() - 1) {
             let mut to = end;
             for axis in 0..3 {
@@ -273,6 +275,10 @@ impl Iso<'_> {
             }
             self.goes(MotionKind::Linear, to, feed, report);
         }
+        for line in &mut self.memory.out[first..] {
+            line.slack_mm = slack_mm;
+        }
+        motion.slack_mm = slack_mm;
         motion.start = self.memory.out.last().map_or(motion.start, |before| before.end);
         self.core.state.position = last;
         debug_assert!(motion.end.known & ROTARY == last.known & ROTARY, "POLY turns nothing");

@@ -69,6 +69,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
         thread_least_cut_mm: non_negative("thread_least_cut", raw.thread_least_cut.as_ref())?,
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
+        spline_arcs_mm: non_negative("spline_arcs", raw.spline_arcs.as_ref())?,
         tool_change: tool_change(raw, axes)?,
         power_on: raw.power_on.as_deref().map(power_on).transpose()?,
         planning: Planning::default(),

@@ -54,6 +54,11 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             control.thread_finish_mm,
             "",
         ),
+        (
+            "the arcs that the control makes of a spline (G5) are from the curve at most",
+            control.spline_arcs_mm,
+            "",
+        ),
     ];
     for (what, value, rest) in retracts {
         if let Some(value) = value {

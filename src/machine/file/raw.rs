@@ -190,6 +190,7 @@ pub(crate) struct RawControl {
     pub(crate) roughing_retract: Option<Number>,
     pub(crate) thread_least_cut: Option<Number>,
     pub(crate) thread_finish: Option<Number>,
+    pub(crate) spline_arcs: Option<Number>,
     pub(crate) tool_change: Option<BTreeMap<Word, Number>>,
     pub(crate) power_on: Option<Vec<Word>>,
 }

@@ -207,6 +207,8 @@ pub struct Control {
     pub thread_least_cut_mm: Option<f64>,
     /// What the last cut of such a cycle is left, mm; `None`: not declared.
     pub thread_finish_mm: Option<f64>,
+    /// How far the arcs that the control makes of a spline (G5) are from the curve, mm; `None`: not declared.
+    pub spline_arcs_mm: Option<f64>,
     /// Where a tool change leaves the axes that it moves: machine coordinates, mm and deg; `None`: not declared.
     pub tool_change: Option<trunnion_interp::Position>,
     /// G codes in effect at power-on; those of other groups are not declared.

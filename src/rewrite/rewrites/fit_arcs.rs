@@ -52,13 +52,13 @@ use super::Body;
 use crate::chain_words::{Hand, write};
 use crate::divide::divide;
 use crate::pieces::Limits;
-use crate::polyline::{Chain, Reasons, chains};
-use crate::style::NumberStyle;
+use crate::polyline::{Chain, chains, left_alone};
+use crate::style::{NumberStyle, of_letters};
 use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
-use trunnion_syntax::{Address, Program, TextRange, Value};
+use trunnion_syntax::Program;
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
 
@@ -132,36 +132,10 @@ fn planes(settings: &Settings<'_>, chain: &Chain) -> Vec<Plane> {
 
 /// How X, Y and Z are written, all together, and I, J and K: like those that are there, else like the others.
 fn styles(program: &Program) -> (NumberStyle, [NumberStyle; 3]) {
-    let (mut coordinates, mut centres) = (Vec::new(), Vec::new());
-    for block in program.blocks() {
-        for word in block.words().filter(|word| matches!(word.value, Value::Number(_))) {
-            match word.address {
-                Address::Letter(b'X'..=b'Z') => coordinates.push(word.value_range),
-                Address::Letter(b'I'..=b'K') => centres.push(word.value_range),
-                _ => {}
-            }
-        }
-    }
-    let learn = |ranges: &[TextRange]| NumberStyle::learn(ranges.iter().map(|range| program.text(*range)));
-    let all = learn(&coordinates).unwrap_or(NumberStyle {
-        decimals: 3,
-        trims: false,
-        whole_point: true,
-        leading_zero: true,
-    });
+    let all = of_letters(program, b'X'..=b'Z').unwrap_or(NumberStyle::USUAL);
     // fewer digits than those of the coordinates would only make worse arcs
-    let centres = learn(&centres)
+    let centres = of_letters(program, b'I'..=b'K')
         .filter(|style| style.decimals >= all.decimals)
         .unwrap_or(all);
     (all, [centres; 3])
-}
-
-/// Why other lines were not looked at.
-fn left_alone(reasons: &Reasons) -> Option<String> {
-    let texts: Vec<String> = reasons
-        .iter()
-        .take(3)
-        .map(|(why, count)| format!("{count} lines ({why})"))
-        .collect();
-    (!texts.is_empty()).then(|| texts.join("; "))
 }

@@ -1,4 +1,6 @@
 //! Lines that were put together into arcs and lines.
+mod curved;
+
 use crate::recheck::{certify, recheck};
 use crate::{Certificate, Claim, Outcome, RefitSource};
 use std::fmt::Write;

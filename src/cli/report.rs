@@ -12,7 +12,7 @@ use super::{
 };
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use std::{io::IsTerminal, path::Path};
-use trunnion_check::{Verdict, check};
+use trunnion_check::{Report as Checked, Verdict, check};
 use trunnion_files::Outputs;
 use trunnion_machine::Machine;
 use trunnion_plot::{Along, PlotError, axis_plane, deviation, feed, joints, path};
@@ -111,7 +111,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     // the verdict is that of a check; pictures and tables are of every step
     loaded.resolved.setup.limits = loaded.resolved.setup.limits.of_steps();
     let (pictures, replay) = match &loaded.resolved.machine {
-        Some(machine) if readable => drawn(&loaded, machine),
+        Some(machine) if readable => drawn(&loaded, machine, &report),
         _ => (Vec::new(), None),
     };
     let sheet = if readable {
@@ -135,10 +135,14 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
 
 /// The pictures and the replay of a program on a machine.
 #[allow(clippy::type_complexity, reason = "the fields of Part")]
-fn drawn(loaded: &Loaded, machine: &Machine) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
+fn drawn(
+    loaded: &Loaded,
+    machine: &Machine,
+    report: &Checked,
+) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
     let mut record = plot::gather(loaded, machine, None);
     plot::plan(loaded, machine, &mut record);
-    let marks = plot::marks(loaded, None);
+    let marks = plot::marks_of(report, loaded, None);
     let head = |title: &str| plot::header(title, loaded, machine);
     let text = |drawn: Result<String, PlotError>| drawn.map_err(|error| error.0);
     let tolerance = machine.tolerances.tip_mm;

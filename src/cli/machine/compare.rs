@@ -11,6 +11,7 @@ use std::path::Path;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Fault, ModalState, Motion, MotionKind, Sink};
 use trunnion_machine::{AxisKind, Comparison, Follower, Machine, TipDifference};
+use trunnion_stats::Tally;
 use trunnion_syntax::{BlockId, LineIndex};
 use trunnion_workspace::find_machine;
 
@@ -216,6 +217,10 @@ fn program(
     };
     count(both.unknown, "could not be compared: the end or the path is unknown");
     count(both.at_end, "compared at the end only: the start is unknown");
+    // what comes after such a place was never compared
+    if let Some((line, why)) = Tally::of(loaded.input()).stop {
+        open.push(format!("not followed from line {line} on: {why}"));
+    }
     for text in &open {
         remark(global.quiet, &format!("{}: {text}", loaded.name));
     }

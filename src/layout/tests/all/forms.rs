@@ -95,6 +95,22 @@ fn macro_b_is_indented_by_its_loops() {
 }
 
 #[test]
+fn what_has_no_meaning_stays_as_near_to_its_number_as_it_is() {
+    for (before, after) in [
+        ("WHILE\nN10/\nX1", "WHILE\nN10/\n  X1\n"),
+        ("WHILE\nN10 /\n", "WHILE\nN10   /\n"),
+        ("WHILE[#1LT2]DO1\nN10@\nN20X1\nEND1\n", "WHILE[#1LT2] DO1\nN10@\nN20   X1\nEND1\n"),
+    ] {
+        assert_eq!(laid(before, "fanuc-30i"), after, "{before:?}");
+    }
+    // OSP refuses a number without a blank behind it: with one it would run
+    for text in ["N10G1 X5\n", "/N10GOTO\n", "N5E1\n"] {
+        assert_eq!(laid(text, "okuma-osp"), text, "{text:?}");
+    }
+    assert_eq!(laid("N10   g1x5\n", "okuma-osp"), "N10 G1 X5\n");
+}
+
+#[test]
 fn numbers_of_a_case_are_not_joined_to_its_labels() {
     for case in [
         "CASE R1 OF 1 GOTOF LBL1 2 GOTOF LBL2",

@@ -37,13 +37,16 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     } else {
         ProgressBar::with_draw_target(Some(found.files.len() as u64), ProgressDrawTarget::stderr())
     };
-    let mut parts = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
     let mut denied = false;
+    let (mut held, found_files) = (0, found.files.len());
     for file in &found.files {
         match part(global, file) {
             Ok((part, found)) => {
                 denied |= found;
+                held += part.bytes();
                 parts.push(part);
+                fits(held, parts.len(), found_files)?;
             }
             Err(failure) => {
                 bar.suspend(|| failure.print());
@@ -68,6 +71,21 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     Ok(if denied { Done::Found } else { Done::Clean })
 }
 
+/// A page holds no more in pictures and replays, bytes: a browser must open it, and it is in memory until it is written.
+const MOST_BYTES: usize = 200_000_000;
+
+/// An error where the pictures of the first `done` of all programs are too much for one page.
+fn fits(bytes: usize, done: usize, all: usize) -> Result<(), Failure> {
+    if bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "the pictures of the first {done} of {all} programs take more than {} MB: nothing was written; name fewer programs for one page, \
+         or use `trunnion check FOLDER` for the verdicts alone",
+        MOST_BYTES / 1_000_000
+    )))
+}
+
 /// What the page says about one program.
 struct Part {
     name: String,
@@ -82,6 +100,14 @@ struct Part {
     pictures: Vec<(&'static str, Result<String, String>)>,
     replay: Option<String>,
     sheet: Vec<sheet::Table>,
+}
+
+impl Part {
+    /// Bytes of what is drawn.
+    fn bytes(&self) -> usize {
+        let pictures = self.pictures.iter().map(|(_, drawn)| drawn.as_ref().map_or(0, String::len));
+        pictures.sum::<usize>() + self.replay.as_ref().map_or(0, String::len)
+    }
 }
 
 fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
@@ -176,4 +202,20 @@ fn drawn(
     ));
     pictures.push(("Feed", text(feed(&head("Feed of the tool tip"), &record))));
     (pictures, replay::data(loaded, machine, &record, &marks))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_BYTES, fits};
+
+    #[test]
+    fn a_page_that_grows_too_large_is_refused_with_what_to_do() {
+        assert!(fits(MOST_BYTES, 3, 9).is_ok());
+        let refused = fits(MOST_BYTES + 1, 3, 9).expect_err("too large");
+        let said = refused.message();
+        assert!(
+            said.contains("first 3 of 9 programs") && said.contains("200 MB") && said.contains("name fewer"),
+            "{said}"
+        );
+    }
 }

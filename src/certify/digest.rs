@@ -27,7 +27,8 @@ pub(crate) fn machine_digest(machine: &Machine) -> String {
     canonical(MACHINE, machine)
 }
 
-/// Digest of tools, work offsets, bounds, parameters of the control and variables; called programs are noted one by one.
+/// Digest of tools, work offsets, depth of calls, parameters of the control and variables; called programs are noted one by one. The bounds of
+/// a run are not part of it.
 pub(crate) fn setup_digest(setup: &Setup) -> String {
     canonical(SETUP, setup)
 }

@@ -76,7 +76,7 @@ pub(crate) struct Global {
     #[arg(long, global = true, value_name = "N", default_value_t = 1_200_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_lines: u64,
     /// Stop a run that is compared, proved, converted, listed or drawn after this many executed blocks, in addition to one run of each block of the text.
-    /// Default: `steps` of [limits] in trunnion.toml, else 1000000.
+    /// Default: `steps` of [limits] in trunnion.toml, else 500000.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_steps: Option<u64>,
     /// When to use colours.

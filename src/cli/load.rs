@@ -304,7 +304,6 @@ pub(crate) fn put(target: Option<&Target>, bytes: &[u8]) -> Result<(), Failure> 
         return Ok(target.write(bytes, None)?);
     }
     let mut out = std::io::stdout().lock();
-    out.write_all(bytes)?;
-    out.flush()?;
-    Ok(())
+    let written = out.write_all(bytes).and_then(|()| out.flush());
+    Ok(trunnion_files::unless_closed(written)?)
 }

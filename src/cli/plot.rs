@@ -18,7 +18,7 @@ use trunnion_plot::{
 };
 use trunnion_syntax::LineIndex;
 
-pub(super) use gather::{gather, marks, plan};
+pub(super) use gather::{gather, marks, marks_of, plan};
 
 /// `plot`
 #[derive(clap::Args)]

@@ -12,7 +12,7 @@ use super::{
 };
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use std::{io::IsTerminal, path::Path};
-use trunnion_check::{Verdict, check};
+use trunnion_check::{Report as Checked, Verdict, check};
 use trunnion_files::Outputs;
 use trunnion_machine::Machine;
 use trunnion_plot::{Along, PlotError, axis_plane, deviation, feed, joints, path};
@@ -37,13 +37,16 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     } else {
         ProgressBar::with_draw_target(Some(found.files.len() as u64), ProgressDrawTarget::stderr())
     };
-    let mut parts = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
     let mut denied = false;
+    let (mut held, found_files) = (0, found.files.len());
     for file in &found.files {
         match part(global, file) {
             Ok((part, found)) => {
                 denied |= found;
+                held += part.bytes();
                 parts.push(part);
+                fits(held, parts.len(), found_files)?;
             }
             Err(failure) => {
                 bar.suspend(|| failure.print());
@@ -76,6 +79,21 @@ fn total(parts: &[Part]) -> String {
     )
 }
 
+/// A page holds no more in pictures and replays, bytes: a browser must open it, and it is in memory until it is written.
+const MOST_BYTES: usize = 200_000_000;
+
+/// An error where the pictures of the first `done` of all programs are too much for one page.
+fn fits(bytes: usize, done: usize, all: usize) -> Result<(), Failure> {
+    if bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "the pictures of the first {done} of {all} programs take more than {} MB: nothing was written; name fewer programs for one page, \
+         or use `trunnion check FOLDER` for the verdicts alone",
+        MOST_BYTES / 1_000_000
+    )))
+}
+
 /// What the page says about one program.
 struct Part {
     name: String,
@@ -90,6 +108,17 @@ struct Part {
     pictures: Vec<(&'static str, Result<String, String>)>,
     replay: Option<String>,
     sheet: Vec<sheet::Table>,
+}
+
+impl Part {
+    /// Bytes of what is drawn.
+    fn bytes(&self) -> usize {
+        let pictures = self
+            .pictures
+            .iter()
+            .map(|(_, drawn)| drawn.as_ref().map_or(0, String::len));
+        pictures.sum::<usize>() + self.replay.as_ref().map_or(0, String::len)
+    }
 }
 
 fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
@@ -119,7 +148,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     // the verdict is that of a check; pictures and tables are of every step
     loaded.resolved.setup.limits = loaded.resolved.setup.limits.of_steps();
     let (pictures, replay) = match &loaded.resolved.machine {
-        Some(machine) if readable => drawn(&loaded, machine),
+        Some(machine) if readable => drawn(&loaded, machine, &report),
         _ => (Vec::new(), None),
     };
     let sheet = if readable {
@@ -143,10 +172,14 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
 
 /// The pictures and the replay of a program on a machine.
 #[allow(clippy::type_complexity, reason = "the fields of Part")]
-fn drawn(loaded: &Loaded, machine: &Machine) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
+fn drawn(
+    loaded: &Loaded,
+    machine: &Machine,
+    report: &Checked,
+) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
     let mut record = plot::gather(loaded, machine, None);
     plot::plan(loaded, machine, &mut record);
-    let marks = plot::marks(loaded, None);
+    let marks = plot::marks_of(report, loaded, None);
     let head = |title: &str| plot::header(title, loaded, machine);
     let text = |drawn: Result<String, PlotError>| drawn.map_err(|error| error.0);
     let tolerance = machine.tolerances.tip_mm;
@@ -180,4 +213,20 @@ fn drawn(loaded: &Loaded, machine: &Machine) -> (Vec<(&'static str, Result<Strin
     ));
     pictures.push(("Feed", text(feed(&head("Feed of the tool tip"), &record))));
     (pictures, replay::data(loaded, machine, &record, &marks))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_BYTES, fits};
+
+    #[test]
+    fn a_page_that_grows_too_large_is_refused_with_what_to_do() {
+        assert!(fits(MOST_BYTES, 3, 9).is_ok());
+        let refused = fits(MOST_BYTES + 1, 3, 9).expect_err("too large");
+        let said = refused.message();
+        assert!(
+            said.contains("first 3 of 9 programs") && said.contains("200 MB") && said.contains("name fewer"),
+            "{said}"
+        );
+    }
 }

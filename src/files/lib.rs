@@ -11,7 +11,7 @@ mod temporary;
 
 pub use error::FileError;
 #[cfg(not(target_family = "wasm"))]
-pub use output::{Outputs, Target};
+pub use output::{Outputs, Target, unless_closed};
 pub use read::{Input, Seen, read, read_text};
 #[cfg(not(target_family = "wasm"))]
 pub use temporary::{sweep_beside, write_kept};

@@ -206,12 +206,12 @@ impl Target {
             Kind::Standard => {
                 let mut out = io::stdout().lock();
                 let written = out.write_all(bytes).and_then(|()| out.flush());
-                written.map_err(|error| FileError::io(Path::new("standard output"), "write", &error))
+                unless_closed(written).map_err(|error| FileError::io(Path::new("standard output"), "write", &error))
             }
             Kind::Stream => {
                 let opened = OpenOptions::new().write(true).open(&self.path);
                 let written = opened.and_then(|mut file| file.write_all(bytes));
-                written.map_err(|error| FileError::io(&self.path, "write to it", &error))
+                unless_closed(written).map_err(|error| FileError::io(&self.path, "write to it", &error))
             }
             Kind::Regular { place, before } => self.replace(place, before.as_ref(), bytes, read),
         }
@@ -276,6 +276,14 @@ impl Target {
             &self.path,
             format!("{what}, and was not overwritten; run the command again"),
         ))
+    }
+}
+
+/// A reader that went away (`| head`) wants no more: the command goes on with its other outputs and ends with the status of its verdict.
+pub fn unless_closed(written: io::Result<()>) -> io::Result<()> {
+    match written {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
     }
 }
 

@@ -85,6 +85,9 @@ impl Blocks<'_> {
         if length > LAID_OUT || self.dialect.quirks.rs274() && length > LONGEST_NGC {
             return true;
         }
+        if self.program.options().format == Format::Osp && self.joins_number(block) {
+            return true;
+        }
         let errors = self.program.errors();
         let next = errors.partition_point(|error| error.range.end <= range.start);
         if errors.get(next).is_some_and(|error| error.range.start < range.end) {
@@ -106,6 +109,17 @@ impl Blocks<'_> {
                 _ => false,
             }
         })
+    }
+
+    /// Whether there is no blank behind the number of a block: OSP refuses it, and a layout with a blank would run.
+    fn joins_number(&self, block: &Block<'_>) -> bool {
+        let mut items = block.items();
+        let number = items.find(|item| !matches!(item, Item::Skip(..)));
+        let Some(number) = number.filter(|item| is_number(Some(*item))) else {
+            return false;
+        };
+        let behind = self.program.source().get(range_of(&number).end as usize);
+        !matches!(behind, None | Some(b' ' | b'\t' | b'(' | b'\r' | b'\n'))
     }
 
     fn lay_out(&self, block: &Block<'_>, depth: usize, out: &mut Vec<u8>) {
@@ -145,8 +159,11 @@ impl Blocks<'_> {
                     self.comment_gap(block, range, width(&out[from..]), out);
                 } else if self.gap(left, kind, item, starts) {
                     out.push(b' ');
+                } else if as_written(left, kind, item) {
+                    // a blank here would be one that was written, when it is laid out again
+                    indent = 0;
                 }
-                if !numbers {
+                if starts && !numbers {
                     out.extend(std::iter::repeat_n(b' ', std::mem::take(&mut indent)));
                 }
             }
@@ -168,8 +185,7 @@ impl Blocks<'_> {
         }
         match (left.item, item) {
             (Some(Item::Skip(_, range)), _) => self.program.bytes(range).last().is_some_and(u8::is_ascii_digit),
-            (Some(Item::Other(_) | Item::Percent(_)), _) | (_, Some(Item::Other(_))) => left.gap,
-            _ if kind == TokenKind::Comma => left.gap,
+            _ if as_written(left, kind, item) => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
                 // some controls read an E after digits as an exponent
                 let joined =
@@ -216,6 +232,12 @@ impl Blocks<'_> {
         };
         if styled { Letters::Styled } else { Letters::Kept }
     }
+}
+
+/// Whether there is a blank before an item where one was written, and none where none was: what is around it has no meaning of its own.
+fn as_written(left: &Left, kind: TokenKind, item: Option<Item>) -> bool {
+    let bare = matches!(left.item, Some(Item::Other(_) | Item::Percent(_))) || matches!(item, Some(Item::Other(_)));
+    !matches!(left.item, Some(Item::Skip(..))) && (bare || kind == TokenKind::Comma)
 }
 
 /// The last token that is neither blank nor line end.

@@ -16,10 +16,11 @@ pub fn first_difference(
     renumbered: bool,
 ) -> Option<Difference> {
     let mut setup = setup.clone();
-    let most_blocks = setup.limits.blocks.min(MOST_REPEATED) + before.block_count() as u64;
+    let repeated = setup.limits.blocks.min(MOST_REPEATED).max(setup.limits.steps);
+    let most_blocks = repeated.saturating_add(before.block_count() as u64);
+    // this proof has its own bound, which includes the blocks of the text; actions other than motions have the same
     setup.limits.blocks = most_blocks.saturating_mul(2);
-    // this proof has its own bound, which includes the blocks of the text
-    setup.limits.steps = u64::MAX;
+    setup.limits.steps = setup.limits.blocks;
     let input = |program| Input {
         program,
         dialect,

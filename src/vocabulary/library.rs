@@ -68,8 +68,8 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            blocks: 10_000_000,
-            steps: 1_000_000,
+            blocks: 4_000_000,
+            steps: 500_000,
             held: 150_000,
             depth: 100,
         }

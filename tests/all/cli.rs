@@ -18,6 +18,7 @@ mod pieces;
 mod retarget;
 mod servo;
 mod stats;
+mod steps;
 mod switching;
 mod timing;
 pub(crate) mod tools;

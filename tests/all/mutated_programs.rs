@@ -1,10 +1,12 @@
 //! Real programs, changed at random places, through the command line: every command ends with status 0, 1 or 2, what is asked for as JSON is
-//! JSON, and the tokens hold every byte of the file. CI runs some; `TRUNNION_MUTATIONS=10000` is the long form (CONTRIBUTING.md).
+//! JSON, and the tokens hold every byte of the file. CI runs some; `TRUNNION_MUTATIONS=10000` is the long form, `TRUNNION_MUTATIONS=2000..4000`
+//! a part of it (CONTRIBUTING.md).
 use crate::cli::tools::{json, status, text, trunnion_in};
 use crate::mutations::{mutate, samples};
 use crate::random::Random;
 use std::{
     fs,
+    ops::Range,
     path::{Path, PathBuf},
 };
 use tempfile::TempDir;
@@ -12,11 +14,12 @@ use tempfile::TempDir;
 /// Programs in a folder that one `check` judges.
 const AT_ONCE: usize = 100;
 
-fn mutations() -> usize {
-    std::env::var("TRUNNION_MUTATIONS")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(150)
+/// The numbers of the mutations: each is made from its own number, so that the long form can be run in parts.
+fn mutations() -> Range<usize> {
+    let asked = std::env::var("TRUNNION_MUTATIONS").unwrap_or_default();
+    let (from, to) = asked.split_once("..").unwrap_or(("0", &asked));
+    let number = |text: &str| text.parse().ok();
+    number(from).zip(number(to)).map_or(0..150, |(from, to)| from..to)
 }
 
 /// The samples, and programs of real controls beside the repository where they are.
@@ -65,15 +68,15 @@ const COMMANDS: [(&[&str], bool); 8] = [
 #[test]
 fn mutated_real_programs_end_with_a_status_and_valid_json() {
     let programs = programs();
-    let mut random = Random(20_261_124);
-    let count = mutations();
-    for first in (0..count).step_by(AT_ONCE) {
+    let asked = mutations();
+    for first in asked.clone().step_by(AT_ONCE) {
         let folder = TempDir::new().expect("a folder");
         let settings =
             "machine = \"mikron-ucp710\"\n[limits]\nblocks = 5000\n[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n";
         fs::write(folder.path().join("trunnion.toml"), settings).expect("written");
-        let number = AT_ONCE.min(count - first);
+        let number = AT_ONCE.min(asked.end - first);
         for mutation in first..first + number {
+            let mut random = Random(20_261_124 + (mutation as u64) * 0x9e37_79b9);
             let (path, source) = &programs[random.below(programs.len())];
             let bytes = mutate(&mut random, source);
             // with its whole name: `part.ncl.8` is a version of a program

@@ -155,6 +155,21 @@ fn all_count<T: Clone + Encode>(original: &T, digest: impl Fn(&T) -> String, cha
 }
 
 #[test]
+fn the_bounds_of_a_run_do_not_count() {
+    let digest = setup_digest(&Setup::default());
+    let changes: [fn(&mut Setup); 3] = [
+        |s| s.limits.blocks += 1,
+        |s| s.limits.steps += 1,
+        |s| s.limits.held += 1,
+    ];
+    for change in changes {
+        let mut setup = Setup::default();
+        change(&mut setup);
+        assert_eq!(setup_digest(&setup), digest);
+    }
+}
+
+#[test]
 fn every_fact_of_a_setup_counts() {
     all_count(
         &Setup::default(),
@@ -180,7 +195,6 @@ fn every_fact_of_a_setup_counts() {
             |s| s.work_offsets.push(offset("G54", 0.0)),
             |s| s.work_offsets.push(offset("G55", 0.0)),
             |s| s.work_offsets.push(offset("G54", 1.0)),
-            |s| s.limits.blocks += 1,
             |s| s.limits.depth += 1,
             |s| s.variables.push((500, None)),
             |s| s.variables.push((500, Some(0.0))),

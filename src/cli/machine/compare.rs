@@ -9,7 +9,7 @@ use crate::cli::{
 use std::io::Write;
 use std::path::Path;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{Fault, ModalState, Motion, MotionKind, Sink};
+use trunnion_interp::{Fault, FaultKind, ModalState, Motion, MotionKind, Sink};
 use trunnion_machine::{AxisKind, Comparison, Follower, Machine, TipDifference};
 use trunnion_syntax::{BlockId, LineIndex};
 use trunnion_workspace::find_machine;
@@ -201,6 +201,7 @@ fn program(
         unknown: 0,
         at_end: 0,
         compared: 0,
+        not_run: None,
     };
     trunnion_interp::run(
         &loaded.program,
@@ -216,6 +217,15 @@ fn program(
     };
     count(both.unknown, "could not be compared: the end or the path is unknown");
     count(both.at_end, "compared at the end only: the start is unknown");
+    let lines = LineIndex::new(loaded.program.source());
+    let line = |block| {
+        lines
+            .line_column(loaded.program.source(), loaded.program.block(block).range().start)
+            .0
+    };
+    if let Some((block, why)) = &both.not_run {
+        open.push(format!("not followed from line {} on: {why}", line(*block)));
+    }
     for text in &open {
         remark(global.quiet, &format!("{}: {text}", loaded.name));
     }
@@ -227,9 +237,7 @@ fn program(
     let Some((block, worst)) = both.worst else {
         return Ok(found);
     };
-    let lines = LineIndex::new(loaded.program.source());
-    let start = loaded.program.block(block).range().start;
-    let (line, _) = lines.line_column(loaded.program.source(), start);
+    let line = line(block);
     tell(
         out,
         &format!(
@@ -252,6 +260,8 @@ struct Both<'a> {
     unknown: usize,
     at_end: usize,
     compared: usize,
+    /// The first block after which something was never compared, and why.
+    not_run: Option<(BlockId, String)>,
 }
 
 impl Sink for Both<'_> {
@@ -276,5 +286,20 @@ impl Sink for Both<'_> {
             self.worst = Some((motion.block, found));
         }
     }
-    fn fault(&mut self, _fault: Fault) {}
+    fn fault(&mut self, fault: Fault) {
+        let why = match fault.kind {
+            FaultKind::EndlessLoop { proved: true, .. } => "a loop that never ends".to_owned(),
+            FaultKind::EndlessLoop { blocks, .. } => {
+                format!(
+                    "no end within {blocks} executed blocks; use --max-steps N or raise `steps` of [limits] in trunnion.toml"
+                )
+            }
+            FaultKind::NotDecided { what } => format!("not decided: {what}"),
+            FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
+            FaultKind::MissingSubprogram { name, .. } => format!("program {name} not found"),
+            FaultKind::ProgramAlarm { message } => format!("the program stops itself: {message}"),
+            _ => return,
+        };
+        self.not_run.get_or_insert((fault.block, why));
+    }
 }

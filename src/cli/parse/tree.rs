@@ -72,19 +72,24 @@ pub(super) fn text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
 }
 
 fn row(out: &mut impl Write, range: TextRange, depth: u32, text: &str) -> Result<(), Failure> {
-    let bytes = format!("{}..{}", range.start, range.end);
+    let digits = |number: u32| number.checked_ilog10().unwrap_or(0) as usize + 1;
+    let before = 13_usize.saturating_sub(digits(range.start) + digits(range.end));
+    let indent = 2 * depth as usize;
+    write!(out, "{:before$}{}..{}  {:indent$}", "", range.start, range.end, "")?;
     // one row is one line, whatever the text holds
-    let text: String = text
-        .chars()
-        .flat_map(|c| {
-            if c == '\n' || c == '\t' || is_hidden(c) {
-                c.escape_default().collect()
+    let breaks = |c: char| c == '\n' || c == '\t' || is_hidden(c);
+    if text.contains(breaks) {
+        for c in text.chars() {
+            if breaks(c) {
+                write!(out, "{}", c.escape_default())?;
             } else {
-                vec![c]
+                write!(out, "{c}")?;
             }
-        })
-        .collect();
-    writeln!(out, "{bytes:>15}  {:indent$}{text}", "", indent = 2 * depth as usize)?;
+        }
+    } else {
+        out.write_all(text.as_bytes())?;
+    }
+    out.write_all(b"\n")?;
     Ok(())
 }
 

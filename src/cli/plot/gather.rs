@@ -1,7 +1,7 @@
 //! Runs a program for a picture: its record, and the blocks that a check finds.
 use crate::cli::{failure::remark, legs::each_leg, load::Loaded};
 use std::collections::{BTreeMap, VecDeque};
-use trunnion_check::Status;
+use trunnion_check::{Report, Status};
 use trunnion_interp::{ModalState, MotionKind};
 use trunnion_machine::{BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
@@ -96,6 +96,11 @@ const SHOWN: [&str; 12] = [
 /// The blocks that a check finds, one mark per block and rule.
 pub(crate) fn marks(loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
     let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());
+    marks_of(&report, loaded, lines)
+}
+
+/// The same of a check that is done.
+pub(crate) fn marks_of(report: &Report, loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
     let index = LineIndex::new(loaded.program.source());
     let line = |at: u32| index.line_column(loaded.program.source(), at).0;
     let mut spans = BTreeMap::<&str, Vec<(u32, u32)>>::new();

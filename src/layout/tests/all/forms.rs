@@ -1,6 +1,7 @@
 //! Form by form: what goes in and what comes out.
-use crate::support::{laid, laid_with};
-use trunnion_layout::{Case, Spacing, Style, Zeros};
+use crate::support::{dialect, laid, laid_with, program};
+use trunnion_interp::Setup;
+use trunnion_layout::{Case, Layout, Refusal, Spacing, Style, Zeros, layout};
 
 #[test]
 fn words_stand_one_blank_apart_and_hold_none() {
@@ -95,6 +96,25 @@ fn macro_b_is_indented_by_its_loops() {
 }
 
 #[test]
+fn what_has_no_meaning_stays_as_near_to_its_number_as_it_is() {
+    for (before, after) in [
+        ("WHILE\nN10/\nX1", "WHILE\nN10/\n  X1\n"),
+        ("WHILE\nN10 /\n", "WHILE\nN10   /\n"),
+        (
+            "WHILE[#1LT2]DO1\nN10@\nN20X1\nEND1\n",
+            "WHILE[#1LT2] DO1\nN10@\nN20   X1\nEND1\n",
+        ),
+    ] {
+        assert_eq!(laid(before, "fanuc-30i"), after, "{before:?}");
+    }
+    // OSP refuses a number without a blank behind it: with one it would run
+    for text in ["N10G1 X5\n", "/N10GOTO\n", "N5E1\n"] {
+        assert_eq!(laid(text, "okuma-osp"), text, "{text:?}");
+    }
+    assert_eq!(laid("N10   g1x5\n", "okuma-osp"), "N10 G1 X5\n");
+}
+
+#[test]
 fn numbers_of_a_case_are_not_joined_to_its_labels() {
     for case in [
         "CASE R1 OF 1 GOTOF LBL1 2 GOTOF LBL2",
@@ -173,4 +193,27 @@ fn a_comma_in_klartext_gets_no_nearer_to_its_number() {
     for text in ["L X+1 ,5 FMAX\n", "L X+1,5 FMAX\n"] {
         assert_eq!(laid(text, "heidenhain-klartext"), text);
     }
+}
+
+/// Each block may read all elements that were written before it: the proof counts them, and gives up by name where they are too many.
+#[test]
+fn a_proof_that_compares_too_much_is_given_up_with_its_bound() {
+    let writes = |count: u32| {
+        let lines = (0..count).map(|i| format!("VZOFX[{i}]  =V{}\n", i % 200));
+        format!("$P.MIN%\nG0  X1\n{}M02\n", lines.collect::<String>())
+    };
+    let dialect = dialect("okuma-osp");
+    let mut setup = Setup::default();
+    setup.limits.blocks = 10;
+    setup.limits.steps = 10;
+    let laid = |count: u32| {
+        let text = writes(count);
+        layout(&program(text.as_bytes(), dialect), dialect, &setup, &Style::default())
+    };
+    assert!(matches!(laid(20), Layout::Changed(_)), "{:?}", laid(20));
+    let Layout::Refused(Refusal::Motions(difference)) = laid(300) else {
+        panic!("{:?}", laid(300));
+    };
+    // twice the bound and the 303 blocks of the text
+    assert!(difference.what.contains("more than 626 actions"), "{}", difference.what);
 }

@@ -68,6 +68,14 @@ pub(super) fn inputs() -> Vec<Input> {
         }),
         Input::new("html", |n| repeat("<html><body>G1 X1.</body></html>\n", n).into()),
         Input::new("one-line-of-words", |n| cut(&repeat("X1. Z2. ", n))),
+        Input::new("one-line-of-unknown-codes", |n| {
+            let codes: Vec<String> = (0..n / 2).map(|i| format!("G{}.{}", i % 1000, i % 9)).collect();
+            cut(&codes.join(" "))
+        }),
+        Input::new("one-line-of-unknown-names", |n| {
+            let names: Vec<String> = (0..n / 2).map(|i| format!("QQ{i}=1")).collect();
+            cut(&names.join(" "))
+        }),
         Input::new("one-line-of-g", |n| cut(&repeat("G1", n))),
         Input::new("one-line-of-m", |n| cut(&repeat("M3", n))),
         Input::new("one-line-of-letters", |n| cut(&repeat("X", n))),

@@ -1,5 +1,5 @@
 //! A command that is killed at any moment, beside others, on a file that changes meanwhile, or where nothing can be written, leaves whole files.
-use super::writers::{WRITERS, Writer, fill, finished, outputs, prepared, temporaries};
+use super::writers::{WRITERS, Writer, all_names, fill, finished, outputs, prepared, temporaries};
 use super::{LOOSE, content, folder, names};
 use crate::cli::tools::{status, str, text, trunnion, trunnion_in, write};
 use std::{
@@ -45,7 +45,7 @@ fn a_killed_command_leaves_each_file_old_or_new() {
         let new = finished(writer, folder.path());
         let whole = begun.elapsed();
         assert_ne!(old, new, "{}", writer.name);
-        let expected = names(folder.path());
+        let expected = all_names(folder.path());
         let runs = kills();
         for run in 0..runs {
             fill(folder.path(), LARGE);
@@ -80,7 +80,43 @@ fn a_killed_command_leaves_each_file_old_or_new() {
             let _ = fs::remove_file(folder.path().join(name));
         }
         assert_eq!(finished(writer, folder.path()), new, "{}", writer.name);
-        assert_eq!(names(folder.path()), expected, "{}", writer.name);
+        assert_eq!(all_names(folder.path()), expected, "{}", writer.name);
+    }
+}
+
+/// An entry of the cache is named after a digest of what it depends on, and begins with a digest of its text.
+#[test]
+fn a_killed_check_leaves_whole_entries_in_its_cache() {
+    let folder = prepared(10);
+    let cache = folder.path().join("cache");
+    let arguments = ["check", "flip.nc", "--format", "json", "--cache", "cache"];
+    let begun = std::time::Instant::now();
+    let new = trunnion_in(folder.path(), &arguments).stdout;
+    let whole = begun.elapsed();
+    let [name] = &names(&cache)[..] else {
+        panic!("one entry: {:?}", names(&cache));
+    };
+    let entry = fs::read(cache.join(name)).expect("readable");
+    let runs = kills();
+    for run in 0..runs {
+        fs::remove_dir_all(&cache).expect("removed");
+        let mut child = start(folder.path(), &arguments);
+        std::thread::sleep(whole * (run + 1) / runs);
+        child.kill().expect("killed");
+        child.wait().expect("ended");
+        let left = if cache.is_dir() { names(&cache) } else { Vec::new() };
+        let (temporary, kept): (Vec<_>, Vec<_>) = left.iter().partition(|name| name.ends_with(".trunnion-tmp"));
+        assert!(temporary.len() <= 1 && kept.len() <= 1, "run {run}: {left:?}");
+        for own in kept {
+            assert_eq!(
+                (own, fs::read(cache.join(own)).expect("readable")),
+                (name, entry.clone()),
+                "run {run}"
+            );
+        }
+        // the next run says the same, whatever was left, and cleans up
+        assert_eq!(trunnion_in(folder.path(), &arguments).stdout, new, "run {run}");
+        assert_eq!(&names(&cache)[..], std::slice::from_ref(name), "run {run}");
     }
 }
 
@@ -100,7 +136,7 @@ fn four_processes_on_one_file_leave_it_whole() {
         let folder = prepared(LARGE);
         let new = finished(writer, folder.path());
         fill(folder.path(), LARGE);
-        let expected = names(folder.path());
+        let expected = all_names(folder.path());
         let children: Vec<Child> = (0..4).map(|_| start(folder.path(), &writer.arguments())).collect();
         for mut child in children {
             let status = child.wait().expect("ended").code();
@@ -117,7 +153,7 @@ fn four_processes_on_one_file_leave_it_whole() {
         for (at, name) in whole {
             assert_eq!(now[at], new[at], "{}: {name}", writer.name);
         }
-        assert_eq!(names(folder.path()), expected, "{}", writer.name);
+        assert_eq!(all_names(folder.path()), expected, "{}", writer.name);
     }
 }
 

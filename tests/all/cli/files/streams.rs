@@ -1,7 +1,11 @@
 //! Closed and full standard streams, and what a terminal is shown.
 use super::folder;
 use crate::cli::tools::{FLIP, status, str, text, trunnion, write};
-use std::process::{Command, Stdio};
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Stdio},
+};
 
 fn shell(script: &str) -> i32 {
     let output = Command::new("bash")
@@ -43,6 +47,14 @@ fn closed_and_full_streams_keep_the_status_of_the_verdict() {
             format!("$T diff {bad} {good} 2>/dev/null | true; exit ${{PIPESTATUS[0]}}"),
             1,
         ),
+        (
+            format!("$T report {bad} --machine mikron-ucp710 -o - 2>/dev/null | true; exit ${{PIPESTATUS[0]}}"),
+            1,
+        ),
+        (
+            format!("$T report {bad} --machine mikron-ucp710 -o - >/dev/full 2>/dev/null"),
+            2,
+        ),
         (format!("$T fmt --check {good} > /dev/full 2>/dev/full"), 0),
         (
             format!("$T trace {bad} --machine mikron-ucp710 2>/dev/null | true; exit ${{PIPESTATUS[0]}}"),
@@ -57,7 +69,7 @@ fn closed_and_full_streams_keep_the_status_of_the_verdict() {
 }
 
 /// Every command, with arguments that it can work with; `P` and `Q` are programs.
-const COMMANDS: [&str; 36] = [
+const COMMANDS: [&str; 43] = [
     "check P",
     "check --format json P",
     "check --format pretty P",
@@ -91,6 +103,13 @@ const COMMANDS: [&str; 36] = [
     "parse P",
     "parse --format json P",
     "parse --tokens P",
+    "report P -o -",
+    "check P -o -",
+    "servo P --at 8 --kv 50 --acc 2000",
+    "machine compare mikron-ucp710 mikron-ucp710 P",
+    "schema check",
+    "completions bash",
+    "man",
     "lsp",
     "--help",
     "bogus",
@@ -200,6 +219,21 @@ fn the_header_of_a_diff_shows_the_file_name() {
         header.contains("x\\x1b[2J.ngc") && !header.contains('\u{1b}'),
         "{header:?}"
     );
+}
+
+/// A reader of the program that goes away does not keep the command from writing its certificate.
+#[test]
+fn a_closed_stream_does_not_keep_other_outputs_from_being_written() {
+    let folder = folder();
+    let piece = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/programs/apt/small-piece.apt");
+    let certificate = folder.path().join("proof.json");
+    let script = format!(
+        "$T convert {} --to fanuc-30i --machine mikron-ucp710 --certificate {} 2>/dev/null | true; exit ${{PIPESTATUS[0]}}",
+        str(&piece),
+        str(&certificate)
+    );
+    assert_eq!(shell(&script), 0);
+    assert!(fs::metadata(&certificate).is_ok_and(|file| file.len() > 100));
 }
 
 #[test]

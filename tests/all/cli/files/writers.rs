@@ -70,6 +70,33 @@ pub(super) const WRITERS: &[Writer] = &[
     ),
     writer("sample -o", "sample s-wall -o wall.apt", &["wall.apt"]),
     writer(
+        "sample -o --required",
+        "sample s-wall -o wall.apt --required wall.toml",
+        &["wall.apt", "wall.toml"],
+    ),
+    writer(
+        "fix --write --certificate",
+        "fix flip.nc --rewrite smooth-pole --tolerance-deg 0.08 --write --certificate proof.json",
+        &["flip.nc", "proof.json"],
+    ),
+    writer(
+        "fix --rewrite retarget -o",
+        "fix flip.nc --rewrite retarget --to sinumerik-840d -o other.mpf",
+        &["other.mpf"],
+    ),
+    writer("report -o", "report flip.nc -o page.html", &["page.html"]),
+    writer(
+        "check -o",
+        "check flip.nc --format sarif -o found.sarif",
+        &["found.sarif"],
+    ),
+    writer(
+        "check --write-baseline",
+        "check flip.nc --write-baseline known.json",
+        &["known.json"],
+    ),
+    writer("init", "init sub", &["sub/trunnion.toml"]),
+    writer(
         "machine import -o",
         "machine import machine.ini -o machine.toml",
         &["machine.toml"],
@@ -117,6 +144,8 @@ pub(super) fn fill(folder: &Path, lines: usize) {
     for (name, bytes) in files {
         fs::write(folder.join(name), bytes).expect("written");
     }
+    fs::create_dir_all(folder.join("sub")).expect("made");
+    fs::write(folder.join("sub/flip.nc"), FLIP).expect("written");
 }
 
 /// The outputs of a writer now; `None`: the file is not there.
@@ -153,19 +182,32 @@ pub(super) fn is_temporary(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(".trunnion-tmp")
 }
 
-/// Temporary files in a folder.
+/// Temporary files in a folder and in `sub`.
 pub(super) fn temporaries(folder: &Path) -> usize {
-    names(folder).iter().filter(|name| is_temporary(name)).count()
+    all_names(folder).iter().filter(|name| is_temporary(name)).count()
+}
+
+/// Names in a folder and in `sub`.
+pub(super) fn all_names(folder: &Path) -> Vec<String> {
+    let sub = folder.join("sub");
+    let mut all = names(folder);
+    if sub.is_dir() {
+        all.extend(names(&sub));
+    }
+    all
 }
 
 #[test]
 fn every_writer_writes_what_it_names() {
     for writer in WRITERS {
         let folder = prepared(10);
-        let before = names(folder.path());
+        let before = all_names(folder.path());
         finished(writer, folder.path());
-        let named = |name: &String| writer.outputs.contains(&name.as_str());
-        let new: Vec<_> = names(folder.path())
+        let named = |name: &String| {
+            let written = writer.outputs.iter().map(|path| path.rsplit('/').next());
+            written.flatten().any(|own| own == name)
+        };
+        let new: Vec<_> = all_names(folder.path())
             .into_iter()
             .filter(|name| !before.contains(name))
             .collect();

@@ -1,0 +1,108 @@
+//! Commands that draw, list or compare every step end at `[limits] steps`, however many blocks a check may run: counted in blocks and points.
+use super::tools::{status, str, text, trunnion_in, write};
+use std::fs;
+use tempfile::TempDir;
+
+/// The bound of these tests.
+const STEPS: u64 = 300;
+
+/// Counts to 50 000 and moves, on a machine with everything declared.
+const LOOP: &str = "O1\nG21 G90 G17 G94 G54\nT1 M6\nS1000 M3\nG43 H1\nG0 X0. Y0. Z50. A0. C0.\n#1=0\nWHILE[#1LT50000]DO1\n\
+                    G1 X[#1/1000.] Y1. F500.\n#1=#1+1\nEND1\nG1 A30. C90.\nM30\n";
+
+/// A folder with the program, a machine beside it, and bounds: `blocks` is far above `steps`.
+fn folder() -> TempDir {
+    let folder = TempDir::new().expect("works");
+    let settings = format!(
+        "machine = \"mikron-ucp710\"\ndialect = \"fanuc-30i\"\n[limits]\nblocks = 1000000\nsteps = {STEPS}\n[work_offsets]\n\
+         G54 = {{ X = 0, Y = 0, Z = 0 }}\n[[tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 10\nlength = 100\n"
+    );
+    write(&folder, "trunnion.toml", &settings);
+    write(&folder, "loop.nc", LOOP);
+    folder
+}
+
+/// The number after a text.
+fn number_after(said: &str, before: &str) -> u64 {
+    let rest = said
+        .split(before)
+        .nth(1)
+        .unwrap_or_else(|| panic!("no `{before}` in {said}"));
+    let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    digits
+        .parse()
+        .unwrap_or_else(|_| panic!("no number after `{before}` in {said}"))
+}
+
+/// `steps` and the blocks of the program's own text.
+fn most() -> u64 {
+    STEPS + LOOP.lines().count() as u64 + 1
+}
+
+#[test]
+fn a_report_draws_no_more_steps_than_the_bound() {
+    let folder = folder();
+    let output = trunnion_in(folder.path(), &["report", "loop.nc", "-o", "page.html"]);
+    let said = text(&output.stderr);
+    assert!(status(&output) < 2, "{said}");
+    assert!(said.contains("the picture ends there"), "{said}");
+    let run = number_after(&said, "no end within ");
+    assert!(run >= STEPS && run <= most(), "{run} blocks: {said}");
+    let page = fs::read_to_string(folder.path().join("page.html")).expect("written");
+    let lines = page
+        .split("\"lines\":[")
+        .nth(1)
+        .expect("a replay")
+        .split(']')
+        .next()
+        .expect("a list");
+    let points = lines.split(',').count() as u64;
+    // a line of the loop moves once in three blocks, and has two ends
+    assert!(points > STEPS / 3 && points <= most(), "{points} points");
+    // the check of the page goes on to the end
+    assert!(
+        page.contains("50002 motions") || page.contains("50 002 motions"),
+        "the verdict covers the whole run"
+    );
+}
+
+#[test]
+fn a_comparison_of_machines_ends_at_the_bound_and_says_so() {
+    let folder = folder();
+    let source = trunnion::machine::builtin_source("mikron-ucp710").expect("embedded");
+    let axes = source.split("[[check]]").next().expect("a part");
+    let moved = axes.replacen(
+        "dir = [1, 0, 0]\npoint = [0, 0, 0]",
+        "dir = [1, 0, 0]\npoint = [0, 0.05, 0]",
+        1,
+    );
+    assert_ne!(moved, axes);
+    let truth = write(&folder, "measured.toml", &moved);
+    // only the last block, which the run does not reach, shows the difference
+    let compare = |more: &[&str]| {
+        let arguments = [
+            "machine",
+            "compare",
+            "mikron-ucp710",
+            str(&truth),
+            "loop.nc",
+            "--tolerance-mm",
+            "0.01",
+        ];
+        trunnion_in(folder.path(), &[&arguments[..], more].concat())
+    };
+    let output = compare(&[]);
+    let said = text(&output.stdout);
+    assert_eq!(status(&output), 1, "{said}");
+    let motions = number_after(&said, "the worst of ");
+    assert!(motions > STEPS / 4 && motions <= STEPS, "{motions} motions: {said}");
+    assert!(
+        said.contains("\nUNKNOWN: ") && said.contains("not followed from line 8 on"),
+        "{said}"
+    );
+    let run = number_after(&said, "no end within ");
+    assert!(run >= STEPS && run <= most(), "{run} blocks: {said}");
+    let output = compare(&["--max-steps", "1000000"]);
+    let said = text(&output.stdout);
+    assert!(said.contains("FAIL: ") && !said.contains("not followed"), "{said}");
+}

@@ -249,6 +249,7 @@ impl<'d> Iso<'d> {
             }
             Action::SubprogramCall => {
                 block.not_modelled = true;
+                self.memory.cycle.hole.not_read();
                 not_modelled(found, report);
                 self.core.forget_everything();
                 if found.code.group.as_deref() == Some("macro-call") {

@@ -1,5 +1,7 @@
 //! What drilling cycles keep from block to block.
 use crate::ImplicitDecimals;
+use crate::arc::plane_axes;
+use crate::codes::BlockCodes;
 use crate::iso::Iso;
 use crate::words::Words;
 use trunnion_dialect::Action;
@@ -56,6 +58,11 @@ pub(crate) struct Hole {
 }
 
 impl Hole {
+    /// A cycle is defined in a block that is not followed (NCYL of an Okuma): what it keeps is not known.
+    pub(crate) fn not_read(&mut self) {
+        self.r = Stored::Unknown;
+        self.bottom = Stored::Unknown;
+    }
     /// All of it; NaN: not given, or unknown.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
         let [i, j, k] = self.ijk;
@@ -74,6 +81,15 @@ impl Hole {
 }
 
 impl Iso<'_> {
+    /// G71 Z of an Okuma: the level to which cycles return. Under G91 no source says from where it counts.
+    pub(crate) fn return_level(&mut self, words: &Words, block: &mut BlockCodes) {
+        block.takes_coordinates = true;
+        let axis = plane_axes(self.core.state.coordinates.plane())[2];
+        let unit = self.core.state.coordinates.unit_mm();
+        let value = words.axes.get(axis).filter(|_| !self.core.state.coordinates.incremental());
+        self.memory.cycle.level = value.map_or(Stored::Unknown, |value| Stored::At(value * unit));
+    }
+
     /// A word that is a length without being a coordinate, mm: Q, I, J, K of a cycle.
     pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;

@@ -143,15 +143,19 @@ impl Iso<'_> {
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let always_initial = self.core.state.motion == Some(Action::BackBoreCycle);
         let back = if self.core.dialect.quirks.cycle_return_unknown {
-            let what = format!("{}: the level to which it returns", self.memory.cycle.id);
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-            None
+            self.level_of_return(words, r, report)
         } else if self.memory.cycle.to_r && !always_initial {
             r
         } else {
             hole.initial
         };
         let steps = matches!(self.core.state.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
+        let depths = self.core.dialect.quirks.user_task() && [b'I', b'J'].map(|letter| words.letter(letter)).iter().any(|word| word.is_given());
+        if steps && depths {
+            let what = format!("{}: I and J, the depths of its steps", self.memory.cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            return None;
+        }
         if steps && hole.q.is_none_or(|q| q == 0.0) && hole.ijk[0].is_none() {
             let message = format!("{} without Q, the depth of each step", self.memory.cycle.id);
             self.refuse(words, Refusal::CannedCycle, message, Some("peck-missing"), report);
@@ -165,6 +169,18 @@ impl Iso<'_> {
             back,
             feed,
         })
+    }
+
+    /// Where a cycle of an Okuma returns to: the level of G71 under M53. Without both it is not known.
+    fn level_of_return(&self, words: &Words, r: Option<f64>, report: &mut Report<'_>) -> Option<f64> {
+        let cycle = &self.memory.cycle;
+        let level = cycle.level.from(None).filter(|_| cycle.to_level);
+        let above = level.filter(|level| r.is_none_or(|r| *level >= r));
+        if above.is_none() {
+            let what = format!("{}: the level to which it returns, without G71 Z above R and M53", cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
+        above
     }
 
     /// A mistake for which the control refuses the block.

@@ -111,7 +111,11 @@ impl<'d> Iso<'d> {
         };
         // what I and J of an Okuma do is not followed
         let depths = !self.core.dialect.quirks.user_task();
-        cycle.reads = [reads("I") && depths, reads("J") && reads("I") && depths, reads("K") && reads("L")];
+        cycle.reads = [
+            reads("I") && depths,
+            reads("J") && reads("I") && depths,
+            reads("K") && reads("L"),
+        ];
         self.core.state.motion = Some(action);
     }
 

@@ -4,8 +4,8 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_interp::{
-    AxisLetter, ControlData, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape,
-    TcpCodes,
+    AxisLetter, ControlData, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
+    RoughingEscape, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]

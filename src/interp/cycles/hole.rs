@@ -150,10 +150,7 @@ impl Iso<'_> {
             hole.initial
         };
         let steps = matches!(self.core.state.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
-        let depths = self.core.dialect.quirks.user_task() && [b'I', b'J'].map(|letter| words.letter(letter)).iter().any(|word| word.is_given());
-        if steps && depths {
-            let what = format!("{}: I and J, the depths of its steps", self.memory.cycle.id);
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        if steps && self.asks_depths(words, report) {
             return None;
         }
         if steps && hole.q.is_none_or(|q| q == 0.0) && hole.ijk[0].is_none() {
@@ -169,18 +166,6 @@ impl Iso<'_> {
             back,
             feed,
         })
-    }
-
-    /// Where a cycle of an Okuma returns to: the level of G71 under M53. Without both it is not known.
-    fn level_of_return(&self, words: &Words, r: Option<f64>, report: &mut Report<'_>) -> Option<f64> {
-        let cycle = &self.memory.cycle;
-        let level = cycle.level.from(None).filter(|_| cycle.to_level);
-        let above = level.filter(|level| r.is_none_or(|r| *level >= r));
-        if above.is_none() {
-            let what = format!("{}: the level to which it returns, without G71 Z above R and M53", cycle.id);
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-        }
-        above
     }
 
     /// A mistake for which the control refuses the block.

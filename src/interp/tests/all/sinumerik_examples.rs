@@ -1,7 +1,7 @@
 //! Worked examples of Sinumerik manuals and of interpreters that were run, each as the smallest program that shows it. What the interpreters
 //! answer and no manual states stays unknown.
-use crate::support::{faults, line, lines, run_text};
-use trunnion_interp::{Posture, Swivel};
+use crate::support::{faults, line, lines, run_bytes, run_text};
+use trunnion_interp::{FrameAngles, Posture, Setup, Swivel};
 
 const NAME: &str = "sinumerik-840d";
 
@@ -92,11 +92,28 @@ fn fields() {
     }
 }
 
-/// A frame of one angle; of several the order is machine data, so it is not known.
+/// A frame of one angle; of several the order is machine data, so it is not known unless that is declared. Declared, angles read back in their
+/// ranges (function manual).
 #[test]
 fn frames() {
     assert_eq!(x_of("$P_PFRAME=CTRANS(X,5):CMIRROR(X)\nX1").1, 0);
-    for value in ["CROT(X,10,Y,90,Z,40)", "CROT(X,190,Y,0,Z,-200)", "CROTS(X,5,Y,5)"] {
+    let mut setup = Setup::default();
+    setup.control.frame_angles = Some(FrameAngles::RollPitchYaw);
+    for (value, read) in [
+        ("CROT(X,10,Y,90,Z,40)", [0.0, 90.0, 30.0]),
+        ("CROT(X,190,Y,0,Z,-200)", [-170.0, 0.0, 160.0]),
+    ] {
+        let text = format!(
+            "G1 X0 Y0 Z0 F9\n$P_PFRAME={value}\nR1=$P_PFRAME[X,RT] R2=$P_PFRAME[Y,RT] R3=$P_PFRAME[Z,RT]\nTRANS\nX=R1 Y=R2 Z=R3\nM30\n"
+        );
+        let log = run_bytes(NAME, text.as_bytes(), &setup).1;
+        let found: [f64; 3] = log.motions[1].end.xyz().expect("known").into();
+        assert!(
+            (0..3).all(|axis| (found[axis] - read[axis]).abs() < 1e-9),
+            "{value}: {found:?}"
+        );
+    }
+    for value in ["CROT(X,10,Y,90,Z,40)", "CROT(X,190,Y,0,Z,-200)"] {
         let text = format!("G1 X0 Y0 Z0 F9\n$P_PFRAME={value}\nX1 Y1 Z1\n");
         assert!(faults(NAME, &text).iter().any(|fault| fault.contains(value)), "{value}");
         assert!(run_text(NAME, &text).motions[1].end.xyz().is_none(), "{value}");

@@ -224,9 +224,23 @@ fn what_is_not_sourced_is_unknown_by_name() {
         ("CHF 5\n", "CHF"),
         ("CYCL DEF 19.0 X\nCYCL DEF 19.1 A+45\n", "cycle 19"),
         ("L Z+0 FMAX M92\n", "M92"),
+        ("FUNCTION MODE TURN\n", "FUNCTION MODE TURN"),
     ] {
         let found = faults(NAME, &program(block));
         assert!(found.iter().any(|fault| fault.contains(name)), "{block} {found:?}");
+    }
+}
+
+/// Under FUNCTION MODE TURN X is a diameter: no position is known until milling is on again.
+#[test]
+fn turning_hides_positions() {
+    for (blocks, lost) in [
+        ("FUNCTION MODE TURN\nL X+5 Z+2 F100\n", true),
+        ("FUNCTION MODE TURN\nFUNCTION MODE MILL\nL X+5 Z+2 F100\n", false),
+        ("FUNCTION MODE MILL\nL X+5 Z+2 F100\n", false),
+    ] {
+        let state = run_text(NAME, &program(blocks)).state.expect("a state");
+        assert_eq!(state.zero.is_lost(), lost, "{blocks}");
     }
 }
 

@@ -12,8 +12,12 @@ use trunnion_syntax::{BlockId, parse as parse_text};
 /// The dialect that the first byte selects, and the text.
 fn program(data: &[u8]) -> Option<(&'static Dialect, &[u8])> {
     let (&first, text) = data.split_first()?;
-    let name = BUILTIN_NAMES[usize::from(first) % BUILTIN_NAMES.len()];
-    Some((builtin(name)?, text))
+    Some((builtin(dialect_of(first))?, text))
+}
+
+/// A is the first dialect of the list, B the second; other bytes go round.
+pub(crate) fn dialect_of(first: u8) -> &'static str {
+    BUILTIN_NAMES[usize::from(first.wrapping_sub(b'A')) % BUILTIN_NAMES.len()]
 }
 
 /// Any bytes, any options: the tokens concatenate to the file, items and records lie inside their block.

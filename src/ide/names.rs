@@ -1,6 +1,8 @@
 //! Every place where a program names something of its own: programs, labels, block numbers, variables.
 mod apt;
+mod klartext;
 mod numbered;
+mod osp;
 mod sinumerik;
 mod variables;
 
@@ -133,16 +135,19 @@ impl Names {
 /// Reads all names of a program.
 pub fn names(program: &Program, dialect: &Dialect) -> Names {
     let mut found = Names::default();
-    if program.options().format == Format::Apt {
-        apt::read(program, &mut found);
-    } else {
-        match dialect.quirks.language {
-            Language::Sinumerik => sinumerik::read(program, dialect, &mut found),
-            Language::Linuxcnc => o_words(program, &mut found),
-            _ => programs(program, dialect, &mut found),
+    match program.options().format {
+        Format::Apt => apt::read(program, &mut found),
+        Format::Klartext => klartext::read(program, &mut found),
+        Format::Osp => osp::read(program, dialect, &mut found),
+        Format::Iso => {
+            match dialect.quirks.language {
+                Language::Sinumerik => sinumerik::read(program, dialect, &mut found),
+                Language::Linuxcnc => o_words(program, &mut found),
+                _ => programs(program, dialect, &mut found),
+            }
+            numbered::read(program, dialect, &mut found);
+            variables::read(program, dialect, &mut found);
         }
-        numbered::read(program, dialect, &mut found);
-        variables::read(program, dialect, &mut found);
     }
     found.all.sort_by_key(|one| (one.range.start, one.range.end));
     found.all.dedup_by(|one, other| one.range == other.range);

@@ -44,6 +44,9 @@ pub fn check_new_name(of: &Occurrence, dialect: &Dialect, new: &str) -> Result<(
         (false, Kind::Variable) if of.name.starts_with('_') != new.starts_with('_') && dialect.quirks.rs274() => {
             fail("would change where the variable is known: a `_` in front makes it global")
         }
+        (false, Kind::Program | Kind::Label) if dialect.quirks.user_task() && new.len() > 4 => {
+            fail("is too long: a name behind O or N has at most 4 letters and digits")
+        }
         (false, _) if dialect.name(new).is_some() => fail("is a word of the control"),
         (false, _) if dialect.quirks.language == Language::Sinumerik && new.len() < 2 => {
             fail("is too short: one letter is an address of the control")

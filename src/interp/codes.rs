@@ -252,6 +252,7 @@ impl<'d> Iso<'d> {
             }
             Action::SubprogramCall => {
                 block.not_modelled = true;
+                self.memory.cycle.hole.not_read();
                 not_modelled(found, report);
                 self.core.forget_everything();
                 if found.code.group.as_deref() == Some("macro-call") {
@@ -266,7 +267,8 @@ impl<'d> Iso<'d> {
 
     /// G43.4, G43.5 and their kind.
     fn tcp_code(&mut self, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
-        let unread = tcp_variant(found, words, report);
+        let along = self.core.setup.length_along();
+        let unread = tcp_variant(found, words, along, report);
         let wants_number = found.code.words.iter().any(|word| word == "H");
         if wants_number && !words.length_offset.is_given() && self.lacks_length_number() {
             report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));

@@ -42,6 +42,10 @@ pub(crate) struct Cycle {
     pub(crate) reads: [bool; 3],
     /// G99: back to the R level, else to the level before the cycle.
     pub(crate) to_r: bool,
+    /// M53 of an Okuma: back to the level that G71 gave.
+    pub(crate) to_level: bool,
+    /// That level, as a coordinate of the words.
+    pub(crate) level: Stored,
     /// The position of the hole while the tool is off it by an unknown distance.
     pub(crate) hole_place: [Option<f64>; 2],
     /// Data of drilling cycles.
@@ -65,6 +69,10 @@ impl Cycle {
             numbers.extend(self.pass.iter().flat_map(|stored| stored.numbers()));
         }
         numbers.extend(self.kept.numbers());
+        if self.to_level || self.level != Stored::Nothing {
+            numbers.push(f64::from(u8::from(self.to_level)));
+            numbers.extend(self.level.numbers());
+        }
         let numbers = numbers.into_iter().map(|value| Argument::number("", value));
         numbers
             .chain(self.call.as_ref().map(|call| call.said.clone()))
@@ -101,7 +109,13 @@ impl<'d> Iso<'d> {
             (false, false) if self.core.dialect.quirks.user_task() => 0,
             (false, _) => b'K',
         };
-        cycle.reads = [reads("I"), reads("J") && reads("I"), reads("K") && reads("L")];
+        // what I and J of an Okuma do is not followed
+        let depths = !self.core.dialect.quirks.user_task();
+        cycle.reads = [
+            reads("I") && depths,
+            reads("J") && reads("I") && depths,
+            reads("K") && reads("L"),
+        ];
         self.core.state.motion = Some(action);
     }
 

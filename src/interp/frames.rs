@@ -10,6 +10,7 @@ mod programmable;
 mod reference;
 mod shape;
 mod shift;
+mod solid;
 mod swivel;
 mod swivel_call;
 mod tilt;
@@ -20,6 +21,7 @@ pub(crate) use linear::Linear;
 pub(crate) use polar::Polar;
 pub(crate) use reference::Return;
 pub(crate) use shape::{Rotation, Scaling, Shape, sin_cos_degrees};
+pub(crate) use solid::{angles_of, by_traces, is_rigid};
 pub(crate) use tilt::Tilted;
 
 use crate::codes::{BlockCodes, Found};
@@ -208,7 +210,9 @@ impl<'d> Iso<'d> {
             Action::ReferenceStoreOther => self.store_reference(1),
             Action::DiameterSwitch => self.diameter_switch(found, words, block, report),
             Action::ReturnInitial => self.memory.cycle.to_r = false,
-            Action::ReturnToR => self.memory.cycle.to_r = true,
+            Action::ReturnToR => (self.memory.cycle.to_r, self.memory.cycle.to_level) = (true, false),
+            Action::ReturnLevel => self.return_level(words, block),
+            Action::ReturnToLevel => (self.memory.cycle.to_r, self.memory.cycle.to_level) = (false, true),
             Action::BoltCircle | Action::BoltArc | Action::BoltLine => block.pattern = Pattern::of(found),
             Action::FinishCycle
             | Action::RoughTurnCycle
@@ -228,6 +232,9 @@ impl<'d> Iso<'d> {
             action if action.is_hole_cycle() || action.is_pass_cycle() => {
                 self.begin_cycle(found);
                 block.motion = Some(action);
+                if block.not_modelled {
+                    self.memory.cycle.hole.not_read();
+                }
             }
             _ => self.unmodelled_code(found, words, block, report),
         }

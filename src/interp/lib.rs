@@ -65,9 +65,9 @@ pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
-    FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library, Limits, Loaded,
-    ModalState, Motion, MotionKind, Nose, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Reach,
-    Refusal, RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool,
-    ToolShape, Undeclared, Value, WorkOffset, is_left, same_number,
+    FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library,
+    Limits, Loaded, ModalState, Motion, MotionKind, Nose, Orientation, OuterCorner, Placed, Position, Posture,
+    ProgramRun, Reach, Refusal, RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes,
+    TcpMistake, Tilt, Tool, ToolShape, Undeclared, Value, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

@@ -17,6 +17,7 @@ impl<'d> Iso<'d> {
         self.memory.tcp_used = true;
         self.core.state.tool_axis.set_vectors(vectors);
         self.memory.tcp_group = code.group.as_deref();
+        self.frame_of_tip();
     }
 
     /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.
@@ -100,14 +101,36 @@ fn turned(start: &Position, end: &Position) -> bool {
         .any(|(axis, value)| start.get(axis) != Some(value))
 }
 
-/// Forms of a code for tool centre point control that are not modelled: TRAORI of another transformation than the first, or with further
-/// arguments; G43.4 with P, Q or L, which choose modes.
-pub(crate) fn tcp_variant(found: &Found<'_>, words: &Words, report: &Report<'_>) -> Option<String> {
+/// The arguments of TRAORI: the first transformation, whose number may be left out, with the basic direction of the tool (its length does not
+/// count) that the machine has at home, and no offsets of the rotary axes (Sinumerik 840D sl Programming Manual, Job Planning, 2009, p. 361).
+fn is_first(inside: &str, along: [f64; 3]) -> bool {
+    let said: Vec<&str> = inside.split(',').map(str::trim).collect();
+    let number = |at: usize| match said.get(at).copied().unwrap_or_default() {
+        "" => Some(0.0),
+        text => text.parse::<f64>().ok(),
+    };
+    let first = matches!(said[0], "" | "1");
+    let basic = said
+        .get(1..4)
+        .is_some_and(|basic| basic.iter().any(|word| !word.is_empty()));
+    let same = || {
+        let tool = [number(1)?, number(2)?, number(3)?];
+        let dot: f64 = tool.iter().zip(along).map(|(a, b)| a * b).sum();
+        let across = [0, 1, 2].map(|axis| tool[axis] - dot * along[axis]);
+        Some(dot > 0.0 && across.iter().all(|value| value.abs() <= 1e-9 * dot))
+    };
+    let still = number(4) == Some(0.0) && number(5) == Some(0.0);
+    first && said.len() <= 6 && still && (!basic || same() == Some(true))
+}
+
+/// Forms of a code for tool centre point control that are not modelled: TRAORI of another transformation than the first, with another direction of
+/// the tool or with offsets; G43.4 with P, Q or L, which choose modes.
+pub(crate) fn tcp_variant(found: &Found<'_>, words: &Words, along: [f64; 3], report: &Report<'_>) -> Option<String> {
     let code = &found.code.id;
     if found.code.kind == CodeKind::Name {
         let text = report.program.text(found.range);
         let inside = text.split_once('(')?.1.trim_end_matches(')').trim();
-        return (found.with_arguments && inside != "1").then(|| format!("{code}({inside})"));
+        return (found.with_arguments && !is_first(inside, along)).then(|| format!("{code}({inside})"));
     }
     let letter = *b"PQL"
         .iter()

@@ -179,6 +179,10 @@ actions! {
     ReturnInitial = "return-initial",
     /// G99 of a mill: cycles end at the R level.
     ReturnToR = "return-to-r",
+    /// G71 of an Okuma: Z is the level to which drilling cycles return under [`Action::ReturnToLevel`].
+    ReturnLevel = "return-level",
+    /// M53 of an Okuma: cycles end at the level of [`Action::ReturnLevel`].
+    ReturnToLevel = "return-to-level",
     /// G52: shifts all work coordinates.
     LocalShift = "local-shift",
     /// G92 (G50 of a lathe): the present point gets the given coordinates; with S alone the highest spindle speed.

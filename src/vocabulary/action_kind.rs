@@ -35,6 +35,8 @@ impl Action {
                 | Self::ProgramEnd
                 | Self::ReturnInitial
                 | Self::ReturnToR
+                | Self::ReturnLevel
+                | Self::ReturnToLevel
                 | Self::CycleOff
                 | Self::OrientationAxes
                 | Self::OrientationVector

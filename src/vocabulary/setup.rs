@@ -152,6 +152,15 @@ pub enum RollPitchYaw {
     Turned,
 }
 
+/// In which order several angles of a frame turn (Sinumerik machine data 10600 FRAME_ANGLE_INPUT_MODE).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameAngles {
+    /// 1: about Z, the new Y, the new X.
+    RollPitchYaw,
+    /// 2: Euler angles about Z, the new X, the new Z; which word is which turn is not followed.
+    Euler,
+}
+
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
@@ -184,6 +193,8 @@ pub struct ControlData {
     pub block_delete: Option<bool>,
     /// What the angles of G68.2 P1 turn about; `None`: not declared, planes with two or three of them are unknown.
     pub roll_pitch_yaw: Option<RollPitchYaw>,
+    /// In which order ROT and CROT of a Sinumerik turn about several axes; `None`: not declared, such frames are unknown.
+    pub frame_angles: Option<FrameAngles>,
     /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
     pub tcp_codes: Option<TcpCodes>,
     /// Codes by which a program closes and opens the clamps of rotary axes, as the machine names them.

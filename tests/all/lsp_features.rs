@@ -8,6 +8,10 @@ const NGC: &str = "(trunnion: dialect linuxcnc)\no<pocket> sub\nG1 X[#<depth> * 
 
 const MPF: &str = "%_N_SHAFT_MPF\n; finish\nG90 G71 G54\nDEF REAL DEPTH=2\nR1=5\nT1 D1\nM6\nAGAIN:\nG1 X=R1*2 Z=-DEPTH F500\nR1=R1-1\nIF R1>0 GOTOB AGAIN\nM30\n";
 
+const OSP: &str = "$A.MIN%\nO0001\nG15 H1\nG90 G0 X0 Y0 Z50\nS100 M3\nDEEP=5\nV1=0\nV2=3\nNLOP G1 X=V1 Z=-DEEP F100\nV1=V1+1\nIF [V1 LT V2] GOTO NLOP\nCALL OSUB\nM2\nOSUB\nG0 Z60\nRTS\n";
+
+const KLARTEXT: &str = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L Z+50 R0 FMAX M3\n3 Q12 = 5\n4 FN 1: Q14 = Q12 + 1\n5 CALL LBL 7\n6 CALL LBL \"DRILL\"\n7 L M30\n8 LBL 7\n9 L X+Q12 Y+Q14 FMAX\n10 LBL 0\n11 LBL \"DRILL\"\n12 L Z+2 FMAX\n13 LBL 0\n14 END PGM A MM\n";
+
 const APT: &str = "PARTNO TEST\nUNITS/MM\nLOADTL/1\nP1=POINT/1,2,3\nGOTO/P1\nLOADTL/2\nGOTO/1,2,3\nFINI\n";
 
 pub(crate) fn document(uri: &str) -> Value {
@@ -79,6 +83,13 @@ fn definition_and_references_follow_every_kind_of_name() {
         ("untitled:/a.mpf", MPF, "=-DEPTH", 3, "DEPTH", 2),
         ("untitled:/a.mpf", MPF, "X=R1*2", 3, "1", 5),
         ("untitled:/a.apt", APT, "GOTO/P1", 6, "P1", 2),
+        ("untitled:/a.min", OSP, "GOTO NLOP", 7, "LOP", 2),
+        ("untitled:/a.min", OSP, "CALL OSUB", 7, "SUB", 2),
+        ("untitled:/a.min", OSP, "Z=-DEEP", 4, "DEEP", 2),
+        ("untitled:/a.min", OSP, "X=V1", 3, "V1", 5),
+        ("untitled:/a.h", KLARTEXT, "CALL LBL 7", 9, "7", 2),
+        ("untitled:/a.h", KLARTEXT, "CALL LBL \"DRILL\"", 12, "DRILL", 2),
+        ("untitled:/a.h", KLARTEXT, "X+Q12", 4, "Q12", 3),
     ] {
         let mut client = opened(uri, text);
         let answer = client.request("textDocument/definition", at(uri, text, needle, plus));
@@ -126,6 +137,20 @@ fn a_rename_changes_every_place_and_is_refused_where_it_is_not_certain() {
         ),
         ("untitled:/a.mpf", MPF, "AGAIN:", 1, "MORE", &[("AGAIN", "MORE")]),
         ("untitled:/a.mpf", MPF, "=-DEPTH", 3, "LEVEL", &[("DEPTH", "LEVEL")]),
+        ("untitled:/a.min", OSP, "GOTO NLOP", 7, "NEXT", &[("NLOP", "NNEXT")]),
+        ("untitled:/a.min", OSP, "CALL OSUB", 7, "PART", &[("OSUB", "OPART")]),
+        ("untitled:/a.min", OSP, "V1=V1+1", 1, "V7", &[("V1", "V7")]),
+        ("untitled:/a.min", OSP, "Z=-DEEP", 4, "TIEF", &[("DEEP", "TIEF")]),
+        ("untitled:/a.h", KLARTEXT, "CALL LBL 7", 9, "8", &[("LBL 7", "LBL 8")]),
+        (
+            "untitled:/a.h",
+            KLARTEXT,
+            "LBL \"DRILL\"",
+            6,
+            "BORE",
+            &[("DRILL", "BORE")],
+        ),
+        ("untitled:/a.h", KLARTEXT, "X+Q12", 4, "Q13", &[("Q12", "Q13")]),
     ] {
         let mut client = opened(uri, text);
         let answer = client.request("textDocument/prepareRename", at(uri, text, needle, plus));
@@ -147,6 +172,11 @@ fn a_rename_changes_every_place_and_is_refused_where_it_is_not_certain() {
         ("untitled:/a.nc", MACRO, "#100=5", 2, "depth", "whole number"),
         ("untitled:/a.ngc", NGC, "#<depth> = 3", 3, "_depth", "global"),
         ("untitled:/a.mpf", MPF, "AGAIN:", 1, "TRAORI", "word of the control"),
+        ("untitled:/a.min", OSP, "GOTO NLOP", 7, "LONGER", "at most 4"),
+        ("untitled:/a.min", OSP, "V1=V1+1", 1, "V2", "in use"),
+        ("untitled:/a.h", KLARTEXT, "X+Q12", 4, "Q200", "read differently"),
+        ("untitled:/a.h", KLARTEXT, "X+Q12", 4, "QL12", "read differently"),
+        ("untitled:/a.h", KLARTEXT, "CALL LBL 7", 9, "NAME", "whole number"),
         (
             "untitled:/b.nc",
             "O1\n#100=1\n#101=2\nG1 X#100\n#[#101]=3\nM30\n",

@@ -5,7 +5,7 @@ use super::{CanonicalV1, Encode};
 use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
-use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};
+use trunnion_interp::{FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
 
@@ -51,6 +51,8 @@ tags! { LengthUnit { Millimetre = 1, Inch = 2 } }
 tags! { RoughingEscape { Feed = 1, Rapid = 2 } }
 tags! { OuterCorner { Lines = 1, Arc = 2 } }
 tags! { RollPitchYaw { Fixed = 1, Turned = 2 } }
+
+tags! { FrameAngles { RollPitchYaw = 1, Euler = 2 } }
 tags! { RefitSource { Points = 1, Chords = 2 } }
 tags! { PostureCost { Travel = 1, Time = 2, Deviation = 3 } }
 
@@ -84,6 +86,6 @@ tags! {
         CycleOff = 102, ConstantSurfaceSpeed = 103, ConstantSpindleSpeed = 104, SubprogramCall = 105, OrientationAxes = 106,
         OrientationVector = 107, PointToPoint = 108, PointToPointRapid = 109, ContinuousPath = 110,
         ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114, WorkSystem = 115,
-        WorkSystemOnce = 116, Polynomial = 117,
+        WorkSystemOnce = 116, Polynomial = 117, ReturnLevel = 118, ReturnToLevel = 119,
     }
 }

@@ -4,8 +4,8 @@ use crate::digest::{dialect_digest, machine_digest, setup_digest};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{
-    ClampCodes, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape, Setup, TcpCodes,
-    Tool, ToolShape, WorkOffset,
+    ClampCodes, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape, Setup,
+    TcpCodes, Tool, ToolShape, WorkOffset,
 };
 use trunnion_machine::{Criterion, Gantry, Limits, Machine, PoleAction, PostureRule, RapidPath, Wrap};
 
@@ -215,6 +215,8 @@ fn every_fact_of_a_setup_counts() {
             |s| s.control.block_delete = Some(true),
             |s| s.control.roll_pitch_yaw = Some(RollPitchYaw::Fixed),
             |s| s.control.roll_pitch_yaw = Some(RollPitchYaw::Turned),
+            |s| s.control.frame_angles = Some(FrameAngles::RollPitchYaw),
+            |s| s.control.frame_angles = Some(FrameAngles::Euler),
             |s| s.control.tcp_codes = Some(TcpCodes::default()),
             |s| s.control.tcp_codes = Some(codes(true, false)),
             |s| s.control.tcp_codes = Some(codes(false, false)),

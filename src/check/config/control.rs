@@ -4,8 +4,8 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_interp::{
-    AxisLetter, ControlData, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape,
-    TcpCodes,
+    AxisLetter, ControlData, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
+    RoughingEscape, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -34,6 +34,13 @@ enum Corner {
 enum Angles {
     Fixed,
     Turned,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Order {
+    Rpy,
+    Euler,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -73,6 +80,7 @@ pub(super) struct FileControl {
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
+    frame_angles: Option<Order>,
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
@@ -115,6 +123,10 @@ impl FileControl {
             roll_pitch_yaw: self.roll_pitch_yaw.map(|angles| match angles {
                 Angles::Fixed => RollPitchYaw::Fixed,
                 Angles::Turned => RollPitchYaw::Turned,
+            }),
+            frame_angles: self.frame_angles.map(|order| match order {
+                Order::Rpy => FrameAngles::RollPitchYaw,
+                Order::Euler => FrameAngles::Euler,
             }),
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
                 on: codes.on.clone(),
@@ -219,7 +231,7 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
-                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
@@ -231,6 +243,7 @@ mod tests {
         assert_eq!(control.outer_corner, OuterCorner::Arc);
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
+        assert_eq!(control.frame_angles, Some(trunnion_interp::FrameAngles::RollPitchYaw));
         let codes = control.tcp_codes.expect("declared");
         assert_eq!((codes.meaning("M429"), codes.meaning("M428")), (Some(true), None));
         let points: Vec<_> = control

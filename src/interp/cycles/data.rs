@@ -1,7 +1,10 @@
 //! What drilling cycles keep from block to block.
-use crate::ImplicitDecimals;
+use crate::arc::plane_axes;
+use crate::codes::BlockCodes;
+use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::{FaultKind, ImplicitDecimals};
 use trunnion_dialect::Action;
 
 /// A value that a cycle keeps.
@@ -56,6 +59,11 @@ pub(crate) struct Hole {
 }
 
 impl Hole {
+    /// A cycle is defined in a block that is not followed (NCYL of an Okuma): what it keeps is not known.
+    pub(crate) fn not_read(&mut self) {
+        self.r = Stored::Unknown;
+        self.bottom = Stored::Unknown;
+    }
     /// All of it; NaN: not given, or unknown.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
         let [i, j, k] = self.ijk;
@@ -74,6 +82,44 @@ impl Hole {
 }
 
 impl Iso<'_> {
+    /// G71 Z of an Okuma: the level to which cycles return. Under G91 no source says from where it counts.
+    pub(crate) fn return_level(&mut self, words: &Words, block: &mut BlockCodes) {
+        block.takes_coordinates = true;
+        let axis = plane_axes(self.core.state.coordinates.plane())[2];
+        let unit = self.core.state.coordinates.unit_mm();
+        let value = words
+            .axes
+            .get(axis)
+            .filter(|_| !self.core.state.coordinates.incremental());
+        self.memory.cycle.level = value.map_or(Stored::Unknown, |value| Stored::At(value * unit));
+    }
+
+    /// Where a cycle of an Okuma returns to: the level of G71 under M53. Without both it is not known.
+    pub(super) fn level_of_return(&self, words: &Words, r: Option<f64>, report: &mut Report<'_>) -> Option<f64> {
+        let cycle = &self.memory.cycle;
+        let level = cycle.level.from(None).filter(|_| cycle.to_level);
+        let above = level.filter(|level| r.is_none_or(|r| *level >= r));
+        if above.is_none() {
+            let what = format!(
+                "{}: the level to which it returns, without G71 Z above R and M53",
+                cycle.id
+            );
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
+        above
+    }
+
+    /// I and J in a cycle of steps of an Okuma: what they do is not followed.
+    pub(super) fn asks_depths(&self, words: &Words, report: &mut Report<'_>) -> bool {
+        let given = words.letter(b'I').is_given() || words.letter(b'J').is_given();
+        let asks = given && self.core.dialect.quirks.user_task();
+        if asks {
+            let what = format!("{}: I and J, the depths of its steps", self.memory.cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
+        asks
+    }
+
     /// A word that is a length without being a coordinate, mm: Q, I, J, K of a cycle.
     pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;

@@ -133,15 +133,16 @@ impl Iso<'_> {
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let always_initial = self.core.state.motion == Some(Action::BackBoreCycle);
         let back = if self.core.dialect.quirks.cycle_return_unknown {
-            let what = format!("{}: the level to which it returns", self.memory.cycle.id);
-            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-            None
+            self.level_of_return(words, r, report)
         } else if self.memory.cycle.to_r && !always_initial {
             r
         } else {
             hole.initial
         };
         let steps = matches!(self.core.state.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
+        if steps && self.asks_depths(words, report) {
+            return None;
+        }
         if steps && hole.q.is_none_or(|q| q == 0.0) && hole.ijk[0].is_none() {
             let message = format!("{} without Q, the depth of each step", self.memory.cycle.id);
             self.refuse(words, Refusal::CannedCycle, message, Some("peck-missing"), report);

@@ -42,6 +42,13 @@ impl Linear {
     pub(crate) fn apply(&self, point: [f64; 3]) -> [f64; 3] {
         (self.0 * Vec3::from(point)).into()
     }
+    /// Whether it mixes the plane's third axis with the other two.
+    pub(crate) fn leaves(&self, normal: usize) -> bool {
+        let others = [(normal + 1) % 3, (normal + 2) % 3];
+        others
+            .into_iter()
+            .any(|axis| self.0[(axis, normal)] != 0.0 || self.0[(normal, axis)] != 0.0)
+    }
     /// Whether a coordinate of the words moves more than one axis.
     pub(crate) fn couples(&self) -> bool {
         (0..3).any(|row| (0..3).any(|column| row != column && self.0[(row, column)] != 0.0))

@@ -46,6 +46,7 @@ impl Pending {
         Some(Tilted {
             origin: self.origin,
             turn,
+            programmed: false,
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Programmable frames of a Sinumerik: TRANS, ROT, SCALE and MIRROR replace all of them, ATRANS, AROT, ASCALE and AMIRROR chain behind what
 //! is there, each word alone ends all (Sinumerik 840D sl Programming Manual, Fundamentals, frames). The shift is part of the zero point, what
-//! turns, scales and mirrors is a [`super::Shape`]. Turns about another axis than the plane's third are not followed.
+//! turns, scales and mirrors in the plane is a [`super::Shape`]. A frame that turns out of the plane, or that turns under tool centre point
+//! control, is a [`super::Tilted`] plane of the program: see [`solid`](super::solid).
 use super::Linear;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
@@ -20,32 +21,39 @@ impl<'d> Iso<'d> {
     ) {
         let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
-        let coupled = self.is_coupled();
+        let (coupled, solid) = (self.is_coupled(), self.is_solid());
         self.change_frame(found, words, block, report);
         if coupled || self.is_coupled() {
-            self.unsay_moved(&before);
+            self.unsay_moved(&before, solid);
         }
     }
 
     /// An axis that the next block does not name: in a turned plane the sources do not say which of its positions stays.
-    fn unsay_moved(&mut self, before: &Position) {
+    fn unsay_moved(&mut self, before: &Position, was_solid: bool) {
         let position = self.core.state.position;
         let now = self.memory.frames.programmed(&position);
-        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
+        let [a, b, c] = plane_axes(self.core.state.coordinates.plane());
         let stays = |axis: usize| {
             before
                 .get(axis)
                 .zip(now.get(axis))
                 .is_some_and(|(old, new)| (old - new).abs() <= 1e-9)
         };
-        for axis in [a, b].into_iter().filter(|axis| !stays(*axis)) {
-            self.memory.frames.fresh |= 1 << axis;
+        let known = before.get(c).is_some() && now.get(c).is_some();
+        let solid = was_solid || self.is_solid();
+        let normal = Some(c).filter(|_| known || solid);
+        for axis in [Some(a), Some(b), normal]
+            .into_iter()
+            .flatten()
+            .filter(|axis| !stays(*axis))
+        {
+            self.memory.frames.fresh |= if solid { LINEAR & super::XYZ } else { 1 << axis };
         }
         self.memory.frames.refresh(&position);
     }
 
     fn is_coupled(&self) -> bool {
-        self.memory.frames.shape.linear.is_some_and(|linear| linear.couples())
+        self.memory.frames.shape.linear.is_some_and(|linear| linear.couples()) || self.is_solid()
     }
 
     fn change_frame(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
@@ -54,9 +62,7 @@ impl<'d> Iso<'d> {
         if !added {
             let ended = self.core.unknown.end(found.code);
             self.core.forget_if(ended);
-            self.memory.frames.local = [0.0; 9];
-            self.set_linear(None);
-            self.refresh_zero();
+            self.end_programmable();
         }
         let angle = self.memory.own.path.frame_angle();
         if !words.axes.any() && angle.is_none() {
@@ -67,13 +73,14 @@ impl<'d> Iso<'d> {
         let is_shift = matches!(found.code.id.as_str(), "TRANS" | "ATRANS");
         let plain = words.axes.unread == 0
             && !(tcp && turns)
-            && (is_shift || !turns && !tcp)
+            && (is_shift || !turns)
             && !self.core.unknown.any()
-            && self.memory.frames.tilt.is_none();
-        let Some(step) = self.frame_step(found, words, angle).filter(|_| plain) else {
+            && self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed);
+        let step = self.frame_step(found, words, angle).filter(|_| plain);
+        let Some(step) = step.filter(|step| self.solid_step(step) != Some(false)) else {
             if found.code.id.ends_with("ROT") && (words.axes.given & LINEAR).count_ones() > 1 {
                 let what = format!(
-                    "{} about several axes: machine data 10600 decides in which order it turns",
+                    "{} about several axes: machine data 10600 decides in which order it turns (declare [control] frame_angles)",
                     found.code.id
                 );
                 report.fault(found.range, FaultKind::NotModelled { what });
@@ -83,6 +90,11 @@ impl<'d> Iso<'d> {
             }
             return;
         };
+        if self.is_solid() {
+            self.memory.frames.must_be_absolute |= LINEAR;
+            let position = self.core.state.position;
+            return self.memory.frames.refresh(&position);
+        }
         let before = self.memory.frames.shape.linear.unwrap_or_default();
         match step {
             FrameStep::Shift(by) => {
@@ -116,13 +128,15 @@ impl<'d> Iso<'d> {
                 Some(FrameStep::Shift(by))
             }
             "ROT" => {
-                let degrees = match angle {
-                    Some(angle) => Some(angle).filter(|angle| !angle.is_nan())?,
-                    None if named == 1 << plane[2] => words.axes.get(plane[2])?,
-                    None => return None,
+                let turn = match angle {
+                    Some(angle) => Linear::turn(plane, Some(angle).filter(|angle| !angle.is_nan())?).matrix(),
+                    None => self.turn_of([0, 1, 2].map(|axis| words.axes.get(axis)))?,
                 };
-                Some(FrameStep::Linear(Linear::turn(plane, degrees)))
+                Some(FrameStep::Linear(Linear::from_matrix(turn)))
             }
+            "ROTS" => Some(FrameStep::Linear(Linear::from_matrix(super::solid::by_traces(
+                [0, 1, 2].map(|axis| words.axes.get(axis)),
+            )?))),
             id @ ("SCALE" | "MIRROR") => {
                 let mut diagonal = [1.0; 3];
                 for (axis, factor) in diagonal.iter_mut().enumerate() {
@@ -145,15 +159,36 @@ impl<'d> Iso<'d> {
     pub(crate) fn replace_linear(&mut self, to: Option<Linear>) {
         let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
-        let coupled = self.is_coupled();
+        let (coupled, solid) = (self.is_coupled(), self.is_solid());
+        self.end_solid();
         self.set_linear(to);
         self.memory.frames.must_be_absolute |= LINEAR;
         self.refresh_zero();
         let position = self.core.state.position;
         self.memory.frames.refresh(&position);
         if coupled || self.is_coupled() {
-            self.unsay_moved(&before);
+            self.unsay_moved(&before, solid);
         }
+    }
+
+    /// The same for a frame that turns out of the plane; false: it is not followed.
+    pub(crate) fn replace_solid(&mut self, frame: &crate::sinumerik::FrameValue) -> bool {
+        let position = self.core.state.position;
+        let before = self.memory.frames.programmed(&position);
+        if !self.set_solid(frame) {
+            return false;
+        }
+        self.memory.frames.must_be_absolute |= LINEAR;
+        self.unsay_moved(&before, true);
+        true
+    }
+
+    /// What TRANS, ROT, SCALE and MIRROR have set ends.
+    pub(super) fn end_programmable(&mut self) {
+        self.end_solid();
+        self.memory.frames.local = [0.0; 9];
+        self.set_linear(None);
+        self.refresh_zero();
     }
 
     fn set_linear(&mut self, to: Option<Linear>) {
@@ -169,7 +204,8 @@ impl<'d> Iso<'d> {
 }
 
 /// What one code does to the coordinates.
-enum FrameStep {
+#[derive(Clone, Copy)]
+pub(super) enum FrameStep {
     /// mm or deg.
     Shift([f64; 9]),
     Linear(Linear),

@@ -48,7 +48,7 @@ impl<'d> Iso<'d> {
 
     /// G69 and the like.
     pub(crate) fn end_tilt(&mut self, report: &mut Report<'_>) {
-        if self.memory.frames.tilt.is_some() {
+        if self.memory.frames.tilt.is_some_and(|tilt| !tilt.programmed) {
             self.tilt_to(None, report);
         }
     }
@@ -221,8 +221,8 @@ impl<'d> Iso<'d> {
             return;
         }
         let outer = self.memory.frames.tilt;
-        // whether a shift by TRANS ends with it, or is inside it, is not modelled
-        let shifted = self.memory.frames.local != [0.0; 9];
+        // whether a frame of the program ends with it, or is inside it, is not modelled
+        let shifted = self.memory.frames.local != [0.0; 9] || outer.is_some_and(|outer| outer.programmed);
         let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy() && !shifted;
         let read = SwivelCall::read(&text, value);
         let Some(call) = read.filter(|call| plain && (!call.adds || outer.is_some())) else {

@@ -17,6 +17,8 @@ pub(crate) struct Tilted {
     pub(crate) origin: Vec3,
     /// Columns: its axes in the workpiece frame.
     pub(crate) turn: Mat3,
+    /// It is a frame of the program (ROT of a Sinumerik): the words are turned, and the tool need not stand on the plane.
+    pub(crate) programmed: bool,
 }
 
 /// Turn about axis 0, 1, 2 (X, Y, Z) by an angle in degrees, right-handed; quarter turns are exact.
@@ -35,13 +37,18 @@ impl Tilted {
         let turn = turns.iter().fold(Mat3::identity(), |turn, &(axis, degrees)| {
             turn * turn_about(axis, degrees)
         });
-        Self { origin, turn }
+        Self {
+            origin,
+            turn,
+            programmed: false,
+        }
     }
     /// A plane that is given in the coordinates of this one, in the workpiece frame.
     pub(crate) fn then(&self, inner: &Self) -> Self {
         Self {
             origin: self.origin + self.turn * inner.origin,
             turn: self.turn * inner.turn,
+            programmed: false,
         }
     }
     /// The direction that the tool must have.
@@ -71,7 +78,7 @@ impl Tilted {
         if let Orientation::Vector(before, vector) = motion.orientation {
             motion.orientation = Orientation::Vector(before.map(|before| self.turn * before), self.turn * vector);
         }
-        if !motion.tcp && motion.tilt.swivel == Swivel::No {
+        if !motion.tcp && motion.tilt.swivel == Swivel::No && !self.programmed {
             motion.tilt.normal = Some(self.normal());
             self.leave_free(&mut motion, in_plane);
         }

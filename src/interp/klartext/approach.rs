@@ -139,7 +139,10 @@ impl Klartext<'_> {
         let tangent = way.and_then(|way| (way - normal * normal.dot(&way)).try_normalize(1e-9));
         let parts = tangent.and_then(|tangent| approach.parts(start, end, tangent));
         let Some((from, arc)) = parts else {
-            let what = "APPR: its words, the side of the tool, or the direction of the contour";
+            let what = match approach.form {
+                Form::Normal => "APPR LN: the tool radius",
+                _ => "APPR: its words, the side of the tool, or the direction of the contour",
+            };
             Self::not_modelled(what, report);
             return self.approach_unknown(approach);
         };
@@ -239,10 +242,19 @@ impl Klartext<'_> {
                         -side,
                     )?;
                     let turn = angle(centre, from, touch, normal, side);
-                    vec![(touch, about(from, touch, centre, normal, turn)), (goal, None)]
+                    let level = goal - normal * normal.dot(&(goal - from));
+                    vec![(touch, about(from, touch, centre, normal, turn)), (level, None)]
                 }
             })
         })();
+        // the depth comes last (TNC 640)
+        let steps = steps.and_then(|mut steps| {
+            let depth = normal.dot(&(end.xyz()? - start.xyz()?));
+            if depth.abs() > 1e-9 {
+                steps.push((steps.last()?.0 + normal * depth, None));
+            }
+            Some(steps)
+        });
         let Some(steps) = steps else {
             if form == Form::Normal {
                 Self::not_modelled("DEP LN: the tool radius", report);

@@ -16,6 +16,8 @@ pub(crate) const DATUM: u8 = 1;
 pub(crate) const PLANE: u8 = 2;
 /// Mirror, rotation, scaling that are not known.
 pub(crate) const SHAPE: u8 = 4;
+/// Turning: X is a diameter.
+pub(crate) const TURNING: u8 = 8;
 
 impl Klartext<'_> {
     /// Coordinates say nothing from here on, for a reason.

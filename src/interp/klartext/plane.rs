@@ -119,6 +119,7 @@ impl Klartext<'_> {
         self.tilt_to((!flat).then_some(Tilted {
             origin: Vec3::zeros(),
             turn,
+            programmed: false,
         }));
         self.memory.angles_wait = Some(posture);
         match swivel {

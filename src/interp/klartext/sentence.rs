@@ -123,9 +123,15 @@ impl Klartext<'_> {
             return self.guide_tip(false, report);
         }
         if !has("TCPM") {
-            if !has("MODE") {
+            if has("MODE") && has("MILL") {
+                self.found(super::datum::TURNING);
+            } else {
                 let what = String::from_utf8_lossy(&text).trim().to_owned();
                 self.not_modelled_once(&format!("FUNCTION {what}"), report);
+                if has("MODE") {
+                    self.flush(report);
+                    self.lose(super::datum::TURNING);
+                }
             }
             return;
         }

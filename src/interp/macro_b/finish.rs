@@ -2,6 +2,7 @@
 use super::Deep;
 use super::alarms::rejected;
 use super::read::{Macros, Mode};
+use super::system::Kept;
 use crate::Sink;
 use crate::flow::{Trail, index_of};
 use crate::iso::Iso;
@@ -90,6 +91,7 @@ impl Iso<'_> {
                     state: &self.core.state,
                     setup: &self.core.setup,
                     frames: &self.memory.frames,
+                    kept: Kept::of(&self.memory),
                 }),
                 own: None,
                 report: |range: TextRange, kind: FaultKind| {

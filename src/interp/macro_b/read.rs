@@ -2,7 +2,7 @@
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
 use super::statement::{Statement, statement};
-use super::system::{Known, is_followed};
+use super::system::{Kept, Known, is_followed};
 use super::variables::{Class, Held, Variables, class};
 use super::{Deep, FlowCode};
 use crate::flow::{Label, Transfer};
@@ -35,6 +35,7 @@ pub(crate) struct Macros<'a> {
     pub(crate) state: &'a ModalState,
     pub(crate) setup: &'a Setup,
     pub(crate) frames: &'a Frames,
+    pub(crate) kept: Kept,
 }
 
 /// The code of a call or return that a G or M code is, number in tenths.
@@ -65,7 +66,7 @@ impl Macros<'_> {
 
     /// What formulas read from.
     fn view<'v>(&'v mut self, dialect: &Dialect) -> (View<'v>, &'v mut Compiled, u16) {
-        let (state, setup, frames, file) = (self.state, self.setup, self.frames, self.file);
+        let (state, setup, frames, kept, file) = (self.state, self.setup, self.frames, self.kept, self.file);
         let Deep {
             variables, compiled, ..
         } = self.deep();
@@ -75,6 +76,7 @@ impl Macros<'_> {
                 state,
                 setup,
                 frames,
+                kept,
                 fanuc: is_fanuc(dialect),
             },
             unknown: Cell::new(None),
@@ -325,7 +327,6 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let value = match word.value {
             Value::Number(decimal) => Ok((Some(decimal.to_f64()), None)),
             Value::Expression(range) => macros.value(self.dialect, self.program, range, Form::Whole),
-            // reported as an error of the text
             _ => Ok((Some(f64::NAN), None)),
         };
         let (held, reason) = value.unwrap_or_else(|(range, kind)| {
@@ -360,9 +361,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 return;
             }
             Class::System(3000) if macros.mode == Mode::Follow => return self.alarm(held),
-            // a stop with a message: the operator continues
             Class::System(3006) if macros.mode == Mode::Follow => return,
-            Class::System(number) if is_followed(number) && held.is_some_and(f64::is_finite) => {
+            Class::System(number)
+                if is_followed(number, is_fanuc(self.dialect)) && held.is_some_and(f64::is_finite) =>
+            {
                 macros.deep().writes.push((number, held.unwrap_or(0.0)));
                 return;
             }

@@ -4,6 +4,7 @@
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
 use crate::frames::Frames;
 use crate::iso::Iso;
+use crate::memory::Memory;
 use crate::{FeedMode, ModalState, Setup};
 use trunnion_dialect::{Action, Plane};
 
@@ -27,12 +28,31 @@ fn is_probing(number: u32) -> bool {
     (5061..=5080).contains(&number)
 }
 
+/// What the control keeps apart from the modal state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Kept {
+    /// Drilling cycles return to the R level.
+    to_r: bool,
+    /// Last H.
+    length_offset: Option<u32>,
+}
+
+impl Kept {
+    pub(crate) fn of(memory: &Memory<'_>) -> Self {
+        Self {
+            to_r: memory.cycle.to_r,
+            length_offset: memory.length_offset,
+        }
+    }
+}
+
 /// The data from which system variables are read.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<'a> {
     pub(crate) state: &'a ModalState,
     pub(crate) setup: &'a Setup,
     pub(crate) frames: &'a Frames,
+    pub(crate) kept: Kept,
     /// Numbers of modal groups and offsets are Fanuc's.
     pub(crate) fanuc: bool,
 }
@@ -47,6 +67,7 @@ impl Known<'_> {
             5021..=5023 => self.machine(number as usize - 5021).unwrap_or(unknown),
             5041..=5043 => self.with_length(number as usize - 5041).unwrap_or(unknown),
             5201..=5323 => self.offset(number).unwrap_or(unknown),
+            7001..=7960 if self.fanuc => self.offset(number).unwrap_or(unknown),
             _ => unknown,
         }
     }
@@ -90,9 +111,31 @@ impl Known<'_> {
                 0 => 40.0,
                 side => f64::from(side),
             },
+            9 if self.fanuc => match state.motion? {
+                Action::ChipBreakCycle => 73.0,
+                Action::TapLeftCycle => 74.0,
+                Action::FineBoreCycle => 76.0,
+                Action::DrillCycle => 81.0,
+                Action::DrillDwellCycle => 82.0,
+                Action::PeckCycle => 83.0,
+                Action::TapCycle => 84.0,
+                Action::BoreStopCycle => 86.0,
+                Action::BackBoreCycle => 87.0,
+                Action::BoreManualCycle => 88.0,
+                Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise => 80.0,
+                _ => return None,
+            },
+            10 if self.fanuc => {
+                if self.kept.to_r {
+                    99.0
+                } else {
+                    98.0
+                }
+            }
             12 if !self.fanuc => self.offset_code()?,
             14 if self.fanuc => self.offset_code()?,
             109 => state.feed.value()? / state.feed.unit_mm(),
+            111 if self.fanuc => f64::from(self.kept.length_offset?),
             119 => state.spindle.rpm()?,
             120 => f64::from(state.tool.prepared().or(state.tool.number())?),
             _ => return None,
@@ -152,17 +195,21 @@ impl Known<'_> {
     }
 }
 
-/// The work offset and axis of #5201 to #5323: 20 numbers for each, the offset of all zero points (`None`) first, then G54 to G59.
-/// `None` for other axes than X Y Z, whose order is the machine's.
+/// The work offset and axis of #5201 to #5323: 20 numbers for each, the offset of all zero points (`None`) first, then G54 to G59; from #7001
+/// the additional ones of G54.1 (of a Fanuc: P1 to P48). `None` for other axes than X Y Z, whose order is the machine's.
 fn offset_of(number: u32) -> Option<(Option<String>, usize)> {
+    if let Some(place) = number.checked_sub(7001).filter(|place| *place < 960) {
+        let axis = (place % 20) as usize;
+        return (axis < 3).then(|| (Some(format!("G54.1 P{}", place / 20 + 1)), axis));
+    }
     let place = number.checked_sub(5201)?;
     let (code, axis) = (53 + place / 20, (place % 20) as usize);
     (axis < 3 && code <= 59).then(|| ((code > 53).then(|| format!("G{code}")), axis))
 }
 
 /// Whether the run follows what an assignment to a system variable changes.
-pub(crate) fn is_followed(number: u32) -> bool {
-    offset_of(number).is_some()
+pub(crate) fn is_followed(number: u32, fanuc: bool) -> bool {
+    (fanuc || number < 7000) && offset_of(number).is_some()
 }
 
 impl Iso<'_> {

@@ -3,6 +3,7 @@ use super::alarms::{Mistake, is_fanuc, rejected};
 use super::arguments;
 use super::name::bracketed;
 use super::read::{Macros, Mode};
+use super::system::Kept;
 use super::variables::Held;
 use super::{Deep, FlowCode, Modal, With};
 use crate::codes::Found;
@@ -42,6 +43,7 @@ impl<'d> Iso<'d> {
             state: &self.core.state,
             setup: &self.core.setup,
             frames: &self.memory.frames,
+            kept: Kept::of(&self.memory),
         };
         let mut reader = Reader {
             program: block.program(),
@@ -179,6 +181,7 @@ impl<'d> Iso<'d> {
                     state: &self.core.state,
                     setup: &self.core.setup,
                     frames: &self.memory.frames,
+                    kept: Kept::of(&self.memory),
                 };
                 let mut tell = |range: TextRange, kind| report.fault(range, kind);
                 let call = arguments::read(&mut macros, self.core.dialect, block, range, &mut tell);

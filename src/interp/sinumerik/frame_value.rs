@@ -4,10 +4,10 @@
 //! at once; `$P_UIFR[n]` is the work offset n (1 to 4: G54 to G57, 5 to 99: G505 to G599), and acts when its code is programmed next.
 //!
 //! Sources: SINUMERIK ONE Programming Manual, 12/2019, p. 631; SINUMERIK 840D Programming Guide Advanced, 04.2000, 6-194, 6-216. In which
-//! order several angles of CROT turn is machine data (10600), and fine shifts and rotations of work offsets are not followed.
+//! order several angles of CROT turn is machine data (10600, [control] frame_angles), and fine shifts and rotations of work offsets are not followed.
 use crate::FaultKind;
 use crate::core::Report;
-use crate::frames::{Linear, OffsetValues};
+use crate::frames::{Linear, OffsetValues, angles_of, by_traces};
 use crate::iso::Iso;
 use crate::own::arguments;
 use crate::reader::Reader;
@@ -35,7 +35,16 @@ impl Default for FrameValue {
 }
 
 impl FrameValue {
-    fn then(&self, inner: &Self) -> Self {
+    pub(crate) fn new(turn: Mat3, shift: Vec3) -> Self {
+        Self { turn, shift }
+    }
+    pub(crate) fn turn(&self) -> Mat3 {
+        self.turn
+    }
+    pub(crate) fn shift(&self) -> Vec3 {
+        self.shift
+    }
+    pub(crate) fn then(&self, inner: &Self) -> Self {
         Self {
             turn: self.turn * inner.turn,
             shift: self.shift + self.turn * inner.shift,
@@ -152,6 +161,13 @@ impl Iso<'_> {
         let value = self.memory.own.value(value)?;
         let axis = axis_of(axis)?;
         let linear = crate::core::LINEAR & (1 << axis) != 0;
+        if kind.eq_ignore_ascii_case("RT") && axis < 3 && key == "$p_pframe" {
+            let mut frame = self.programmable();
+            let mut angles = angles_of(&frame.turn);
+            angles[axis] = value;
+            frame.turn = self.turn_of(angles.map(Some))?;
+            return self.set_programmable(frame);
+        }
         if !kind.eq_ignore_ascii_case("TR") || !linear {
             return None;
         }
@@ -184,8 +200,11 @@ impl Iso<'_> {
         Some(())
     }
 
-    fn programmable(&self) -> FrameValue {
+    pub(crate) fn programmable(&self) -> FrameValue {
         let frames = &self.memory.frames;
+        if let Some(tilt) = frames.tilt.filter(|tilt| tilt.programmed) {
+            return FrameValue::new(tilt.turn, tilt.origin);
+        }
         FrameValue {
             turn: frames.shape.linear.unwrap_or_default().matrix(),
             shift: Vec3::new(frames.local[0], frames.local[1], frames.local[2]),
@@ -193,17 +212,14 @@ impl Iso<'_> {
     }
 
     fn set_programmable(&mut self, frame: FrameValue) -> Option<()> {
-        let plane = crate::arc::plane_axes(self.core.state.coordinates.plane());
-        let [a, b, c] = plane;
-        let apart = [(a, c), (b, c), (c, a), (c, b)]
-            .into_iter()
-            .all(|place| frame.turn[place] == 0.0);
-        let plain = self.memory.frames.tilt.is_none()
+        let plain = self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed)
             && !self.core.unknown.any()
-            && !self.core.state.tool_axis.tcp()
             && self.memory.frames.local[3..] == [0.0; 6];
-        if !apart || !plain {
+        if !plain {
             return None;
+        }
+        if frame.turns() && self.needs_solid(&frame.turn) {
+            return self.replace_solid(&frame).then_some(());
         }
         self.memory.frames.local[..3].copy_from_slice(frame.shift.as_slice());
         self.replace_linear(Some(Linear::from_matrix(frame.turn)).filter(|_| frame.turns()));
@@ -228,7 +244,7 @@ impl Iso<'_> {
             return *frame;
         }
         if key == "$p_pframe" {
-            let plain = !self.core.unknown.any() && self.memory.frames.tilt.is_none();
+            let plain = !self.core.unknown.any() && self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed);
             return Some(self.programmable()).filter(|_| plain);
         }
         if let Some(number) = key.strip_prefix("$p_uifr[").and_then(|rest| rest.strip_suffix(']')) {
@@ -279,14 +295,17 @@ impl Iso<'_> {
                     frame.turn[(axis, axis)] *= value;
                 }
             }
-            // in which order several angles turn is machine data
-            "CROT" => match named.as_slice() {
-                [] => {}
-                &[(axis, degrees)] => {
-                    frame.turn = Linear::turn([(axis + 1) % 3, (axis + 2) % 3, axis], degrees).matrix();
+            "CROT" | "CROTS" if named.is_empty() => {}
+            "CROT" | "CROTS" => {
+                let mut angles = [None; 3];
+                for (axis, degrees) in named {
+                    angles[axis] = Some(degrees);
                 }
-                _ => return None,
-            },
+                frame.turn = match name {
+                    "CROT" => self.turn_of(angles)?,
+                    _ => by_traces(angles)?,
+                };
+            }
             _ => return None,
         }
         Some(frame)

@@ -160,13 +160,49 @@ impl Statement<'_> {
         Ok(Some(Transfer::Jump(label, search)))
     }
 
+    /// `"N"<<R10`: texts and whole numbers behind the first text of a target.
+    fn join(&mut self, name: &mut String) -> Result<(), Trouble> {
+        loop {
+            let at = self.text.at();
+            if !self.text.bytes()[at..].starts_with(b"<<") {
+                return Ok(());
+            }
+            self.text.go_to(at + 2);
+            if let Some(text) = self.text.quoted() {
+                name.push_str(&text.trim().to_ascii_uppercase());
+                continue;
+            }
+            let from = self.text.at();
+            let mut deep = 0;
+            let inside = |byte: &&u8| {
+                deep += i32::from(matches!(byte, b'[' | b'(')) - i32::from(matches!(byte, b']' | b')'));
+                deep > 0 || !(byte.is_ascii_whitespace() || **byte == b'<')
+            };
+            let end = from + self.text.bytes()[from..].iter().take_while(inside).count();
+            let operand = String::from_utf8_lossy(&self.text.bytes()[from..end]).into_owned();
+            self.text.go_to(end);
+            let number = self
+                .own
+                .value(&operand)
+                .filter(|value| value.fract() == 0.0 && value.abs() < 1e9);
+            let Some(number) = number else {
+                let what = format!("`{operand}`, a part of the target of a jump: no whole number is known for it");
+                return not_decided(self.text.range(from, end), what);
+            };
+            name.push_str(&(number as i64).to_string());
+        }
+    }
+
     /// A label, `N100`, `100`, or either as a string.
     fn target(&mut self) -> Result<Label, Trouble> {
         let from = self.text.at();
         let quoted = self.text.quoted();
         let is_text = quoted.is_some();
         self.text.eat(b':');
-        let name = quoted.map_or_else(|| self.text.word(), |text| text.trim().to_ascii_uppercase());
+        let mut name = quoted.map_or_else(|| self.text.word(), |text| text.trim().to_ascii_uppercase());
+        if is_text {
+            self.join(&mut name)?;
+        }
         let end = self.text.at();
         let range = self.text.range(from, end);
         if name.is_empty() || matches!(self.text.bytes().get(end), Some(b'<' | b'[' | b'$')) {

@@ -33,7 +33,13 @@ impl Iso<'_> {
         let position = self.core.state.position;
         let here = self.memory.frames.programmed(&position);
         let unit = self.core.state.coordinates.unit_mm();
-        let plain = !self.core.unknown.any() && !self.core.state.zero.is_lost() && self.memory.frames.tilt.is_none();
+        let own_plane = self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed);
+        let plain = !self.core.unknown.any() && !self.core.state.zero.is_lost() && own_plane;
+        let frame = self.programmable();
+        // the angles that a frame reads back as are those of machine data 10600
+        let angles = (self.core.setup.control.frame_angles == Some(crate::FrameAngles::RollPitchYaw))
+            .then(|| crate::frames::angles_of(&frame.turn()))
+            .filter(|_| plain && crate::frames::is_rigid(&frame.turn()));
         let cutting_on_path = self.core.state.compensation == 0 && !self.memory.corners.is_busy();
         for (axis, letter) in crate::AXIS_LETTERS.iter().enumerate() {
             let linear = crate::core::LINEAR & (1 << axis) != 0;
@@ -43,11 +49,17 @@ impl Iso<'_> {
             put(format!("$p_ep[{letter}]"), value);
             put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
             let linear_frame = self.memory.frames.shape.linear.is_some();
-            let local = self.memory.frames.local[axis] / scale;
+            let shift = if axis < 3 {
+                frame.shift()[axis]
+            } else {
+                self.memory.frames.local[axis]
+            };
             put(
                 format!("$p_pframe[{letter},tr]"),
-                Some(local).filter(|_| plain && !linear_frame),
+                Some(shift / scale).filter(|_| plain && !linear_frame),
             );
+            let angle = angles.and_then(|angles| angles.get(axis).copied());
+            put(format!("$p_pframe[{letter},rt]"), angle);
         }
         for number in 1..=99u32 {
             let Some(values) = self.offset_values(&offset_name(number)) else {

@@ -168,8 +168,8 @@ fn what_is_recognised_but_not_followed_is_said() {
         [""; 0]
     );
     assert_eq!(
-        what("sinumerik-840d", "TRAORI(2)\nTRAORI(1,0,0,1)\n"),
-        ["TRAORI(2)", "TRAORI(1,0,0,1)"]
+        what("sinumerik-840d", "TRAORI(2)\nTRAORI(1,0,1,0)\n"),
+        ["TRAORI(2)", "TRAORI(1,0,1,0)"]
     );
     assert_eq!(what("fanuc-30i", "G43.4 H1 P1\nG43.4 H1\n"), ["G43.4 with P"]);
     assert_eq!(what("fanuc-30i", "G43.5 H1 Q2\n"), ["G43.5 with Q"]);

@@ -71,6 +71,7 @@ fn holes(dialect: &str, text: &str, surface: f64) -> Vec<Hole> {
     let setup = Setup {
         control: ControlData {
             peck_clearance_mm: Some(0.2),
+            chip_break_retract_mm: Some(0.2),
             ..ControlData::default()
         },
         ..Setup::default()
@@ -132,6 +133,77 @@ fn holes(dialect: &str, text: &str, surface: f64) -> Vec<Hole> {
     found.extend(here);
     found.retain(|hole| hole.strokes > 0 || hole.open);
     found
+}
+
+/// A Sinumerik program with modal cycles in words of an Okuma: G71 for the level behind the hole, G81 to G89 with R and M53.
+fn for_okuma(siemens: &str) -> String {
+    let mut out = String::from("$DRILL.MIN%\nO0001\n");
+    let mut cycle: Option<String> = None;
+    for line in siemens.lines().filter(|line| !line.starts_with(['%', ';'])) {
+        let words: Vec<&str> = line
+            .split_whitespace()
+            .filter(|word| !word.starts_with(['N', 'D']))
+            .collect();
+        let text = words.join(" ");
+        match words.first().copied() {
+            None => {}
+            Some("MCALL") if words.len() == 1 => out += "G80\n",
+            Some("MCALL") => {
+                let (name, inside) = text["MCALL ".len()..].split_once('(').expect("arguments");
+                let said: Vec<&str> = inside.trim_end_matches(')').split(',').collect();
+                let number = |at: usize| said[at].trim().parse::<f64>().expect("a number");
+                let code = match (name.trim(), said.get(11).copied()) {
+                    ("CYCLE81", _) => "G81".to_owned(),
+                    ("CYCLE83", Some("0")) => "G73 Q2.".to_owned(),
+                    ("CYCLE83", _) => "G83 Q2.".to_owned(),
+                    ("CYCLE84", _) => "G84 F442.5".to_owned(),
+                    ("CYCLE85", _) => "G85".to_owned(),
+                    _ => "G86".to_owned(),
+                };
+                out += &format!("G71 Z{:.3}\n", number(0));
+                cycle = Some(format!("{code} Z{:.3} R{:.3} M53", number(3), number(1) + number(2)));
+            }
+            Some("G54") => out += "G15 H1\n",
+            Some("G75") => out += &format!("G16 H0 {}\n", words[1..].join(" ")),
+            Some(_) => {
+                let places = words.iter().any(|word| word.starts_with(['X', 'Y']));
+                let begins = cycle.take_if(|_| places).map(|cycle| format!(" {cycle}"));
+                out += &format!("{text}{}\n", begins.unwrap_or_default());
+            }
+        }
+    }
+    out
+}
+
+/// The drilled part as a post for an Okuma writes it: each hole at its place, with its depth, in its way. Steps count from the surface in CYCLE83 and
+/// from R in G83, so their number is not compared.
+#[test]
+fn the_holes_posted_for_an_okuma_are_those_of_the_sinumerik() {
+    let Some(siemens) = shared("four-controls/siemens/DRILLING.mpf") else {
+        return;
+    };
+    let siemens = String::from_utf8_lossy(&siemens).into_owned();
+    let okuma = holes("okuma-osp", &for_okuma(&siemens), 50.0);
+    let siemens = holes("sinumerik-840d", &siemens, 50.0);
+    let without = |of: &[Hole], other: &[Hole]| -> Vec<String> {
+        let places: Vec<_> = other.iter().map(|hole| hole.place).collect();
+        of.iter()
+            .filter(|hole| !places.contains(&hole.place))
+            .map(|hole| format!("{hole:?}"))
+            .collect()
+    };
+    assert_eq!(siemens.len(), okuma.len(), "{:#?}", without(&siemens, &okuma));
+    assert!(siemens.len() > 90, "{}", siemens.len());
+    let mut same = 0;
+    for (one, two) in siemens.iter().zip(&okuma) {
+        assert_eq!(one.place, two.place, "{one:?} and {two:?}");
+        assert!((one.bottom - two.bottom).abs() < 1e-9, "{one:?} and {two:?}");
+        if !one.open && !two.open && one.out != Out::NotKnown {
+            assert_eq!((one.way(), one.out), (two.way(), two.out), "{one:?} and {two:?}");
+            same += 1;
+        }
+    }
+    assert!(same > 60, "{same}");
 }
 
 #[test]

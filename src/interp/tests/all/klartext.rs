@@ -58,6 +58,79 @@ fn arcs_in_all_forms() {
     assert!((polar - Vec3::new(0.0, 20.0, 5.0)).norm() < 1e-9, "{polar}");
 }
 
+/// All forms, with the way worked out by hand: the contour runs along +X from (10, 0) to (30, 0), tool on the left; PS is at (-10, 40), or right of
+/// it. A depth comes after the plane on the way in, and last on the way out.
+#[test]
+fn approaches_and_departures_in_all_forms() {
+    let way = |appr: &str, dep: &str| {
+        let text = program(&format!(
+            "CC X+10 Y-20\nL X-10 Y+40 Z+5 R0 FMAX\n{appr} F100\nL X+30\n{dep}\nL Z+50 R0 FMAX\n"
+        ));
+        let motions = run_text(NAME, &text).motions;
+        let ends: Vec<String> = motions[1..motions.len() - 1].iter().map(crate::support::line).collect();
+        ends
+    };
+    let contour = "L X30 Y0 Z5 F100";
+    assert_eq!(
+        way("APPR LT X+10 Y+0 LEN15 RL", "DEP LT LEN12"),
+        ["R X-5 Y0 Z5", "L X10 Y0 Z5 F100", contour, "L X42 Y0 Z5 F100"]
+    );
+    assert_eq!(
+        way("APPR PLT PR+20 PA+90 LEN15 RL", "DEP LT LEN12 Z+20"),
+        [
+            "R X-5 Y0 Z5",
+            "L X10 Y0 Z5 F100",
+            contour,
+            "L X42 Y0 Z5 F100",
+            "L X42 Y0 Z20 F100"
+        ]
+    );
+    let quarter = [
+        "R X0 Y10 Z5",
+        "A(10 10 5; 90) X10 Y0 Z5 F100",
+        contour,
+        "A(30 5 5; 90) X35 Y5 Z5 F100",
+    ];
+    assert_eq!(way("APPR CT X+10 Y+0 CCA90 R+10 RL", "DEP CT CCA90 R+5"), quarter);
+    assert_eq!(way("APPR PCT PR+20 PA+90 CCA90 R+10 RL", "DEP CT CCA90 R+5"), quarter);
+    // to the other side
+    assert_eq!(
+        way("APPR CT X+10 Y+0 CCA90 R-10 RL", "DEP CT CCA90 R-5")[..2],
+        ["R X0 Y-10 Z5", "A(10 -10 5; -90) X10 Y0 Z5 F100"]
+    );
+    // the tangent from (-10, 40) to the circle about (10, 10), counter-clockwise: it is the line x = 0 for PS (0, 40)
+    let text =
+        program("L X+0 Y+40 Z+5 R0 FMAX\nAPPR LCT X+10 Y+0 Z-3 R10 RL F100\nL X+30\nDEP LCT X+40 Y+40 Z+9 R10\n");
+    assert_eq!(
+        lines(NAME, &text)[1..],
+        [
+            "L X0 Y10 Z5 F100",
+            "L X0 Y10 Z-3 F100",
+            "A(10 10 -3; 90) X10 Y0 Z-3 F100",
+            "L X30 Y0 Z-3 F100",
+            "A(30 10 -3; 90) X40 Y10 Z-3 F100",
+            "L X40 Y40 Z-3 F100",
+            "L X40 Y40 Z9 F100",
+        ]
+    );
+    // the tool radius enters, and in which way no source says
+    for (appr, dep) in [
+        ("APPR LN X+10 Y+0 LEN15 RL", "DEP LT LEN12"),
+        ("APPR PLN PR+20 PA+90 LEN15 RL", "DEP LT LEN12"),
+        ("APPR LT X+10 Y+0 LEN15 RL", "DEP LN LEN12"),
+    ] {
+        let text = program(&format!(
+            "CC X+10 Y-20\nL X-10 Y+40 Z+5 R0 FMAX\n{appr} F100\nL X+30\n{dep}\n"
+        ));
+        assert!(
+            faults(NAME, &text)
+                .iter()
+                .any(|fault| fault.contains("the tool radius")),
+            "{appr}"
+        );
+    }
+}
+
 /// The approach of the manual's blocks, with the numbers of the notes.
 #[test]
 fn approach_on_a_circle() {
@@ -151,9 +224,23 @@ fn what_is_not_sourced_is_unknown_by_name() {
         ("CHF 5\n", "CHF"),
         ("CYCL DEF 19.0 X\nCYCL DEF 19.1 A+45\n", "cycle 19"),
         ("L Z+0 FMAX M92\n", "M92"),
+        ("FUNCTION MODE TURN\n", "FUNCTION MODE TURN"),
     ] {
         let found = faults(NAME, &program(block));
         assert!(found.iter().any(|fault| fault.contains(name)), "{block} {found:?}");
+    }
+}
+
+/// Under FUNCTION MODE TURN X is a diameter: no position is known until milling is on again.
+#[test]
+fn turning_hides_positions() {
+    for (blocks, lost) in [
+        ("FUNCTION MODE TURN\nL X+5 Z+2 F100\n", true),
+        ("FUNCTION MODE TURN\nFUNCTION MODE MILL\nL X+5 Z+2 F100\n", false),
+        ("FUNCTION MODE MILL\nL X+5 Z+2 F100\n", false),
+    ] {
+        let state = run_text(NAME, &program(blocks)).state.expect("a state");
+        assert_eq!(state.zero.is_lost(), lost, "{blocks}");
     }
 }
 

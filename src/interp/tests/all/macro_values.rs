@@ -1,6 +1,6 @@
 //! Macro B: values of expressions and variables, checked by hand.
 use crate::macro_flow::said;
-use crate::support::{lines, number, run_bytes, shared};
+use crate::support::{lines, number, run_bytes, run_text, shared};
 use trunnion_interp::{FaultKind, Setup, WorkOffset};
 
 const FANUC: &str = "fanuc-30i";
@@ -107,6 +107,57 @@ fn the_control_tells_what_is_in_force_and_where_it_is() {
         ends,
         [Some("1".to_owned()), Some("100".to_owned()), Some("200".to_owned())]
     );
+}
+
+/// #7001 and up: 20 numbers for each additional offset; #4010, #4009, #4111.
+#[test]
+fn additional_offsets_and_more_of_what_is_in_force() {
+    let offset = |name: &str, values: [f64; 3]| WorkOffset {
+        name: name.to_owned(),
+        values: [values[0], values[1], values[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    };
+    let setup = Setup {
+        work_offsets: vec![
+            offset("G54.1 P1", [1.0, 2.0, 3.0]),
+            offset("G54.1 P48", [0.0, 7.0, 0.0]),
+        ],
+        ..Setup::default()
+    };
+    let source = b"G0X#7003Y#7942\n#7022=5.\nX#7022\nM30\n";
+    let log = run_bytes(FANUC, source, &setup).1;
+    let ends: Vec<_> = log
+        .motions
+        .iter()
+        .map(|motion| (motion.end.get(0), motion.end.get(1)))
+        .collect();
+    assert_eq!(ends, [(Some(3.0), Some(7.0)), (Some(5.0), Some(7.0))]);
+    // what the program writes counts when it selects the offset
+    let written = lines(FANUC, "G54G0X10.Y1.\n#7001=3.\nG54.1P1\nG0X1.\nM30\n");
+    assert_eq!(written, ["R X10 Y1", "R X1 Y1"]);
+    // not declared, a fourth axis, behind the last one, and of a Haas another place
+    for (dialect, source) in [
+        (FANUC, "G0X#7003\nM30\n"),
+        (FANUC, "#7001=1.\nG0X#7004\nM30\n"),
+        (FANUC, "G0X#7961\nM30\n"),
+        ("haas-ngc", "#7001=1.\nG0X#7001\nM30\n"),
+    ] {
+        let log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
+        assert_eq!(log.motions[0].end.get(0), None, "{dialect}: {source}");
+    }
+    for (source, x) in [
+        ("G99\nG0X#4010", 99.0),
+        ("G98G0X#4010", 98.0),
+        ("G0X1.\nX#4009", 80.0),
+        ("G43H7Z1.\nG0X#4111", 7.0),
+        ("G0X1.Y1.Z5.\nG83X2.Z-1.R1.Q1.F10.\n#1=#4009\nG80\nG0X#1", 83.0),
+    ] {
+        let log = run_text(FANUC, &format!("{source}\nM30\n"));
+        assert_eq!(
+            log.motions.last().and_then(|motion| motion.end.get(0)),
+            Some(x),
+            "{source}"
+        );
+    }
 }
 
 #[test]

@@ -43,6 +43,7 @@ mod silent;
 mod sinumerik_calls;
 mod sinumerik_examples;
 mod sinumerik_flow;
+mod sinumerik_frames;
 mod sinumerik_paths;
 mod sinumerik_traces;
 mod sinumerik_values;

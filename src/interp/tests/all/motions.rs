@@ -270,7 +270,7 @@ fn cycles_run_until_they_end() {
 
 #[test]
 fn frames_that_are_not_modelled_hide_the_position() {
-    let source = "G0 X1 Y2 Z3\nROT X10\nX5\nG1 Y6 F10\nG0 SUPA Z100\nROT\nZ4\nX1\n";
+    let source = "G0 X1 Y2 Z3\nROT X10 Y5\nX5\nG1 Y6 F10\nG0 SUPA Z100\nROT\nZ4\nX1\n";
     assert_eq!(
         lines("sinumerik-840d", source),
         ["R X1 Y2 Z3", "R -", "L - F10", "R Z100 machine", "R Z4", "R X1 Z4"]
@@ -303,7 +303,7 @@ fn trans_moves_the_zero_point() {
     assert_eq!(log.faults, []);
     // inside a frame that is not modelled, or after one, nothing is known
     for source in [
-        "G0 X1 Y2 Z3\nROT Y10\nATRANS X10\nX5 Y6\n",
+        "G0 X1 Y2 Z3\nROT X5 Y10\nATRANS X10\nX5 Y6\n",
         "G0 X1 Y2 Z3\nTRANS X10\nAROT Z10 Y5\nX5 Y6\n",
         "G0 X1 Y2 Z3\nTRANS X=R1\nX5 Y6\n",
         "G0 X1 Y2 Z3\nTRANS X10\nCYCLE800(1,\"T\",0,57,0,0,0,0,-15,0,0,0,0,-1,0)\nCYCLE800()\nX5 Y6\n",
@@ -336,7 +336,7 @@ fn writing_zero_points_and_tools_of_the_control_hides_the_position() {
     for (dialect, write) in [
         ("fanuc-30i", "#5204=100."),
         ("fanuc-30i", "#2001=100."),
-        ("fanuc-30i", "#7001=100."),
+        ("fanuc-30i", "#7004=100."),
     ] {
         let source = format!("G0 X1. Y2. Z3. A4.\n{write}\nG0 X5. A6.\n");
         assert_eq!(lines(dialect, &source), ["R X1 Y2 Z3 A4", "R -"], "{write}");

@@ -1,11 +1,11 @@
 //! One plane in every form of every control, on random matrices: what each program makes of four points.
 //!
-//! CYCLE800 in its six orders, PLANE SPATIAL, EULER, VECTOR, POINTS and RELATIV, G68.2 P0 to P3 and G68.4. What the sources leave open stays
+//! CYCLE800 in its six orders, ROT, AROT and CROT, PLANE SPATIAL, EULER, VECTOR, POINTS and RELATIV, G68.2 P0 to P3 and G68.4. What the sources leave open stays
 //! unknown: PLANE PROJECTED and AXIAL, G68.2 P4, G68.3.
 use crate::support::{faults, run_bytes};
 use trunnion_geometry::math::{asin, atan2, cos, hypot, sin};
 use trunnion_geometry::{Mat3, Vec3};
-use trunnion_interp::{RollPitchYaw, Setup};
+use trunnion_interp::{FrameAngles, RollPitchYaw, Setup};
 
 const SIEMENS: &str = "sinumerik-840d";
 const KLARTEXT: &str = "heidenhain-klartext";
@@ -71,6 +71,20 @@ fn forms(turn: &Mat3) -> Vec<(String, &'static str, String)> {
         forms.push((format!("CYCLE800 {mode}"), SIEMENS, call));
     }
     let [c, b, a] = angles([2, 1, 0], turn);
+    for (name, blocks) in [
+        (
+            "ROT Z, AROT Y, AROT X",
+            format!("ROT Z{c:.13}\nAROT Y{b:.13}\nAROT X{a:.13}\n"),
+        ),
+        ("ROT X Y Z", format!("ROT Y{b:.13} X{a:.13} Z{c:.13}\n")),
+        ("CROT", format!("$P_PFRAME=CROT(X,{a:.13},Y,{b:.13},Z,{c:.13})\n")),
+        (
+            "CROT chain",
+            format!("$P_PFRAME=CROT(Z,{c:.13}):CROT(Y,{b:.13}):CROT(X,{a:.13})\n"),
+        ),
+    ] {
+        forms.push((name.to_owned(), SIEMENS, blocks));
+    }
     let [i, j, k] = euler(turn);
     let [x, y, z] = [0, 1, 2].map(|column| Vec3::from(turn.column(column)));
     let mut klartext = |form: &str, words: String| {
@@ -167,6 +181,7 @@ fn the_same_plane_in_every_form_of_every_control() {
     let mut random = Angles(23);
     let mut setup = Setup::default();
     setup.control.roll_pitch_yaw = Some(RollPitchYaw::Turned);
+    setup.control.frame_angles = Some(FrameAngles::RollPitchYaw);
     let mut compared = 0;
     for round in 0..10_000 {
         let [a, b, c] = [random.next(), random.next(), random.next()];

@@ -1,7 +1,7 @@
 //! Worked examples of Sinumerik manuals and of interpreters that were run, each as the smallest program that shows it. What the interpreters
 //! answer and no manual states stays unknown.
-use crate::support::{faults, line, lines, run_text};
-use trunnion_interp::{Posture, Swivel};
+use crate::support::{faults, line, lines, run_bytes, run_text};
+use trunnion_interp::{FrameAngles, Posture, Setup, Swivel};
 
 const NAME: &str = "sinumerik-840d";
 
@@ -65,6 +65,10 @@ fn loops_and_jumps() {
             "R1=2\nCASE(R1) OF 1 GOTOF AA 2 GOTOF BB DEFAULT GOTOF CC\nAA: X1\nBB: X2\nCC: Y1",
             2.0,
         ),
+        // a target that is built
+        ("R1=7\nGOTOF \"AA\"<<R1\nX1\nAA7: X8", 8.0),
+        ("R1=10\nGOTOF \"N\"<<R1*2\nX1\nN20 X9", 9.0),
+        ("DEF INT I1=2\nGOTOF \"AA\"<<\"B\"<<I1\nX1\nAAB2: X3", 3.0),
         ("R1=9\nCASE(R1) OF 1 GOTOF AA\nX6\nGOTOF CC\nAA: X1\nCC: Y1", 6.0),
         // ENDLABEL ends the section; once more by default
         ("R1=0\nAA: R1=R1+1\nENDLABEL:\nR2=1\nREPEAT AA P=3\nX=R1", 4.0),
@@ -76,6 +80,42 @@ fn loops_and_jumps() {
     ] {
         let (found, unknown) = x_of(program);
         assert_eq!((found, unknown), (Some(x), 0), "{program}");
+    }
+}
+
+/// What a target is built from must be known, and whole.
+#[test]
+fn a_target_that_is_not_known_is_not_decided() {
+    for target in ["\"AA\"<<R99", "\"AA\"<<R1", "R1"] {
+        let text = format!("G1 X1 F9\nR1=1.5\nGOTOF {target}\nX2\nAA1: X3\n");
+        assert_eq!(lines(NAME, &text).len(), 1, "{target}");
+        assert!(!faults(NAME, &text).is_empty(), "{target}");
+    }
+}
+
+/// Words that move an axis, couple one, or end the motion at a signal are not taken for variables of the program.
+#[test]
+fn words_that_move_an_axis_are_said() {
+    for block in [
+        "AX[X]=7",
+        "POS[X]=50",
+        "X1 POSA[Y]=5",
+        "POSP[X]=(5,1,0)",
+        "MOV[X]=1",
+        "OS[X]=1",
+        "FXS[X]=1 X5",
+        "MEAS=1 X5",
+        "MEASA[X]=(1,1) X5",
+    ] {
+        let text = format!("G1 X0 Y0 Z0 F9\n{block}\nY5\n");
+        assert!(
+            faults(NAME, &text).iter().any(|fault| fault.contains("NotModelled")),
+            "{block}"
+        );
+        assert!(
+            run_text(NAME, &text).motions.last().expect("one").end.xyz().is_none(),
+            "{block}"
+        );
     }
 }
 
@@ -92,11 +132,28 @@ fn fields() {
     }
 }
 
-/// A frame of one angle; of several the order is machine data, so it is not known.
+/// A frame of one angle; of several the order is machine data, so it is not known unless that is declared. Declared, angles read back in their
+/// ranges (function manual).
 #[test]
 fn frames() {
     assert_eq!(x_of("$P_PFRAME=CTRANS(X,5):CMIRROR(X)\nX1").1, 0);
-    for value in ["CROT(X,10,Y,90,Z,40)", "CROT(X,190,Y,0,Z,-200)", "CROTS(X,5,Y,5)"] {
+    let mut setup = Setup::default();
+    setup.control.frame_angles = Some(FrameAngles::RollPitchYaw);
+    for (value, read) in [
+        ("CROT(X,10,Y,90,Z,40)", [0.0, 90.0, 30.0]),
+        ("CROT(X,190,Y,0,Z,-200)", [-170.0, 0.0, 160.0]),
+    ] {
+        let text = format!(
+            "G1 X0 Y0 Z0 F9\n$P_PFRAME={value}\nR1=$P_PFRAME[X,RT] R2=$P_PFRAME[Y,RT] R3=$P_PFRAME[Z,RT]\nTRANS\nX=R1 Y=R2 Z=R3\nM30\n"
+        );
+        let log = run_bytes(NAME, text.as_bytes(), &setup).1;
+        let found: [f64; 3] = log.motions[1].end.xyz().expect("known").into();
+        assert!(
+            (0..3).all(|axis| (found[axis] - read[axis]).abs() < 1e-9),
+            "{value}: {found:?}"
+        );
+    }
+    for value in ["CROT(X,10,Y,90,Z,40)", "CROT(X,190,Y,0,Z,-200)"] {
         let text = format!("G1 X0 Y0 Z0 F9\n$P_PFRAME={value}\nX1 Y1 Z1\n");
         assert!(faults(NAME, &text).iter().any(|fault| fault.contains(value)), "{value}");
         assert!(run_text(NAME, &text).motions[1].end.xyz().is_none(), "{value}");

@@ -166,7 +166,6 @@ fn frames_chain() {
     assert_eq!(after_zero("ROT Z90\nG1 X10"), ["L X0 Y10 Z0 F100"]);
     assert_eq!(after_zero("G1 Y5\nROT Z90\nG1 X10")[1..], ["L Y10 Z0 F100"]);
     for blocks in [
-        "ROT X30\nX5 Y5",
         "ROT Z30 X10\nX5 Y5",
         "ROT RPL=R1\nX5 Y5",
         "SCALE X=R1\nX5 Y5",

@@ -155,8 +155,7 @@ fn frames_are_values() {
 fn frames_that_are_not_known_make_positions_unknown() {
     for text in [
         "$P_PFRAME=CROT(X,10,Y,20)",
-        "$P_PFRAME=CROT(X,10)",
-        "$P_PFRAME=CROTS(X,10)",
+        "$P_PFRAME=CROTS(X,10,Y,10,Z,10)",
         "$P_PFRAME=OTHER",
         "$P_PFRAME=CTRANS(X,R99)",
         "$P_PFRAME=CTRANS(A,10)",

@@ -2,6 +2,7 @@
 use crate::emit::{parts, parts_without};
 use crate::emit_code::Written;
 use crate::events::{job, refusal};
+use crate::job::Job;
 use crate::plan::{Out, Planner};
 use crate::setting::Setting;
 use crate::travel::{Beyond, Travel, travel, zeros_declared};
@@ -72,6 +73,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
     let job = job(&reading, source.dialect, options, rewritten, setting.post)?;
+    drops_something(&reading, &job, options)?;
     let (tolerance_mm, axis_deg) = setting.tolerances(machine, options)?;
     let work_offset = options.work_offset(setting.post);
     let planner = Planner {
@@ -202,6 +204,20 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
     Err(Refused::range(program, fault.range, wording(program, fault)))
+}
+
+/// Refuses a `--drop` that leaves out nothing: the user would think that the code is gone.
+fn drops_something(reading: &Reading, job: &Job, options: &Options) -> Result<(), Refused> {
+    let unused = options.drop.iter().find(|name| {
+        let left_out = job.left_out.iter().any(|(what, _)| what.eq_ignore_ascii_case(name));
+        let fault = |fault: &Fault| reading.program.text(fault.range).eq_ignore_ascii_case(name);
+        !left_out && !reading.grave().any(fault)
+    });
+    let Some(name) = unused else { return Ok(()) };
+    Err(Refused::new(format!(
+        "`--drop {name}` leaves out nothing: the program does not contain {name}, or it is a code that the conversion itself writes (spindle, \
+         coolant, tool, stop, feed, coordinates), and the program would not do the same without it"
+    )))
 }
 
 /// Refuses a program with more motions than are held.

@@ -337,7 +337,11 @@ impl Planner<'_> {
         (start, ends): ([f64; 2], &[PartEnd]),
         frame: &Frame,
     ) -> Result<Vec<Move>, Refused> {
-        let feed = self.plain_feed(posed)?;
+        let feed = match posed.motion.feed {
+            // each part gets the feed that takes as long
+            feed @ Feed::InverseTime(_) => feed,
+            _ => self.plain_feed(posed)?,
+        };
         let turns = matches!(self.mode, Mode::Joints(_)) && ends.iter().any(|end| end.q != start);
         let standing = posed.leg.as_ref().filter(|leg| leg.rotary_change == [0.0; 2]);
         let by_path = posed.feeds_the_tip() || standing.is_some();

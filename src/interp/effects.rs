@@ -44,6 +44,7 @@ pub(crate) fn has_other_effects(kind: &FaultKind) -> bool {
             | FaultKind::AptVectorMissing
             | FaultKind::WorkOffsetUnset { .. }
             | FaultKind::ToolLengthUnset { .. }
+            | FaultKind::ToolDefinedTwice { .. }
     )
 }
 
@@ -54,6 +55,11 @@ impl Iso<'_> {
         let block = self.core.main_block(view.id());
         if self.core.setup.control.block_delete.is_none() {
             self.deleted_parts(view, block);
+        }
+        if self.core.effects.numbers_wanted()
+            && let Some((effect, reach)) = crate::returns::number_effect(view)
+        {
+            self.core.effects.add_with(block, effect, reach);
         }
         named_effects(self, view, block);
         // S and T act before the codes of their block

@@ -35,6 +35,7 @@ mod own;
 mod reader;
 mod reported;
 mod rs274;
+mod returns;
 mod run;
 mod sinumerik;
 mod spin;
@@ -61,6 +62,7 @@ pub const UNNAMED_ZERO: &str = "G500";
 pub use effects::Situation;
 pub use klartext::{SentenceWord, sentence_words};
 pub use leader::leader;
+pub use returns::{block_numbers, may_return_to_numbers};
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{

@@ -2,7 +2,7 @@
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, run};
+use trunnion_interp::{ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, may_return_to_numbers, run};
 use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
 
 /// One line of a chain.
@@ -165,7 +165,7 @@ enum Text {
     Other,
 }
 
-fn text_of(block: &Block<'_>) -> Text {
+fn text_of(block: &Block<'_>, numbers_count: bool) -> Text {
     let mut found = Text::Blank;
     for item in block.items() {
         match item {
@@ -175,6 +175,8 @@ fn text_of(block: &Block<'_>) -> Text {
                     return Text::Other;
                 };
                 match word.address {
+                    // a block to which a missing program may return stays the first of its chain
+                    Address::Letter(b'N') if numbers_count => found = Text::Commented,
                     Address::Letter(b'N' | b'X' | b'Y' | b'Z' | b'F') => {}
                     Address::Letter(b'G') if value.to_integer() == Some(1) => {}
                     _ => return Text::Other,
@@ -224,6 +226,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
     };
     run(program, settings.dialect, &settings.setup, &mut collector);
     let seen = collector.all;
+    let numbers_count = may_return_to_numbers(program, settings.dialect, &settings.setup).is_some();
     let mut found = Chains {
         chains: Vec::new(),
         reasons: Vec::new(),
@@ -244,7 +247,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             motions += 1;
         }
         let next = seen[at + motions..].iter().find(|seen| !waits(seen));
-        let text = text_of(&block);
+        let text = text_of(&block, numbers_count);
         if text == Text::Other
             && let Some(on) = exact_stop(&block)
         {

@@ -57,6 +57,9 @@ pub struct Claim {
 /// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same even if values
 /// are unknown in them.
 pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {
+    if let Err(verdict) = crate::numbers::alike(before, after) {
+        return verdict;
+    }
     if let Some(exact) = claim.exact {
         return exact::walk(before, after, exact).err().unwrap_or(Verdict::Same);
     }
@@ -300,7 +303,10 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         };
         if !same && !claim.path_only {
             let seconds = |time: &Option<f64>| time.map_or("an unknown time".to_owned(), |time| format!("{time} s"));
-            return differs(format!("a dwell of {} and one of {}", seconds(from), seconds(to)));
+            let what = format!("a dwell of {} and one of {}", seconds(from), seconds(to));
+            let is_unknown = from.is_none() || to.is_none();
+            let verdict = if is_unknown { Verdict::Unknown } else { Verdict::Differs };
+            return Err(verdict(place(what)));
         }
     }
     in_effect(was, is, claim)

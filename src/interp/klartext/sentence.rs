@@ -247,7 +247,7 @@ impl Klartext<'_> {
         let (value, unread) = match said {
             FeedSaid::Nothing => return false,
             FeedSaid::Rapid => return true,
-            FeedSaid::Auto => (self.memory.tool_feed, self.memory.tool_feed.is_none()),
+            FeedSaid::Auto => (self.memory.tool_feed, self.memory.tool_feed_unread),
             FeedSaid::Value(value) => (value.map(|value| value * unit), value.is_none()),
             FeedSaid::PerTurn(value) => {
                 self.core.state.feed.switch_mode(FeedMode::PerRevolution);

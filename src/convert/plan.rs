@@ -338,7 +338,6 @@ impl Planner<'_> {
         frame: &Frame,
     ) -> Result<Vec<Move>, Refused> {
         let feed = match posed.motion.feed {
-            // each part gets the feed that takes as long
             feed @ Feed::InverseTime(_) => feed,
             _ => self.plain_feed(posed)?,
         };
@@ -374,6 +373,10 @@ impl Planner<'_> {
                 Feed::PerMinute(feed) if by_path && !turns => Feed::PerMinute(feed * stretch),
                 Feed::PerRevolution(feed) if by_path && !turns => Feed::PerRevolution(feed * stretch),
                 Feed::Rapid | Feed::Unknown => feed,
+                Feed::InverseTime(rate) if !self.inverse_time && by_path && !turns && runs > 0.0 => {
+                    // each of equal parts takes 1/(F n) minutes
+                    Feed::PerMinute(runs * rate * ends.len() as f64)
+                }
                 _ => self.timed(posed, way, ends.len(), end)?,
             };
             moves.push(Move {

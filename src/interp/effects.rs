@@ -56,11 +56,6 @@ impl Iso<'_> {
         if self.core.setup.control.block_delete.is_none() {
             self.deleted_parts(view, block);
         }
-        if self.core.effects.numbers_wanted()
-            && let Some((effect, reach)) = crate::returns::number_effect(view)
-        {
-            self.core.effects.add_with(block, effect, reach);
-        }
         named_effects(self, view, block);
         // S and T act before the codes of their block
         self.word_effects(codes, words, block);

@@ -62,7 +62,7 @@ pub const UNNAMED_ZERO: &str = "G500";
 pub use effects::Situation;
 pub use klartext::{SentenceWord, sentence_words};
 pub use leader::leader;
-pub use returns::{block_numbers, may_return_to_numbers};
+pub use returns::{block_numbers, is_block_number, may_return_to_numbers};
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{

@@ -1,5 +1,6 @@
 //! Block numbers to which a program that is missing may return: M99 P50 of a called program continues its caller at N50 (Fanuc and controls with
 //! its macro language). Such numbers are part of what the caller does.
+use crate::iso::Iso;
 use crate::{Argument, Effect, Fault, FaultKind, Motion, Reach, Setup, Sink};
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, Block, BlockId, Program, Value};
@@ -22,11 +23,26 @@ pub fn block_numbers(program: &Program) -> impl Iterator<Item = (BlockId, String
         .filter_map(|block| Some((block.id(), number_of(&block)?)))
 }
 
-/// What a block number is to a comparison, where one counts.
-pub(crate) fn number_effect(block: &Block<'_>) -> Option<(Effect, Reach)> {
-    let number = number_of(block)?;
-    let words = vec![Argument::code(format!("{number} (a missing program may return to it)"))];
-    Some((Effect::Unmodelled(words), Reach::Itself))
+impl Iso<'_> {
+    /// The number of a block, where it counts.
+    pub(crate) fn number_effect(&mut self, view: &Block<'_>) {
+        if !self.core.effects.numbers_wanted() {
+            return;
+        }
+        if let Some(number) = number_of(view) {
+            let effect = Effect::Unmodelled(vec![Argument::code(format!("{number}{MARK}"))]);
+            let block = self.core.main_block(view.id());
+            self.core.effects.add_with(block, effect, Reach::Itself);
+        }
+    }
+}
+
+/// Ends the name of a block number among effects; no code of a control ends so.
+const MARK: &str = " (a missing program may return to it)";
+
+/// Whether a word of an effect is a block number.
+pub fn is_block_number(word: &Argument) -> bool {
+    word.name.ends_with(MARK)
 }
 
 /// `N50`, without leading zeros.

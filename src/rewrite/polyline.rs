@@ -161,6 +161,8 @@ enum Text {
     Commented,
     /// No word at all.
     Blank,
+    /// A missing program may return to its number: it stays as it is.
+    Numbered,
     /// Something else.
     Other,
 }
@@ -175,8 +177,7 @@ fn text_of(block: &Block<'_>, numbers_count: bool) -> Text {
                     return Text::Other;
                 };
                 match word.address {
-                    // a block to which a missing program may return stays the first of its chain
-                    Address::Letter(b'N') if numbers_count => found = Text::Commented,
+                    Address::Letter(b'N') if numbers_count => return Text::Numbered,
                     Address::Letter(b'N' | b'X' | b'Y' | b'Z' | b'F') => {}
                     Address::Letter(b'G') if value.to_integer() == Some(1) => {}
                     _ => return Text::Other,
@@ -189,6 +190,17 @@ fn text_of(block: &Block<'_>, numbers_count: bool) -> Text {
         }
     }
     found
+}
+
+impl Text {
+    /// Why the block is in no chain.
+    fn refuses(self) -> Option<&'static str> {
+        match self {
+            Self::Numbered => Some("a program that is missing may return to its number (M99 P)"),
+            Self::Other => Some("its block has other words than a number, G1, X, Y, Z and F"),
+            Self::Plain | Self::Commented | Self::Blank => None,
+        }
+    }
 }
 
 /// Whether a block switches exact stop on or off.
@@ -248,7 +260,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         }
         let next = seen[at + motions..].iter().find(|seen| !waits(seen));
         let text = text_of(&block, numbers_count);
-        if text == Text::Other
+        if text.refuses().is_some()
             && let Some(on) = exact_stop(&block)
         {
             stops = on;
@@ -266,7 +278,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             _ if motions > 1 => Some("a block makes several motions"),
             Err(why) => Some(*why),
             Ok(_) if stops => Some("exact stop is on (G61, G60): each block ends with a stop"),
-            Ok(_) if text == Text::Other => Some("its block has other words than a number, G1, X, Y, Z and F"),
+            Ok(_) if text.refuses().is_some() => text.refuses(),
             Ok((_, end)) if !is_literal(&block, end, one.unit_mm) => {
                 Some("the words are not the position: a frame, a scale or a diameter is active")
             }

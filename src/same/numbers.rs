@@ -1,14 +1,21 @@
 //! Block numbers that count because a program that is missing may return to them.
 use crate::input::Input;
+use crate::item::Item;
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::{Interpreter, block_numbers, may_return_to_numbers};
+use trunnion_interp::{Interpreter, block_numbers, is_block_number, may_return_to_numbers};
 
 /// Asks for block numbers among the effects, if a program is missing that may return to one: its name.
 pub(crate) fn watch(input: &Input<'_>, interpreter: &mut Interpreter<'_>) -> Option<String> {
     let missing = may_return_to_numbers(input.program, input.dialect, input.setup)?;
     interpreter.watch_block_numbers();
     Some(missing)
+}
+
+/// Whether an item is a block number.
+pub(crate) fn is_one(item: &Item) -> bool {
+    let Item::Happens { words, .. } = item else { return false };
+    matches!(&words[..], [word] if is_block_number(word))
 }
 
 /// Both texts have the same numbers in the same order, also where no block runs, if a missing program may return to one.

@@ -115,10 +115,10 @@ fn fault_text(program: &Program, fault: &Fault) -> String {
     program.text(fault.range).chars().take(40).collect()
 }
 
-/// Above the limit, or not a number.
 /// Feeds per revolution are small: of their rounding counts what share of the feed it is. Six digits of an inch keep feeds from 0.0127 mm/rev on.
 const PER_TURN_SHARE: f64 = 1e-3;
 
+/// Above the limit, or not a number.
 pub(super) fn above(value: f64, limit: f64) -> bool {
     value.is_nan() || value > limit
 }

@@ -79,8 +79,7 @@ impl Klartext<'_> {
             }
             "RELATIV" | "RELATIVE" => {
                 let angles = [number("SPA"), number("SPB"), number("SPC")].map(|said| said.unwrap_or(Some(0.0)));
-                let flat = |tilt: Tilted| tilt.turn == Mat3::identity();
-                spatial(angles).filter(|_| self.memory.frames.tilt.is_none_or(flat))
+                spatial(angles).filter(|_| !self.is_tilted())
             }
             _ => None,
         };
@@ -98,12 +97,16 @@ impl Klartext<'_> {
         };
         self.set_plane(turn, swivel, posture, report);
         if turns_table && swivel.is_some() && turn[(2, 2)] == 1.0 {
-            // it makes a difference only where the swivel leaves an axis free: parallel to the tool, as here on most machines
-            let what = "TABLE ROT where the plane leaves a rotary axis free: to which angle it turns";
-            self.not_modelled_once(what, report);
-            self.core.state.position.known &= !ROTARY;
-            self.unknown_motion(report);
+            self.turn_table(report);
         }
+    }
+
+    /// TABLE ROT makes a difference where the swivel leaves an axis free: parallel to the tool, as a vertical tool does on most machines.
+    fn turn_table(&mut self, report: &mut Report<'_>) {
+        let what = "TABLE ROT where the plane leaves a rotary axis free: to which angle it turns";
+        self.not_modelled_once(what, report);
+        self.core.state.position.known &= !ROTARY;
+        self.unknown_motion(report);
     }
 
     fn reset_plane(&mut self, swivel: Option<Swivel>, report: &mut Report<'_>) {
@@ -157,6 +160,11 @@ impl Klartext<'_> {
             self.swivel(swivel, posture, report);
             self.memory.angles_wait = None;
         }
+    }
+
+    /// Whether the plane is turned against the part: one of zero angles is not.
+    pub(crate) fn is_tilted(&self) -> bool {
+        self.memory.frames.tilt.is_some_and(|tilt| tilt.turn != Mat3::identity())
     }
 
     /// Positions are in the coordinates of another plane from here on; the machine stays where it is.

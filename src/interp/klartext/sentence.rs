@@ -159,7 +159,7 @@ impl Klartext<'_> {
         }
         self.core.state.tool_axis.set_tcp(on);
         (self.memory.spatial, self.memory.other_point) = (false, false);
-        if on && self.memory.frames.tilt.is_some() {
+        if on && self.is_tilted() {
             // the tool is led in the plane's coordinates: rotary words are still those of the axes
             self.not_modelled_once("M128 in a tilted plane", report);
         }

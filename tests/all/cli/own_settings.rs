@@ -20,7 +20,7 @@ fn folders(own: &str) -> TempDir {
 
 fn certify(folder: &TempDir, more: &[&str]) -> (i32, String) {
     let arguments = ["certify", "a/main.nc", "b/main.nc", "--dialect", "fanuc-30i", "--machine", "mill-3axis"];
-    let output = trunnion_in(folder.path(), &[&arguments, more].concat());
+    let output = trunnion_in(folder.path(), &[&arguments[..], more].concat());
     (status(&output), text(&output.stdout))
 }
 

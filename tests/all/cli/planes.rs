@@ -4,7 +4,7 @@ use tempfile::TempDir;
 
 const TURNED: &str = "BEGIN PGM T MM\nTOOL CALL 1 Z S1000 F500\nM3\nL Z+100 R0 FMAX\nL X+0 Y+0 A+0 C+0 R0 FMAX\n\
     PLANE SPATIAL SPA+20 SPB+10 SPC+30 TURN FMAX\nL X+10 Y+5 Z+50 R0 FMAX\n";
-const SETTINGS: &str = "[[tool]]\nnumber = 1\nlength = 80\n[work_offsets]\npreset = { X = 0, Y = 0, Z = 0 }\n";
+const SETTINGS: &str = "[[tool]]\nnumber = 1\nlength = 80\n[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n";
 
 /// X, Y, Z of the part and the joints C and A at the last motion.
 fn last(blocks: &str) -> [f64; 5] {

@@ -75,7 +75,7 @@ fn joints_include_the_inside_of_arcs() {
     let program = "G21 G17 G90 G94\nS1000 M3\nG0 X0. Y250. Z50.\nG1 Z0. F600.\nG2 X100. Y250. R60.\nG0 Z50.\nM30\n";
     let file = write(&folder, "arc.nc", program);
     let options = ["--dialect", "fanuc-30i", "--machine", "mill-3axis", "--format", "json"];
-    let output = trunnion(&[&["stats", str(&file)], &options[..]].concat());
+    let output = trunnion(&[&["stats", str(&file)][..], &options].concat());
     assert_eq!(status(&output), 0);
     let found = text(&output.stdout);
     // the arc's highest point, from its radius and half chord

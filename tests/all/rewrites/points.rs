@@ -160,8 +160,12 @@ fn numbers_that_a_missing_program_may_name_stay() {
         }
     };
     assert!(!lean("").contains("N50"), "nothing names it");
-    let kept = lean("M98 P7777\n");
-    assert!(kept.contains("\nN50 X30.") && !kept.contains("X20."), "{kept}");
+    let text = program("M98 P7777\n");
+    let reason = refused(run("drop-redundant", &text, &settings, &Options::default()));
+    assert!(reason.contains("O7777 is missing"), "{reason}");
+    // without a number nothing can be named
+    let text = text.replace("N50 ", "");
+    assert!(run("drop-redundant", &text, &settings, &Options::default()).outcome().is_ok_and(|found| found.is_some()));
 }
 
 #[test]

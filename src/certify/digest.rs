@@ -22,6 +22,11 @@ pub(crate) fn dialect_digest(dialect: &Dialect) -> String {
     canonical(DIALECT, dialect)
 }
 
+/// Whether two machines are the same in all that a proof depends on.
+pub fn same_machine(one: &Machine, other: &Machine) -> bool {
+    machine_digest(one) == machine_digest(other)
+}
+
 /// Digest of a machine: chain, limits, speeds, control and thresholds; not its prose.
 pub(crate) fn machine_digest(machine: &Machine) -> String {
     canonical(MACHINE, machine)

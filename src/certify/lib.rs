@@ -33,5 +33,6 @@ pub use certificate::{
 };
 pub use chain::{CHAIN_SCHEMA, Chain, ChainStep};
 pub use claim::{Claim, RefitSource};
+pub use digest::same_machine;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
 pub use verdict::{Gap, Outcome, Witness};

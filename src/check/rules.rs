@@ -68,6 +68,7 @@ mod swept_deviation;
 mod syntax_error;
 mod tcp_state;
 mod tilted_plane_misaligned;
+mod tool_defined_twice;
 mod tool_length_unset;
 mod tool_vector_not_unit;
 mod unbracketed_comparison;
@@ -171,6 +172,7 @@ static RULES: &[&Rule] = table![
     syntax_error,
     tcp_state,
     tilted_plane_misaligned,
+    tool_defined_twice,
     tool_length_unset,
     tool_vector_not_unit,
     unbracketed_comparison,
@@ -272,6 +274,12 @@ mod tests {
             FaultKind::NotModelled { what: text() },
             FaultKind::WorkOffsetUnset { name: text() },
             FaultKind::ToolLengthUnset { tool: text() },
+            FaultKind::ToolDefinedTwice {
+                tool: 1,
+                is_diameter: false,
+                program_mm: 1.0,
+                settings_mm: 2.0,
+            },
             FaultKind::MissingProgramEnd,
             FaultKind::TcpState(TcpMistake::RotaryWithout),
             FaultKind::TcpState(TcpMistake::NoLength),

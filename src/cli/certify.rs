@@ -1,4 +1,6 @@
 //! `certify`: re-checks a certificate, or proves or refutes that AFTER is the same tool path as BEFORE.
+mod settings;
+
 use super::{
     Done,
     args::{Certify, ClaimOf, Global},
@@ -9,7 +11,7 @@ use super::{
 use crate::cli::out::Out;
 use std::fmt::Write;
 use trunnion_certify::conversion::{Conversion, ConversionCertificate};
-use trunnion_certify::{Certificate, Chain, Claim, Outcome, certify_with_libraries};
+use trunnion_certify::{Certificate, Chain, Claim, Gap, Outcome, certify_with_libraries};
 use trunnion_machine::Machine;
 use trunnion_same::{Difference, Verdict};
 use trunnion_workspace::find_machine;
@@ -29,12 +31,15 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let second = if load::is_stdin(&command.after) {
         None
     } else {
-        load::load(global, &command.after).ok()
+        Some(load::load(global, &command.after)?)
     };
     let before = loaded.program.source();
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
     let mut steps = Vec::new();
-    let outcome = if let Some(file) = &command.certificate {
+    let unlike = second.as_ref().and_then(|second| settings::differ(&loaded, second));
+    let outcome = if let Some(message) = unlike {
+        Outcome::Unknown(Gap { message, line: None })
+    } else if let Some(file) = &command.certificate {
         let text = trunnion_files::read_text(file)?;
         let chain = Chain::from_json(&text).map_err(|e| Failure::file(file, e))?;
         let outcome = checked_again(&chain, [before, &after], &loaded, machine);
@@ -57,13 +62,12 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
                 tolerance_deg,
             },
         };
-        // two languages: APT against G code
-        let other = load::load(global, &command.after)
-            .ok()
-            .map(|other| other.resolved.dialect);
-        let other = other
-            .filter(|other| other.lex.format != dialect.lex.format)
-            .unwrap_or(dialect);
+        // two languages: APT against G code; or a folder whose settings name another control
+        let other = second.as_ref().map(|other| &other.resolved).filter(|other| {
+            let by_settings = other.config_path != loaded.resolved.config_path && other.dialect_certain;
+            by_settings || other.dialect.lex.format != dialect.lex.format
+        });
+        let other = other.map_or(dialect, |other| other.dialect);
         let library = second
             .as_ref()
             .filter(|_| command.before.parent() != command.after.parent())

@@ -68,13 +68,13 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         machine,
         ..*source
     });
-    understood(&reading, options)?;
-    held(&reading, source.setup)?;
+    understood(&reading, options).and_then(|()| held(&reading, source.setup))?;
     let setting = Setting::new(target, options)?;
     // clamps are closed and opened again for the target machine
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
-    let job = job(&reading, source.dialect, options, rewritten, setting.post)?;
+    let job = job(&reading, source.dialect, options, rewritten, setting.post)
+        .and_then(|job| drops_something(&reading, job, options))?;
     let (tolerance_mm, axis_deg) = setting.tolerances(machine, options)?;
     let work_offset = options.work_offset(setting.post);
     let planner = Planner {
@@ -225,6 +225,20 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
     Err(Refused::range(program, fault.range, wording(program, fault)))
+}
+
+/// Refuses a `--drop` that leaves out nothing: the user would think that the code is gone.
+fn drops_something(reading: &Reading, job: Job, options: &Options) -> Result<Job, Refused> {
+    let unused = options.drop.iter().find(|name| {
+        let left_out = job.left_out.iter().any(|(what, _)| what.eq_ignore_ascii_case(name));
+        let fault = |fault: &Fault| reading.program.text(fault.range).eq_ignore_ascii_case(name);
+        !left_out && !reading.grave().any(fault)
+    });
+    let Some(name) = unused else { return Ok(job) };
+    Err(Refused::new(format!(
+        "`--drop {name}` leaves out nothing: the program does not contain {name}, or it is a code that the conversion itself writes (spindle, \
+         coolant, tool, stop, feed, coordinates), and the program would not do the same without it"
+    )))
 }
 
 /// Refuses a program with more motions than are held.

@@ -233,7 +233,8 @@ impl Writer<'_> {
     pub(crate) fn feed(&mut self, one: &Move, words: &mut Vec<String>) {
         let (point, unit) = (self.post.point, self.options.units.mm());
         let text = match one.feed {
-            Feed::PerMinute(feed) | Feed::PerRevolution(feed) => number(feed / unit, self.post.feed, point),
+            Feed::PerMinute(feed) => number(feed / unit, self.post.feed, point),
+            Feed::PerRevolution(feed) => number(feed / unit, self.post.feed_per_revolution, point),
             Feed::InverseTime(feed) => {
                 // each block needs its own
                 self.modal.forget("F");

@@ -337,7 +337,10 @@ impl Planner<'_> {
         (start, ends): ([f64; 2], &[PartEnd]),
         frame: &Frame,
     ) -> Result<Vec<Move>, Refused> {
-        let feed = self.plain_feed(posed)?;
+        let feed = match posed.motion.feed {
+            feed @ Feed::InverseTime(_) => feed,
+            _ => self.plain_feed(posed)?,
+        };
         let turns = matches!(self.mode, Mode::Joints(_)) && ends.iter().any(|end| end.q != start);
         let standing = posed.leg.as_ref().filter(|leg| leg.rotary_change == [0.0; 2]);
         let by_path = posed.feeds_the_tip() || standing.is_some();
@@ -370,6 +373,10 @@ impl Planner<'_> {
                 Feed::PerMinute(feed) if by_path && !turns => Feed::PerMinute(feed * stretch),
                 Feed::PerRevolution(feed) if by_path && !turns => Feed::PerRevolution(feed * stretch),
                 Feed::Rapid | Feed::Unknown => feed,
+                Feed::InverseTime(rate) if !self.inverse_time && by_path && !turns && runs > 0.0 => {
+                    // each of equal parts takes 1/(F n) minutes
+                    Feed::PerMinute(runs * rate * ends.len() as f64)
+                }
                 _ => self.timed(posed, way, ends.len(), end)?,
             };
             moves.push(Move {

@@ -15,7 +15,7 @@ impl Planner<'_> {
                 Err(self.refuse(posed, message.to_owned()))
             }
             Feed::InverseTime(_) if !self.inverse_time => {
-                let message = "this cut moves nothing and takes the time that its inverse time feed (G93) says; the target control has no inverse time feed, so there is no word for it";
+                let message = "the feed of this cut is inverse time (G93), which the target control does not have, and there is no path of known length to compute a feed per minute from";
                 Err(self.refuse(posed, message.to_owned()))
             }
             Feed::PerRevolution(per_turn) if !self.per_revolution => match posed.motion.spindle_rpm {

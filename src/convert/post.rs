@@ -118,6 +118,7 @@ struct RawNumbers {
     angle: Option<Spanned<usize>>,
     vector: Option<Spanned<usize>>,
     feed: Option<Spanned<usize>>,
+    feed_per_revolution: Option<Spanned<usize>>,
     speed: Option<Spanned<usize>>,
     inverse_time_digits: Option<Spanned<usize>>,
     point: Option<bool>,
@@ -162,6 +163,8 @@ pub struct Post {
     pub(crate) angle: usize,
     pub(crate) vector: usize,
     pub(crate) feed: usize,
+    /// Of F per revolution: it is small, so it needs more of them.
+    pub(crate) feed_per_revolution: usize,
     pub(crate) speed: usize,
     pub(crate) inverse_time_digits: usize,
     pub(crate) point: bool,
@@ -270,6 +273,7 @@ fn base(raw: &RawPost) -> Result<Post, PostError> {
         angle: 4,
         vector: 8,
         feed: 4,
+        feed_per_revolution: 6,
         speed: 3,
         inverse_time_digits: 7,
         point: false,
@@ -328,6 +332,7 @@ impl Post {
             (&raw.angle, &mut self.angle, 0..=9),
             (&raw.vector, &mut self.vector, 3..=12),
             (&raw.feed, &mut self.feed, 0..=6),
+            (&raw.feed_per_revolution, &mut self.feed_per_revolution, 0..=9),
             (&raw.speed, &mut self.speed, 0..=6),
             (&raw.inverse_time_digits, &mut self.inverse_time_digits, 4..=15),
         ];

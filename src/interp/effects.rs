@@ -44,6 +44,7 @@ pub(crate) fn has_other_effects(kind: &FaultKind) -> bool {
             | FaultKind::AptVectorMissing
             | FaultKind::WorkOffsetUnset { .. }
             | FaultKind::ToolLengthUnset { .. }
+            | FaultKind::ToolDefinedTwice { .. }
     )
 }
 

@@ -65,6 +65,8 @@ pub(crate) struct Memory {
     had_normal: bool,
     /// F of TOOL CALL, mm/min.
     tool_feed: Option<f64>,
+    /// TOOL CALL gives a feed whose value is not known.
+    tool_feed_unread: bool,
     /// The last CYCL DEF, whose lines may follow.
     opened_cycle: Option<u32>,
     /// The cycle that CYCL CALL runs.
@@ -84,8 +86,6 @@ pub(crate) struct Memory {
     /// PLANE ... STAY: the angles in Q120 to Q122 have not been gone to.
     angles_wait: Option<crate::Posture>,
     waiting: Option<corner::Waiting>,
-    /// TOOL DEF with a length or radius.
-    tools: Vec<crate::Tool>,
     said: Reported,
     /// The block has words that are not followed, reported or not: two programs are the same only if they have the same ones.
     unfollowed: bool,

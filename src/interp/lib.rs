@@ -34,6 +34,7 @@ mod osp;
 mod own;
 mod reader;
 mod reported;
+mod returns;
 mod rs274;
 mod run;
 mod sinumerik;
@@ -61,6 +62,7 @@ pub const UNNAMED_ZERO: &str = "G500";
 pub use effects::Situation;
 pub use klartext::{SentenceWord, sentence_words};
 pub use leader::leader;
+pub use returns::{block_numbers, is_block_number, may_return_to_numbers};
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_vocabulary::{

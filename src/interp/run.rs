@@ -151,6 +151,11 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => engine.core_mut().effects.watch());
     }
 
+    /// Asks for the numbers of blocks among the effects: where a program that is missing may return to one of them.
+    pub fn watch_block_numbers(&mut self) {
+        with_engine!(&mut self.engine, engine => engine.core_mut().effects.watch_numbers());
+    }
+
     /// The modal state, for something that is not modelled.
     pub fn situation(&self) -> crate::Situation {
         with_engine!(&self.engine, engine => {

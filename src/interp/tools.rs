@@ -30,6 +30,8 @@ pub(crate) struct Tools {
     cutter_used: bool,
     /// Tools that the program's comments declare.
     declared: Vec<Tool>,
+    /// Tools that the program's blocks define (TOOL DEF of Klartext).
+    defined: Vec<Tool>,
     directives_read: bool,
     lengths_reported: Reported,
 }
@@ -113,12 +115,17 @@ impl Tools {
     pub(crate) fn declared(&self) -> &[Tool] {
         &self.declared
     }
+    /// A block of the program defines a tool.
+    pub(crate) fn define(&mut self, tool: Tool) {
+        self.defined.retain(|known| known.number != tool.number);
+        self.defined.push(tool);
+    }
     /// Whether this is the first time that a length is found missing.
     pub(crate) fn first_report_of_length(&mut self, tool: &str) -> bool {
         self.lengths_reported.first(tool)
     }
     /// What is declared about the tool of a number, or the one in use, merged; `None` when nothing is declared and its number is unknown. In
-    /// order of precedence: number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup. A
+    /// order of precedence: what blocks of the program define, number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup. A
     /// program that names no tool uses the only one that its comments declare.
     pub(crate) fn data(&self, number: Option<u32>, setup: &Setup) -> Option<Tool> {
         let declared = &self.declared;
@@ -148,7 +155,7 @@ impl Tools {
         let merged = lay(named(declared), merged);
         let merged = lay(any_declared, merged);
         let merged = lay(self.cutter.as_ref(), merged);
-        Some(lay(any, merged))
+        Some(lay(named(&self.defined), lay(any, merged)))
     }
     /// The tool in use as it was written, for people.
     pub(crate) fn name(&self) -> String {

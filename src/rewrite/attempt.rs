@@ -165,7 +165,7 @@ pub fn attempt_at(
     if let Err(reason) = crate::survey::runs_straight(program, settings) {
         return Attempt::whole(program, Change::Refused(reason));
     }
-    let proposal = match (rewrite.propose)(program, settings, options) {
+    let proposal = match rewrite.propose(program, settings, options) {
         Ok(Some(proposal)) => proposal,
         Ok(None) => return Attempt::default(),
         Err(Refusal::Whole(change)) => return Attempt::whole(program, change),

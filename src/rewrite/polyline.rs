@@ -2,7 +2,9 @@
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, run};
+use trunnion_interp::{
+    ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, may_return_to_numbers, run,
+};
 use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
 
 /// One line of a chain.
@@ -176,11 +178,13 @@ enum Text {
     Commented,
     /// No word at all.
     Blank,
+    /// A missing program may return to its number: it stays as it is.
+    Numbered,
     /// Something else.
     Other,
 }
 
-fn text_of(block: &Block<'_>) -> Text {
+fn text_of(block: &Block<'_>, numbers_count: bool) -> Text {
     let mut found = Text::Blank;
     for item in block.items() {
         match item {
@@ -190,6 +194,7 @@ fn text_of(block: &Block<'_>) -> Text {
                     return Text::Other;
                 };
                 match word.address {
+                    Address::Letter(b'N') if numbers_count => return Text::Numbered,
                     Address::Letter(b'N' | b'X' | b'Y' | b'Z' | b'F') => {}
                     Address::Letter(b'G') if value.to_integer() == Some(1) => {}
                     _ => return Text::Other,
@@ -202,6 +207,17 @@ fn text_of(block: &Block<'_>) -> Text {
         }
     }
     found
+}
+
+impl Text {
+    /// Why the block is in no chain.
+    fn refuses(self) -> Option<&'static str> {
+        match self {
+            Self::Numbered => Some("a program that is missing may return to its number (M99 P)"),
+            Self::Other => Some("its block has other words than a number, G1, X, Y, Z and F"),
+            Self::Plain | Self::Commented | Self::Blank => None,
+        }
+    }
 }
 
 /// Whether a block switches exact stop on or off.
@@ -239,6 +255,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
     };
     run(program, settings.dialect, &settings.setup, &mut collector);
     let seen = collector.all;
+    let numbers_count = may_return_to_numbers(program, settings.dialect, &settings.setup).is_some();
     let mut found = Chains {
         chains: Vec::new(),
         reasons: Vec::new(),
@@ -260,8 +277,8 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             motions += 1;
         }
         let next = seen[at + motions..].iter().find(|seen| !waits(seen));
-        let text = text_of(&block);
-        if text == Text::Other
+        let text = text_of(&block, numbers_count);
+        if text.refuses().is_some()
             && let Some(on) = exact_stop(&block)
         {
             stops = on;
@@ -280,7 +297,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             _ if motions > 1 => Some("a block makes several motions"),
             Err(why) => Some(*why),
             Ok(_) if stops => Some("exact stop is on (G61, G60): each block ends with a stop"),
-            Ok(_) if text == Text::Other => Some("its block has other words than a number, G1, X, Y, Z and F"),
+            Ok(_) if text.refuses().is_some() => text.refuses(),
             Ok((_, end)) if !is_literal(&block, end, one.unit_mm) => {
                 Some("the words are not the position: a frame, a scale or a diameter is active")
             }

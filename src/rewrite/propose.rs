@@ -4,7 +4,7 @@ use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_check::config::{FixCost, FixPoint, FixSettings, FixSource};
 use trunnion_check::{Diagnostic, Settings};
-use trunnion_syntax::{BlockId, Program, TextEdit};
+use trunnion_syntax::{BlockId, Format, Program, TextEdit};
 
 /// What the user allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,10 +166,24 @@ pub struct Rewrite {
     /// Rules whose findings it may fix.
     pub cures: &'static [&'static str],
     /// Proposes.
-    pub propose: fn(&Program, &Settings<'_>, &Options) -> Proposed,
+    pub(crate) proposes: fn(&Program, &Settings<'_>, &Options) -> Proposed,
 }
 
+/// Rewrites that work on the blocks of any format, not on words of G code.
+const ANY_FORMAT: [&str; 2] = ["renumber", "retarget"];
+
 impl Rewrite {
+    /// Proposes.
+    ///
+    /// # Errors
+    /// Why it proposes nothing.
+    pub fn propose(&self, program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+        if program.options().format == Format::Klartext && !ANY_FORMAT.contains(&self.name) {
+            return Err("Klartext: this rewrite reads and writes words of G code, and is not made there".into());
+        }
+        (self.proposes)(program, settings, options)
+    }
+
     /// Whether it may fix this finding: the rule that reports it says so.
     pub fn may_fix(&self, finding: &Diagnostic) -> bool {
         finding.fixes.contains(&self.name)

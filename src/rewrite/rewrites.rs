@@ -38,7 +38,7 @@ macro_rules! table {
                 name: header::text(&NAME),
                 docs: header::text(&DOCS),
                 cures: $file::REWRITE.cures,
-                propose: $file::REWRITE.propose,
+                proposes: $file::REWRITE.propose,
             };
             &REWRITE
         }),*]

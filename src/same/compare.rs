@@ -10,6 +10,7 @@ use crate::exact::{self, Exact};
 use crate::happens::happens;
 use crate::item::{Item, Sort, Step};
 use crate::judge::Judge;
+use crate::numbers;
 use crate::process::{motion_difference, unlike};
 use crate::rapids;
 use crate::refit::{Followed, Following, Joint, Refit, begin_apart, begin_together, follow, may_begin};
@@ -59,6 +60,9 @@ pub struct Claim {
 /// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same even if values
 /// are unknown in them.
 pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {
+    if let Err(verdict) = numbers::alike(before, after) {
+        return verdict;
+    }
     if let Some(exact) = claim.exact {
         return exact::walk(before, after, exact).err().unwrap_or(Verdict::Same);
     }
@@ -92,8 +96,20 @@ fn walk(
     let mut open = Open::default();
     // motions of the program before that were followed beyond the end of a new one
     let mut again = VecDeque::new();
+    // a program that is missing may return to here: the next motion is the same as a whole, wherever it begins
+    let whole = Claim {
+        cuts: false,
+        pieces: false,
+        refit: None,
+        rapid_runs: false,
+        retracts: false,
+        ..*claim
+    };
+    let mut numbered = false;
     while let (Some(was), Some(is)) = (&mut a, &mut b) {
-        if claim.rapid_runs && rapids::begins(Some(was)) && rapids::begins(Some(is)) {
+        let judged = if numbered { &whole } else { claim };
+        numbered = numbers::is_one(was) || numbered && !matches!(was, Item::Motion(_));
+        if judged.rapid_runs && rapids::begins(Some(was)) && rapids::begins(Some(is)) {
             let (left, right) = (was.clone(), is.clone());
             let (Some(Item::Motion(was)), Some(Item::Motion(is))) = (a.take(), b.take()) else {
                 break;
@@ -106,7 +122,7 @@ fn walk(
             twins.judge(&left, &right, verdict)?;
             continue;
         }
-        if claim.retracts
+        if judged.retracts
             && let (Item::Motion(cut), Item::Motion(away)) = (&*was, &*is)
             && cut.motion.kind == MotionKind::Linear
             && rapids::begins(Some(is))
@@ -115,7 +131,7 @@ fn walk(
             b = retracts::excursion(cut, away, after, claim, judge)?;
             continue;
         }
-        let found = pair(was, is, claim, judge, &mut open);
+        let found = pair(was, is, judged, judge, &mut open);
         let moved_on = match found {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
@@ -127,23 +143,8 @@ fn walk(
                 (true, true)
             }
             Err(verdict) => {
-                let mut verdict = undecided(was, is, verdict);
-                if let (Verdict::Differs(found), Item::Motion(was), Item::Motion(is)) = (&mut verdict, &*was, &*is)
-                    && claim.cuts
-                    && (way_is_open(was) || way_is_open(is))
-                    && !ends_together(was, is, claim)
-                    && held(was, is, claim).is_ok()
-                    && (may_be_part(is, was, next(after, claim).as_ref(), claim)
-                        || may_be_part(
-                            was,
-                            is,
-                            again.pop_front().or_else(|| next(before, claim)).as_ref(),
-                            claim,
-                        ))
-                {
-                    found.what += "; one motion may be a part of the other, but their path up to here is unknown";
-                    verdict = Verdict::Unknown(found.clone());
-                }
+                let verdict = undecided(was, is, verdict);
+                let verdict = parts_or(verdict, (&*was, &*is), judged, (&mut *before, &mut *after), &mut again);
                 twins.judge(was, is, Err(verdict))?;
                 (true, true)
             }
@@ -166,6 +167,33 @@ fn walk(
         at_end(before, after)?;
     }
     Ok(())
+}
+
+/// The verdict on two items, unless one motion may be a part of the other, because it is unknown where they come from.
+fn parts_or(
+    mut verdict: Verdict,
+    (was, is): (&Item, &Item),
+    claim: &Claim,
+    (before, after): (&mut Steps<'_>, &mut Steps<'_>),
+    again: &mut VecDeque<Item>,
+) -> Verdict {
+    if let (Verdict::Differs(found), Item::Motion(was), Item::Motion(is)) = (&mut verdict, was, is)
+        && claim.cuts
+        && (way_is_open(was) || way_is_open(is))
+        && !ends_together(was, is, claim)
+        && held(was, is, claim).is_ok()
+        && (may_be_part(is, was, next(after, claim).as_ref(), claim)
+            || may_be_part(
+                was,
+                is,
+                again.pop_front().or_else(|| next(before, claim)).as_ref(),
+                claim,
+            ))
+    {
+        found.what += "; one motion may be a part of the other, but their path up to here is unknown";
+        return Verdict::Unknown(found.clone());
+    }
+    verdict
 }
 
 /// The result of comparing two items.
@@ -300,7 +328,6 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         after: Some(b.block),
         what,
     };
-    let differs = |what: String| Err(Verdict::Differs(place(what)));
     if core::mem::discriminant(&a.kind) != core::mem::discriminant(&b.kind) {
         let lost = [a, b].iter().any(|motion| motion.kind == MotionKind::Unknown);
         let verdict = if lost { Verdict::Unknown } else { Verdict::Differs };
@@ -318,7 +345,10 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         };
         if !same && !claim.path_only {
             let seconds = |time: &Option<f64>| time.map_or("an unknown time".to_owned(), |time| format!("{time} s"));
-            return differs(format!("a dwell of {} and one of {}", seconds(from), seconds(to)));
+            let what = format!("a dwell of {} and one of {}", seconds(from), seconds(to));
+            let is_unknown = from.is_none() || to.is_none();
+            let verdict = if is_unknown { Verdict::Unknown } else { Verdict::Differs };
+            return Err(verdict(place(what)));
         }
     }
     in_effect(was, is, claim)

@@ -20,6 +20,7 @@ mod item;
 mod judge;
 mod near;
 mod notes;
+mod numbers;
 mod process;
 mod rapids;
 mod refit;

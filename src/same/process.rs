@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_dialect::{Dialect, Plane};
-use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, is_left, same_number};
+use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, Swivel, is_left, same_number};
 
 /// Settings by their key; a key that is absent was never set, or has its initial value again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -285,6 +285,16 @@ pub(crate) fn same_feed(a: Feed, b: Feed) -> bool {
 
 /// The parts of the process in the motions themselves that must be the same: name, before, after.
 pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Option<(&'static str, String, String)> {
+    let turn = |motion: &Motion| {
+        match motion.tilt.swivel {
+            Swivel::No => "no turn onto the plane",
+            Swivel::AxesStay => "they stay",
+            Swivel::TipStays => "they keep the tip on the part",
+            Swivel::AxesLost => "they retract",
+            Swivel::PointToPoint => "all axes move linearly",
+        }
+        .to_owned()
+    };
     let yes = |on: bool| if on { "on" } else { "off" }.to_owned();
     let tool = |motion: &Motion| motion.tool.map_or("unknown".to_owned(), |number| format!("T{number}"));
     let circle = |motion: &Motion| {
@@ -306,7 +316,9 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
             yes(a.machine_coordinates),
             yes(b.machine_coordinates),
         ))
-    } else if a.tilt.swivel != b.tilt.swivel || a.tilt.posture != b.tilt.posture {
+    } else if a.tilt.swivel != b.tilt.swivel {
+        Some(("what the linear axes do in a turn", turn(a), turn(b)))
+    } else if a.tilt.posture != b.tilt.posture {
         let asked = |motion: &Motion| match motion.tilt.posture {
             Posture::ByRule => "the control's own".to_owned(),
             Posture::Lower => "the lower".to_owned(),
@@ -319,7 +331,7 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
                     .to_owned()
             }
         };
-        Some(("the requested posture or turn", asked(a), asked(b)))
+        Some(("the requested posture", asked(a), asked(b)))
     } else if a.tcp && b.tcp && a.great_circle != b.great_circle {
         Some(("the interpolation of the tool axis", circle(a), circle(b)))
     } else if feed_counts && a.is_feed() && !same_feed(a.feed, b.feed) {

@@ -26,6 +26,8 @@ pub struct Steps<'a> {
     pub(crate) disturbs: Vec<Option<bool>>,
     over: bool,
     pub(crate) counted: Option<Counted>,
+    /// The program that is missing and may return to a block number.
+    pub(crate) returning: Option<String>,
 }
 
 pub(crate) struct Run<'a> {
@@ -130,6 +132,7 @@ impl<'a> Steps<'a> {
         let mut interpreter = Interpreter::new(input.dialect, &setup);
         interpreter.watch_effects();
         Self {
+            returning: crate::numbers::watch(&input, &mut interpreter),
             input,
             interpreter,
             run: Run {

@@ -6,7 +6,7 @@ use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{
     AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink,
 };
-use trunnion_machine::{AxisKind, Follower};
+use trunnion_machine::{AxisKind, Follower, Leg, Machine, excursions, leads_tip, linear_travel, turns};
 use trunnion_same::Input;
 use trunnion_syntax::{BlockId, Item, LineIndex};
 
@@ -84,6 +84,9 @@ pub struct Tally {
     /// Line where the run stopped before the end, and why: nothing after it is counted.
     pub stop: Option<(u32, String)>,
 }
+
+/// Excursions between the ends of a motion that are smaller are left out, mm: no digit of them is shown.
+const SMALLEST_MM: f64 = 1e-4;
 
 /// Counts while a program runs.
 struct Counting<'a> {
@@ -173,6 +176,38 @@ fn length(motion: &Motion) -> Option<f64> {
     }
 }
 
+/// Widens the ranges of linear joints by what they run beyond both ends of a motion: along arcs, and in lines of a guided tip.
+/// `own`: the axis of each range.
+fn inside(machine: &Machine, leg: &Leg, own: &[usize], ranges: &mut [(char, bool, Option<Range>)]) {
+    let bends = matches!(leg.motion.kind, MotionKind::Arc(Some(_))) || leads_tip(&leg.motion) && turns(leg);
+    let (true, Some(start), Ok(end)) = (bends, &leg.start, &leg.end) else {
+        return;
+    };
+    // what is surely inside the range so far needs no search
+    let reach = linear_travel(machine, leg, f64::INFINITY).map_or(f64::INFINITY, |travel| travel.most_mm);
+    let is_inside = |&joint: &usize| {
+        let known = own.iter().position(|&axis| axis == joint);
+        let known = known.and_then(|slot| ranges[slot].2);
+        let (from, to) = (start.joints[joint], end.joints[joint]);
+        known.is_some_and(|known| from.min(to) - reach >= known.low && from.max(to) + reach <= known.high)
+    };
+    if machine.linear.iter().all(is_inside) {
+        return;
+    }
+    for found in excursions(machine, leg, SMALLEST_MM) {
+        let ends = [start.joints[found.axis], end.joints[found.axis]];
+        let value = if found.upward {
+            ends[0].max(ends[1]) + found.beyond_mm
+        } else {
+            ends[0].min(ends[1]) - found.beyond_mm
+        };
+        let slots = own.iter().zip(ranges.iter_mut());
+        for (_, (_, _, range)) in slots.filter(|(axis, _)| **axis == found.axis) {
+            widen(range, value);
+        }
+    }
+}
+
 impl Counting<'_> {
     fn line(&self, block: BlockId) -> u32 {
         let program = self.input.program;
@@ -206,11 +241,14 @@ impl Counting<'_> {
             Ok(stance) => (stance.joints, u16::MAX),
             Err(_) => leg.known_joints,
         };
-        for (index, (_, rotary, range)) in self.tally.joints.iter_mut().enumerate() {
+        let Some(machine) = self.input.machine else { return };
+        let own: Vec<usize> = machine.own_axes().map(|(index, _)| index).collect();
+        for (&index, (_, rotary, range)) in own.iter().zip(&mut self.tally.joints) {
             if known & (1 << index) != 0 {
                 widen(range, if *rotary { deg(joints[index]) } else { joints[index] });
             }
         }
+        inside(machine, &leg, &own, &mut self.tally.joints);
     }
 
     /// Distances, feeds and times.

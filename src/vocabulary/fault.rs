@@ -235,6 +235,17 @@ pub enum FaultKind {
         /// Tool or offset number as written.
         tool: String,
     },
+    /// A block of the program defines a tool (TOOL DEF) whose length or diameter differs from that of the settings; the program's counts.
+    ToolDefinedTwice {
+        /// The tool.
+        tool: u32,
+        /// Its diameter differs; else its length.
+        is_diameter: bool,
+        /// What the program says, mm.
+        program_mm: f64,
+        /// What the settings say, mm.
+        settings_mm: f64,
+    },
     /// A coordinate other than zero has no decimal point, in a dialect where a parameter of the control decides what that means.
     /// It is read as mm (or inch, degrees) as written. Range: the word.
     AmbiguousDecimal,

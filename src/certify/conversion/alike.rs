@@ -142,8 +142,8 @@ impl Proof<'_> {
             .zip(&shifts(new))
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
-            let why =
-                "the original program shifts the zero point (G52, G92, G10, TRANS), but the converted one does not";
+            let why = "the original program shifts the zero point (G52, G92, G10, TRANS), and a conversion writes no shifts: put the shift into the \
+                 coordinates or into a work offset of its own, and convert that program";
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {

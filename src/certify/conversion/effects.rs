@@ -169,12 +169,17 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
     };
     if let Some(((one, old_block), (other, new_block))) = differs {
         let line = line(was.reading, *old_block);
-        return refute(
-            Some(*new_block),
+        let (one, other) = (one.to_string(), other.to_string());
+        let message = if one == other {
+            format!(
+                "at {one} (line {line} of the original) spindle or coolant are in another state than in the original"
+            )
+        } else {
             format!(
                 "{other} takes the place of {one} (line {line} of the original), or spindle or coolant are in a different state there"
-            ),
-        );
+            )
+        };
+        return refute(Some(*new_block), message);
     }
     if let Some((lost, block)) = old.get(new.len()) {
         let line = line(was.reading, *block);

@@ -369,6 +369,7 @@ pub(super) fn is_grave(kind: &FaultKind) -> bool {
     match kind {
         FaultKind::WorkOffsetUnset { .. }
         | FaultKind::ToolLengthUnset { .. }
+        | FaultKind::ToolDefinedTwice { .. }
         | FaultKind::MissingProgramEnd
         | FaultKind::AptVectorMissing
         | FaultKind::UnusedWord

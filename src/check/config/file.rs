@@ -356,10 +356,19 @@ fn work_offset(
         if !value.get_ref().is_finite() {
             return Err(at(value, "a work offset must be a number in mm or degrees: `X = 0.0`"));
         }
+        if value.get_ref().abs() > MOST_OFFSET {
+            return Err(at(
+                value,
+                "a work offset must be at most 1000000 mm or degrees: no machine is larger",
+            ));
+        }
         offset.values[usize::from(axis.0)] = *value.get_ref();
     }
     Ok(offset)
 }
+
+/// More is a slip of the keyboard, mm or degrees.
+const MOST_OFFSET: f64 = 1e6;
 
 #[cfg(test)]
 mod tests;

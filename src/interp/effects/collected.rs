@@ -8,6 +8,8 @@ const MOST_FRAMES: usize = 1000;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Effects {
     wanted: bool,
+    /// Block numbers are effects too.
+    numbers: bool,
     /// How many there were so far in the run.
     count: u32,
     /// Words of blocks that shift or turn the coordinates and were held by known positions so far.
@@ -20,6 +22,14 @@ impl Effects {
     /// Asks for them.
     pub(crate) fn watch(&mut self) {
         self.wanted = true;
+    }
+    /// Asks for block numbers too.
+    pub(crate) fn watch_numbers(&mut self) {
+        self.numbers = true;
+    }
+    /// Whether block numbers are requested.
+    pub(crate) fn numbers_wanted(&self) -> bool {
+        self.numbers
     }
     /// Whether they are requested.
     #[inline]

@@ -4,9 +4,10 @@ use crate::codes::BlockCodes;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
+use trunnion_dialect::Macros;
 
 impl Iso<'_> {
-    /// S, T, H, D, and the time of a dwell: a Fanuc refuses a minus there (alarm PS0006, illegal use of the minus sign).
+    /// P of a dwell takes no decimal point on a Fanuc (B-63944EN, Dwell (G04): X in seconds takes one, P in milliseconds does not). S, T, H, D, and the time of a dwell: a Fanuc refuses a minus there (alarm PS0006, illegal use of the minus sign).
     pub(super) fn signs(&self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
         let said = [
             ("S", words.speed),
@@ -15,6 +16,12 @@ impl Iso<'_> {
             ("D", words.letter(b'D')),
             ("P", words.p),
         ];
+        let has_point = words.p.number().is_some_and(|number| number.has_point);
+        if block.dwell && has_point && self.core.dialect.quirks.macros == Macros::Fanuc {
+            let message =
+                "P of a dwell takes no decimal point: it is in milliseconds; X takes one, in seconds".to_owned();
+            self.refuse(words, Refusal::Number, message, None, report);
+        }
         for (name, value) in said {
             let negative = value.number().is_some_and(|number| number.value < 0.0);
             if negative && (name != "P" || block.dwell) {

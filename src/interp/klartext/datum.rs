@@ -135,7 +135,7 @@ impl Klartext<'_> {
             // the value was reported
             return self.lose(DATUM);
         }
-        if shifts && !zero && (self.memory.frames.tilt.is_some() || !self.memory.frames.shape.is_identity()) {
+        if shifts && !zero && (self.is_tilted() || !self.memory.frames.shape.is_identity()) {
             self.not_modelled_once("cycle 7 in a tilted, turned, mirrored or scaled system", report);
             self.memory.frames.local = local;
             return self.lose(DATUM);
@@ -157,7 +157,7 @@ impl Klartext<'_> {
         if zero == before {
             return;
         }
-        let plain = self.memory.frames.tilt.is_none() && self.memory.frames.shape.is_identity();
+        let plain = !self.is_tilted() && self.memory.frames.shape.is_identity();
         for (value, (old, new)) in self.core.state.position.values.iter_mut().zip(before.iter().zip(zero)) {
             *value += old - new;
         }

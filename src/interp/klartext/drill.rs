@@ -125,12 +125,12 @@ impl Klartext<'_> {
         let unit = self.core.state.feed.unit_mm();
         let value = match feed {
             CycleFeed::Value(Some(value)) if value > 0.0 => Some(value * unit),
-            CycleFeed::Auto => self.memory.tool_feed,
+            CycleFeed::Auto if self.memory.tool_feed.is_some() || self.memory.tool_feed_unread => self.memory.tool_feed,
             CycleFeed::Rapid => return Feed::Rapid,
-            CycleFeed::Value(Some(_)) | CycleFeed::Missing => {
+            CycleFeed::Value(Some(_)) | CycleFeed::Missing | CycleFeed::Auto => {
                 let kind = crate::FaultKind::MissingFeed {
                     inverse_time: false,
-                    zero: true,
+                    zero: feed != CycleFeed::Auto,
                 };
                 report.fault(TextRange::default(), kind);
                 return Feed::Unknown;

@@ -2,7 +2,8 @@
 //!
 //! SPATIAL: Rz(SPC) Ry(SPB) Rx(SPA), about fixed axes A, B, C. EULER: Rz(EULPR) Rx(EULNU) Rz(EULROT). VECTOR: x from the base vector, z along
 //! the normal. POINTS: x from the first point to the second, the third on the side of y; the datum stays. Sources: TNC guide, PLANE SPATIAL;
-//! TNC 640 DIN/ISO 34059x p. 420 and 424. RELATIV in a plane that is tilted, PROJECTED and AXIAL are not followed.
+//! TNC 640 DIN/ISO 34059x p. 420 and 424. Where the swivel leaves a rotary axis free, COORD ROT (the default) keeps it and turns the
+//! coordinates. RELATIV in a plane that is tilted, PROJECTED and AXIAL are not followed.
 use super::Klartext;
 use super::datum::PLANE;
 use super::words::{Said, Words};
@@ -26,10 +27,11 @@ impl Klartext<'_> {
         };
         let mut numbers = Vec::new();
         let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
-        let (mut says_how, mut says_feed) = (false, false);
+        let (mut says_how, mut says_feed, mut turns_table) = (false, false, false);
         for word in words.by_ref() {
             says_how |= matches!(word.name(), b"MOVE" | b"TURN" | b"STAY");
             says_feed |= matches!(word.name(), b"F" | b"FMAX" | b"FAUTO");
+            turns_table |= word.name() == b"TABLE";
             match word.name() {
                 b"MOVE" => swivel = Some(Swivel::TipStays),
                 b"TURN" => swivel = Some(Swivel::AxesStay),
@@ -60,7 +62,7 @@ impl Klartext<'_> {
         }
         let name = String::from_utf8_lossy(form.name()).into_owned();
         if name == "RESET" {
-            return self.reset_plane(swivel, posture, report);
+            return self.reset_plane(swivel, report);
         }
         let number = |wanted: &str| numbers.iter().find(|(found, _)| found == wanted).map(|found| found.1);
         let turn = match name.as_str() {
@@ -77,7 +79,7 @@ impl Klartext<'_> {
             }
             "RELATIV" | "RELATIVE" => {
                 let angles = [number("SPA"), number("SPB"), number("SPC")].map(|said| said.unwrap_or(Some(0.0)));
-                spatial(angles).filter(|_| self.memory.frames.tilt.is_none())
+                spatial(angles).filter(|_| !self.is_tilted())
             }
             _ => None,
         };
@@ -94,19 +96,52 @@ impl Klartext<'_> {
             return self.lose(PLANE);
         };
         self.set_plane(turn, swivel, posture, report);
+        if turns_table && swivel.is_some() && turn[(2, 2)] == 1.0 {
+            self.turn_table(report);
+        }
     }
 
-    fn reset_plane(&mut self, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
+    /// TABLE ROT makes a difference where the swivel leaves an axis free: parallel to the tool, as a vertical tool does on most machines.
+    fn turn_table(&mut self, report: &mut Report<'_>) {
+        let what = "TABLE ROT where the plane leaves a rotary axis free: to which angle it turns";
+        self.not_modelled_once(what, report);
+        self.core.state.position.known &= !ROTARY;
+        self.unknown_motion(report);
+    }
+
+    fn reset_plane(&mut self, swivel: Option<Swivel>, report: &mut Report<'_>) {
         self.found(PLANE);
         self.tilt_to(None);
         self.memory.angles_wait = None;
         if let Some(swivel) = swivel {
-            // back to the untilted tool: the plane is that of the workpiece
-            self.tilt_to(Some(Tilted::new(Vec3::zeros(), &[])));
-            self.swivel(swivel, posture, report);
-            self.tilt_to(None);
-            self.memory.angles_wait = None;
+            self.turn_back(swivel, report);
         }
+    }
+
+    /// PLANE RESET with MOVE or TURN: the rotary axes go to their basic setting, 0, whatever angle a plane left them at. X Y Z are in the
+    /// machine's directions after it. With MOVE the tip stays on the part, with TURN the linear axes stay.
+    fn turn_back(&mut self, swivel: Swivel, report: &mut Report<'_>) {
+        let zero = self.core.state.zero.values();
+        self.core.forget_linear();
+        let start = self.core.state.position;
+        let mut end = start;
+        if self.core.state.zero.is_lost() || zero[3..6].iter().any(|shift| *shift != 0.0) {
+            let what = "PLANE RESET where the zero of a rotary axis is shifted: to which of both zeros it turns";
+            self.not_modelled_once(what, report);
+            self.core.state.position.known &= !ROTARY;
+            return self.unknown_motion(report);
+        }
+        for axis in 3..6 {
+            end.set(axis, 0.0);
+        }
+        self.core.state.position = end;
+        self.core.state.orientation = Orientation::Words;
+        let mut motion = self
+            .core
+            .new_motion(MotionKind::Rapid, start, end, Orientation::Words, Feed::Rapid, report);
+        motion.tilt.swivel = swivel;
+        motion.tcp = swivel == Swivel::TipStays;
+        self.finish_motion(&super::Made { motion, tilt: None });
     }
 
     fn set_plane(&mut self, turn: Mat3, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
@@ -115,26 +150,25 @@ impl Klartext<'_> {
             Self::not_modelled("a tilted plane in a turned, mirrored or scaled system", report);
             return self.lose(PLANE);
         }
-        let flat = turn == Mat3::identity();
-        self.tilt_to((!flat).then_some(Tilted {
+        // zero angles are a plane too: they do not reset, and the plane follows the part on an axis that stays turned
+        self.tilt_to(Some(Tilted {
             origin: Vec3::zeros(),
             turn,
             programmed: false,
         }));
         self.memory.angles_wait = Some(posture);
-        match swivel {
-            Some(swivel) if flat => {
-                self.tilt_to(Some(Tilted::new(Vec3::zeros(), &[])));
-                self.swivel(swivel, posture, report);
-                self.tilt_to(None);
-                self.memory.angles_wait = None;
-            }
-            Some(swivel) => {
-                self.swivel(swivel, posture, report);
-                self.memory.angles_wait = None;
-            }
-            None => {}
+        if let Some(swivel) = swivel {
+            self.swivel(swivel, posture, report);
+            self.memory.angles_wait = None;
         }
+    }
+
+    /// Whether the plane is turned against the part: one of zero angles is not.
+    pub(crate) fn is_tilted(&self) -> bool {
+        self.memory
+            .frames
+            .tilt
+            .is_some_and(|tilt| tilt.turn != Mat3::identity())
     }
 
     /// Positions are in the coordinates of another plane from here on; the machine stays where it is.

@@ -165,7 +165,7 @@ impl Klartext<'_> {
         }
         self.core.state.tool_axis.set_tcp(on);
         (self.memory.spatial, self.memory.other_point) = (false, false);
-        if on && self.memory.frames.tilt.is_some() {
+        if on && self.is_tilted() {
             // the tool is led in the plane's coordinates: rotary words are still those of the axes
             self.not_modelled_once("M128 in a tilted plane", report);
         }
@@ -253,7 +253,7 @@ impl Klartext<'_> {
         let (value, unread) = match said {
             FeedSaid::Nothing => return false,
             FeedSaid::Rapid => return true,
-            FeedSaid::Auto => (self.memory.tool_feed, self.memory.tool_feed.is_none()),
+            FeedSaid::Auto => (self.memory.tool_feed, self.memory.tool_feed_unread),
             FeedSaid::Value(value) => (value.map(|value| value * unit), value.is_none()),
             FeedSaid::PerTurn(value) => {
                 self.core.state.feed.switch_mode(FeedMode::PerRevolution);

@@ -49,11 +49,35 @@ impl Klartext<'_> {
                     length_mm: length.map(|length| length * unit),
                     holder_mm: None,
                 };
-                self.memory.tools.retain(|known| known.number != number);
-                self.memory.tools.push(tool);
+                self.compare_with_settings(&tool, report);
+                self.core.tools.define(tool);
             }
             (number, None) => self.core.state.tool.prepare(number),
             _ => {}
+        }
+    }
+
+    /// The control uses what the program defines; where the settings say otherwise, one of both is wrong.
+    fn compare_with_settings(&self, tool: &Tool, report: &mut Report<'_>) {
+        let Some(known) = self.core.tools.data(Some(tool.number), &self.core.setup) else {
+            return;
+        };
+        let pairs = [
+            (false, tool.length_mm, known.length_mm),
+            (true, tool.diameter_mm, known.diameter_mm),
+        ];
+        for (is_diameter, program, settings) in pairs {
+            if let (Some(program_mm), Some(settings_mm)) = (program, settings)
+                && program_mm != settings_mm
+            {
+                let kind = FaultKind::ToolDefinedTwice {
+                    tool: tool.number,
+                    is_diameter,
+                    program_mm,
+                    settings_mm,
+                };
+                report.fault(TextRange::default(), kind);
+            }
         }
     }
 
@@ -114,6 +138,7 @@ impl Klartext<'_> {
         }
         if let Some(feed) = feed {
             self.memory.tool_feed = feed.map(|feed| feed * self.core.state.feed.unit_mm());
+            self.memory.tool_feed_unread = feed.is_none();
             if self.core.state.feed.value() != self.memory.tool_feed {
                 // whether F of TOOL CALL also replaces that of path blocks is not taken from a source
                 self.core.state.feed.set(None);
@@ -169,9 +194,7 @@ impl Klartext<'_> {
             self.core.state.length.set(None, LengthOf::Nothing);
             return;
         }
-        let declared = self.core.state.tool.data().and_then(|tool| tool.length_mm);
-        let own = self.memory.tools.iter().find(|tool| Some(tool.number) == number);
-        let length = declared.or(own.and_then(|tool| tool.length_mm));
+        let length = self.core.state.tool.data().and_then(|tool| tool.length_mm);
         self.memory.tool_length = length;
         let unit = self.core.state.coordinates.unit_mm();
         let length = length.zip(delta).map(|(length, delta)| length + delta * unit);

@@ -39,7 +39,7 @@ impl Follower<'_> {
         Ok(chosen.open)
     }
 
-    /// The rotary axes turn to the motion's vector; the linear axes stay, or move to an unknown position.
+    /// The rotary axes turn to the motion's vector or words; the linear axes stay, or move to an unknown position.
     pub(crate) fn swivel(
         &self,
         motion: &Motion,
@@ -47,14 +47,14 @@ impl Follower<'_> {
         into: &mut (Joints, u16),
         open: &mut Option<Open>,
     ) -> Result<Stance, NoStance> {
-        let Orientation::Vector(_, axis) = motion.orientation else {
-            return Err(NoStance::NotModelled);
-        };
-        let length = axis.norm();
-        if !(1e-6..f64::INFINITY).contains(&length) {
-            return Err(NoStance::NotModelled);
+        // with words it turns to their angles (PLANE RESET TURN)
+        if let Orientation::Vector(_, axis) = motion.orientation {
+            let length = axis.norm();
+            if !(1e-6..f64::INFINITY).contains(&length) {
+                return Err(NoStance::NotModelled);
+            }
+            *open = self.aim(motion, &(axis / length), start, into)?;
         }
-        *open = self.aim(motion, &(axis / length), start, into)?;
         if motion.tilt.swivel == Swivel::AxesLost {
             let rotary = self.machine.constants.rotary().iter();
             into.1 &= rotary.fold(0, |mask, rotary| mask | 1 << rotary.joint);

@@ -2,7 +2,7 @@
 use crate::{AxisKind, Joints, MAX_AXES, Machine, Open, OpenCause, Wrap};
 use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
-use trunnion_interp::{AXIS_LETTERS, Motion, Position};
+use trunnion_interp::{AXIS_LETTERS, Motion, Position, Swivel};
 
 /// A move that differs by less from half a turn is half a turn, rad.
 const HALF_TURN: f64 = 1e-9;
@@ -109,7 +109,9 @@ impl Words {
         let mut named = motion.end.known & self.foreign;
         while named != 0 {
             let letter = named.trailing_zeros() as usize;
-            let stands = self.absent & (1 << letter) != 0 && motion.end.values[letter] == 0.0;
+            // a turn back to zero names all rotary axes that a machine may have
+            let may_lack = self.absent & (1 << letter) != 0 || motion.tilt.swivel != Swivel::No;
+            let stands = may_lack && motion.end.values[letter] == 0.0;
             if !stands && motion.start.get(letter) != motion.end.get(letter) {
                 return Some(AXIS_LETTERS[letter]);
             }

@@ -50,6 +50,7 @@ use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::{Claim, RefitSource};
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
+use trunnion_interp::{block_numbers, may_return_to_numbers};
 use trunnion_syntax::Program;
 
 pub(super) const REWRITE: Body = Body { cures: &[], propose };
@@ -60,6 +61,14 @@ const EXACT: f64 = 1e-9;
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     if !program.options().format.has_words() {
         return Err("APT: only G code has words that repeat".into());
+    }
+    if let Some(missing) = may_return_to_numbers(program, settings.dialect, &settings.setup)
+        && block_numbers(program).next().is_some()
+    {
+        return Err(format!(
+            "{missing} is missing, and may return to any block number (M99 P): what repeats there may be new"
+        )
+        .into());
     }
     let hand = Hand::of(program);
     let (mut places, mut was, mut is, mut bytes) = (Vec::new(), 0, 0, 0);

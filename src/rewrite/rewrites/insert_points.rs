@@ -54,7 +54,7 @@ use crate::slots::{Scheme, Slots, insert_word, slots, styles};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
-use trunnion_interp::{Fault, ModalState, Motion, MotionKind, Orientation, Sink, run};
+use trunnion_interp::{Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, run};
 use trunnion_machine::{Follower, Machine, tip_deviation};
 use trunnion_syntax::{Program, TextEdit, TextRange};
 
@@ -168,6 +168,11 @@ impl Writer<'_> {
         }
         if line.incremental {
             return Err(refused("coordinates are incremental (G91)"));
+        }
+        if matches!(line.leg.motion.feed, Feed::InverseTime(_)) {
+            return Err(refused(
+                "the feed is inverse time (G93): each piece would need an F of its own",
+            ));
         }
         let view = self.program.block(line.leg.motion.block);
         let slots: Slots = slots(self.program, &view, self.scheme).map_err(refused)?;

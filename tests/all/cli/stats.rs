@@ -68,6 +68,33 @@ fn with_a_machine_joints_and_times_are_told() {
     insta::assert_snapshot!("stats_machine", text(&output.stdout).replace(str(&file), "flip.nc"));
 }
 
+/// An arc over the top reaches farther than both its ends, in X Y Z and in the joints.
+#[test]
+fn joints_include_the_inside_of_arcs() {
+    let folder = TempDir::new().expect("works");
+    let program = "G21 G17 G90 G94\nS1000 M3\nG0 X0. Y250. Z50.\nG1 Z0. F600.\nG2 X100. Y250. R60.\nG0 Z50.\nM30\n";
+    let file = write(&folder, "arc.nc", program);
+    let options = ["--dialect", "fanuc-30i", "--machine", "mill-3axis", "--format", "json"];
+    let output = trunnion(&[&["stats", str(&file)][..], &options].concat());
+    assert_eq!(status(&output), 0);
+    let found = text(&output.stdout);
+    // the arc's highest point, from its radius and half chord
+    let top = 250.0 - (60f64.powi(2) - 50f64.powi(2)).sqrt() + 60.0;
+    let json: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+    for [group, key] in [["extents", "y_mm"], ["joints", "joint_y_mm"]] {
+        let ends = json["files"][0][group][key].to_string();
+        let numbers: Vec<f64> = ends
+            .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+            .filter_map(|number| number.parse().ok())
+            .collect();
+        let highest = numbers.iter().copied().fold(f64::MIN, f64::max);
+        assert!(
+            (highest - top).abs() < 2e-3,
+            "{group}: {ends}, and {top} is wanted: {found}"
+        );
+    }
+}
+
 #[test]
 fn the_tree_shows_words_expressions_and_problems() {
     let folder = TempDir::new().expect("works");

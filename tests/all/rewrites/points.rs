@@ -126,10 +126,62 @@ fn what_is_not_declared_or_not_a_number_is_named() {
     let incremental = text.replace("N10 G1", "N10 G91 G1").replace("Z90.000", "Z-10.000");
     let reason = refused(insert(&incremental, &settings, 0.01));
     assert!(reason.contains("G91"), "{reason}");
+    let inverse = text.replace("N10 G1", "N10 G93 G1").replace("F1000", "F100");
+    let reason = refused(insert(&inverse, &settings, 0.01));
+    assert!(reason.contains("inverse time (G93)"), "{reason}");
     // the stop at the end of the line would come after the first piece
     let stopping = text.replace("F1000", "F1000 M0");
     let reason = refused(insert(&stopping, &settings, 0.01));
     assert!(reason.contains("line 4") && reason.contains("`M0`"), "{reason}");
+}
+
+/// Klartext has no words of G code: rewrites that write them say so.
+#[test]
+fn klartext_is_refused_by_its_name() {
+    let settings = settings("heidenhain-klartext", Setup::default());
+    let text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 A+5 C+350 R0 FMAX\nL X+1 A+5 C+10 F1500\nM30\nEND PGM A MM\n";
+    for name in [
+        "switch-angles",
+        "unwind-rotary",
+        "smooth-pole",
+        "adapt-feed",
+        "fit-arcs",
+        "insert-points",
+        "drop-redundant",
+    ] {
+        let reason = refused(run(name, text, &settings, &Options::default()));
+        assert!(reason.contains("Klartext"), "{name}: {reason}");
+    }
+}
+
+/// A block number to which a missing program may return (M99 P50) stays.
+#[test]
+fn numbers_that_a_missing_program_may_name_stay() {
+    let settings = settings("fanuc-30i", Setup::default());
+    let program = |call: &str| {
+        format!(
+            "G21 G90 G94 G17 G54\nS1000 M3\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nX10.\nN50 X20.\nX30.\n{call}G0 Z50.\nM30\n"
+        )
+    };
+    let lean = |call: &str| {
+        let text = program(call);
+        let attempt = run("drop-redundant", &text, &settings, &Options::default());
+        match attempt.outcome() {
+            Ok(Some(change)) => String::from_utf8(change.after).expect("text"),
+            other => panic!("{call}: {:?}", other.err()),
+        }
+    };
+    assert!(!lean("").contains("N50"), "nothing names it");
+    let text = program("M98 P7777\n");
+    let reason = refused(run("drop-redundant", &text, &settings, &Options::default()));
+    assert!(reason.contains("O7777 is missing"), "{reason}");
+    // without a number nothing can be named
+    let text = text.replace("N50 ", "");
+    assert!(
+        run("drop-redundant", &text, &settings, &Options::default())
+            .outcome()
+            .is_ok_and(|found| found.is_some())
+    );
 }
 
 #[test]

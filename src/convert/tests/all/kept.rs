@@ -1,6 +1,6 @@
 //! Nothing that a block asks for vanishes without a word: it is written, listed as left out, or the conversion is refused by name.
-use crate::support::{refusal, to};
-use trunnion_convert::Options;
+use crate::support::{refusal, text, to};
+use trunnion_convert::{Options, Units};
 
 /// A few blocks before and after those that are tried, in the words of a dialect.
 pub(crate) fn around(dialect: &str, blocks: &str) -> String {
@@ -306,4 +306,39 @@ fn what_asks_for_nothing_is_converted() {
             let _ = made.unwrap_or_else(|refused| panic!("{dialect}, {blocks}: {refused}"));
         }
     }
+}
+
+/// F per revolution is small: it has six digits, and what they cannot hold is refused.
+#[test]
+fn feeds_per_revolution_keep_their_digits() {
+    let program = |feed: &str| {
+        format!(
+            "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nS1000 M3\nG0 X0. Y0. Z2.\nG95 G1 Z-5. F{feed}\nX100.\nG94\nG0 Z50.\nM5\nM30\n%\n"
+        )
+    };
+    let inch = Options {
+        units: Units::Inch,
+        ..Options::default()
+    };
+    let to_inch = |feed: &str| {
+        let text = program(feed);
+        to((&text, "fanuc-30i", "mill-3axis"), "fanuc-30i", "mill-3axis", &inch)
+    };
+    let made = text(to_inch("0.1"));
+    assert!(made.contains("F0.003937"), "{made}");
+    let refused = refusal(to_inch("0.001"));
+    assert!(refused.message.contains("mm/rev"), "{refused}");
+}
+
+/// Inverse time becomes the feed per minute that takes as long, where the target has no inverse time.
+#[test]
+fn inverse_time_becomes_a_feed_per_minute() {
+    let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\n(trunnion: tool 1 length 80)\nT1 M6\nS1000 M3\nG0 G43 H1 X0. Y0. Z50.\nG93 G1 X40. F10.\nG94\nM5\nM30\n%\n";
+    let made = text(to(
+        (program, "fanuc-30i", "mill-3axis"),
+        "heidenhain-klartext",
+        "mill-3axis",
+        &Options::default(),
+    ));
+    assert!(made.contains("F400"), "{made}");
 }

@@ -288,3 +288,25 @@ fn a_length_that_was_not_in_force_is_not_switched_on() {
         }
     }
 }
+
+/// A code that the conversion itself writes is not dropped, and a name that the program does not contain is a slip.
+#[test]
+fn a_drop_that_leaves_out_nothing_is_refused() {
+    let text = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nS1000 M3\nG0 X0. Y0. Z50.\nG1 Z0. F100.\nM5\nM30\n%\n";
+    for name in ["M3", "M123"] {
+        let options = Options {
+            drop: vec![name.to_owned()],
+            ..Options::default()
+        };
+        let (_, message) = refused(
+            (text, "fanuc-30i", "mill-3axis"),
+            "sinumerik-840d",
+            "mill-3axis",
+            &options,
+        );
+        assert!(
+            message.contains(&format!("`--drop {name}` leaves out nothing")),
+            "{message}"
+        );
+    }
+}

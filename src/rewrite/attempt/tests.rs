@@ -39,7 +39,7 @@ fn refusal(propose: fn(&Program, &Settings<'_>, &Options) -> Proposed) -> String
         name: "every-c",
         docs: "",
         cures: &[],
-        propose,
+        proposes: propose,
     };
     let outcome = attempt(&rewrite, &program, &settings, &Options::default()).outcome();
     outcome.expect_err("a reason")
@@ -73,7 +73,7 @@ fn a_place_that_cannot_be_proved_is_left_out() {
         name: "short-ways",
         docs: "",
         cures: &[],
-        propose: |program, _, _| {
+        proposes: |program, _, _| {
             let mut proposal = every_c(program, |c| {
                 if c == 365.0 {
                     5.0

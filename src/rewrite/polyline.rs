@@ -83,6 +83,11 @@ struct Seen {
 }
 
 impl Seen {
+    /// A line at feed that stands for no curve.
+    fn is_line(&self) -> bool {
+        self.linear && self.ends != Err(CURVE)
+    }
+
     /// A block of codes without coordinates (`G1 F500`): it needs no motion code, and begins no chain.
     fn is_code_alone(&self, program: &Program) -> bool {
         self.linear
@@ -266,8 +271,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
     let mut at = 0;
     let mut close = |open: &mut Option<Chain>, next: Option<&Seen>| {
         if let Some(mut chain) = open.take().filter(|chain| chain.lines.len() >= least) {
-            let line = |next: &&Seen| next.linear && next.ends != Err(CURVE);
-            chain.next_line = next.filter(line).map(|next| next.block);
+            chain.next_line = next.filter(|next| next.is_line()).map(|next| next.block);
             found.chains.push(chain);
         }
     };
@@ -293,8 +297,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         let one = &seen[at];
         at += motions;
         let why = match &one.ends {
-            Err(why) if *why == CURVE => Some(*why),
-            _ if motions > 1 => Some("a block makes several motions"),
+            _ if motions > 1 && one.ends != Err(CURVE) => Some("a block makes several motions"),
             Err(why) => Some(*why),
             Ok(_) if stops => Some("exact stop is on (G61, G60): each block ends with a stop"),
             Ok(_) if text.refuses().is_some() => text.refuses(),

@@ -131,7 +131,11 @@ fn walk(
             b = retracts::excursion(cut, away, after, claim, judge)?;
             continue;
         }
-        let found = pair(was, is, judged, judge, &mut open);
+        let otherwise = claim.refit.is_none() && curve::said_otherwise(was, is, [before, after]);
+        let mut found = pair(was, is, judged, judge, &mut open);
+        if let (true, Ok(_), Item::Motion(was), Item::Motion(is)) = (otherwise, &found, &*was, &*is) {
+            found = Err(curve::unlike(was, is));
+        }
         let moved_on = match found {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),

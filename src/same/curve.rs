@@ -3,13 +3,15 @@
 //!
 //! What else must be the same, and when the path in the part has the shape of the programmed one, is as in [`crate::refit`].
 use crate::compare::{Claim, in_effect};
-use crate::item::Step;
+use crate::item::{Item, Step};
 use crate::judge::Judge;
 use crate::refit::{JOINT, Refit, Refitted, begin_apart, begin_together, not_comparable};
 use crate::sentences::kind;
+use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
 use trunnion_geometry::abreast::{Abreast, Walked};
 use trunnion_interp::{Motion, MotionKind};
+use trunnion_syntax::BlockId;
 
 /// A curve that is being walked, beside the lines of the other program.
 #[derive(Clone, Debug)]
@@ -42,6 +44,28 @@ pub(crate) fn unlike(was: &Step, is: &Step) -> Verdict {
         after: Some(is.motion.block),
         what: "they are near each other, but are pieces of curves that are not the same".to_owned(),
     })
+}
+
+/// Whether two motions stand for pieces of curves whose blocks say different things. Their lines may be the same all the same, and only a claim about
+/// paths that are near each other has room for that.
+pub(crate) fn said_otherwise(was: &Item, is: &Item, [before, after]: [&Steps<'_>; 2]) -> bool {
+    let (Item::Motion(was), Item::Motion(is)) = (was, is) else {
+        return false;
+    };
+    (was.motion.slack_mm > 0.0 || is.motion.slack_mm > 0.0)
+        && words(before, was.motion.block) != words(after, is.motion.block)
+}
+
+/// What a block says about its curve: all from its first word of a curve on.
+fn words<'s>(steps: &'s Steps<'_>, block: BlockId) -> &'s [u8] {
+    let program = steps.input().program;
+    let text = program.bytes(program.block(block).range());
+    let starts = |name: &[u8]| {
+        text.windows(name.len())
+            .position(|part| part.eq_ignore_ascii_case(name))
+    };
+    let start = starts(b"PO[").or_else(|| starts(b"G5")).unwrap_or(0);
+    text[start..].trim_ascii()
 }
 
 /// Lines of one program and a curve of the other, or two curves: walks on along both motions until one of them ends, and tells the judge when both

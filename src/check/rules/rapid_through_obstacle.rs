@@ -91,18 +91,7 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 return;
             }
             Nearness::Clear(_) => {}
-            Nearness::Through => {
-                let how = if rapid { "in rapid" } else { "while cutting" };
-                out.finding(leg, Merge::runs(THROUGH | key, 0.0), |draft| {
-                    draft
-                        .say(format!("the tool goes through {name} {how}"))
-                        .help("go round it or above it; if it is elsewhere, correct its [[obstacle]]")
-                        .value_text("obstacle", name.clone());
-                    if rapid {
-                        draft.fix_rapid(leg);
-                    }
-                });
-            }
+            Nearness::Through => through(leg, out, (name.as_str(), THROUGH | key), rapid),
             Nearness::Near(_) if !rapid => {
                 let what = format!(
                     "this curve is followed as lines that it leaves by at most {} mm, and they come nearer than that to {name}",
@@ -137,6 +126,20 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
             }
         }
     }
+}
+
+/// The tool goes through an obstacle.
+fn through(leg: &facts::Passing<'_>, out: &mut Reporter<'_>, (name, key): (&str, u64), rapid: bool) {
+    let how = if rapid { "in rapid" } else { "while cutting" };
+    out.finding(leg, Merge::runs(key, 0.0), |draft| {
+        draft
+            .say(format!("the tool goes through {name} {how}"))
+            .help("go round it or above it; if it is elsewhere, correct its [[obstacle]]")
+            .value_text("obstacle", name.to_owned());
+        if rapid {
+            draft.fix_rapid(leg);
+        }
+    });
 }
 
 /// Something is missing for all obstacles.

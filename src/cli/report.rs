@@ -105,7 +105,10 @@ struct Part {
 impl Part {
     /// Bytes of what is drawn.
     fn bytes(&self) -> usize {
-        let pictures = self.pictures.iter().map(|(_, drawn)| drawn.as_ref().map_or(0, String::len));
+        let pictures = self
+            .pictures
+            .iter()
+            .map(|(_, drawn)| drawn.as_ref().map_or(0, String::len));
         pictures.sum::<usize>() + self.replay.as_ref().map_or(0, String::len)
     }
 }

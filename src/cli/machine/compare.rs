@@ -3,7 +3,7 @@ use crate::cli::out::Out;
 use crate::cli::{
     Done,
     args::Global,
-    failure::{Failure, remark},
+    failure::{Failure, remark, shown},
     load,
 };
 use std::io::Write;
@@ -65,7 +65,7 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
         sweep(&comparison, &believed, options, &mut out)?
     };
     let verdict = found.verdict(options.tolerance_mm, everywhere);
-    writeln!(out, "{verdict}")?;
+    out.text(&format!("{verdict}\n"));
     Ok(if verdict.starts_with("PASS") {
         Done::Clean
     } else {
@@ -218,7 +218,11 @@ fn program(
     count(both.unknown, "could not be compared: the end or the path is unknown");
     count(both.at_end, "compared at the end only: the start is unknown");
     let lines = LineIndex::new(loaded.program.source());
-    let line = |block| lines.line_column(loaded.program.source(), loaded.program.block(block).range().start).0;
+    let line = |block| {
+        lines
+            .line_column(loaded.program.source(), loaded.program.block(block).range().start)
+            .0
+    };
     if let Some((block, why)) = &both.not_run {
         open.push(format!("not followed from line {} on: {why}", line(*block)));
     }
@@ -238,7 +242,7 @@ fn program(
         out,
         &format!(
             "{}:{line}, the worst of {}",
-            loaded.name,
+            shown(&loaded.name),
             crate::cli::verdict::counted(both.compared as u64, "motion")
         ),
         machine,
@@ -286,7 +290,9 @@ impl Sink for Both<'_> {
         let why = match fault.kind {
             FaultKind::EndlessLoop { proved: true, .. } => "a loop that never ends".to_owned(),
             FaultKind::EndlessLoop { blocks, .. } => {
-                format!("no end within {blocks} executed blocks; use --max-steps N or raise `steps` of [limits] in trunnion.toml")
+                format!(
+                    "no end within {blocks} executed blocks; use --max-steps N or raise `steps` of [limits] in trunnion.toml"
+                )
             }
             FaultKind::NotDecided { what } => format!("not decided: {what}"),
             FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),

@@ -24,9 +24,14 @@ fn folder() -> TempDir {
 
 /// The number after a text.
 fn number_after(said: &str, before: &str) -> u64 {
-    let rest = said.split(before).nth(1).unwrap_or_else(|| panic!("no `{before}` in {said}"));
+    let rest = said
+        .split(before)
+        .nth(1)
+        .unwrap_or_else(|| panic!("no `{before}` in {said}"));
     let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
-    digits.parse().unwrap_or_else(|_| panic!("no number after `{before}` in {said}"))
+    digits
+        .parse()
+        .unwrap_or_else(|_| panic!("no number after `{before}` in {said}"))
 }
 
 /// `steps` and the blocks of the program's own text.
@@ -44,12 +49,21 @@ fn a_report_draws_no_more_steps_than_the_bound() {
     let run = number_after(&said, "no end within ");
     assert!(run >= STEPS && run <= most(), "{run} blocks: {said}");
     let page = fs::read_to_string(folder.path().join("page.html")).expect("written");
-    let lines = page.split("\"lines\":[").nth(1).expect("a replay").split(']').next().expect("a list");
+    let lines = page
+        .split("\"lines\":[")
+        .nth(1)
+        .expect("a replay")
+        .split(']')
+        .next()
+        .expect("a list");
     let points = lines.split(',').count() as u64;
     // a line of the loop moves once in three blocks, and has two ends
     assert!(points > STEPS / 3 && points <= most(), "{points} points");
     // the check of the page goes on to the end
-    assert!(page.contains("50002 motions") || page.contains("50 002 motions"), "the verdict covers the whole run");
+    assert!(
+        page.contains("50002 motions") || page.contains("50 002 motions"),
+        "the verdict covers the whole run"
+    );
 }
 
 #[test]
@@ -57,12 +71,24 @@ fn a_comparison_of_machines_ends_at_the_bound_and_says_so() {
     let folder = folder();
     let source = trunnion::machine::builtin_source("mikron-ucp710").expect("embedded");
     let axes = source.split("[[check]]").next().expect("a part");
-    let moved = axes.replacen("dir = [1, 0, 0]\npoint = [0, 0, 0]", "dir = [1, 0, 0]\npoint = [0, 0.05, 0]", 1);
+    let moved = axes.replacen(
+        "dir = [1, 0, 0]\npoint = [0, 0, 0]",
+        "dir = [1, 0, 0]\npoint = [0, 0.05, 0]",
+        1,
+    );
     assert_ne!(moved, axes);
     let truth = write(&folder, "measured.toml", &moved);
     // only the last block, which the run does not reach, shows the difference
     let compare = |more: &[&str]| {
-        let arguments = ["machine", "compare", "mikron-ucp710", str(&truth), "loop.nc", "--tolerance-mm", "0.01"];
+        let arguments = [
+            "machine",
+            "compare",
+            "mikron-ucp710",
+            str(&truth),
+            "loop.nc",
+            "--tolerance-mm",
+            "0.01",
+        ];
         trunnion_in(folder.path(), &[&arguments[..], more].concat())
     };
     let output = compare(&[]);
@@ -70,7 +96,10 @@ fn a_comparison_of_machines_ends_at_the_bound_and_says_so() {
     assert_eq!(status(&output), 1, "{said}");
     let motions = number_after(&said, "the worst of ");
     assert!(motions > STEPS / 4 && motions <= STEPS, "{motions} motions: {said}");
-    assert!(said.contains("\nUNKNOWN: ") && said.contains("not followed from line 8 on"), "{said}");
+    assert!(
+        said.contains("\nUNKNOWN: ") && said.contains("not followed from line 8 on"),
+        "{said}"
+    );
     let run = number_after(&said, "no end within ");
     assert!(run >= STEPS && run <= most(), "{run} blocks: {said}");
     let output = compare(&["--max-steps", "1000000"]);

@@ -100,7 +100,10 @@ fn what_has_no_meaning_stays_as_near_to_its_number_as_it_is() {
     for (before, after) in [
         ("WHILE\nN10/\nX1", "WHILE\nN10/\n  X1\n"),
         ("WHILE\nN10 /\n", "WHILE\nN10   /\n"),
-        ("WHILE[#1LT2]DO1\nN10@\nN20X1\nEND1\n", "WHILE[#1LT2] DO1\nN10@\nN20   X1\nEND1\n"),
+        (
+            "WHILE[#1LT2]DO1\nN10@\nN20X1\nEND1\n",
+            "WHILE[#1LT2] DO1\nN10@\nN20   X1\nEND1\n",
+        ),
     ] {
         assert_eq!(laid(before, "fanuc-30i"), after, "{before:?}");
     }

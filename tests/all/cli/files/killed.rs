@@ -108,7 +108,11 @@ fn a_killed_check_leaves_whole_entries_in_its_cache() {
         let (temporary, kept): (Vec<_>, Vec<_>) = left.iter().partition(|name| name.ends_with(".trunnion-tmp"));
         assert!(temporary.len() <= 1 && kept.len() <= 1, "run {run}: {left:?}");
         for own in kept {
-            assert_eq!((own, fs::read(cache.join(own)).expect("readable")), (name, entry.clone()), "run {run}");
+            assert_eq!(
+                (own, fs::read(cache.join(own)).expect("readable")),
+                (name, entry.clone()),
+                "run {run}"
+            );
         }
         // the next run says the same, whatever was left, and cleans up
         assert_eq!(trunnion_in(folder.path(), &arguments).stdout, new, "run {run}");

@@ -51,7 +51,10 @@ fn closed_and_full_streams_keep_the_status_of_the_verdict() {
             format!("$T report {bad} --machine mikron-ucp710 -o - 2>/dev/null | true; exit ${{PIPESTATUS[0]}}"),
             1,
         ),
-        (format!("$T report {bad} --machine mikron-ucp710 -o - >/dev/full 2>/dev/null"), 2),
+        (
+            format!("$T report {bad} --machine mikron-ucp710 -o - >/dev/full 2>/dev/null"),
+            2,
+        ),
         (format!("$T fmt --check {good} > /dev/full 2>/dev/full"), 0),
         (
             format!("$T trace {bad} --machine mikron-ucp710 2>/dev/null | true; exit ${{PIPESTATUS[0]}}"),

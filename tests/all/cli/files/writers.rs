@@ -85,7 +85,11 @@ pub(super) const WRITERS: &[Writer] = &[
         &["other.mpf"],
     ),
     writer("report -o", "report flip.nc -o page.html", &["page.html"]),
-    writer("check -o", "check flip.nc --format sarif -o found.sarif", &["found.sarif"]),
+    writer(
+        "check -o",
+        "check flip.nc --format sarif -o found.sarif",
+        &["found.sarif"],
+    ),
     writer(
         "check --write-baseline",
         "check flip.nc --write-baseline known.json",

@@ -7,7 +7,7 @@ use std::{
     fmt::Write,
     path::{Path, PathBuf},
 };
-use trunnion_files::{read, write_kept};
+use trunnion_files::{read, sweep_beside, write_kept};
 
 /// Entries larger than this are not read, bytes.
 const LARGEST: u64 = 64 << 20;
@@ -21,6 +21,8 @@ impl Cache {
     /// The folder is made if it is not there.
     pub(super) fn open(folder: &Path) -> Result<Self, Failure> {
         std::fs::create_dir_all(folder).map_err(|error| Failure::io(folder, "make the folder of the cache", &error))?;
+        // what killed runs left there
+        sweep_beside(&folder.join("entry"));
         Ok(Self {
             folder: folder.to_owned(),
         })

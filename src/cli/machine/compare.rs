@@ -3,7 +3,7 @@ use crate::cli::out::Out;
 use crate::cli::{
     Done,
     args::Global,
-    failure::{Failure, remark},
+    failure::{Failure, remark, shown},
     load,
 };
 use std::io::Write;
@@ -65,7 +65,7 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
         sweep(&comparison, &believed, options, &mut out)?
     };
     let verdict = found.verdict(options.tolerance_mm, everywhere);
-    writeln!(out, "{verdict}")?;
+    out.text(&format!("{verdict}\n"));
     Ok(if verdict.starts_with("PASS") {
         Done::Clean
     } else {
@@ -242,7 +242,7 @@ fn program(
         out,
         &format!(
             "{}:{line}, the worst of {}",
-            loaded.name,
+            shown(&loaded.name),
             crate::cli::verdict::counted(both.compared as u64, "motion")
         ),
         machine,

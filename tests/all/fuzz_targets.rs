@@ -38,7 +38,15 @@ fn seeds_select_the_dialect_of_their_name() {
         assert!(dialect.contains(stem) || name == "fanuc-7", "{name} selects {dialect}");
         dialects.insert(dialect);
     }
-    for control in ["apt", "heidenhain-klartext", "okuma-osp", "sinumerik-840d", "fanuc-30i", "haas-ngc", "linuxcnc"] {
+    for control in [
+        "apt",
+        "heidenhain-klartext",
+        "okuma-osp",
+        "sinumerik-840d",
+        "fanuc-30i",
+        "haas-ngc",
+        "linuxcnc",
+    ] {
         assert!(dialects.contains(control), "no seed for {control}");
     }
 }

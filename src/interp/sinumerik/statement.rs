@@ -181,7 +181,10 @@ impl Statement<'_> {
             let end = from + self.text.bytes()[from..].iter().take_while(inside).count();
             let operand = String::from_utf8_lossy(&self.text.bytes()[from..end]).into_owned();
             self.text.go_to(end);
-            let number = self.own.value(&operand).filter(|value| value.fract() == 0.0 && value.abs() < 1e9);
+            let number = self
+                .own
+                .value(&operand)
+                .filter(|value| value.fract() == 0.0 && value.abs() < 1e9);
             let Some(number) = number else {
                 let what = format!("`{operand}`, a part of the target of a jump: no whole number is known for it");
                 return not_decided(self.text.range(from, end), what);

@@ -108,8 +108,14 @@ fn words_that_move_an_axis_are_said() {
         "MEASA[X]=(1,1) X5",
     ] {
         let text = format!("G1 X0 Y0 Z0 F9\n{block}\nY5\n");
-        assert!(faults(NAME, &text).iter().any(|fault| fault.contains("NotModelled")), "{block}");
-        assert!(run_text(NAME, &text).motions.last().expect("one").end.xyz().is_none(), "{block}");
+        assert!(
+            faults(NAME, &text).iter().any(|fault| fault.contains("NotModelled")),
+            "{block}"
+        );
+        assert!(
+            run_text(NAME, &text).motions.last().expect("one").end.xyz().is_none(),
+            "{block}"
+        );
     }
 }
 

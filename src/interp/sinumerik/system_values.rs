@@ -53,7 +53,11 @@ impl Iso<'_> {
             put(format!("$p_ep[{letter}]"), value);
             put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
             let linear_frame = self.memory.frames.shape.linear.is_some();
-            let shift = frame.shift().get(axis).copied().unwrap_or(self.memory.frames.local[axis]);
+            let shift = frame
+                .shift()
+                .get(axis)
+                .copied()
+                .unwrap_or(self.memory.frames.local[axis]);
             put(
                 format!("$p_pframe[{letter},tr]"),
                 Some(shift / scale).filter(|_| plain && !linear_frame),

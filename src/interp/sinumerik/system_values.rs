@@ -52,7 +52,6 @@ impl Iso<'_> {
             let value = here.get(axis).filter(|_| plain).map(|value| value / scale);
             put(format!("$p_ep[{letter}]"), value);
             put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
-            let linear_frame = self.memory.frames.shape.linear.is_some();
             let shift = frame
                 .shift()
                 .get(axis)
@@ -60,7 +59,7 @@ impl Iso<'_> {
                 .unwrap_or(self.memory.frames.local[axis]);
             put(
                 format!("$p_pframe[{letter},tr]"),
-                Some(shift / scale).filter(|_| plain && !linear_frame),
+                Some(shift / scale).filter(|_| plain && self.memory.frames.shape.linear.is_none()),
             );
             let angle = angles.and_then(|angles| angles.get(axis).copied());
             put(format!("$p_pframe[{letter},rt]"), angle);

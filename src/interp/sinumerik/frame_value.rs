@@ -12,7 +12,7 @@ use crate::iso::Iso;
 use crate::own::arguments;
 use crate::reader::Reader;
 use crate::words::Words;
-use trunnion_geometry::{Mat3, Vec3};
+use trunnion_geometry::Vec3;
 use trunnion_syntax::{TextRange, Word};
 
 /// Frames in one chain.

@@ -21,7 +21,7 @@ pub(crate) use linear::Linear;
 pub(crate) use polar::Polar;
 pub(crate) use reference::Return;
 pub(crate) use shape::{Rotation, Scaling, Shape, sin_cos_degrees};
-pub(crate) use solid::{angles_of, by_traces, is_rigid};
+pub(crate) use solid::{FrameValue, angles_of, by_traces, is_rigid};
 pub(crate) use tilt::Tilted;
 
 use crate::codes::{BlockCodes, Found};

@@ -17,8 +17,8 @@ mod system_values;
 mod text;
 mod words;
 
+pub(crate) use crate::frames::FrameValue;
 pub(crate) use call::{Level, With, too_deep};
-pub(crate) use frame_value::FrameValue;
 pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};

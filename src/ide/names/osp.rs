@@ -1,6 +1,7 @@
 //! Names of Okuma programs: programs (`OPART`), sequence names (`NLOOP`), variables (`V1`, `VC5`, and the names that the program writes). Names are
 //! compared as text: N0123 is not N123.
 use super::{Kind, Names, Role, Scope};
+use std::collections::BTreeSet;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Program, TextRange};
 
@@ -25,7 +26,7 @@ pub(super) fn read(program: &Program, dialect: &Dialect, found: &mut Names) {
                 .is_some_and(|byte| byte.is_ascii_alphabetic())
             && dialect.named_role(word.name.as_bytes()).is_none()
     };
-    let of = |with_calls: bool| -> Vec<&str> {
+    let of = |with_calls: bool| -> BTreeSet<&str> {
         let some = blocks.iter().filter(|(_, words)| !with_calls || calls(words));
         let all = some.flat_map(|(_, words)| words);
         all.filter(|word| word.assigned && is_own(word))
@@ -54,17 +55,17 @@ pub(super) fn read(program: &Program, dialect: &Dialect, found: &mut Names) {
                 add(found, *id, word, Kind::Program, Role::Read);
             } else if jump && word.name.starts_with('N') && is_name(word) && word.name != "NE" {
                 add(found, *id, word, Kind::Label, Role::Read);
-            } else if numbered(&word.name) || written.contains(&word.name.as_str()) {
+            } else if numbered(&word.name) || written.contains(word.name.as_str()) {
                 let role = if word.assigned { Role::Write } else { Role::Read };
                 let part = Scope::Part(found.part_of(trunnion_syntax::BlockId(*id)));
-                let shared = numbered(&word.name) || handed.contains(&word.name.as_str());
+                let shared = numbered(&word.name) || handed.contains(word.name.as_str());
                 let scope = if shared { Scope::Shared } else { part };
                 found.add(word.range, Kind::Variable, role, &word.name, scope);
             }
         }
     }
     // a sequence name that nothing refers to is a number of its block
-    let asked: Vec<(Box<str>, Scope)> = (found
+    let asked: BTreeSet<(Box<str>, Scope)> = (found
         .all
         .iter()
         .filter(|one| one.kind == Kind::Label && one.role == Role::Read))

@@ -172,7 +172,7 @@ impl<'d> Iso<'d> {
     }
 
     /// The same for a frame that turns out of the plane; false: it is not followed.
-    pub(crate) fn replace_solid(&mut self, frame: &crate::sinumerik::FrameValue) -> bool {
+    pub(crate) fn replace_solid(&mut self, frame: &super::FrameValue) -> bool {
         let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
         if !self.set_solid(frame) {

@@ -9,9 +9,45 @@ use crate::FrameAngles;
 use crate::arc::plane_axes;
 use crate::frames::tilt::turn_about;
 use crate::iso::Iso;
-use crate::sinumerik::FrameValue;
 use trunnion_geometry::math::{atan2, hypot};
 use trunnion_geometry::{Mat3, Vec3};
+
+/// A point p of the frame is at `turn` p + `shift` outside, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FrameValue {
+    pub(crate) turn: Mat3,
+    pub(crate) shift: Vec3,
+}
+
+impl Default for FrameValue {
+    fn default() -> Self {
+        Self {
+            turn: Mat3::identity(),
+            shift: Vec3::zeros(),
+        }
+    }
+}
+
+impl FrameValue {
+    pub(crate) fn new(turn: Mat3, shift: Vec3) -> Self {
+        Self { turn, shift }
+    }
+    pub(crate) fn turn(&self) -> Mat3 {
+        self.turn
+    }
+    pub(crate) fn shift(&self) -> Vec3 {
+        self.shift
+    }
+    pub(crate) fn then(&self, inner: &Self) -> Self {
+        Self {
+            turn: self.turn * inner.turn,
+            shift: self.shift + self.turn * inner.shift,
+        }
+    }
+    pub(crate) fn turns(&self) -> bool {
+        self.turn != Mat3::identity()
+    }
+}
 
 /// Rounding of a matrix.
 const TINY: f64 = 1e-12;

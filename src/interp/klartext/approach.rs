@@ -247,14 +247,7 @@ impl Klartext<'_> {
                 }
             })
         })();
-        // the depth comes last (TNC 640)
-        let steps = steps.and_then(|mut steps| {
-            let depth = normal.dot(&(end.xyz()? - start.xyz()?));
-            if depth.abs() > 1e-9 {
-                steps.push((steps.last()?.0 + normal * depth, None));
-            }
-            Some(steps)
-        });
+        let steps = steps.and_then(|steps| depth_last(steps, normal, start.xyz()?, end.xyz()?));
         let Some(steps) = steps else {
             if form == Form::Normal {
                 Self::not_modelled("DEP LN: the tool radius", report);
@@ -308,6 +301,18 @@ impl Approach {
             }
         }
     }
+}
+
+/// The points and arcs of a way.
+type Steps = Vec<(Vec3, Option<Arc>)>;
+
+/// A departure in the plane, and its depth behind it (TNC 640).
+fn depth_last(mut steps: Steps, normal: Vec3, start: Vec3, end: Vec3) -> Option<Steps> {
+    let depth = normal.dot(&(end - start));
+    if depth.abs() > 1e-9 {
+        steps.push((steps.last()?.0 + normal * depth, None));
+    }
+    Some(steps)
 }
 
 /// The arc of a given turn; `None` where it turns by nothing.

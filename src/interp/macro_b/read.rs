@@ -362,9 +362,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             }
             Class::System(3000) if macros.mode == Mode::Follow => return self.alarm(held),
             Class::System(3006) if macros.mode == Mode::Follow => return,
-            Class::System(number)
-                if is_followed(number, is_fanuc(self.dialect)) && held.is_some_and(f64::is_finite) =>
-            {
+            Class::System(number) if is_followed(number, self.dialect) && held.is_some_and(f64::is_finite) => {
                 macros.deep().writes.push((number, held.unwrap_or(0.0)));
                 return;
             }

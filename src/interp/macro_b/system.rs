@@ -2,11 +2,12 @@
 //!
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
+use super::alarms::is_fanuc;
 use crate::frames::Frames;
 use crate::iso::Iso;
 use crate::memory::Memory;
 use crate::{FeedMode, ModalState, Setup};
-use trunnion_dialect::{Action, Plane};
+use trunnion_dialect::{Action, Dialect, Plane};
 
 /// What a variable of the control is, for messages about why its value is unknown.
 pub(crate) fn what(number: u32) -> &'static str {
@@ -208,8 +209,8 @@ fn offset_of(number: u32) -> Option<(Option<String>, usize)> {
 }
 
 /// Whether the run follows what an assignment to a system variable changes.
-pub(crate) fn is_followed(number: u32, fanuc: bool) -> bool {
-    (fanuc || number < 7000) && offset_of(number).is_some()
+pub(crate) fn is_followed(number: u32, dialect: &Dialect) -> bool {
+    (is_fanuc(dialect) || number < 7000) && offset_of(number).is_some()
 }
 
 impl Iso<'_> {

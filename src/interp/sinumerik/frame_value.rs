@@ -7,53 +7,16 @@
 //! order several angles of CROT turn is machine data (10600, [control] frame_angles), and fine shifts and rotations of work offsets are not followed.
 use crate::FaultKind;
 use crate::core::Report;
-use crate::frames::{Linear, OffsetValues, angles_of, by_traces};
+use crate::frames::{FrameValue, Linear, OffsetValues, angles_of, by_traces};
 use crate::iso::Iso;
 use crate::own::arguments;
 use crate::reader::Reader;
 use crate::words::Words;
-use trunnion_geometry::{Mat3, Vec3};
+use trunnion_geometry::Vec3;
 use trunnion_syntax::{TextRange, Word};
 
 /// Frames in one chain.
 const LONGEST: usize = 64;
-
-/// A point p of the frame is at `turn` p + `shift` outside, mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FrameValue {
-    turn: Mat3,
-    shift: Vec3,
-}
-
-impl Default for FrameValue {
-    fn default() -> Self {
-        Self {
-            turn: Mat3::identity(),
-            shift: Vec3::zeros(),
-        }
-    }
-}
-
-impl FrameValue {
-    pub(crate) fn new(turn: Mat3, shift: Vec3) -> Self {
-        Self { turn, shift }
-    }
-    pub(crate) fn turn(&self) -> Mat3 {
-        self.turn
-    }
-    pub(crate) fn shift(&self) -> Vec3 {
-        self.shift
-    }
-    pub(crate) fn then(&self, inner: &Self) -> Self {
-        Self {
-            turn: self.turn * inner.turn,
-            shift: self.shift + self.turn * inner.shift,
-        }
-    }
-    fn turns(&self) -> bool {
-        self.turn != Mat3::identity()
-    }
-}
 
 /// Where a written frame goes.
 enum Target {

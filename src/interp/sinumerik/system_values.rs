@@ -22,6 +22,13 @@ impl Iso<'_> {
         }
     }
 
+    /// The angles that a frame reads back as, in the order of machine data 10600.
+    fn frame_angles(&self, frame: &super::FrameValue) -> Option<[f64; 3]> {
+        let is_rpy = self.core.setup.control.frame_angles == Some(crate::FrameAngles::RollPitchYaw);
+        let turn = frame.turn();
+        (is_rpy && crate::frames::is_rigid(&turn)).then(|| crate::frames::angles_of(&turn))
+    }
+
     /// System variables with a value that follows from the program; all others are unknown by name.
     fn system_values(&mut self) -> BTreeMap<Box<str>, f64> {
         let mut known: BTreeMap<Box<str>, f64> = BTreeMap::new();
@@ -36,10 +43,7 @@ impl Iso<'_> {
         let own_plane = self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed);
         let plain = !self.core.unknown.any() && !self.core.state.zero.is_lost() && own_plane;
         let frame = self.programmable();
-        // the angles that a frame reads back as are those of machine data 10600
-        let angles = (self.core.setup.control.frame_angles == Some(crate::FrameAngles::RollPitchYaw))
-            .then(|| crate::frames::angles_of(&frame.turn()))
-            .filter(|_| plain && crate::frames::is_rigid(&frame.turn()));
+        let angles = self.frame_angles(&frame).filter(|_| plain);
         let cutting_on_path = self.core.state.compensation == 0 && !self.memory.corners.is_busy();
         for (axis, letter) in crate::AXIS_LETTERS.iter().enumerate() {
             let linear = crate::core::LINEAR & (1 << axis) != 0;
@@ -48,15 +52,14 @@ impl Iso<'_> {
             let value = here.get(axis).filter(|_| plain).map(|value| value / scale);
             put(format!("$p_ep[{letter}]"), value);
             put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
-            let linear_frame = self.memory.frames.shape.linear.is_some();
-            let shift = if axis < 3 {
-                frame.shift()[axis]
-            } else {
-                self.memory.frames.local[axis]
-            };
+            let shift = frame
+                .shift()
+                .get(axis)
+                .copied()
+                .unwrap_or(self.memory.frames.local[axis]);
             put(
                 format!("$p_pframe[{letter},tr]"),
-                Some(shift / scale).filter(|_| plain && !linear_frame),
+                Some(shift / scale).filter(|_| plain && self.memory.frames.shape.linear.is_none()),
             );
             let angle = angles.and_then(|angles| angles.get(axis).copied());
             put(format!("$p_pframe[{letter},rt]"), angle);
@@ -96,12 +99,10 @@ impl Iso<'_> {
         );
         put("$p_toolno".to_owned(), self.core.state.tool.number().map(f64::from));
         put("$p_tool".to_owned(), self.memory.edge.map(f64::from));
-        let plane = match self.core.state.coordinates.plane() {
-            trunnion_dialect::Plane::Xy => 1.0,
-            trunnion_dialect::Plane::Zx => 2.0,
-            trunnion_dialect::Plane::Yz => 3.0,
-        };
-        put("$p_gg[6]".to_owned(), Some(plane));
+        put(
+            "$p_gg[6]".to_owned(),
+            Some(plane_code(self.core.state.coordinates.plane())),
+        );
         put(
             "$p_mc".to_owned(),
             Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
@@ -111,5 +112,14 @@ impl Iso<'_> {
             put(name.to_owned(), Some(0.0));
         }
         known
+    }
+}
+
+/// The number of the plane's code in its group.
+fn plane_code(plane: trunnion_dialect::Plane) -> f64 {
+    match plane {
+        trunnion_dialect::Plane::Xy => 1.0,
+        trunnion_dialect::Plane::Zx => 2.0,
+        trunnion_dialect::Plane::Yz => 3.0,
     }
 }

@@ -218,7 +218,10 @@ fn what_depends_on_the_unknown_is_not_decided() {
             "DEF STRING[8] GOAL\nGOTOF GOAL\nM30\n",
             "3 `GOAL` not decided: GOAL: the target of a jump in a variable",
         ),
-        ("GOTOF \"N\"<<R10\nM30\n", "2 `\"N\"` not decided"),
+        (
+            "GOTOF \"N\"<<R10\nM30\n",
+            "2 `R10` not decided: `R10`, a part of the target",
+        ),
         (
             "R1=0.1+0.2\nIF R1==0.3 GOTOF LA\nLA: M30\n",
             "3 `R1==0.3` not decided: R1==0.3: the control",

@@ -125,8 +125,8 @@ impl Tools {
         self.lengths_reported.first(tool)
     }
     /// What is declared about the tool of a number, or the one in use, merged; `None` when nothing is declared and its number is unknown. In
-    /// order of precedence: what blocks of the program define, number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup. A
-    /// program that names no tool uses the only one that its comments declare.
+    /// order of precedence: what blocks of the program define, number 0 of the setup (the tool in use whatever its number), APT CUTTER, the
+    /// program's comments, the setup. A program that names no tool uses the only one that its comments declare.
     pub(crate) fn data(&self, number: Option<u32>, setup: &Setup) -> Option<Tool> {
         let declared = &self.declared;
         let unnamed = self.in_spindle == Chosen::Nothing;

@@ -1,4 +1,4 @@
-//! Numbers that may not be negative.
+//! Numbers that may not be negative, or have no decimal point.
 use crate::Refusal;
 use crate::codes::BlockCodes;
 use crate::core::Report;
@@ -7,7 +7,8 @@ use crate::words::Words;
 use trunnion_dialect::Macros;
 
 impl Iso<'_> {
-    /// P of a dwell takes no decimal point on a Fanuc (B-63944EN, Dwell (G04): X in seconds takes one, P in milliseconds does not). S, T, H, D, and the time of a dwell: a Fanuc refuses a minus there (alarm PS0006, illegal use of the minus sign).
+    /// S, T, H, D, and the time of a dwell: a Fanuc refuses a minus there (alarm PS0006, illegal use of the minus sign). P of a dwell takes no
+    /// decimal point on a Fanuc (FANUC Series 30i operator's manual B-63944EN, Dwell (G04): X takes one).
     pub(super) fn signs(&self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
         let said = [
             ("S", words.speed),

@@ -132,11 +132,8 @@ fn walk(
             continue;
         }
         let otherwise = claim.refit.is_none() && curve::said_otherwise(was, is, [before, after]);
-        let mut found = pair(was, is, judged, judge, &mut open);
-        if let (true, Ok(_), Item::Motion(was), Item::Motion(is)) = (otherwise, &found, &*was, &*is) {
-            found = Err(curve::unlike(was, is));
-        }
-        let moved_on = match found {
+        let found = pair(was, is, judged, judge, &mut open);
+        let moved_on = match curve::as_said(found, was, is, otherwise) {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
             Ok(Paired::SecondInPart) => (false, true),

@@ -56,6 +56,14 @@ pub(crate) fn said_otherwise(was: &Item, is: &Item, [before, after]: [&Steps<'_>
         && words(before, was.motion.block) != words(after, is.motion.block)
 }
 
+/// What was found, unless two motions pass that are said `otherwise`.
+pub(crate) fn as_said<T>(found: Result<T, Verdict>, was: &Item, is: &Item, otherwise: bool) -> Result<T, Verdict> {
+    match (found, was, is) {
+        (Ok(_), Item::Motion(was), Item::Motion(is)) if otherwise => Err(unlike(was, is)),
+        (found, ..) => found,
+    }
+}
+
 /// What a block says about its curve: all from its first word of a curve on.
 fn words<'s>(steps: &'s Steps<'_>, block: BlockId) -> &'s [u8] {
     let program = steps.input().program;

@@ -96,7 +96,9 @@ fn linuxcnc_gets_g5_where_its_arcs_are_declared() {
     let mut settings = settings("linuxcnc");
     settings.setup.control.spline_arcs_mm = Some(0.002);
     let mut points = curve(&[(2.0, 5.0, 0.0), (3.0, 4.0, 1.0)], 200);
-    points.iter_mut().for_each(|point| point.z = 0.0);
+    for point in &mut points {
+        point.z = 0.0;
+    }
     let head = "G21 G17 G90 G94 G54 G40 G80 G64";
     let text = lines(head, &points, 4).replace("M30", "M2");
     let (after, certificate) = fitted(&text, &settings, &options(0.01, RefitSource::Chords));

@@ -13,10 +13,8 @@ pub(super) fn read(program: &Program, found: &mut Names) {
             match text[at] {
                 b'"' => quoted = !quoted,
                 b';' if !quoted => {
-                    at += text[at..]
-                        .iter()
-                        .position(|byte| *byte == b'\n')
-                        .unwrap_or(text.len() - at)
+                    let end = text[at..].iter().position(|byte| *byte == b'\n');
+                    at += end.unwrap_or(text.len() - at);
                 }
                 b'Q' | b'q' if !quoted => {
                     let end = parameter(text, at, range.start, found);

@@ -119,11 +119,8 @@ fn words(program: &Program, range: TextRange) -> Vec<Word> {
     while at < text.len() {
         match text[at] {
             b'(' => {
-                at += text[at..]
-                    .iter()
-                    .position(|byte| matches!(byte, b')' | b'\n'))
-                    .unwrap_or(text.len() - at)
-                    + 1
+                let end = text[at..].iter().position(|byte| matches!(byte, b')' | b'\n'));
+                at += end.unwrap_or(text.len() - at) + 1;
             }
             byte if byte.is_ascii_alphabetic() => {
                 let length = text[at..]

@@ -54,6 +54,22 @@ fn euler(turn: &Mat3) -> [f64; 3] {
     [precession, nutation, rotation].map(f64::to_degrees)
 }
 
+/// The forms of a programmable frame of a Sinumerik that turns by angles about Z, the new Y, the new X.
+fn turns(a: f64, b: f64, c: f64) -> [(&'static str, String); 4] {
+    [
+        (
+            "ROT Z, AROT Y, AROT X",
+            format!("ROT Z{c:.13}\nAROT Y{b:.13}\nAROT X{a:.13}\n"),
+        ),
+        ("ROT X Y Z", format!("ROT Y{b:.13} X{a:.13} Z{c:.13}\n")),
+        ("CROT", format!("$P_PFRAME=CROT(X,{a:.13},Y,{b:.13},Z,{c:.13})\n")),
+        (
+            "CROT chain",
+            format!("$P_PFRAME=CROT(Z,{c:.13}):CROT(Y,{b:.13}):CROT(X,{a:.13})\n"),
+        ),
+    ]
+}
+
 /// The forms of a plane: name, control, and the blocks that begin it.
 fn forms(turn: &Mat3) -> Vec<(String, &'static str, String)> {
     let mut forms = Vec::new();
@@ -71,20 +87,7 @@ fn forms(turn: &Mat3) -> Vec<(String, &'static str, String)> {
         forms.push((format!("CYCLE800 {mode}"), SIEMENS, call));
     }
     let [c, b, a] = angles([2, 1, 0], turn);
-    for (name, blocks) in [
-        (
-            "ROT Z, AROT Y, AROT X",
-            format!("ROT Z{c:.13}\nAROT Y{b:.13}\nAROT X{a:.13}\n"),
-        ),
-        ("ROT X Y Z", format!("ROT Y{b:.13} X{a:.13} Z{c:.13}\n")),
-        ("CROT", format!("$P_PFRAME=CROT(X,{a:.13},Y,{b:.13},Z,{c:.13})\n")),
-        (
-            "CROT chain",
-            format!("$P_PFRAME=CROT(Z,{c:.13}):CROT(Y,{b:.13}):CROT(X,{a:.13})\n"),
-        ),
-    ] {
-        forms.push((name.to_owned(), SIEMENS, blocks));
-    }
+    forms.extend(turns(a, b, c).map(|(name, blocks)| (name.to_owned(), SIEMENS, blocks)));
     let [i, j, k] = euler(turn);
     let [x, y, z] = [0, 1, 2].map(|column| Vec3::from(turn.column(column)));
     let mut klartext = |form: &str, words: String| {

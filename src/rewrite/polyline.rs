@@ -2,7 +2,9 @@
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, may_return_to_numbers, run};
+use trunnion_interp::{
+    ChainId, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, may_return_to_numbers, run,
+};
 use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
 
 /// One line of a chain.

@@ -181,7 +181,12 @@ fn parts_or(
         && !ends_together(was, is, claim)
         && held(was, is, claim).is_ok()
         && (may_be_part(is, was, next(after, claim).as_ref(), claim)
-            || may_be_part(was, is, again.pop_front().or_else(|| next(before, claim)).as_ref(), claim))
+            || may_be_part(
+                was,
+                is,
+                again.pop_front().or_else(|| next(before, claim)).as_ref(),
+                claim,
+            ))
     {
         found.what += "; one motion may be a part of the other, but their path up to here is unknown";
         return Verdict::Unknown(found.clone());

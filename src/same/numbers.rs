@@ -14,7 +14,9 @@ pub(crate) fn watch(input: &Input<'_>, interpreter: &mut Interpreter<'_>) -> Opt
 
 /// Whether an item is a block number.
 pub(crate) fn is_one(item: &Item) -> bool {
-    let Item::Happens { words, .. } = item else { return false };
+    let Item::Happens { words, .. } = item else {
+        return false;
+    };
     matches!(&words[..], [word] if is_block_number(word))
 }
 

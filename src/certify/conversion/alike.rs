@@ -136,8 +136,7 @@ impl Proof<'_> {
             .zip(&shifts(new))
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
-            let why =
-                "the original program shifts the zero point (G52, G92, G10, TRANS), and a conversion writes no shifts: put the shift into the \
+            let why = "the original program shifts the zero point (G52, G92, G10, TRANS), and a conversion writes no shifts: put the shift into the \
                  coordinates or into a work offset of its own, and convert that program";
             return self.refute(is, why.to_owned());
         }

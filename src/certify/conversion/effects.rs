@@ -171,7 +171,9 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
         let line = line(was.reading, *old_block);
         let (one, other) = (one.to_string(), other.to_string());
         let message = if one == other {
-            format!("at {one} (line {line} of the original) spindle or coolant are in another state than in the original")
+            format!(
+                "at {one} (line {line} of the original) spindle or coolant are in another state than in the original"
+            )
         } else {
             format!(
                 "{other} takes the place of {one} (line {line} of the original), or spindle or coolant are in a different state there"

@@ -352,7 +352,11 @@ impl Proof<'_> {
         let all: Option<Vec<f64>> = new.iter().map(per_turn).collect();
         if let (Some(was), Some(all)) = (per_turn(old), all) {
             for now in all {
-                let share = if was == now { 0.0 } else { (was - now).abs() / was.min(now) };
+                let share = if was == now {
+                    0.0
+                } else {
+                    (was - now).abs() / was.min(now)
+                };
                 if above(share, PER_TURN_SHARE) {
                     let message = format!("the feed is {now:.6} mm/rev, and {was:.6} mm/rev in the original");
                     return self.refute(is, message);

@@ -355,7 +355,10 @@ fn work_offset(
             return Err(at(value, "a work offset must be a number in mm or degrees: `X = 0.0`"));
         }
         if value.get_ref().abs() > MOST_OFFSET {
-            return Err(at(value, "a work offset must be at most 1000000 mm or degrees: no machine is larger"));
+            return Err(at(
+                value,
+                "a work offset must be at most 1000000 mm or degrees: no machine is larger",
+            ));
         }
         offset.values[usize::from(axis.0)] = *value.get_ref();
     }

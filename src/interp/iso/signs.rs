@@ -19,7 +19,8 @@ impl Iso<'_> {
         ];
         let has_point = words.p.number().is_some_and(|number| number.has_point);
         if block.dwell && has_point && self.core.dialect.quirks.macros == Macros::Fanuc {
-            let message = "P of a dwell takes no decimal point: it is in milliseconds; X takes one, in seconds".to_owned();
+            let message =
+                "P of a dwell takes no decimal point: it is in milliseconds; X takes one, in seconds".to_owned();
             self.refuse(words, Refusal::Number, message, None, report);
         }
         for (name, value) in said {

@@ -164,7 +164,10 @@ impl Klartext<'_> {
 
     /// Whether the plane is turned against the part: one of zero angles is not.
     pub(crate) fn is_tilted(&self) -> bool {
-        self.memory.frames.tilt.is_some_and(|tilt| tilt.turn != Mat3::identity())
+        self.memory
+            .frames
+            .tilt
+            .is_some_and(|tilt| tilt.turn != Mat3::identity())
     }
 
     /// Positions are in the coordinates of another plane from here on; the machine stays where it is.

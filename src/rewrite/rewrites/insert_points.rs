@@ -170,7 +170,9 @@ impl Writer<'_> {
             return Err(refused("coordinates are incremental (G91)"));
         }
         if matches!(line.leg.motion.feed, Feed::InverseTime(_)) {
-            return Err(refused("the feed is inverse time (G93): each piece would need an F of its own"));
+            return Err(refused(
+                "the feed is inverse time (G93): each piece would need an F of its own",
+            ));
         }
         let view = self.program.block(line.leg.motion.block);
         let slots: Slots = slots(self.program, &view, self.scheme).map_err(refused)?;

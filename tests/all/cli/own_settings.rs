@@ -3,7 +3,8 @@ use super::tools::{status, text, trunnion_in};
 use std::fs;
 use tempfile::TempDir;
 
-const PROGRAM: &str = "%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nS1000 M3\nG0 G43 H1 X0. Y0. Z50.\nG1 X10. F100.\nM5\nM30\n%\n";
+const PROGRAM: &str =
+    "%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nS1000 M3\nG0 G43 H1 X0. Y0. Z50.\nG1 X10. F100.\nM5\nM30\n%\n";
 const SETTINGS: &str = "[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n[[tool]]\nnumber = 1\nlength = 80\n";
 
 /// `a` has settings in the folder above it, `b` its own.
@@ -19,7 +20,15 @@ fn folders(own: &str) -> TempDir {
 }
 
 fn certify(folder: &TempDir, more: &[&str]) -> (i32, String) {
-    let arguments = ["certify", "a/main.nc", "b/main.nc", "--dialect", "fanuc-30i", "--machine", "mill-3axis"];
+    let arguments = [
+        "certify",
+        "a/main.nc",
+        "b/main.nc",
+        "--dialect",
+        "fanuc-30i",
+        "--machine",
+        "mill-3axis",
+    ];
     let output = trunnion_in(folder.path(), &[&arguments[..], more].concat());
     (status(&output), text(&output.stdout))
 }
@@ -35,6 +44,9 @@ fn other_settings_are_named_and_prove_nothing() {
         (format!("{SETTINGS}[variables]\n\"#500\" = 1\n"), "numbered variables"),
     ] {
         let (code, said) = certify(&folders(&own), &[]);
-        assert!(code == 1 && said.starts_with("UNKNOWN") && said.contains(name), "{name}: {said}");
+        assert!(
+            code == 1 && said.starts_with("UNKNOWN") && said.contains(name),
+            "{name}: {said}"
+        );
     }
 }

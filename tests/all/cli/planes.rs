@@ -10,7 +10,11 @@ const SETTINGS: &str = "[[tool]]\nnumber = 1\nlength = 80\n[work_offsets]\nG54 =
 fn last(blocks: &str) -> [f64; 5] {
     let folder = TempDir::new().expect("works");
     write(&folder, "trunnion.toml", SETTINGS);
-    let file = write(&folder, "t.h", &format!("{TURNED}{blocks}L X+30 Y+0 Z-3 F500\nM30\nEND PGM T MM\n"));
+    let file = write(
+        &folder,
+        "t.h",
+        &format!("{TURNED}{blocks}L X+30 Y+0 Z-3 F500\nM30\nEND PGM T MM\n"),
+    );
     let output = trunnion(&["trace", str(&file), "--machine", "mikron-ucp710"]);
     assert_eq!(status(&output), 0, "{}", text(&output.stderr));
     let table = text(&output.stdout);
@@ -42,6 +46,9 @@ fn zero_angles_are_a_plane() {
     for angle in ["0", "0.000001"] {
         let found = last(&format!("PLANE SPATIAL SPA+0 SPB+0 SPC+{angle} TURN FMAX\n"));
         let turned = found[3];
-        assert!(turned.abs() > 1.0 && near(found, [30.0, 0.0, -3.0, turned, 0.0]), "{angle}: {found:?}");
+        assert!(
+            turned.abs() > 1.0 && near(found, [30.0, 0.0, -3.0, turned, 0.0]),
+            "{angle}: {found:?}"
+        );
     }
 }

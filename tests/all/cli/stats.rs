@@ -88,7 +88,10 @@ fn joints_include_the_inside_of_arcs() {
             .filter_map(|number| number.parse().ok())
             .collect();
         let highest = numbers.iter().copied().fold(f64::MIN, f64::max);
-        assert!((highest - top).abs() < 2e-3, "{group}: {ends}, and {top} is wanted: {found}");
+        assert!(
+            (highest - top).abs() < 2e-3,
+            "{group}: {ends}, and {top} is wanted: {found}"
+        );
     }
 }
 

@@ -405,7 +405,10 @@ pub(super) const ITEMS: &[Item] = &[
     (
         "TABLE ROT with a free rotary axis",
         ["heidenhain-klartext", "mikron-ucp710"],
-        [KLARTEXT, "PLANE SPATIAL SPA+0 SPB+0 SPC+30 TURN FMAX TABLE ROT\nM30\nEND PGM A MM\n"],
+        [
+            KLARTEXT,
+            "PLANE SPATIAL SPA+0 SPB+0 SPC+30 TURN FMAX TABLE ROT\nM30\nEND PGM A MM\n",
+        ],
         &["4 unknown not-modelled"],
         [1, 3],
     ),

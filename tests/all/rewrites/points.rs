@@ -140,7 +140,15 @@ fn what_is_not_declared_or_not_a_number_is_named() {
 fn klartext_is_refused_by_its_name() {
     let settings = settings("heidenhain-klartext", Setup::default());
     let text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 A+5 C+350 R0 FMAX\nL X+1 A+5 C+10 F1500\nM30\nEND PGM A MM\n";
-    for name in ["switch-angles", "unwind-rotary", "smooth-pole", "adapt-feed", "fit-arcs", "insert-points", "drop-redundant"] {
+    for name in [
+        "switch-angles",
+        "unwind-rotary",
+        "smooth-pole",
+        "adapt-feed",
+        "fit-arcs",
+        "insert-points",
+        "drop-redundant",
+    ] {
         let reason = refused(run(name, text, &settings, &Options::default()));
         assert!(reason.contains("Klartext"), "{name}: {reason}");
     }
@@ -150,7 +158,11 @@ fn klartext_is_refused_by_its_name() {
 #[test]
 fn numbers_that_a_missing_program_may_name_stay() {
     let settings = settings("fanuc-30i", Setup::default());
-    let program = |call: &str| format!("G21 G90 G94 G17 G54\nS1000 M3\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nX10.\nN50 X20.\nX30.\n{call}G0 Z50.\nM30\n");
+    let program = |call: &str| {
+        format!(
+            "G21 G90 G94 G17 G54\nS1000 M3\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nX10.\nN50 X20.\nX30.\n{call}G0 Z50.\nM30\n"
+        )
+    };
     let lean = |call: &str| {
         let text = program(call);
         let attempt = run("drop-redundant", &text, &settings, &Options::default());
@@ -165,7 +177,11 @@ fn numbers_that_a_missing_program_may_name_stay() {
     assert!(reason.contains("O7777 is missing"), "{reason}");
     // without a number nothing can be named
     let text = text.replace("N50 ", "");
-    assert!(run("drop-redundant", &text, &settings, &Options::default()).outcome().is_ok_and(|found| found.is_some()));
+    assert!(
+        run("drop-redundant", &text, &settings, &Options::default())
+            .outcome()
+            .is_ok_and(|found| found.is_some())
+    );
 }
 
 #[test]

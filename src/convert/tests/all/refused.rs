@@ -298,7 +298,15 @@ fn a_drop_that_leaves_out_nothing_is_refused() {
             drop: vec![name.to_owned()],
             ..Options::default()
         };
-        let (_, message) = refused((text, "fanuc-30i", "mill-3axis"), "sinumerik-840d", "mill-3axis", &options);
-        assert!(message.contains(&format!("`--drop {name}` leaves out nothing")), "{message}");
+        let (_, message) = refused(
+            (text, "fanuc-30i", "mill-3axis"),
+            "sinumerik-840d",
+            "mill-3axis",
+            &options,
+        );
+        assert!(
+            message.contains(&format!("`--drop {name}` leaves out nothing")),
+            "{message}"
+        );
     }
 }

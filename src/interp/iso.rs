@@ -245,7 +245,6 @@ impl<'d> Iso<'d> {
             self.core.state.spindle.switch(false);
         }
         if self.core.effects.wanted() {
-            self.number_effect(&report.program.block(report.block));
             self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
         let mut motion = self.motion(codes, words, &block, report);

@@ -23,7 +23,7 @@
 //! Sound for tools that a block of the program defines. All other findings hold for what the program defines.
 //!
 //! # Sources
-//! * HEIDENHAIN TNC 410 user's manual: TOOL DEF gives length and radius of a tool in the program.
+//! * HEIDENHAIN TNC 640 34059x-07 (Klartext programming): TOOL DEF gives length and radius of a tool in the program.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);

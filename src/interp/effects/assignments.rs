@@ -7,8 +7,9 @@ use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
-/// What words written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
+/// What words written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`; before them the number of the block, where it counts.
 pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId) {
+    run.number_effect(view);
     let mut effects = Vec::new();
     for word in view.words() {
         if matches!(word.address, Address::Letter(_)) {

@@ -15,7 +15,7 @@ use trunnion_certify::conversion::{
 use trunnion_dialect::Dialect;
 use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks, LengthOf};
 use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
-use trunnion_syntax::{Format, LineIndex, Program};
+use trunnion_syntax::{BlockId, Format, LineIndex, Program};
 
 /// A program that is to be converted, with all it is read with.
 pub type Source<'a> = Run<'a>;
@@ -111,10 +111,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     swaps_are_allowed(&turned, &reading, &setting, options)?;
     let swaps = if turned.is_empty() { swaps } else { turned };
     let lines = LineIndex::new(reading.program.source());
-    let line = |block| {
-        let start = reading.program.block(block).range().start;
-        lines.line_column(reading.program.source(), start).0
-    };
+    let line = |block| line_of(&reading, &lines, block);
     let declared = zeros_declared(&job, source.setup, work_offset);
     let (beyond, travel_undecided) = travel.judge(&reading, setting.machine, declared, line)?;
     Ok(Converted {
@@ -138,6 +135,11 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         clamps: setting.clamps_left(),
         told,
     })
+}
+
+fn line_of(reading: &Reading, lines: &LineIndex, block: BlockId) -> u32 {
+    let start = reading.program.block(block).range().start;
+    lines.line_column(reading.program.source(), start).0
 }
 
 /// See [`Converted::set_by_hand`].

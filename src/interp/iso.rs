@@ -2,6 +2,7 @@
 
 mod engine;
 mod signs;
+mod spindle;
 mod whole;
 
 pub(crate) use engine::Iso;
@@ -231,33 +232,16 @@ impl<'d> Iso<'d> {
         if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }
-        if words.other_spindle {
-            self.core.state.spindle.lose();
-        }
+        self.spindle_before(words);
         if self.core.dialect.quirks.macro_b() {
             self.signs(words, &block, report);
-        }
-        if words.builder_code {
-            self.core.state.spindle.may_start();
-        }
-        // it stands at its position (SINUMERIK Function Manual, 06/2019, p. 754)
-        if words.positions_spindle {
-            self.core.state.spindle.switch(false);
         }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
         let mut motion = self.motion(codes, words, &block, report);
         self.called_cycle(codes, words, &block, &mut motion, report);
-        // with the motion or after it, by ISO 6983-1 (table of miscellaneous functions: M05 begins after the motion of its block)
-        if block.stops_spindle {
-            self.core.state.spindle.switch(false);
-        }
-        match block.stops_program {
-            Some(false) if self.core.dialect.quirks.program_stop_stops_spindle => self.core.state.spindle.switch(false),
-            Some(_) => self.core.state.spindle.leave_to_machine(),
-            None => {}
-        }
+        self.spindle_after(&block);
         if words.forgets_all {
             self.core.losses += 1;
             self.core.forget_position();

@@ -252,6 +252,13 @@ fn is_literal(block: &Block<'_>, end: &Vec3, unit_mm: f64) -> bool {
     })
 }
 
+fn count_reason(reasons: &mut Reasons, why: &'static str) {
+    match reasons.iter_mut().find(|(known, _)| *known == why) {
+        Some((_, count)) => *count += 1,
+        None => reasons.push((why, 1)),
+    }
+}
+
 /// The chains of a program of at least so many lines.
 pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -> Chains {
     let mut collector = Collector {
@@ -309,10 +316,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
         if let Some(why) = why {
             close(&mut open, seen[at - motions..].iter().find(|seen| !waits(seen)));
             if one.linear && !why.is_empty() {
-                match found.reasons.iter_mut().find(|(known, _)| *known == why) {
-                    Some((_, count)) => *count += 1,
-                    None => found.reasons.push((why, 1)),
-                }
+                count_reason(&mut found.reasons, why);
             }
             continue;
         }

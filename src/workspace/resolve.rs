@@ -110,11 +110,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let config_path = config_file.as_ref().map(|(path, _)| path.clone());
     let mode = trunnion_dialect::modeline(source);
     let (machine, machine_reason) = machine_for(path, overrides, &mode, &config, config_file.as_ref())?;
-    if let (Some(found), Some((file, text))) = (&machine, &config_file)
-        && let Err(error) = config.check_offsets(&found.machine)
-    {
-        return Err(LoadError::at(file, text, error.span.as_ref(), &error.message));
-    }
+    offsets_fit(&config, config_file.as_ref(), machine.as_ref())?;
     let (machine, machine_file) = machine.map_or((None, None), |found| (Some(found.machine), found.file));
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
     let (detected, dialect_file) = dialect_for(
@@ -270,6 +266,20 @@ fn folder_of(path: Option<&Path>) -> Option<PathBuf> {
         .ok()?;
     let folder = file.parent()?;
     Some(std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned()))
+}
+
+/// Whether the work offsets of the settings give each linear axis of the machine.
+fn offsets_fit(
+    config: &Config,
+    config_file: Option<&(PathBuf, String)>,
+    machine: Option<&FoundMachine>,
+) -> Result<(), LoadError> {
+    let (Some(found), Some((file, text))) = (machine, config_file) else {
+        return Ok(());
+    };
+    config
+        .check_offsets(&found.machine)
+        .map_err(|error| LoadError::at(file, text, error.span.as_ref(), &error.message))
 }
 
 fn machine_for(

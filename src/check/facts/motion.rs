@@ -77,7 +77,7 @@ impl<'v> SteepHelix<'v> {
         let by_path = matches!(view.motion.feed, Feed::PerMinute(_) | Feed::PerRevolution(_));
         let along = (arc.end - arc.start).dot(&arc.normal);
         let around = arc.sweep.abs() * 0.5 * (arc.radius_start + arc.radius_end);
-        let ratio = along.hypot(around) / around;
+        let ratio = trunnion_geometry::math::hypot(along, around) / around;
         (Self::may(view) && by_path && ratio.is_finite() && ratio > Self::LEAST).then_some(Self { view, ratio })
     }
 }

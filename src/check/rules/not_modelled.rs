@@ -311,7 +311,7 @@ mod tests {
         let axis = machine.axes.iter().find(|axis| axis.letter == b'X').unwrap();
         match axis.limits {
             trunnion_machine::Limits::Range(_, high) => high,
-            _ => f64::NAN,
+            trunnion_machine::Limits::Unbounded => f64::NAN,
         }
     }
 

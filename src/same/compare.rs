@@ -8,10 +8,10 @@ use crate::cut::{cut, is_idle, may_be_cut};
 use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::happens::happens;
+use crate::in_effect::in_effect;
 use crate::item::{Item, Sort, Step};
 use crate::judge::Judge;
 use crate::numbers;
-use crate::process::{motion_difference, unlike};
 use crate::rapids;
 use crate::refit::{Followed, Following, Joint, Refit, begin_apart, begin_together, follow, may_begin};
 use crate::retracts;
@@ -21,7 +21,7 @@ use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
 use std::collections::VecDeque;
 use trunnion_geometry::abreast::Walked;
-use trunnion_interp::{MotionKind, Orientation, same_number};
+use trunnion_interp::{MotionKind, same_number};
 
 /// What is claimed to be the same.
 #[derive(Clone, Copy, Debug)]
@@ -358,45 +358,6 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
 /// Two lines that end together: they are compared as one pair.
 fn same_line(was: &Step, is: &Step, claim: &Claim) -> bool {
     was.motion.kind == is.motion.kind && ends_together(was, is, claim)
-}
-
-/// What must be in effect in both programs, whatever the kinds of the two motions.
-pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
-    if claim.path_only {
-        return Ok(());
-    }
-    let (a, b) = (&was.motion, &is.motion);
-    let place = |what: String| Difference {
-        before: Some(a.block),
-        after: Some(b.block),
-        what,
-    };
-    let differs = |what: String| Err(Verdict::Differs(place(what)));
-    let unknown = |what: String| Err(Verdict::Unknown(place(what)));
-    let straight = |kind: &MotionKind| matches!(kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Dwell(_));
-    // lines that became an arc did not need a plane
-    let plane = claim.plane_counts || !straight(&a.kind) || was.held.compensation != 0;
-    let held = was.held.difference(&is.held, plane).filter(|_| !claim.across);
-    if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {
-        return differs(format!("{name} differs: {from} and {to}"));
-    }
-    if let Some(found) = unlike(&was.process, &is.process, claim.across) {
-        let what = format!("{} differs: {} and {}", found.key, found.from, found.to);
-        if !found.is_unknown {
-            return differs(what);
-        }
-        return unknown(what);
-    }
-    let turns = a.orientation == Orientation::Words && b.orientation == Orientation::Words;
-    if was.held.vector_mode != is.held.vector_mode && turns && !claim.across {
-        return unknown("only one of them programs the tool's direction by vectors".to_owned());
-    }
-    if a.tcp != b.tcp && claim.no_rotary && !claim.across {
-        return unknown(
-            "only one of them is under tool centre point control, and the rotary axes are unknown".to_owned(),
-        );
-    }
-    Ok(())
 }
 
 /// Whether two motions end at the same position, so that neither need be cut.

@@ -2,7 +2,8 @@
 //! known amount ([`Motion::slack_mm`]): both chains of lines are walked side by side, and that amount is added.
 //!
 //! What else must be the same, and when the path in the part has the shape of the programmed one, is as in [`crate::refit`].
-use crate::compare::{Claim, in_effect};
+use crate::compare::Claim;
+use crate::in_effect::in_effect;
 use crate::item::{Item, Step};
 use crate::judge::Judge;
 use crate::refit::{JOINT, Refit, Refitted, begin_apart, begin_together, not_comparable};

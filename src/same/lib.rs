@@ -14,6 +14,7 @@ mod cut;
 mod ending;
 mod exact;
 mod happens;
+mod in_effect;
 mod initial;
 mod input;
 mod item;

@@ -304,7 +304,8 @@ impl<'a> Side<'a> {
                 let stop = Event::Stop {
                     optional: *optional,
                     coolants: self.coolants,
-                    turning: self.turning(ran),
+                    // the stop itself may end it
+                    turning: self.turning(ran.saturating_sub(1)),
                 };
                 if !self.changes_tool_by_hand(ran) {
                     events.push((stop, self.reading.blocks[ran].block));

@@ -152,13 +152,13 @@ fn a_request_with_other_words_or_in_another_place_is_refuted() {
         "linuxcnc",
         "M5\nM0\nM3",
         "M0",
-        "spindle or coolant are in a different state",
+        "spindle or coolant are in another state",
     );
     lost(
         "linuxcnc",
         "M8\nM9\nM0\nM8",
         "M8\nM0",
-        "spindle or coolant are in a different state",
+        "spindle or coolant are in another state",
     );
     lost("linuxcnc", "M4", "M3", "the spindle differs");
 }

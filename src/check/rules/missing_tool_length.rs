@@ -190,7 +190,7 @@ mod tests {
         }
         assert_drawn(
             "gcode sinumerik-840d",
-            "G710\nT1 M6\nD0\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\n;^^^^^^^^^^^ missing-tool-length: T1 cuts without its length\nM30\n",
+            "G710\nT1 M6\nD0\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\n;^^^^^^^^^^ missing-tool-length: T1 cuts without its length\nM30\n",
         );
         assert_drawn(
             "gcode sinumerik-840d",

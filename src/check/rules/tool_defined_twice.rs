@@ -9,7 +9,7 @@
 //! 0 BEGIN PGM A MM
 //! 1 ; trunnion: tool 1 length 80
 //! 2 TOOL DEF 1 L+120 R+3
-//!   ^^^^^^^^^^^^^^^^^^^^ tool-defined-twice: tool 1 is 120 mm long in the program, but 80 mm in the settings
+//! ; ^^^^^^^^^^^^^^^^^^^^ tool-defined-twice: tool 1 is 120 mm long in the program, but 80 mm in the settings
 //! 3 TOOL CALL 1 Z S1000 F500
 //! 4 L X+0 Y+0 Z+50 R0 FMAX M3
 //! 5 M30

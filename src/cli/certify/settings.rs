@@ -4,9 +4,11 @@ use crate::cli::load::Loaded;
 use std::path::Path;
 use trunnion_interp::{Setup, Tool};
 
-/// Why no verdict is given, if the settings of both programs differ in what a run depends on.
+/// Why no verdict is given, if the settings of both programs differ in what a run depends on. Where the program after has none, as a file that
+/// was written to another folder, those of the program before apply to both.
 pub(super) fn differ(before: &Loaded, after: &Loaded) -> Option<String> {
     let (old, new) = (&before.resolved, &after.resolved);
+    new.config_path.as_ref()?;
     let mut what = unlike(&old.setup, &new.setup);
     if let (Some(first), Some(second)) = (&old.machine, &new.machine)
         && !trunnion_certify::same_machine(first, second)
@@ -41,7 +43,7 @@ fn unlike(old: &Setup, new: &Setup) -> Vec<String> {
     }
     let of = |tools: &[Tool], number| -> Vec<Tool> {
         let found = tools.iter().filter(|tool| tool.number == number);
-        found.cloned().collect()
+        found.copied().collect()
     };
     for tool in old.tools.iter().chain(&new.tools) {
         let name = format!("tool {}", tool.number);

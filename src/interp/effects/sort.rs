@@ -88,6 +88,8 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop => Sort::Setting("spindle"),
         Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
         Action::ProgramStop => Sort::After,
+        // a straight line under POLY is compared by its code
+        Action::Polynomial if !words.polynomial => Sort::Before,
         Action::OrientationAxes | Action::OrientationVector => Sort::Group,
         Action::DataEntry
         | Action::ReferenceStore

@@ -7,7 +7,7 @@ pub(super) const HEAD: &str = "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\
 pub(super) const SINUMERIK: &str = "G17 G90 G94 G54 G71\nT1 D1 M6\nS1000 M3 F100\nG0 X0 Y0 Z10\n";
 
 /// The head of a Klartext program, whose TOOL CALL has no feed.
-const KLARTEXT: &str = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\n";
+pub(super) const KLARTEXT: &str = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\n";
 
 /// The head of a program for a Haas lathe.
 const LATHE: &str = "G21 G18 G99 G40\nT0101\nG97 S1000 M3\nG0 X40. Z2.\n";
@@ -384,32 +384,5 @@ pub(super) const ITEMS: &[Item] = &[
         [KLARTEXT, "L X+10 F AUTO\nM30\nEND PGM A MM\n"],
         &["4 error missing-feed"],
         [2, 2],
-    ),
-    (
-        "TOOL DEF and the settings differ",
-        ["heidenhain-klartext", ""],
-        [
-            "BEGIN PGM A MM\n; trunnion: tool 1 length 80\nTOOL DEF 1 L+120 R+3\n",
-            "TOOL CALL 1 Z S1000 F300\nL X+0 Y+0 Z+50 R0 FMAX M3\nM30\nEND PGM A MM\n",
-        ],
-        &["3 warning tool-defined-twice"],
-        [1, 1],
-    ),
-    (
-        "P of a dwell with a decimal point",
-        ["fanuc-30i", ""],
-        [HEAD, "G4 P2.5\nG4 X2.5\nG4 P2500\nM30\n"],
-        &["6 error bad-number"],
-        [4, 5],
-    ),
-    (
-        "TABLE ROT with a free rotary axis",
-        ["heidenhain-klartext", "mikron-ucp710"],
-        [
-            KLARTEXT,
-            "PLANE SPATIAL SPA+0 SPB+0 SPC+30 TURN FMAX TABLE ROT\nM30\nEND PGM A MM\n",
-        ],
-        &["4 unknown not-modelled"],
-        [1, 3],
     ),
 ];

@@ -1,5 +1,5 @@
 //! Programs that rest on a state that the program did not set: the spindle, a length, a plane; and words that were misread.
-use super::items::{HEAD, Item, SINUMERIK};
+use super::items::{HEAD, Item, KLARTEXT, SINUMERIK};
 
 pub(super) const STATE: &[Item] = &[
     (
@@ -87,5 +87,32 @@ pub(super) const STATE: &[Item] = &[
         [HEAD, "G2 X0. Y0. Z-50. I5. F1000.\nM30\n"],
         &["6 unknown not-modelled"],
         [2, 3],
+    ),
+    (
+        "TOOL DEF and the settings differ",
+        ["heidenhain-klartext", ""],
+        [
+            "BEGIN PGM A MM\n; trunnion: tool 1 length 80\nTOOL DEF 1 L+120 R+3\n",
+            "TOOL CALL 1 Z S1000 F300\nL X+0 Y+0 Z+50 R0 FMAX M3\nM30\nEND PGM A MM\n",
+        ],
+        &["3 warning tool-defined-twice"],
+        [1, 1],
+    ),
+    (
+        "P of a dwell with a decimal point",
+        ["fanuc-30i", ""],
+        [HEAD, "G4 P2.5\nG4 X2.5\nG4 P2500\nM30\n"],
+        &["6 error bad-number"],
+        [4, 5],
+    ),
+    (
+        "TABLE ROT with a free rotary axis",
+        ["heidenhain-klartext", "mikron-ucp710"],
+        [
+            KLARTEXT,
+            "PLANE SPATIAL SPA+0 SPB+0 SPC+30 TURN FMAX TABLE ROT\nM30\nEND PGM A MM\n",
+        ],
+        &["4 unknown not-modelled"],
+        [1, 3],
     ),
 ];

@@ -190,7 +190,8 @@ fn blocks_that_move_nothing_are_left_out() {
     );
     let program = program.replace(" M109", "");
     let from = (program.as_str(), "heidenhain-klartext", "mill-3axis");
-    let converted = to(from, "fanuc-30i", "mill-3axis", &options).unwrap_or_else(|refused| panic!("{refused}"));
+    let converted =
+        to(from, "fanuc-30i", "mill-3axis", &Options::default()).unwrap_or_else(|refused| panic!("{refused}"));
     assert!(
         converted.left_out.iter().any(|(what, _)| what == "BLK FORM"),
         "{:?}",

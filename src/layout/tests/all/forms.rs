@@ -1,7 +1,6 @@
 //! Form by form: what goes in and what comes out.
-use crate::support::{dialect, laid, laid_with, program};
-use trunnion_interp::Setup;
-use trunnion_layout::{Case, Layout, Refusal, Spacing, Style, Zeros, layout};
+use crate::support::{laid, laid_with};
+use trunnion_layout::{Case, Spacing, Style, Zeros};
 
 #[test]
 fn words_stand_one_blank_apart_and_hold_none() {
@@ -193,27 +192,4 @@ fn a_comma_in_klartext_gets_no_nearer_to_its_number() {
     for text in ["L X+1 ,5 FMAX\n", "L X+1,5 FMAX\n"] {
         assert_eq!(laid(text, "heidenhain-klartext"), text);
     }
-}
-
-/// Each block may read all elements that were written before it: the proof counts them, and gives up by name where they are too many.
-#[test]
-fn a_proof_that_compares_too_much_is_given_up_with_its_bound() {
-    let writes = |count: u32| {
-        let lines = (0..count).map(|i| format!("VZOFX[{i}]  =V{}\n", i % 200));
-        format!("$P.MIN%\nG0  X1\n{}M02\n", lines.collect::<String>())
-    };
-    let dialect = dialect("okuma-osp");
-    let mut setup = Setup::default();
-    setup.limits.blocks = 10;
-    setup.limits.steps = 10;
-    let laid = |count: u32| {
-        let text = writes(count);
-        layout(&program(text.as_bytes(), dialect), dialect, &setup, &Style::default())
-    };
-    assert!(matches!(laid(20), Layout::Changed(_)), "{:?}", laid(20));
-    let Layout::Refused(Refusal::Motions(difference)) = laid(300) else {
-        panic!("{:?}", laid(300));
-    };
-    // twice the bound and the 303 blocks of the text
-    assert!(difference.what.contains("more than 626 actions"), "{}", difference.what);
 }

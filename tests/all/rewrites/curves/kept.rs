@@ -56,7 +56,6 @@ fn where_it_cannot_be_said_it_is_refused_by_name() {
         ("haas-ngc", "fit-arcs"),
         ("iso-6983", "fit-arcs"),
         ("okuma-osp", "fit-arcs"),
-        ("heidenhain-klartext", "SPL"),
         ("apt", "fit-arcs"),
     ] {
         let settings = settings(dialect);
@@ -68,6 +67,10 @@ fn where_it_cannot_be_said_it_is_refused_by_name() {
             "{dialect}: {reason}"
         );
     }
+    let klartext = settings("heidenhain-klartext");
+    let reason = run("fit-splines", &wavy("G17 G90"), &klartext, &tolerance).outcome();
+    let reason = reason.expect_err("no words of G code");
+    assert!(reason.contains("Klartext"), "{reason}");
     let settings = settings("sinumerik-840d");
     for (head, why) in [
         ("G41 D1", "cutter radius compensation"),

@@ -32,7 +32,12 @@ fn a_sample_for_every_control() {
         ),
         (&piece, five, &["--to", "haas-ngc", "--units", "inch"], "G234 H1\n"),
         (&plate, three, &["--to", "iso-6983"], "G3 X20 Y10 I-10 J0\n"),
-        (&plate, three, &["--to", "grbl"], "M5\nT2\nM0 (set the zero of Z with the tip of this tool)\nS8000 M4\n"),
+        (
+            &plate,
+            three,
+            &["--to", "grbl"],
+            "M5\nT2\nM0 (set the zero of Z with the tip of this tool)\nS8000 M4\n",
+        ),
         (
             &plate,
             three,

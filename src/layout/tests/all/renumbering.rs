@@ -111,8 +111,11 @@ fn what_is_not_certain_is_refused_with_its_reason() {
 
 #[test]
 fn a_program_that_calls_a_missing_one_keeps_its_numbers() {
-    let why = refused("O1\nN1 M98 P2000\nN2 GOTO1\n", "fanuc-30i");
-    assert!(why.contains("2000"), "{why}");
+    let found = new("O1\nN1 M98 P2000\nN2 GOTO1\n", "fanuc-30i", 10, 10);
+    let Renumbered::Differs(difference) = found else {
+        panic!("{found:?}");
+    };
+    assert!(difference.what.contains("O2000 is missing"), "{}", difference.what);
 }
 
 #[test]

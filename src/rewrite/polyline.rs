@@ -1,4 +1,6 @@
 //! Chains of lines at feed that may be put together, found in the text and in the run.
+use crate::{Options, Place, Proposal, Proposed};
+use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
@@ -53,7 +55,7 @@ impl Chain {
 pub(crate) type Reasons = Vec<(&'static str, u32)>;
 
 /// Why other lines were not looked at, for people.
-pub(crate) fn left_alone(reasons: &Reasons) -> Option<String> {
+fn left_alone(reasons: &Reasons) -> Option<String> {
     let texts: Vec<String> = reasons
         .iter()
         .take(3)
@@ -68,6 +70,31 @@ pub(crate) struct Chains {
     pub chains: Vec<Chain>,
     /// Why other lines at feed are in no chain.
     pub reasons: Reasons,
+}
+
+impl Chains {
+    /// What a rewrite of chains proposes for these places, or why there is nothing; the summary gets why other lines were left alone.
+    pub(crate) fn proposal(&self, places: Vec<Place>, mut summary: String, options: &Options) -> Proposed {
+        let reasons = left_alone(&self.reasons);
+        if places.is_empty() {
+            return match reasons {
+                Some(why) if self.chains.is_empty() => Err(format!("there are no lines to put together: {why}").into()),
+                _ => Ok(None),
+            };
+        }
+        if let Some(why) = reasons {
+            summary.push_str("; left alone: ");
+            summary.push_str(&why);
+        }
+        Ok(Some(Proposal {
+            places,
+            claim: Claim::RefittedPath {
+                tolerance_mm: options.tolerance_mm,
+                source: options.source,
+            },
+            summary,
+        }))
+    }
 }
 
 /// One motion, as far as a chain needs it.

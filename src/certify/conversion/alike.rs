@@ -42,7 +42,9 @@ impl Proof<'_> {
             (was, is) => was.is_none() && is.is_none(),
         };
         // if the original does not start it, the output must not start it either
+        // nor may it stop a cut in which the original leaves the spindle to the machine
         let same_turning = match old.motion.spindle_on {
+            None if old.spindle_left && old.motion.is_feed() => new.spindle_left,
             None => new.motion.spindle_on != Some(true),
             on => new.motion.spindle_on == on,
         };
@@ -51,7 +53,8 @@ impl Proof<'_> {
             !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
         if !same_turning || !same_speed || !same_full_turns {
             let [was, now] = [old, new].map(turning);
-            let way_out = if old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(false) {
+            let turned = old.motion.spindle_on == Some(true) || old.spindle_left;
+            let way_out = if turned && new.motion.spindle_on == Some(false) {
                 "; where a tool change or a stop (M0) stops it on the target, program M3 or M4 after it"
             } else {
                 ""

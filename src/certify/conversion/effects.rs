@@ -5,7 +5,7 @@ use crate::Outcome;
 use core::fmt;
 use trunnion_dialect::PathMode;
 use trunnion_interp::AllClampCodes;
-use trunnion_syntax::{Address, BlockId, LineIndex};
+use trunnion_syntax::{Address, BlockId, Format, LineIndex, Value, Word};
 
 /// What a comparison may assume in addition to both texts.
 #[derive(Clone, Copy, Debug, Default)]
@@ -95,6 +95,8 @@ struct Side<'a> {
     clamps: &'a AllClampCodes,
     /// It is the program after.
     written: bool,
+    /// M0 stops the spindle.
+    stop_ends_spindle: bool,
 }
 
 /// Compares the requests of both programs.
@@ -284,6 +286,9 @@ impl<'a> Side<'a> {
             meanings,
             clamps,
             written,
+            stop_ends_spindle: reading.program.options().format == Format::Klartext
+                || trunnion_dialect::builtin(&reading.dialect)
+                    .is_some_and(|dialect| dialect.quirks.program_stop_stops_spindle),
         }
     }
 
@@ -304,8 +309,7 @@ impl<'a> Side<'a> {
                 let stop = Event::Stop {
                     optional: *optional,
                     coolants: self.coolants,
-                    // the stop itself may end it
-                    turning: self.turning(ran.saturating_sub(1)),
+                    turning: self.turning_at_stop(ran),
                 };
                 if !self.changes_tool_by_hand(ran) {
                     events.push((stop, self.reading.blocks[ran].block));
@@ -366,10 +370,22 @@ impl<'a> Side<'a> {
         words.any(|word| word.address == Address::Letter(b'T'))
     }
 
+    /// How it turned when the stop of a block came, which may have ended it.
+    fn turning_at_stop(&self, ran: usize) -> Turning {
+        let block = self.reading.program.block(self.reading.blocks[ran].block);
+        let is_m5 = |word: Word| {
+            word.address == Address::Letter(b'M')
+                && matches!(word.value, Value::Number(number) if number.to_f64() == 5.0)
+        };
+        let ends = self.stop_ends_spindle && !block.words().any(is_m5);
+        self.turning(if ends { ran.saturating_sub(1) } else { ran })
+    }
+
     /// The spindle after a block.
     fn turning(&self, ran: usize) -> Turning {
         let ran = &self.reading.blocks[ran];
-        (ran.spindle_on == Some(true)).then(|| (ran.counter_clockwise.unwrap_or(false), ran.spindle_rpm))
+        let turns = ran.spindle_on == Some(true) || ran.spindle_left;
+        turns.then(|| (ran.counter_clockwise.unwrap_or(false), ran.spindle_rpm))
     }
 }
 

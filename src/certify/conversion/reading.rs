@@ -58,6 +58,8 @@ pub struct Posed {
     pub square: bool,
     /// Direction of the spindle, where the program says it: counter-clockwise.
     pub counter_clockwise: Option<bool>,
+    /// The spindle turned before a stop, a tool change or a tap that may have ended it.
+    pub spindle_left: bool,
     /// What the active zero point adds to the declared values of the work offset (G52, G92, G10, TRANS), mm and deg.
     pub shift: [f64; 9],
     /// Name of the active work offset.
@@ -75,6 +77,8 @@ pub struct Ran {
     pub motions_wait: bool,
     /// Spindle after it.
     pub spindle_on: Option<bool>,
+    /// It turned before a stop, a tool change or a tap that may have ended it.
+    pub spindle_left: bool,
     /// Its speed, 1/min.
     pub spindle_rpm: Option<f64>,
     /// Its direction, where the program says it: counter-clockwise.
@@ -266,6 +270,7 @@ impl Sink for Collector<'_> {
             length_of: state.length.of(),
             square,
             counter_clockwise: None,
+            spindle_left: state.spindle.is_left_to_machine(),
             shift: added,
             work_offset: state.zero.offset_name(),
         });
@@ -298,6 +303,7 @@ impl Sink for Collector<'_> {
             motions: self.motions.len(),
             motions_wait: run.motions_wait(),
             spindle_on: state.spindle.on(),
+            spindle_left: state.spindle.is_left_to_machine(),
             spindle_rpm: state.spindle.rpm(),
             counter_clockwise: None,
             tool: state.tool.number(),

@@ -163,6 +163,19 @@ fn a_request_with_other_words_or_in_another_place_is_refuted() {
     lost("linuxcnc", "M4", "M3", "the spindle differs");
 }
 
+/// M0 of a Haas stops the spindle; on a Fanuc the machine decides. At the stop itself both turn.
+#[test]
+fn a_spindle_that_is_left_to_the_machine_is_not_a_stopped_one() {
+    let both = |request: &str| {
+        let text = format!("{HEAD}{request}\n{TAIL}");
+        outcome((&text, "fanuc-30i"), (&text, "haas-ngc"), &[])
+    };
+    let found = both("M0").expect_err("a cut after M0");
+    assert!(found.contains("the spindle differs"), "{found}");
+    assert_eq!(both("M0\nM3"), Ok(()));
+    assert_eq!(both("M5 M0\nM3"), Ok(()));
+}
+
 #[test]
 fn another_zero_point_is_refuted() {
     lost(

@@ -52,10 +52,9 @@ use super::Body;
 use crate::chain_words::{Hand, write};
 use crate::divide::divide;
 use crate::pieces::Limits;
-use crate::polyline::{Chain, chains, left_alone};
+use crate::polyline::{Chain, chains};
 use crate::style::{NumberStyle, of_letters};
-use crate::{Options, Place, Proposal, Proposed};
-use trunnion_certify::Claim;
+use crate::{Options, Place, Proposed};
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_syntax::Program;
@@ -98,26 +97,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             places.push(Place::around(program, edits));
         }
     }
-    if places.is_empty() {
-        return match left_alone(&found.reasons) {
-            Some(why) if found.chains.is_empty() => Err(format!("there are no lines to put together: {why}").into()),
-            _ => Ok(None),
-        };
-    }
-    let mut summary =
-        format!("{was} lines become {is} blocks, {arcs} of them arcs ({unrounded} blocks before rounding)");
-    if let Some(why) = left_alone(&found.reasons) {
-        summary.push_str("; left alone: ");
-        summary.push_str(&why);
-    }
-    Ok(Some(Proposal {
-        places,
-        claim: Claim::RefittedPath {
-            tolerance_mm: options.tolerance_mm,
-            source: options.source,
-        },
-        summary,
-    }))
+    let summary = format!("{was} lines become {is} blocks, {arcs} of them arcs ({unrounded} blocks before rounding)");
+    found.proposal(places, summary, options)
 }
 
 /// Planes in which arcs may be written: first the one that is active.

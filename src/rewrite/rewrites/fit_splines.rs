@@ -58,12 +58,11 @@
 //! Advanced (04.00), 5-163 to 5-167, for POLY; docs/kinematics.md#curves-through-points.
 use super::Body;
 use crate::chain_words::Hand;
-use crate::polyline::{chains, left_alone};
+use crate::polyline::chains;
 use crate::spline::{Form, LEAST, Spline, Terms, splines};
 use crate::spline_words::Pen;
 use crate::style::{NumberStyle, of_letters};
-use crate::{Options, Place, Proposal, Proposed, Refusal};
-use trunnion_certify::Claim;
+use crate::{Options, Place, Proposed, Refusal};
 use trunnion_check::Settings;
 use trunnion_dialect::{Action, Plane};
 use trunnion_syntax::Program;
@@ -141,25 +140,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             places.push(Place::around(program, edits));
         }
     }
-    let reasons = left_alone(&found.reasons);
-    if places.is_empty() {
-        return match reasons {
-            Some(why) if found.chains.is_empty() => Err(format!("there are no lines to put together: {why}").into()),
-            _ => Ok(None),
-        };
-    }
-    let mut summary =
+    let summary =
         format!("{was} lines become {is} blocks, {curves} of them curves, at most {worst:.4} mm from the lines");
-    if let Some(why) = reasons {
-        summary.push_str("; left alone: ");
-        summary.push_str(&why);
-    }
-    Ok(Some(Proposal {
-        places,
-        claim: Claim::RefittedPath {
-            tolerance_mm: options.tolerance_mm,
-            source: options.source,
-        },
-        summary,
-    }))
+    found.proposal(places, summary, options)
 }

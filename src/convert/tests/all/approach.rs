@@ -77,7 +77,7 @@ fn rapids_without_a_declared_length_keep_the_tip_in_place() {
 #[test]
 fn a_length_of_the_last_tool_is_not_that_of_the_next() {
     let declared = format!("{DECLARED}(trunnion: tool 2 flat diameter 8 length 60)\n");
-    let blocks = "G0 X0 Y0\nG43 H1 Z50.\nT2 M6\nG0 X1. Y1.\nG49 Z200.\nG43 H2 Z60.";
+    let blocks = "G0 X0 Y0\nG43 H1 Z50.\nT2 M6\nM3\nG0 X1. Y1.\nG49 Z200.\nG43 H2 Z60.";
     let program = approach(&declared, blocks);
     let made = text(to(
         (&program, "fanuc-30i", "mill-3axis"),

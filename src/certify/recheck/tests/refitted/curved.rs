@@ -1,40 +1,16 @@
 //! Lines that were put together into curves.
-use crate::recheck::{certify, recheck};
+use super::{claim, prove_in, proved, refused};
+use crate::recheck::recheck;
 use crate::{Certificate, Claim, Outcome, RefitSource};
 use std::fmt::Write;
 use trunnion_interp::Setup;
 
 fn prove_of(before: &str, after: &str, tolerance_mm: f64, source: RefitSource) -> Outcome {
-    let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("built in");
-    let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
-    let claim = Claim::RefittedPath { tolerance_mm, source };
-    certify(
-        before.as_bytes(),
-        after.as_bytes(),
-        dialect,
-        machine,
-        &Setup::default(),
-        &claim,
-    )
+    prove_in("sinumerik-840d", before, after, &claim(tolerance_mm, source))
 }
 
 fn prove(before: &str, after: &str, tolerance_mm: f64) -> Outcome {
     prove_of(before, after, tolerance_mm, RefitSource::Chords)
-}
-
-fn proved(outcome: Outcome) -> Certificate {
-    match outcome {
-        Outcome::Proved(certificate) => *certificate,
-        other => panic!("not proved: {other:?}"),
-    }
-}
-
-fn refused(outcome: Outcome) -> String {
-    match outcome {
-        Outcome::Proved(certificate) => panic!("proved: {}", certificate.summary()),
-        Outcome::Refuted(witness) => format!("refuted: {witness}"),
-        Outcome::Unknown(gap) => format!("unknown: {gap}"),
-    }
 }
 
 fn around(head: &str, rows: &str) -> String {
@@ -136,22 +112,11 @@ fn what_else_differs_is_refused() {
 /// The claim that the path is the same has no room for another curve near it.
 #[test]
 fn a_curve_is_not_the_lines_near_it() {
-    let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("built in");
-    let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
     let claim = Claim::SameToolPath {
         tolerance_mm: 0.001,
         tolerance_deg: 0.001,
     };
-    let same = |before: &str, after: &str| {
-        certify(
-            before.as_bytes(),
-            after.as_bytes(),
-            dialect,
-            machine,
-            &Setup::default(),
-            &claim,
-        )
-    };
+    let same = |before: &str, after: &str| prove_in("sinumerik-840d", before, after, &claim);
     let short = around("", "POLY X1 PO[Y]=(1,0.00001)\n");
     proved(same(&short, &short.replace("POLY X1", "POLY X1.0")));
     refused(same(&short, &around("", "G1 X1 Y1\n")));

@@ -1,7 +1,7 @@
 //! What a program does, step by step: motions, events, stored data.
 use crate::process::{Held, Process};
 use std::sync::Arc;
-use trunnion_interp::{Argument, Effect, Motion, Reach, Situation};
+use trunnion_interp::{Argument, Effect, Motion, Reach, Situation, Value};
 use trunnion_machine::Leg;
 use trunnion_syntax::BlockId;
 
@@ -111,9 +111,14 @@ impl Waiting {
 
     /// Whether it is an M code that is not modelled.
     pub(crate) fn is_builder_code(&self) -> bool {
-        let is_m = |word: &Argument| {
-            let number = word.name.strip_prefix('M');
+        let names_m = |text: &str| {
+            let number = text.strip_prefix('M');
             number.is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))
+        };
+        // Klartext and OSP give the text of the block
+        let is_m = |word: &Argument| match &word.value {
+            Value::Text(text) => names_m(&word.name) || text.split_whitespace().any(names_m),
+            _ => names_m(&word.name),
         };
         matches!(&self.what, Waits::Effect(Effect::Unmodelled(words), _) if words.iter().any(is_m))
     }

@@ -74,6 +74,15 @@ pub(crate) fn starts_spindle(program: &Program) -> bool {
 
 /// Whether a block has one of these codes; M2 is also M02.
 fn says(program: &Program, id: BlockId, wanted: &[&str]) -> bool {
+    let text = program.bytes(program.block(id).range());
+    // most blocks have none of their letters
+    let begins = |code: &&str| {
+        let letter = code.as_bytes()[0];
+        memchr::memchr2(letter, letter.to_ascii_lowercase(), text).is_some()
+    };
+    if !wanted.iter().any(begins) {
+        return false;
+    }
     program.block(id).items().any(|item| match item {
         Item::Call(call) => {
             let name = program.bytes(call.name);

@@ -111,11 +111,11 @@ impl<'m> Pace<'m> {
     /// Whether effects of this program may change times.
     pub(crate) fn wants_effects(&self, program: &Program) -> bool {
         let codes: &[&[u8]] = if self.machine.control.family == "linuxcnc" {
-            &[b"G61", b"G64"]
+            &[b"61", b"64"]
         } else {
-            &[b"G60", b"G61", b"G9", b"G09"]
+            &[b"60", b"61", b"9", b"09"]
         };
-        !self.machine.control.planning.m_times.is_empty() || codes.iter().any(|code| names(program.source(), code))
+        !self.machine.control.planning.m_times.is_empty() || has_code(program.source(), codes)
     }
 
     /// What the program does apart from its motions.
@@ -279,11 +279,12 @@ fn speaks_of_loops(machine: &Machine) -> bool {
             .any(|&joint| machine.axes[joint].extra.position_gain.is_some())
 }
 
-/// Whether a text contains a code: not followed by a digit.
-fn names(text: &[u8], code: &[u8]) -> bool {
-    let mut at = text.windows(code.len()).enumerate();
-    at.any(|(from, window)| {
-        window.eq_ignore_ascii_case(code) && !text.get(from + code.len()).is_some_and(u8::is_ascii_digit)
+/// Whether a text contains a G code with one of these numbers: not followed by a digit.
+fn has_code(text: &[u8], numbers: &[&[u8]]) -> bool {
+    memchr::memchr2_iter(b'G', b'g', text).any(|at| {
+        let behind = &text[at + 1..];
+        let ends = |rest: &[u8]| !rest.first().is_some_and(u8::is_ascii_digit);
+        numbers.iter().any(|number| behind.strip_prefix(*number).is_some_and(ends))
     })
 }
 

@@ -2,6 +2,8 @@
 //! to planned. Units: mm, rad, s. Formulas: docs/kinematics.md#time.
 //!
 //! It knows no rules and no sentences.
+#[cfg(test)]
+mod chunks_tests;
 mod clock;
 mod corner;
 #[cfg(test)]
@@ -20,5 +22,5 @@ pub use path::{Ramp, s_curve, trapezoid};
 pub use piece::{Bounds, Limit, Piece};
 pub use pieces::bend_limit;
 pub use planner::Planner;
-pub use run::{Planned, Run};
+pub use run::{Begun, Planned, Run};
 pub use timed::Timed;

@@ -6,7 +6,7 @@ use trunnion_interp::{Fault, ModalState, Motion, Setup, Sink};
 use trunnion_machine::{BlockPath, Follower, Leg, Machine, load};
 use trunnion_syntax::parse;
 
-const MACHINE: &str = r#"schema = "ncmachine/1"
+pub(crate) const MACHINE: &str = r#"schema = "ncmachine/1"
 axis = [{letter="C", sign=1, side="table", dyn={vmax=120, amax=600, jmax=9000}},
   {letter="A", sign=1, side="table", limits=[-120, 120], dyn={vmax=90, amax=500, jmax=8000}},
   {letter="X", sign=1, dyn={vmax=300, amax=2000, jmax=30000}}, {letter="Y", sign=1, dyn={vmax=300, amax=1500, jmax=30000}},
@@ -18,10 +18,10 @@ corner = { model = "axis-jump", dv = { X = 5, Y = 4, Z = 3, A = 2, C = 2 } }
 "#;
 
 /// Numbers without a crate: xorshift.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -55,9 +55,9 @@ fn program(random: &mut Random) -> String {
     text + "M30\n"
 }
 
-struct Keep<'m> {
-    follower: Follower<'m>,
-    legs: Vec<Leg>,
+pub(crate) struct Keep<'m> {
+    pub(crate) follower: Follower<'m>,
+    pub(crate) legs: Vec<Leg>,
 }
 
 impl Sink for Keep<'_> {
@@ -227,6 +227,7 @@ fn the_filter_keeps_the_jerk() {
             pieces,
             lookahead: None,
             filter: 0.0,
+            begun: None,
         };
         let planned = run.plan();
         let dt = 1e-4;

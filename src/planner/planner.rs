@@ -1,4 +1,6 @@
 //! The planner: legs in, times out, in order.
+mod emit;
+
 use crate::corner::{Passage, Round, passage};
 use crate::pieces::{Course, Taken, take};
 use crate::{Bounds, Limit, PathControl, Piece, Planned, Run, Timed, s_curve};
@@ -7,7 +9,7 @@ use trunnion_interp::{ChainId, Feed, MotionKind};
 use trunnion_machine::{Leg, Machine, RapidPath, feed_is_ambiguous};
 use trunnion_syntax::BlockId;
 
-/// Plans a run of a program, leg by leg. Memory: what lies between two stops.
+/// Plans a run of a program, leg by leg. Memory: what lies between two stops, and of long runs what is not settled yet.
 pub struct Planner<'m> {
     machine: &'m Machine,
     rotary_feed: RotaryFeed,
@@ -17,6 +19,12 @@ pub struct Planner<'m> {
     /// The last motion with a path since the last stop.
     last: Option<Box<Course>>,
     motions: u32,
+    /// The longest filter that an axis of the machine may ask for, s.
+    longest: f64,
+    /// So many motions since the last stop are worth a look at what is settled.
+    enough: usize,
+    /// The least of these.
+    chunk: usize,
     /// For tests: every run with its plan.
     #[cfg(test)]
     pub(crate) seen: Vec<(Run, Planned)>,
@@ -47,9 +55,8 @@ impl Open {
     }
 }
 
-/// Share of F below which a block is slow, and below which it crawls.
-const SLOW: f64 = 0.8;
-const CRAWL: f64 = 0.05;
+/// Motions between two looks at what is settled.
+const CHUNK: usize = 4096;
 
 impl<'m> Planner<'m> {
     /// For a machine; `rotary_feed`: what F means on this control where rotary axes move.
@@ -62,13 +69,27 @@ impl<'m> Planner<'m> {
                 pieces: Vec::new(),
                 lookahead: planning.lookahead,
                 filter: planning.filter_time.unwrap_or(0.0),
+                begun: None,
             },
             open: Vec::new(),
             last: None,
             motions: 0,
+            longest: emit::longest_filter(machine),
+            enough: CHUNK,
+            chunk: CHUNK,
             #[cfg(test)]
             seen: Vec::new(),
         }
+    }
+
+    /// For tests: looks at what is settled after so many motions, and takes the filter of long runs for the run that begins.
+    #[cfg(test)]
+    pub(crate) fn plan_in_chunks(&mut self, chunk: usize) {
+        (self.chunk, self.enough) = (chunk, chunk);
+        self.run.begun = Some(crate::Begun {
+            speeds: [0.0; 2],
+            filter: self.longest,
+        });
     }
 
     /// The next leg, and what the program says about the corner at its start. Times of earlier legs may come out.
@@ -154,6 +175,9 @@ impl<'m> Planner<'m> {
             overlap: 0.5 * passage.overlap,
         });
         self.last = Some(course);
+        if self.open.len() >= self.enough {
+            self.settle(out);
+        }
     }
 
     /// The machine stands still for a time: a tool change, an M code. Counts as a motion of its own.
@@ -275,24 +299,6 @@ impl<'m> Planner<'m> {
             ..timed
         });
     }
-
-    fn flush(&mut self, out: &mut impl FnMut(Timed)) {
-        self.last = None;
-        let planned = self.run.plan();
-        #[cfg(test)]
-        self.seen.push((self.run.clone(), planned.clone()));
-        let mut next = 0;
-        for open in self.open.drain(..) {
-            let end = next + open.count;
-            out(if open.count == 0 {
-                open.timed
-            } else {
-                finished(&open, &self.run, &planned, next..end)
-            });
-            next = end;
-        }
-        self.run.pieces.clear();
-    }
 }
 
 impl Timed {
@@ -318,62 +324,5 @@ impl Timed {
             bend_feed: None,
             engaged: false,
         }
-    }
-}
-
-/// Puts the pieces of a motion together.
-fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>) -> Timed {
-    let Open { timed, complete, .. } = *open;
-    let mut seconds = [0.0; 2];
-    let (mut reached, mut lowest, mut below, mut crawls) = (0.0_f64, f64::INFINITY, 0.0, 0.0);
-    let mut crawls_out = 0.0;
-    let mut slowest = pieces.start;
-    for index in pieces.clone() {
-        let (ramp, [own, free]) = (&planned.ramps[index], planned.seconds[index]);
-        seconds[0] += free;
-        seconds[1] += own;
-        reached = reached.max(ramp.top);
-        lowest = lowest.min(ramp.ends[0]).min(ramp.ends[1]);
-        let feed = run.pieces[index].feed;
-        if feed.is_finite() {
-            // what smooths the ends is time below F as well
-            let more = own - ramp.seconds();
-            below += ramp.seconds_below(SLOW * feed) + more.max(0.0);
-            let slow = ramp.seconds_below(CRAWL * feed);
-            crawls += slow;
-            crawls_out = if ramp.top < CRAWL * feed {
-                crawls_out + slow
-            } else {
-                ramp.seconds_to_end_below(CRAWL * feed)
-            };
-        }
-        if ramp.top < planned.ramps[slowest].top {
-            slowest = index;
-        }
-    }
-    seconds[1] = (seconds[1] - open.overlap).max(seconds[0]);
-    let (piece, ramp) = (&run.pieces[slowest], &planned.ramps[slowest]);
-    let near = |a: f64, b: f64| a >= b * (1.0 - 1e-6);
-    let limit = if near(ramp.top, piece.planned.cap) {
-        piece.planned.by
-    } else if planned.top.is_some() && piece.jerk.is_finite() && ramp.top < piece.planned.acceleration * piece.jerk_time
-    {
-        Limit::Jerk
-    } else if near(ramp.ends[0].min(ramp.ends[1]), ramp.top) && ramp.top > 0.0 {
-        Limit::Corner
-    } else {
-        Limit::Acceleration(piece.slowest)
-    };
-    let last = planned.ramps[pieces.end - 1].ends[1];
-    Timed {
-        seconds: [Some(seconds[0]), complete.then_some(seconds[1])],
-        reached: complete.then_some(reached * 60.0),
-        lowest: complete.then_some(lowest * 60.0),
-        leaves: complete.then_some(last * 60.0),
-        limit,
-        below,
-        crawls,
-        crawls_out,
-        ..timed
     }
 }

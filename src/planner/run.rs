@@ -10,7 +10,21 @@ pub struct Run {
     pub lookahead: Option<u32>,
     /// Length of the control's own filter, s.
     pub filter: f64,
+    /// Where these are not the first pieces after the stop: how they begin.
+    pub begun: Option<Begun>,
 }
+
+/// How the rest of a run begins whose first pieces are planned already.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Begun {
+    /// Optimistic and planned speed, mm/s.
+    pub speeds: [f64; 2],
+    /// The length of the filter that limits the jerk, s.
+    pub filter: f64,
+}
+
+/// The longest filter is taken without a search if it costs no more than this for each motion, s: half a servo cycle of 1 ms.
+pub(crate) const WORTH: f64 = 0.0005;
 
 /// What a run takes.
 #[derive(Clone, Debug, Default)]
@@ -38,7 +52,7 @@ struct Filtered {
 }
 
 impl Run {
-    /// Plans it. Both ends are stops.
+    /// Plans it. It ends with a stop, and begins with one where nothing is planned yet.
     ///
     /// Of two kinds of plan the faster one counts: accelerations that a filter smooths, of the best length, and one move with limited jerk under the
     /// lowest limits of all pieces. With a higher limit each plan of both kinds is still possible, so that the time does not grow.
@@ -46,7 +60,7 @@ impl Run {
         if self.pieces.is_empty() {
             return Planned::default();
         }
-        let free = self.levels(|piece| [piece.optimistic.cap, piece.optimistic.acceleration]);
+        let free = self.free_levels();
         let optimistic = Self::ramps(&self.pieces, &free, &self.speeds(&free, 0, None));
         let filtered = self.filtered();
         if let Some(move_) = self.one_move()
@@ -81,17 +95,7 @@ impl Run {
     /// The plan for a filter of this length, s: no axis accelerates by more than half of what its jerk gives in that time, along the path and in bends, so
     /// that a change from one acceleration to the opposite one keeps within the jerk.
     fn with_filter(&self, length: f64) -> Filtered {
-        let levels = self.levels(|piece| {
-            let Bounds { cap, acceleration, .. } = piece.planned;
-            if length <= 0.0 {
-                return [cap, acceleration];
-            }
-            let half = 0.5 * length;
-            [
-                cap.min((piece.bend_jerk * half).sqrt()),
-                acceleration.min(piece.jerk * half),
-            ]
-        });
+        let levels = self.levels_with(length);
         let speeds = self.speeds(&levels, 1, self.lookahead);
         let ramps = Self::ramps(&self.pieces, &levels, &speeds);
         let filter = self.filter.max(length);
@@ -102,12 +106,31 @@ impl Run {
         Filtered { ramps, filter, total }
     }
 
+    fn free_levels(&self) -> Levels {
+        self.levels(|piece| [piece.optimistic.cap, piece.optimistic.acceleration])
+    }
+
+    fn levels_with(&self, length: f64) -> Levels {
+        self.levels(|piece| {
+            let Bounds { cap, acceleration, .. } = piece.planned;
+            if length <= 0.0 {
+                return [cap, acceleration];
+            }
+            let half = 0.5 * length;
+            [
+                cap.min((piece.bend_jerk * half).sqrt()),
+                acceleration.min(piece.jerk * half),
+            ]
+        })
+    }
+
     /// The plan with the filter that makes the run fastest: the shorter it is, the less may the axes accelerate.
     fn filtered(&self) -> Filtered {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
         const ROUNDS: u32 = 24;
-        /// The longest filter is taken without a search if it costs no more than this for each motion, s: half a servo cycle of 1 ms.
-        const WORTH: f64 = 0.0005;
+        if let Some(begun) = self.begun {
+            return self.with_filter(begun.filter);
+        }
         let longest = 2.0 * self.pieces.iter().map(|piece| piece.jerk_time).fold(0.0, f64::max);
         let mut best = self.with_filter(longest);
         let ends = self.pieces.first().zip(self.pieces.last());
@@ -143,24 +166,62 @@ impl Run {
 
     /// Highest speeds at the ends of the pieces that every piece can brake from and accelerate to. `side` 0: optimistic, 1: planned.
     fn speeds(&self, levels: &Levels, side: usize, lookahead: Option<u32>) -> Vec<f64> {
-        let count = self.pieces.len();
-        let mut speeds = vec![0.0; count + 1];
-        // from the end backwards
-        for index in (1..count).rev() {
-            let ([before, _], [cap, acceleration]) = (levels[index - 1], levels[index]);
-            let next: f64 = speeds[index + 1];
-            let reach = (next * next + 2.0 * acceleration * self.pieces[index].length).sqrt();
-            speeds[index] = self.pieces[index].entry[side].min(before).min(cap).min(reach);
-        }
+        let mut speeds = self.braking(levels, side);
         if let Some(blocks) = lookahead {
             self.look(levels, blocks, &mut speeds);
         }
-        for index in 0..count - 1 {
+        for index in 0..self.pieces.len() - 1 {
             let from: f64 = speeds[index];
             let reach = (from * from + 2.0 * levels[index][1] * self.pieces[index].length).sqrt();
             speeds[index + 1] = speeds[index + 1].min(reach);
         }
         speeds
+    }
+
+    /// Highest speeds at the ends of the pieces that every piece can brake from, from the end backwards.
+    fn braking(&self, levels: &Levels, side: usize) -> Vec<f64> {
+        let count = self.pieces.len();
+        let mut speeds = vec![0.0; count + 1];
+        speeds[0] = self.begun.map_or(0.0, |begun| begun.speeds[side]);
+        for index in (1..count).rev() {
+            let [_, acceleration] = levels[index];
+            let next: f64 = speeds[index + 1];
+            let reach = (next * next + 2.0 * acceleration * self.pieces[index].length).sqrt();
+            speeds[index] = self.allowed(levels, side, index).min(reach);
+        }
+        speeds
+    }
+
+    /// The highest speed at the start of a piece, whatever follows.
+    fn allowed(&self, levels: &Levels, side: usize, index: usize) -> f64 {
+        let ([before, _], [cap, _]) = (levels[index - 1], levels[index]);
+        self.pieces[index].entry[side].min(before).min(cap)
+    }
+
+    /// How many pieces are planned as they will be whatever follows, up to `most`, and how the rest begins: before it lies a corner from which
+    /// the control could even stop within what it knows. `None` where there is no such corner.
+    pub(crate) fn settled(&self, filter: f64, most: usize) -> Option<(usize, Begun)> {
+        let sides = [self.free_levels(), self.levels_with(filter)];
+        let braking = [0, 1].map(|side| self.braking(&sides[side], side));
+        let (mut index, mut seen) = (self.pieces.len(), 0);
+        let begins = |index: usize| self.pieces[index - 1].motion != self.pieces[index].motion;
+        let settled = |side: usize, index: usize| braking[side][index] >= self.allowed(&sides[side], side, index);
+        loop {
+            index = index.checked_sub(1).filter(|index| *index > 0)?;
+            if !begins(index) {
+                continue;
+            }
+            seen += 1;
+            let looked = self.lookahead.is_none_or(|blocks| seen > blocks);
+            if looked && index <= most && settled(0, index) && settled(1, index) {
+                break;
+            }
+        }
+        let speeds = [
+            self.speeds(&sides[0], 0, None)[index],
+            self.speeds(&sides[1], 1, self.lookahead)[index],
+        ];
+        Some((index, Begun { speeds, filter }))
     }
 
     /// Within the blocks that it sees, the control must be able to stop.
@@ -200,6 +261,9 @@ impl Run {
     /// path, and where the control does not see all of it.
     fn one_move(&self) -> Option<Move> {
         let unseen = |blocks: u32| (blocks as usize) < self.pieces.len();
+        if self.begun.is_some() {
+            return None;
+        }
         if self.pieces.len() > 1 && self.lookahead.is_some_and(unseen) {
             return None;
         }

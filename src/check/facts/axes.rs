@@ -3,6 +3,7 @@ use super::over_view;
 use crate::look::Look;
 use crate::view::LegView;
 use core::f64::consts::PI;
+use trunnion_syntax::Format;
 use trunnion_machine::{Axis, Excess, Machine, Stance, limit_excess};
 
 /// A rotary axis turns by more than half a turn.
@@ -76,7 +77,7 @@ pub(crate) struct ClampedTurn<'v> {
 }
 over_view!(LongTurn, OverTravel, CableAxis, ClampedTurn, IdleTip);
 
-/// The tip is led on a machine without a rotary axis.
+/// The tip is led on a machine without a rotary axis, by a code of the program: APT always speaks of the tip, and needs none.
 pub(crate) struct IdleTip<'v> {
     view: &'v LegView<'v>,
 }
@@ -87,7 +88,8 @@ impl<'v> IdleTip<'v> {
         look.leg.motion.tcp && look.of.machine.rotary.is_empty()
     }
     pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
-        (view.leg.motion.tcp && view.machine.rotary.is_empty()).then_some(Self { view })
+        let by_code = view.dialect.lex.format != Format::Apt;
+        (by_code && view.leg.motion.tcp && view.machine.rotary.is_empty()).then_some(Self { view })
     }
 }
 

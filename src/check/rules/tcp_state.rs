@@ -150,6 +150,30 @@ mod tests {
     }
 
     #[test]
+    fn apt_needs_no_code_to_lead_the_tip() {
+        for (axis, passes) in [("", true), ("MULTAX\n", true), ("MULTAX/OFF\n", true)] {
+            let end = if axis == "MULTAX\n" { ",0,0,1" } else { "" };
+            let text = format!(
+                "PARTNO P\nUNITS/MM\nCUTTER/6\n{axis}LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/500\nGOTO/0,0,5{end}\nGOTO/9,0,5{end}\nFINI\n"
+            );
+            let report = Fixture::parse("gcode apt mill-3axis", &text).check().unwrap();
+            let told: Vec<_> = report.diagnostics.iter().filter(|d| d.severity == Error).collect();
+            assert!(told.is_empty(), "{axis}: {told:?}");
+        }
+        // what a tool needs that is not along Z is said as before
+        let tilted = "PARTNO P\nUNITS/MM\nCUTTER/6\nMULTAX\nLOADTL/1\nFEDRAT/500\nGOTO/0,0,5,0,0,1\nGOTO/9,0,5,0,0.5,0.866025\nFINI\n";
+        let report = Fixture::parse("gcode apt mill-3axis", tilted).check().unwrap();
+        assert!(
+            report
+                .diagnostics
+                .iter()
+                .any(|d| d.severity == Error && d.rule != "tcp-state"),
+            "{:?}",
+            report.diagnostics
+        );
+    }
+
+    #[test]
     fn rotary_words_are_free_before_and_with_the_next_tool() {
         let text = "T1 M6\nG0 X0 Y0 Z50 A0 C0\nG1 A5 F100\nTRAORI\nG1 X5 A6\nTRAFOOF\nG0 X0 Y0 Z50 A0\nG1 A1 F100\nA2\nT2 M6\nG0 X0 Y0 Z50\nG1 A3\nM30\n";
         assert_eq!(found("sinumerik-840d", text), ["a rotary axis turns x2"]);

@@ -284,7 +284,9 @@ fn has_code(text: &[u8], numbers: &[&[u8]]) -> bool {
     memchr::memchr2_iter(b'G', b'g', text).any(|at| {
         let behind = &text[at + 1..];
         let ends = |rest: &[u8]| !rest.first().is_some_and(u8::is_ascii_digit);
-        numbers.iter().any(|number| behind.strip_prefix(*number).is_some_and(ends))
+        numbers
+            .iter()
+            .any(|number| behind.strip_prefix(*number).is_some_and(ends))
     })
 }
 

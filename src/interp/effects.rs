@@ -15,7 +15,7 @@ use crate::words::Words;
 use crate::written::{Keep, written};
 use crate::{Argument, Effect, FaultKind, Motion, Reach};
 use assignments::{
-    comments, declarations, named_effects, reads_machine_position, system_assignment, unknown_assignment,
+    comments, declarations, named_effects, named_words, reads_machine_position, system_assignment, unknown_assignment,
 };
 pub(crate) use collected::Effects;
 use lengths::{in_lengths, to_mm};
@@ -381,6 +381,9 @@ impl Iso<'_> {
                 _ if found.code.action == Action::SpindleStop => {
                     let mut to = vec![Argument::code(found.code.id.clone())];
                     to.extend(arguments(words, crate::unused::letters(found.code) & words.letters));
+                    if found.code.id == "M19" {
+                        to.extend(named_words(self, view));
+                    }
                     self.core.effects.add(block, Effect::set("spindle", to));
                 }
                 _ if found.code.action == Action::ProgramEnd => {

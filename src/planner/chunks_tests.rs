@@ -66,7 +66,10 @@ fn same(whole: &[Timed], parts: &[Timed], what: &str) {
         let seconds = a.seconds.iter().zip(b.seconds).all(|(a, b)| each(*a, b));
         let speeds = each(a.reached, b.reached) && each(a.lowest, b.lowest) && each(a.leaves, b.leaves);
         let slow = near(a.below, b.below) && near(a.crawls, b.crawls);
-        assert!(seconds && speeds && slow && a.limit == b.limit && a.block == b.block, "{what}\n{a:?}\n{b:?}");
+        assert!(
+            seconds && speeds && slow && a.limit == b.limit && a.block == b.block,
+            "{what}\n{a:?}\n{b:?}"
+        );
     }
 }
 

@@ -352,7 +352,21 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
             return Err(verdict(place(what)));
         }
     }
-    in_effect(was, is, claim)
+    in_effect(was, is, claim)?;
+    if was.said != is.said {
+        let quoted = |step: &Step| {
+            step.said
+                .as_deref()
+                .map_or("all that it says is known".to_owned(), |words| format!("`{words}`"))
+        };
+        let what = format!(
+            "where it ends or how fast is unknown, and the blocks say different things: {} and {}",
+            quoted(was),
+            quoted(is)
+        );
+        return Err(Verdict::Unknown(place(what)));
+    }
+    Ok(())
 }
 
 /// Two lines that end together: they are compared as one pair.

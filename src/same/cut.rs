@@ -9,7 +9,7 @@ const STANDS: f64 = 1e-9;
 
 /// Whether a motion moves nothing and takes no time: a block that repeats the position before it.
 pub(crate) fn is_idle(step: &Step) -> bool {
-    step.may_repeat && stays(step)
+    step.may_repeat && step.said.is_none() && stays(step)
 }
 
 /// Whether a motion repeats the position before it, after something that may have moved the machine.

@@ -16,6 +16,8 @@ pub struct Step {
     pub held: Held,
     /// What else is in effect.
     pub process: Arc<Process>,
+    /// What its block says, where the motion does not: its end, its feed or its time is not known.
+    pub(crate) said: Option<Arc<str>>,
     /// Since the motion before, nothing can have changed its coordinates: a block that repeats the position does not move.
     pub may_repeat: bool,
     /// The program states where it starts (FROM of APT): no motion before it ends there.

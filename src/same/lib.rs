@@ -26,6 +26,7 @@ mod process;
 mod rapids;
 mod refit;
 mod retracts;
+mod said;
 mod sentences;
 mod since;
 mod steps;

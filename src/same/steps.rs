@@ -312,8 +312,10 @@ impl<'a> Steps<'a> {
             self.effects_before(motion.effects);
             let starts_anew = self.since.starts_anew(&motion);
             let may_repeat = self.since.motion(&motion, &held);
+            let said = self.said(&motion);
             self.ready.push_back(Item::Motion(Box::new(Step {
                 may_repeat,
+                said,
                 starts_anew,
                 motion,
                 leg,

@@ -3,8 +3,8 @@ use super::over_view;
 use crate::look::Look;
 use crate::view::LegView;
 use core::f64::consts::PI;
-use trunnion_syntax::Format;
 use trunnion_machine::{Axis, Excess, Machine, Stance, limit_excess};
+use trunnion_syntax::Format;
 
 /// A rotary axis turns by more than half a turn.
 pub(crate) struct LongTurn<'v> {

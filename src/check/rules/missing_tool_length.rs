@@ -128,7 +128,7 @@ fn left(cut: &facts::LengthLeft<'_>, out: &mut Reporter<'_>) {
         return;
     }
     match (in_force.tool_length_mm, in_force.length_of) {
-        (None, _) if out.once(LEFT | u64::from(tool)) => out
+        (None, _) | (Some(_), LengthOf::Nothing) if out.once(LEFT | u64::from(tool)) => out
             .report_block(format!(
                 "T{tool} cuts without its length, which was compensated in the cut before: it was switched off between them"
             ))

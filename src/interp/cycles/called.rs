@@ -11,7 +11,7 @@ use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, FaultKind, Feed, Motion, MotionKind};
+use crate::{Argument, Effect, FaultKind, Feed, Motion, MotionKind};
 use std::sync::Arc;
 use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
@@ -257,6 +257,37 @@ impl Iso<'_> {
                 Some(code) => self.core.state.spindle.switch(code == 3.0 || code == 4.0),
                 None => self.core.state.spindle.lose(),
             }
+            let to = after.map(|code| match code {
+                3.0 => "M3",
+                4.0 => "M4",
+                _ => "M5",
+            });
+            self.spindle_after_call(to, report);
+            // at which speed it turns after the speed of the tap, no source says
+            if call.sort == Sort::Tap && self.core.effects.wanted() {
+                let block = self.core.main_block(report.block);
+                self.core.effects.add(block, Effect::left("speed"));
+            }
+        }
+        match call.sort {
+            Sort::Bore => self.spindle_after_call(Some("M5"), report),
+            // M5 and M0 at the bottom: what the operator does there is not in the program
+            Sort::BoreStop => self.spindle_after_call(None, report),
+            _ => {}
+        }
+    }
+
+    /// What the spindle does after a cycle that switches it; `None`: not known.
+    fn spindle_after_call(&mut self, to: Option<&'static str>, report: &Report<'_>) {
+        if self.core.effects.wanted() {
+            let block = self.core.main_block(report.block);
+            self.core.effects.add(
+                block,
+                match to {
+                    Some(code) => Effect::set("spindle", [Argument::code(code)]),
+                    None => Effect::left("spindle"),
+                },
+            );
         }
     }
 
@@ -304,7 +335,9 @@ impl Iso<'_> {
         }
         self.down(plan, MotionKind::Rapid, plan.back, report);
         if call.sort == Sort::BoreStop {
-            self.core.state.spindle.lose();
+            // it stood at the bottom, and nothing in the program starts it again
+            self.core.state.spindle.turn(Some(true));
+            self.core.state.spindle.leave_to_machine();
         }
     }
 

@@ -3,7 +3,7 @@ use crate::engine::Engine;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::written::{Keep, Values, full_name, named_role, names, packed, resolved, stem, written};
-use crate::{Argument, Effect, Reach};
+use crate::{Argument, Effect, Reach, canonical_text};
 use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
@@ -230,4 +230,14 @@ pub(crate) fn unknown_assignment(run: &Iso<'_>, view: &Block<'_>, words: &Words)
         _ => false,
     });
     assigns.then(|| written(view, run, words, Keep::All))
+}
+
+/// Words with a name in a block that reads them beside its codes: `M19 RS=30` of an Okuma gives the angle.
+pub(crate) fn named_words(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
+    let words = view.items().filter_map(|item| match item {
+        Item::Word(word) if matches!(word.address, Address::Named(_)) => Some(word.range),
+        _ => None,
+    });
+    let said = |range| resolved(run, &canonical_text(&view.program().text(range)));
+    words.map(|range| Argument::text("", &said(range))).collect()
 }

@@ -41,7 +41,14 @@ impl Iso<'_> {
             Return::From => self.leave_reference(named, point, report),
             Return::To(number) => {
                 if named != 0 {
-                    self.rapid_to(point, report);
+                    // a distance from an unknown place leads to another unknown place
+                    let goes = |axis: &usize| named & (1 << axis) != 0 && point.get(*axis).is_none();
+                    let still = |axis: usize| words.axes.unread & (1 << axis) == 0 && words.axes.values[axis] == 0.0;
+                    if (0..9).filter(goes).all(still) {
+                        self.rapid_to(point, report);
+                    } else {
+                        self.goes(MotionKind::Rapid, point, Feed::Rapid, report);
+                    }
                     self.memory.frames.intermediate = Some(self.core.state.position);
                 } else if self.core.dialect.quirks.return_moves_all {
                     named = (1 << 9) - 1;

@@ -23,6 +23,13 @@ impl Iso<'_> {
                 "P of a dwell takes no decimal point: it is in milliseconds; X takes one, in seconds".to_owned();
             self.refuse(words, Refusal::Number, message, None, report);
         }
+        let axes = &words.axes;
+        for (axis, name) in [(0, "X"), (6, "U")] {
+            if block.dwell && axes.get(axis).is_some() && axes.values[axis] < 0.0 {
+                let message = format!("{name} is negative: the time of a dwell must be 0 or more");
+                self.refuse(words, Refusal::Number, message, None, report);
+            }
+        }
         for (name, value) in said {
             let negative = value.number().is_some_and(|number| number.value < 0.0);
             if negative && (name != "P" || block.dwell) {

@@ -1,0 +1,185 @@
+//! What a block says of a motion whose end, feed or time is not known: the numbers of the motion are not the place, and two that are not known need not be
+//! equal (decision 0029). Then the words of both blocks must be the same.
+use crate::steps::Steps;
+use std::sync::Arc;
+use trunnion_dialect::Role;
+use trunnion_interp::{AxisLetter, Feed, ModalState, Motion, MotionKind, canonical_text};
+use trunnion_syntax::{Address, Block, Format, Item, Value, Word};
+
+/// X, Y and Z.
+const LINEAR: u16 = 7;
+/// All axes.
+const ALL: u16 = 0x1ff;
+
+/// What a motion leaves open.
+struct Lost {
+    /// Axes without a known end, bits as in `Position::known`.
+    axes: u16,
+    /// X, Y or Z is one of them.
+    linear: bool,
+    feed: bool,
+    /// What it is, is not known: it says everything.
+    kind: bool,
+    /// Its centre is known.
+    arc: bool,
+}
+
+/// The words of a block, as far as its motion does not say them.
+#[derive(Default)]
+struct Said {
+    words: Vec<String>,
+    /// One of them has no known result.
+    counts: bool,
+}
+
+impl Steps<'_> {
+    /// What the block of a motion says, where the motion does not: `None` where everything that the block says is known.
+    pub(crate) fn said(&self, motion: &Motion) -> Option<Arc<str>> {
+        let diameter = self.input.dialect.quirks.diameter;
+        let axes = !motion.end.known & ALL;
+        let lost = Lost {
+            axes,
+            // a lathe of two axes never names Y
+            linear: axes & LINEAR & if diameter { !2 } else { !0 } != 0,
+            feed: motion.is_feed() && motion.feed == Feed::Unknown,
+            kind: matches!(
+                motion.kind,
+                MotionKind::Unknown | MotionKind::Arc(None) | MotionKind::Dwell(None)
+            ),
+            arc: matches!(motion.kind, MotionKind::Arc(Some(_))),
+        };
+        if axes == 0 && !lost.feed && !lost.kind {
+            return None;
+        }
+        let program = self.input.program;
+        let block = program.block(motion.block);
+        let mut said = Said {
+            counts: lost.kind,
+            ..Said::default()
+        };
+        match program.options().format {
+            Format::Iso | Format::Osp => self.words_of(&block, &lost, &mut said),
+            Format::Klartext => self.sentence_of(&block, &lost, &mut said),
+            Format::Apt => said.whole(self.text(&program.text(block.range())), lost.linear),
+        }
+        said.counts.then(|| said.told(self.state()))
+    }
+
+    /// A text with its known values, in one spelling.
+    fn text(&self, text: &str) -> String {
+        self.interpreter.resolved_text(&canonical_text(text))
+    }
+
+    fn words_of(&self, block: &Block<'_>, lost: &Lost, said: &mut Said) {
+        let (program, dialect) = (self.input.program, self.input.dialect);
+        for item in block.items() {
+            match item {
+                Item::Word(word) => self.word(&word, lost, said),
+                Item::Call(call) => {
+                    let modal = dialect
+                        .name(&program.text(call.name))
+                        .is_some_and(|code| code.group.is_some());
+                    if !modal || call.arguments.is_some() {
+                        said.whole(self.text(&program.text(call.range)), lost.linear);
+                    }
+                }
+                Item::Other(range) => said.whole(self.text(&program.text(range)), lost.linear),
+                Item::Comment(_) | Item::Skip(..) | Item::Percent(_) | Item::Label(_) => {}
+            }
+        }
+    }
+
+    fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {
+        let (program, dialect) = (self.input.program, self.input.dialect);
+        let text = || self.text(&program.text(word.range));
+        let Address::Letter(letter) = word.address else {
+            return said.whole(text(), lost.linear);
+        };
+        let letter = letter.to_ascii_uppercase();
+        match dialect.role(letter) {
+            Some(Role::G) => {
+                let tenths = match word.value {
+                    Value::Number(number) => (number.to_f64() * 10.0).round(),
+                    _ => -1.0,
+                };
+                let code = (0.0..1e6).contains(&tenths).then_some(tenths as u32);
+                // what is modal is compared as it is in effect
+                if code
+                    .and_then(|code| dialect.g(code))
+                    .is_none_or(|code| code.group.is_none())
+                {
+                    said.words.push(text());
+                }
+                return;
+            }
+            Some(Role::M) => return,
+            _ => {}
+        }
+        match letter {
+            b'N' | b'O' | b'S' | b'T' | b'D' => {}
+            b'H' if !dialect.quirks.diameter => {}
+            b'F' | b'E' => said.whole_if(lost.feed || lost.kind, &text, lost.feed),
+            _ => {
+                // increments of a lathe
+                let axis = match (letter, dialect.quirks.diameter) {
+                    (b'U', true) => b'X',
+                    (b'W', true) => b'Z',
+                    (b'H', true) => b'C',
+                    (letter, _) => letter,
+                };
+                let counts = match AxisLetter::new(axis) {
+                    Some(axis) => lost.axes & (1 << axis.0) != 0,
+                    None => lost.linear && !lost.arc,
+                };
+                said.whole(text(), counts);
+            }
+        }
+    }
+
+    fn sentence_of(&self, block: &Block<'_>, lost: &Lost, said: &mut Said) {
+        let Some(sentence) = block.sentence() else { return };
+        let text = String::from_utf8_lossy(&sentence.text()).to_ascii_uppercase();
+        let mut words = text.split_whitespace();
+        if words.next() != Some("L") {
+            return said.whole(self.text(&text), lost.linear || lost.feed);
+        }
+        for word in words {
+            let bare = word.strip_prefix('I').unwrap_or(word);
+            let axis = bare.bytes().next().and_then(AxisLetter::new);
+            match axis {
+                Some(axis) => said.whole(self.text(word), lost.axes & (1 << axis.0) != 0),
+                None if word.starts_with('F') => said.whole_if(lost.feed, &|| self.text(word), lost.feed),
+                None if matches!(word, "R0" | "RL" | "RR") || word.starts_with('M') && word != "M91" => {}
+                None => said.whole(self.text(word), lost.linear),
+            }
+        }
+    }
+}
+
+impl Said {
+    /// Adds something; `counts`: its result is not known.
+    fn whole(&mut self, text: String, counts: bool) {
+        self.words.push(text);
+        self.counts |= counts;
+    }
+
+    fn whole_if(&mut self, wanted: bool, text: &dyn Fn() -> String, counts: bool) {
+        if wanted {
+            self.whole(text(), counts);
+        }
+    }
+
+    /// In one order, with what the numbers are.
+    fn told(mut self, state: &ModalState) -> Arc<str> {
+        self.words.sort();
+        let coordinates = &state.coordinates;
+        let mut told = self.words.join(" ");
+        if coordinates.incremental() {
+            told.push_str(" (incremental)");
+        }
+        if coordinates.unit_mm() != 1.0 {
+            told.push_str(" (inch)");
+        }
+        told.into()
+    }
+}

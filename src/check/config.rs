@@ -120,7 +120,7 @@ pub const TOLERANCES: &[(&str, &str)] = &[
         "swap_excess",
         "branch-swap: rotary travel more than the cheapest move without a swap, deg",
     ),
-    ("pole_touch", "pole-crossing: distance to the pole, deg"),
+    ("pole_touch", "no rule uses it at present: distance to the pole, deg"),
     (
         "feed_drop_warning",
         "feed-drop: part of the programmed feed, 0 to 1, below which it is a warning",

@@ -41,7 +41,8 @@ pub(crate) struct Global {
     /// The machine: the name of a built-in one (`trunnion machine list`) or a TOML file.
     #[arg(long, global = true, value_name = "NAME|FILE")]
     pub(crate) machine: Option<String>,
-    /// The dialect of the program. Default: its modeline comment, then trunnion.toml, then file extension and content.
+    /// The dialect of the program. Default: its modeline comment, then trunnion.toml, then typical words in its text, then a file extension
+    /// that only one control uses, then the control of the machine.
     #[arg(long, global = true, value_name = "NAME")]
     pub(crate) dialect: Option<String>,
     /// The settings file. Default: trunnion.toml in the folder of the program or the nearest folder above it.
@@ -56,11 +57,11 @@ pub(crate) struct Global {
     /// Treat unknown verdicts as findings.
     #[arg(long, global = true)]
     pub(crate) strict: bool,
-    /// Also report what would change its meaning on this control (name of a dialect; may be repeated).
+    /// Also report words that mean something else on this control (name of a dialect; may be repeated).
     #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
     pub(crate) port_to: Vec<String>,
-    /// Take what is not declared as zero (work-offset, tool-length) or as usual at power-on (power-on); write commas between several. The
-    /// verdict lists it.
+    /// Treat undeclared work offsets and tool lengths as zero (work-offset, tool-length); take the usual state at power-on (power-on). Write
+    /// commas between several. The verdict lists what was assumed.
     #[arg(long, global = true, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) assume: Vec<String>,
     /// Blocks that begin with `/`: run them (off) or skip them (on). Default: trunnion.toml; without it, check judges both.
@@ -148,7 +149,8 @@ pub(crate) enum Command {
     Fix(Fix),
     /// Re-check a certificate, or prove or refute that AFTER is the same tool path as BEFORE.
     Certify(Certify),
-    /// Convert APT/CL to G-code and back, or between dialects and machines. The result is proved motion by motion, or refused.
+    /// Convert APT/CL to G-code, Klartext or Okuma OSP and back, or between dialects and machines. The result is proved motion by motion, or
+    /// refused.
     Convert(Convert),
     /// Format the layout: spacing, case, indentation, block numbers. Proved not to change what the program does.
     Fmt(Fmt),
@@ -162,7 +164,8 @@ pub(crate) enum Command {
     Rules(Rules),
     /// Print, test, compare or import a machine.
     Machine(Machine),
-    /// Draw what the machine does, as SVG: axis positions, tool axis around the pole, deviation, path.
+    /// Draw what the machine does, as SVG: axis positions, tool axis around the pole, deviation, feed, path, rapids past obstacles, a corner as
+    /// the servo loops run it.
     Plot(Plot),
     /// Measure how far the real tool path deviates from a required surface.
     Surface(Surface),

@@ -51,7 +51,8 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
 
 fn text(global: &Global, dialects: &BTreeMap<String, usize>) -> String {
     let mut out = String::from(
-        "# Settings of trunnion for the programs in this folder and below. All keys: docs/settings.md, `trunnion schema settings`.\n\n",
+        "# Settings of trunnion for the programs in this folder and below.\n\
+         # All keys: `trunnion schema settings`, or docs/settings.md in the source of trunnion.\n\n",
     );
     match &global.machine {
         Some(machine) => {

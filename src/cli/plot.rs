@@ -32,7 +32,7 @@ pub(crate) struct Plot {
     #[arg(short, long, value_name = "FILE.svg")]
     output: Option<PathBuf>,
     /// joints: draw over the travel of the tip, or over time.
-    #[arg(long, value_enum, default_value = "way")]
+    #[arg(long, value_enum, default_value = "path")]
     along: Axis,
     /// axis-plane, route: a second program, drawn over the first as "after".
     #[arg(long, value_name = "FILE")]
@@ -46,7 +46,7 @@ pub(crate) struct Plot {
     /// servo: the corner at the start of the motion in this line.
     #[arg(long, value_name = "LINE")]
     at: Option<u32>,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "With --kind servo")]
     servo: ServoOptions,
 }
 
@@ -71,6 +71,7 @@ enum Kind {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Axis {
+    #[value(name = "path", alias = "way")]
     Way,
     Time,
 }

@@ -37,31 +37,32 @@ pub(crate) struct Servo {
 /// The loops and the speed at the corner, for `servo` and `plot --kind servo`. What is not given comes from the machine file.
 #[derive(clap::Args)]
 pub(crate) struct ServoOptions {
-    /// servo: position gain of all axes, in 1/s.
+    /// Position gain of all axes, in 1/s. Default: `dyn.kv` of the machine file.
     #[arg(long, value_name = "1/S")]
     kv: Option<f64>,
-    /// servo: acceleration along the path, in mm/s^2.
+    /// Acceleration along the path, in mm/s^2. Default: that which the axes of the machine allow.
     #[arg(long, value_name = "MM/S^2")]
     acc: Option<f64>,
-    /// servo: speed at the corner, in mm/min. Default: stop there.
+    /// Speed at the corner, in mm/min. Default: stop there.
     #[arg(long, value_name = "MM/MIN", default_value_t = 0.0)]
     corner_feed: f64,
-    /// servo: how an axis answers a commanded speed: at once, or through a velocity loop.
+    /// How an axis answers a commanded speed: at once, or through a velocity loop.
     #[arg(long, value_enum, default_value = "first")]
     plant: PlantKind,
-    /// servo: bandwidth of the velocity loop, in Hz.
+    /// Bandwidth of the velocity loop, in Hz. Default: `servo.bandwidth` of the machine file.
     #[arg(long, value_name = "HZ")]
     bandwidth_hz: Option<f64>,
-    /// servo: time between two samples of the position loop, in ms. Without one a loop of the first order is continuous, and others take 1 ms.
+    /// Time between two samples of the position loop, in ms. Default: `servo.sample_time` of the machine file, else continuous for the
+    /// first-order plant without a corner controller, otherwise 1 ms.
     #[arg(long, value_name = "MS")]
     sample_ms: Option<f64>,
-    /// servo: gain of the corner controller, in 1/s.
+    /// Gain of the corner controller, in 1/s.
     #[arg(long, value_name = "1/S", default_value_t = 0.0)]
     corner_gain: f64,
-    /// servo: samples by which the correction comes late.
+    /// Samples by which the correction comes late.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1000))]
     delay: u32,
-    /// servo: form the correction where the model will be after the delay.
+    /// Compute the correction from the position predicted after the delay.
     #[arg(long)]
     predict: bool,
 }

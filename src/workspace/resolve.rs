@@ -100,8 +100,8 @@ impl Resolved {
 
 /// Resolves for a program at `path` (`None`: standard input or an unsaved buffer) with the given text.
 ///
-/// Machine: overrides, modeline comment, `trunnion.toml`. Dialect: overrides, modeline comment, `trunnion.toml`, then the
-/// file's extension, the machine's control family and the content.
+/// Machine: overrides, modeline comment, `trunnion.toml`. Dialect: overrides, modeline comment, `trunnion.toml`, then typical words in the
+/// text, a file extension that only one control uses, and the machine's control family.
 ///
 /// # Errors
 /// A file that cannot be read or is not valid, an unknown name; each with its place.

@@ -19,7 +19,7 @@
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C0
-//! N30 G1 X1 A20 C0 F500
+//! N30 G1 X10 A20 C0 F300
 //! N40 M30
 //! ```
 //!

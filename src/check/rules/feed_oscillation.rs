@@ -1,8 +1,8 @@
 //! The feed falls and rises again several times within a short path.
 //!
 //! # Why
-//! Each time the machine slows down and speeds up again, the load on the tool changes. Short blocks with sharp corners, or limits that come and go,
-//! leave a pattern of marks on the surface.
+//! Each time the machine slows down and speeds up again, the load on the tool changes. Short blocks with sharp corners, or limits that apply only in
+//! some blocks, leave a pattern of marks on the surface.
 //!
 //! # Example
 //! ```gcode fanuc-30i mill-3axis

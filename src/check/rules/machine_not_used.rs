@@ -14,6 +14,8 @@
 //! ```
 //!
 //! # Use instead
+//! The program stays as it is. Without `limit_margin` in the machine file it passes:
+//!
 //! ```gcode mikron-ucp710
 //! N10 G0 X0 Y0 Z0 A0 C0
 //! N20 M30

@@ -3,7 +3,7 @@
 //! # Why
 //! The control guides the point at the compensated length below the gauge point of the spindle. Where that
 //! point is not the tip (no G43, or the H number of another tool), every turn of the tool against the workpiece
-//! carries the tip around that point: what is true of one path is not true of the other.
+//! carries the tip around that point: findings about that point's path do not hold for the tip's path.
 //!
 //! # Example
 //! ```gcode fanuc-30i mikron-ucp710

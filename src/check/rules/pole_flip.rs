@@ -31,7 +31,8 @@
 //!
 //! # Thresholds
 //! `pole_cone`: 2 deg around the pole; `pole_angle`: 10 deg of the first rotary axis. An error where that axis
-//! turns 175 to 185 deg.
+//! turns 175 to 185 deg. All findings of a block at the pole are merged into one, which has the level of its worst
+//! part: together with `branch-swap` it is an error.
 //!
 //! # Sources
 //! * docs/kinematics.md#the-pole

@@ -1,4 +1,4 @@
-//! A feed motion ends at an unknown position, or a rapid from a known position does, or an arc begins at one.
+//! A feed motion ends, an arc starts, or a rapid from a known position ends, at an unknown position.
 //!
 //! # Why
 //! Some axis was never positioned, or its position was lost where something is not modelled. The positions of the

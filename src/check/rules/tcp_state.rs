@@ -30,7 +30,8 @@
 //! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same
 //! tool; a feed motion under it with a tool whose length is not active; a tool change or machine coordinates under
 //! it; a machine without a rotary axis; a code that needs H and has none, where no H of this tool was programmed
-//! before. `path-deviation` judges the resulting path.
+//! before. `path-deviation` judges the resulting path. Everything is a warning except tool centre point control on a
+//! machine without a rotary axis, which is an error.
 //!
 //! # Sources
 //! * docs/contract.md#tool-centre-point-control

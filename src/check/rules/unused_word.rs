@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode linuxcnc
 //! G0 X10 P2
-//! ;      ^^ unused-word:
+//! ;      ^^ unused-word: P word with no G2 G3 G4
 //! M2
 //! ```
 //!

@@ -41,10 +41,10 @@ pub(crate) struct Check {
     #[arg(long)]
     pub(crate) statistics: bool,
     /// Keep results in this folder, and skip files that did not change since.
-    #[arg(long, value_name = "FOLDER", help_heading = "Again and again")]
+    #[arg(long, value_name = "FOLDER", help_heading = "Repeated runs")]
     pub(crate) cache: Option<PathBuf>,
     /// Check again whenever a file changes, until interrupted.
-    #[arg(long, help_heading = "Again and again")]
+    #[arg(long, help_heading = "Repeated runs")]
     pub(crate) watch: bool,
     /// Show at most this many findings per file, the worst ones first (0: all). By default as many as fit on a
     /// screen of 40 lines in pretty form, and 200 in short form.

@@ -19,7 +19,7 @@ pub(crate) struct Fix {
     /// How far the tool axis may turn, in degrees.
     #[arg(long, value_name = "DEG")]
     pub(crate) tolerance_deg: Option<f64>,
-    /// switch-angles: what the postures of the whole program are chosen by. Default: `cost` of [fix] in trunnion.toml, else travel.
+    /// switch-angles: what to minimise when choosing postures for the whole program. Default: `cost` of [fix] in trunnion.toml, else travel.
     #[arg(long, value_enum)]
     pub(crate) cost: Option<crate::cli::fix::CostOf>,
     /// fit-arcs, fit-splines: what the new path must be near, the lines as they are programmed or only their ends. Default: `source` of [fix] in trunnion.toml, else
@@ -30,7 +30,7 @@ pub(crate) struct Fix {
     #[arg(long, value_enum)]
     pub(crate) point: Option<crate::cli::fix::PointOf>,
     /// adapt-feed: make cuts that are slower than this as fast as the axes allow, up to this, in mm/min. Plunges too: see --lines. Default:
-    /// `feed_mm_min` of [fix] in trunnion.toml, else none is made faster.
+    /// `feed_mm_min` of [fix] in trunnion.toml, else no cut is made faster.
     #[arg(long, value_name = "MM_MIN")]
     pub(crate) feed: Option<f64>,
     #[command(flatten, next_help_heading = "Target of retarget")]

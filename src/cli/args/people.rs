@@ -23,7 +23,7 @@ pub(crate) struct Init {
 /// `schema`
 #[derive(clap::Args)]
 pub(crate) struct Schema {
-    /// Whose schema.
+    /// Which schema.
     #[arg(value_enum)]
     pub(crate) name: SchemaName,
 }

@@ -298,8 +298,8 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
     }
     let flags = [
         (extra.clamp, "must stand still while cutting"),
-        (extra.cable, "winds up a cable (declared, not used yet)"),
-        (extra.spindle, "also a spindle (declared, not used yet)"),
+        (extra.cable, "winds up a cable"),
+        (extra.spindle, "also a spindle, whose speeds are not judged"),
         (extra.diameter, "words are diameters"),
     ];
     notes.extend(flags.iter().filter(|(set, _)| *set).map(|(_, text)| (*text).to_owned()));

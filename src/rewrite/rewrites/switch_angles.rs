@@ -9,7 +9,8 @@
 //! # How
 //! Each position of the rotary axes has a state for every posture and winding inside the travel of all axes. A motion costs the rotary
 //! travel (`--cost travel`: the root of the sum of squares), the time of the slowest rotary axis (`--cost time`) or the deviation of the
-//! tip from its line (`--cost deviation`). The cheapest path through the states is found exactly. The first position is free.
+//! tip from its line (`--cost deviation`). The cheapest path through the states is found exactly. Any posture may be
+//! chosen at the first position.
 //! A cut may change the posture only where the pole is inside the block (the tool axis passes it inside the pole cone, or the rotary
 //! travel exceeds that of the same posture by no more than `swap_excess`), and never turns an axis by more than half a turn, unless the
 //! program did so before.

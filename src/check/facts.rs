@@ -10,7 +10,7 @@ mod pole;
 mod posture;
 mod travel;
 
-pub(crate) use axes::{CableAxis, ClampedTurn, IdleTip, LongTurn, OverTravel};
+pub(crate) use axes::{CableAxis, ClampedTurn, IdleTip, LongTurn, NoTravel, OverTravel};
 pub(crate) use curve::{Curved, Margin};
 pub(crate) use cut::{Cut, HeldBackCut, OtherLength, StrayingCut, UncertainCut, VectorCut};
 pub(crate) use motion::{

@@ -1,5 +1,5 @@
 //! A first look at a leg: what is cheap to see, and rules out most facts of most legs.
-use crate::facts::{ClampedTurn, first_pass};
+use crate::facts::{ClampedTurn, NoTravel, first_pass};
 use crate::trail::Trail;
 use trunnion_interp::Feed;
 use trunnion_machine::{Allowances, Leg, Machine, QuickBounds, RotaryRadii, quick_bounds};
@@ -13,6 +13,8 @@ pub(crate) struct Looker<'m> {
     pub(crate) cable: bool,
     /// It has an axis that must not turn while cutting, or that codes clamp.
     pub(crate) clamp: bool,
+    /// It has a linear axis without declared travel.
+    pub(crate) no_travel: bool,
     /// Its file says how well an axis is known.
     pub(crate) uncertain: bool,
     /// Seconds that the first rotary axis needs for a pass at 1 rad from the pole, per rad.
@@ -47,6 +49,7 @@ impl<'m> Looker<'m> {
             near: RotaryRadii::default(),
             cable: any(|axis| axis.extra.cable),
             clamp: ClampedTurn::on(machine),
+            no_travel: NoTravel::on(machine),
             uncertain: any(|axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some()),
             pole_pass: first_pass(machine),
         }

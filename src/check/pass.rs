@@ -201,8 +201,9 @@ impl<'a> Pass<'a> {
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
-        let relied = self.start.assumptions(self.reporter.program(), self.dialect);
-        let assumptions = listed.chain(self.assumed_radii).chain(relied).collect();
+        let [unit, relied] = self.start.assumptions(self.reporter.program(), self.dialect);
+        let others = listed.chain(self.assumed_radii).chain(relied);
+        let assumptions = unit.into_iter().chain(others).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
             let spindle = interpreter.state().spindle;

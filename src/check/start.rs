@@ -137,14 +137,26 @@ impl Start {
         out
     }
 
-    /// The same as assumptions.
-    pub(crate) fn assumptions(&self, program: &Program, dialect: &Dialect) -> Vec<String> {
-        let [not_declared, declared] = self.relied(program, dialect);
-        let listed = [(not_declared, "not declared"), (declared, "declared")];
-        let listed = listed.into_iter().filter(|(codes, _)| !codes.is_empty());
-        listed
-            .map(|(codes, how)| format!("{} at power-on ({how})", codes.join(" ")))
-            .collect()
+    /// The same as assumptions: that of the unit, which all else depends on, and the others.
+    pub(crate) fn assumptions(&self, program: &Program, dialect: &Dialect) -> [Vec<String>; 2] {
+        let mut out = [Vec::new(), Vec::new()];
+        let is_unit = |id: &String| {
+            let code = dialect.codes().iter().find(|code| code.id == *id);
+            code.is_some_and(|code| UNITS.contains(&code.action))
+        };
+        for (codes, how) in self
+            .relied(program, dialect)
+            .into_iter()
+            .zip(["not declared", "declared"])
+        {
+            let (unit, rest): (Vec<_>, Vec<_>) = codes.into_iter().partition(is_unit);
+            for (out, codes) in out.iter_mut().zip([unit, rest]) {
+                if !codes.is_empty() {
+                    out.push(format!("{} at power-on ({how})", codes.join(" ")));
+                }
+            }
+        }
+        out
     }
 }
 

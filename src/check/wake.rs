@@ -4,9 +4,9 @@ use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
     Arrival, CableAxis, ClampedTurn, Curved, CutSpindleUnlimited, FarCut, FirstApproach, FirstCut, HeldBackCut,
-    IdleTip, LengthLeft, LengthOffZ, LongTurn, LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength,
-    OverTravel, Passing, PoleCrossing, PolePass, PostureSwap, SteepHelix, StrayingCut, UncertainCut, UnsaidUnits,
-    VectorCut, WindingCut,
+    IdleTip, LengthLeft, LengthOffZ, LongTurn, LostArc, LostEnd, NearPole, NoTravel, OneSidedCut, OpenPosture,
+    OtherLength, OverTravel, Passing, PoleCrossing, PolePass, PostureSwap, SteepHelix, StrayingCut, UncertainCut,
+    UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -211,6 +211,8 @@ wakes! {
         ClampedTurn,
         /// The tip is led on a machine without a rotary axis.
         IdleTip,
+        /// Linear axes move whose travel the machine file does not declare.
+        NoTravel,
         /// A motion on a machine with obstacles.
         Passing,
         /// A feed motion to which rapid motions led.

@@ -26,7 +26,11 @@ impl FileError {
     pub(crate) fn io(path: &Path, doing: &str, error: &io::Error) -> Self {
         Self {
             path: path.to_owned(),
-            message: format!("cannot {doing}: {error}"),
+            message: if error.kind() == io::ErrorKind::NotFound && doing.starts_with("read") {
+                "there is no such file: check its name and folder".to_owned()
+            } else {
+                format!("cannot {doing}: {error}")
+            },
             closed: error.kind() == io::ErrorKind::BrokenPipe,
         }
     }

@@ -3,7 +3,7 @@ mod emit;
 
 use crate::corner::{Passage, Round, passage};
 use crate::pieces::{Course, Taken, take};
-use crate::{Bounds, Limit, PathControl, Piece, Planned, Run, Timed, s_curve};
+use crate::{Bounds, Limit, PathControl, Piece, Run, Timed, s_curve};
 use trunnion_dialect::RotaryFeed;
 use trunnion_interp::{ChainId, Feed, MotionKind};
 use trunnion_machine::{Leg, Machine, RapidPath, feed_is_ambiguous};
@@ -27,7 +27,7 @@ pub struct Planner<'m> {
     chunk: usize,
     /// For tests: every run with its plan.
     #[cfg(test)]
-    pub(crate) seen: Vec<(Run, Planned)>,
+    pub(crate) seen: Vec<(Run, crate::Planned)>,
 }
 
 /// A motion whose pieces are not planned yet.

@@ -22,6 +22,7 @@ const THREADS: usize = 2;
 
 /// The thread on which long documents are read and judged as a whole, one after the other: on many threads the allocator would keep the
 /// memory of each.
+#[derive(Clone)]
 pub(super) struct Worker(Sender<Box<dyn FnOnce() + Send>>);
 
 impl Worker {
@@ -56,19 +57,16 @@ impl Owner {
         let begins = document.large.as_ref().is_some_and(|large| large.base.is_none());
         let (newest, overrides) = (Arc::clone(&document.newest), self.folder.overrides.clone());
         let inbox = self.inbox.clone();
-        if begins {
-            let (uri, text, overrides, inbox) = (uri.clone(), text.clone(), overrides.clone(), inbox.clone());
-            let newest = Arc::clone(&newest);
-            self.runtime.spawn_blocking(move || {
-                if let Some(part) = part::first(&uri, version, &text, &overrides)
-                    && newest.load(Ordering::SeqCst) == version
-                {
-                    let part = Some(Box::new(part));
-                    let _ = inbox.send(Event::Part { uri, version, part });
-                }
-            });
-        }
-        self.long.run(move || {
+        let beginning = begins.then(|| {
+            (
+                uri.clone(),
+                text.clone(),
+                overrides.clone(),
+                inbox.clone(),
+                Arc::clone(&newest),
+            )
+        });
+        let whole = move || {
             let cancelled = || newest.load(Ordering::SeqCst) != version;
             if cancelled() {
                 return;
@@ -79,6 +77,21 @@ impl Owner {
             if !cancelled() {
                 let _ = inbox.send(Event::Parsed(Arc::new(parsed)));
             }
+        };
+        let Some((uri, text, overrides, inbox, newest)) = beginning else {
+            return self.long.run(whole);
+        };
+        // the whole takes all cores: it waits until the beginning is shown
+        let long = self.long.clone();
+        self.runtime.spawn_blocking(move || {
+            if let Some(part) = part::first(&uri, version, &text, &overrides)
+                && newest.load(Ordering::SeqCst) == version
+            {
+                let part = Some(Box::new(part));
+                let _ = inbox.send(Event::Part { uri, version, part });
+            }
+            drop(text);
+            long.run(whole);
         });
     }
 

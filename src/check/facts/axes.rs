@@ -3,7 +3,7 @@ use super::over_view;
 use crate::look::Look;
 use crate::view::LegView;
 use core::f64::consts::PI;
-use trunnion_machine::{Axis, Excess, Machine, Stance, limit_excess};
+use trunnion_machine::{Axis, AxisKind, Excess, Machine, Stance, limit_excess};
 use trunnion_syntax::Format;
 
 /// A rotary axis turns by more than half a turn.
@@ -75,7 +75,45 @@ impl<'v> CableAxis<'v> {
 pub(crate) struct ClampedTurn<'v> {
     view: &'v LegView<'v>,
 }
-over_view!(LongTurn, OverTravel, CableAxis, ClampedTurn, IdleTip);
+over_view!(LongTurn, OverTravel, CableAxis, ClampedTurn, IdleTip, NoTravel);
+
+/// Linear axes move whose travel the machine file does not declare.
+pub(crate) struct NoTravel<'v> {
+    view: &'v LegView<'v>,
+}
+
+impl<'v> NoTravel<'v> {
+    #[inline]
+    pub(crate) fn may(look: &Look<'_>) -> bool {
+        look.of.no_travel
+    }
+    pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
+        let fact = Self { view };
+        let moves = fact.axes().next().is_some();
+        moves.then_some(fact)
+    }
+    /// Whether a machine has such an axis.
+    pub(crate) fn on(machine: &Machine) -> bool {
+        machine.axes.iter().any(Self::undeclared)
+    }
+    fn undeclared(axis: &Axis) -> bool {
+        axis.kind == AxisKind::Linear && !axis.extra.limits_declared
+    }
+    /// The axes.
+    pub(crate) fn axes(&self) -> impl Iterator<Item = &Axis> {
+        let leg = self.view.leg;
+        let start = leg.start.as_ref().map(|start| start.joints);
+        let end = leg.end.as_ref().ok().map(|end| end.joints);
+        let axes = self.view.machine.axes.iter().enumerate();
+        axes.filter(move |(joint, axis)| {
+            let moves = start
+                .zip(end)
+                .is_some_and(|(start, end)| (end[*joint] - start[*joint]).abs() > 1e-9);
+            moves && Self::undeclared(axis)
+        })
+        .map(|(_, axis)| axis)
+    }
+}
 
 /// The tip is led on a machine without a rotary axis, by a code of the program: APT always speaks of the tip, and needs none.
 pub(crate) struct IdleTip<'v> {

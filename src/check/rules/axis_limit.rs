@@ -21,7 +21,7 @@
 //! Sound for axes whose position is known: inside a block it uses a bound on the motion of the axes, not samples.
 //! Where a work offset or tool length is not declared, a chain of linear axes is judged by how far the path spans:
 //! it fails if no zero point fits; otherwise the zero points that fit are reported and the result is unknown.
-//! An axis that was never positioned is not judged. Travel inside a rapid block is unknown where the machine file
+//! An axis that was never positioned is not judged. A linear axis without declared travel is unknown. Travel inside a rapid block is unknown where the machine file
 //! does not say whether the axes arrive together, and also where it says that they do not while the control guides
 //! the tip.
 //!
@@ -39,10 +39,27 @@ pub(super) const RULE: Body = Body::sound(
     Error,
     &[
         Wake::OverTravel(check),
+        Wake::NoTravel(undeclared),
         Wake::Overrun(no_zero_fits),
         Wake::Open(what_fits),
     ],
 );
+
+/// Axes that move and declare no travel.
+fn undeclared(leg: &facts::NoTravel<'_>, out: &mut Reporter<'_>) {
+    let axes: Vec<String> = leg.axes().map(|axis| letter(axis.letter)).collect();
+    out.unknown(leg, Merge::once(UNDECLARED), |draft| {
+        draft
+            .say(format!(
+                "{} declares no travel of {}: it is unknown whether the program stays within it",
+                leg.machine.id,
+                axes.join(", ")
+            ))
+            .help(
+                "write `limits = [low, high]` of each axis into the machine file, in mm, or `limits = \"unbounded\"`",
+            );
+    });
+}
 
 /// The path spans more than the travel.
 fn no_zero_fits(overrun: &Overrun, out: &mut Reporter<'_>) {
@@ -137,6 +154,8 @@ fn fit_keys(letter: u8) -> Option<[&'static str; 2]> {
 
 /// Key of the unknown path; the keys of findings are letters and more.
 const UNSETTLED: u64 = 0;
+/// Key of travel that is not declared.
+const UNDECLARED: u64 = 1;
 
 fn check(leg: &facts::OverTravel<'_>, out: &mut Reporter<'_>) {
     if !leg.settled && leg.found.is_empty() {

@@ -1,6 +1,7 @@
 //! The target of a conversion: the arguments of `convert`, and of `fix --rewrite retarget`.
 use crate::cli::{failure::Failure, load, load::Loaded};
 use std::path::{Path, PathBuf};
+use trunnion_check::did_you_mean;
 use trunnion_convert::{BUILTIN_POSTS, Post, Target, builtin_post, load_post};
 use trunnion_machine::Machine;
 use trunnion_workspace::{LoadError, find_machine};
@@ -104,9 +105,13 @@ impl TargetArgs {
             return Ok(None);
         }
         builtin_post(&name).map(Some).ok_or_else(|| {
-            Failure::new(format!(
-                "no post for `{name}`; there are posts for {} and apt, or use your own (--post FILE)",
+            let all = format!(
+                "; there are posts for {} and apt, or use your own (--post FILE)",
                 BUILTIN_POSTS.join(", ")
+            );
+            Failure::new(format!(
+                "no post for `{name}`{}",
+                did_you_mean(&name, BUILTIN_POSTS, &all)
             ))
         })
     }

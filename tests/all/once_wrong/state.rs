@@ -115,4 +115,31 @@ pub(super) const STATE: &[Item] = &[
         &["4 unknown not-modelled"],
         [1, 3],
     ),
+    (
+        "CYCLE87 stops the spindle",
+        ["sinumerik-840d", ""],
+        [
+            "G17 G90 G94 G54\nT1 D1\nM6\nS1000 M3\nG0 X0 Y0 Z50\nG1 Z5 F100\n",
+            "CYCLE87(10,0,2,-5,0,3)\nG1 X5\nM30\n",
+        ],
+        &["8 unknown spindle-off-cut"],
+        [6, 6],
+    ),
+    (
+        "H0 between two cuts",
+        ["fanuc-30i", ""],
+        [
+            HEAD,
+            "T1 M6\nG43 H1 Z50.\nG1 Z0. F100.\nG0 Z50.\nG43 H0\nG0 Z5.\nG1 X5.\nM30\n",
+        ],
+        &["12 warning missing-tool-length"],
+        [5, 6],
+    ),
+    (
+        "a negative time of a dwell in X",
+        ["fanuc-30i", ""],
+        [HEAD, "G4 X-1.\nM30\n"],
+        &["6 error bad-number"],
+        [2, 3],
+    ),
 ];

@@ -1,6 +1,7 @@
 //! LSP positions and bytes: here and nowhere else.
 use tower_lsp::lsp_types::{Position, Range};
 use trunnion_syntax::TextRange;
+pub(crate) use trunnion_syntax::line_starts;
 
 /// How the client counts columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,17 +10,6 @@ pub(crate) enum Encoding {
     Utf16,
     /// Bytes.
     Utf8,
-}
-
-/// Byte offsets of line starts. Lines end with `\n`, `\r\n` or a lone `\r`, as the protocol says.
-pub(crate) fn line_starts(text: &[u8]) -> Vec<u32> {
-    let mut starts = vec![0];
-    for i in memchr::memchr2_iter(b'\n', b'\r', text) {
-        if text[i] == b'\n' || text.get(i + 1) != Some(&b'\n') {
-            starts.push(i as u32 + 1);
-        }
-    }
-    starts
 }
 
 /// The text of a piece of a document, which is UTF-8. A piece of a line costs as much as it is long, the whole text too.

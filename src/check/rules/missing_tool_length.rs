@@ -127,8 +127,10 @@ fn left(cut: &facts::LengthLeft<'_>, out: &mut Reporter<'_>) {
     if turns && out.judges_machine() && in_force.own_length_mm.is_some() {
         return;
     }
-    match (in_force.tool_length_mm, in_force.length_of) {
-        (None, _) | (Some(_), LengthOf::Nothing) if out.once(LEFT | u64::from(tool)) => out
+    // LinuxCNC's G49 moves nothing: the coordinates change with the length
+    let by_zero = in_force.length_of == LengthOf::Nothing && !cut.dialect.quirks.rs274();
+    match (in_force.tool_length_mm.filter(|_| !by_zero), in_force.length_of) {
+        (None, _) if out.once(LEFT | u64::from(tool)) => out
             .report_block(format!(
                 "T{tool} cuts without its length, which was compensated in the cut before: it was switched off between them"
             ))

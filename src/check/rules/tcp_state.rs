@@ -92,6 +92,7 @@ fn idle(view: &facts::IdleTip<'_>, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use crate::Severity::Error;
     use crate::fixture::Fixture;
 
     fn found(dialect: &str, text: &str) -> Vec<String> {

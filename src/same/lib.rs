@@ -7,6 +7,7 @@
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod actions;
 mod begin;
+mod changed;
 mod compare;
 mod counted;
 mod curve;
@@ -30,8 +31,10 @@ mod sentences;
 mod since;
 mod steps;
 mod twins;
+mod unit;
 mod verdict;
 
+pub use changed::{Apart, Change, compare_changed};
 pub use compare::{Claim, compare};
 pub use exact::Exact;
 pub use input::Input;

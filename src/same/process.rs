@@ -103,6 +103,12 @@ impl Process {
             .collect()
     }
 
+    /// The first setting that `asks` wants, with its key.
+    pub(crate) fn lengthy(&self, asks: impl Fn(&str, &[Argument]) -> bool) -> Option<(&str, &[Argument])> {
+        let mut all = self.settings.iter().map(|(key, to)| (key.as_ref(), to.as_slice()));
+        all.find(|(key, to)| asks(key, to))
+    }
+
     /// Whether the spindle is known to be stopped: then its speed does not matter.
     fn spindle_is_stopped(&self) -> bool {
         matches!(self.get("spindle"), [only] if only.name == "M5")

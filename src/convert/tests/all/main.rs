@@ -3,6 +3,7 @@
 mod approach;
 mod clamps;
 mod code;
+mod edits;
 mod guide_vane;
 mod holes;
 mod kept;

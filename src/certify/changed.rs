@@ -1,10 +1,10 @@
 //! Proof of an edit: the program after makes the motions of the program before, written otherwise, or moved, turned, mirrored or scaled.
 //!
-//! Both texts are run from scratch. Where zero points or tool lengths are not declared, both are run a second time with values that are
+//! Both texts are run from scratch. Where zero points, tool lengths or reference points are not declared, both are run with values that are
 //! unlike each other in their place, so that no equality comes from taking them as zero.
 use crate::conversion::is_grave;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, FaultKind, Lacks, Setup, Tool, WorkOffset};
+use trunnion_interp::{Fault, FaultKind, Lacks, Position, Setup, Tool, WorkOffset};
 use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed};
 use trunnion_syntax::{BlockId, Program};
 
@@ -44,54 +44,33 @@ fn matters(fault: &Fault, change: &Change) -> bool {
 /// # Errors
 /// The first difference, what is unknown, or a fault.
 pub fn certify_change(
-    [before, after]: [&Program; 2],
+    programs: [&Program; 2],
     dialect: &Dialect,
     setup: &Setup,
     change: &Change,
 ) -> Result<Apart, Unproved> {
     let mut setup = setup.clone();
     setup.limits = setup.limits.of_steps();
-    let (apart, unset) = run([before, after], dialect, &setup, change)?;
-    if !unset.is_empty() {
-        let (_, _) = run([before, after], dialect, &with_values(&setup, &unset), change)?;
+    let mut unset = Vec::new();
+    for program in programs {
+        let mut steps = Steps::new(input(program, dialect, &setup));
+        steps.watch_faults();
+        while steps.next().is_some() {}
+        unset.extend(steps.take_faults().into_iter().map(|fault| fault.kind));
     }
-    Ok(apart)
-}
-
-/// What nobody declares: faults of both runs.
-fn run(
-    programs: [&Program; 2],
-    dialect: &Dialect,
-    setup: &Setup,
-    change: &Change,
-) -> Result<(Apart, Vec<FaultKind>), Unproved> {
-    let input = |program| Input {
-        program,
-        dialect,
-        setup,
-        machine: None,
-    };
-    let [mut old, mut new] = programs.map(|program| Steps::new(input(program)));
+    let setup = with_values(&setup, &unset);
+    let [mut old, mut new] = programs.map(|program| Steps::new(input(program, dialect, &setup)));
     old.watch_faults();
     new.watch_faults();
     let verdict = compare_changed(&mut old, &mut new, change);
-    let mut unset = Vec::new();
     for (after, faults) in [(false, old.take_faults()), (true, new.take_faults())] {
-        for fault in faults {
-            if matters(&fault, change) {
-                let fault = Box::new(fault);
-                return Err(Unproved::Fault { after, fault });
-            }
-            if matches!(
-                fault.kind,
-                FaultKind::WorkOffsetUnset { .. } | FaultKind::ToolLengthUnset { .. }
-            ) {
-                unset.push(fault.kind);
-            }
+        if let Some(fault) = faults.into_iter().find(|fault| matters(fault, change)) {
+            let fault = Box::new(fault);
+            return Err(Unproved::Fault { after, fault });
         }
     }
     match verdict {
-        Ok(apart) => Ok((apart, unset)),
+        Ok(apart) => Ok(apart),
         Err(Verdict::Differs(found)) => Err(found_at(true, found)),
         Err(Verdict::Unknown(found)) => Err(found_at(false, found)),
         Err(Verdict::Same) => Err(Unproved::Found {
@@ -99,6 +78,15 @@ fn run(
             before: None,
             what: "the comparison ended early".to_owned(),
         }),
+    }
+}
+
+fn input<'a>(program: &'a Program, dialect: &'a Dialect, setup: &'a Setup) -> Input<'a> {
+    Input {
+        program,
+        dialect,
+        setup,
+        machine: None,
     }
 }
 
@@ -110,7 +98,8 @@ fn found_at(differs: bool, found: trunnion_same::Difference) -> Unproved {
     }
 }
 
-/// The setup with values in the place of those that nobody declares. They are unlike each other, and no sums of each other.
+/// The setup with values in the place of those that nobody declares: zero points, tool lengths, reference points, distances that a parameter of the
+/// control holds. They are unlike each other, and no sums of each other, so that nothing is the same because of them.
 fn with_values(setup: &Setup, unset: &[FaultKind]) -> Setup {
     let mut setup = setup.clone();
     let mut seed = 0.0;
@@ -119,11 +108,16 @@ fn with_values(setup: &Setup, unset: &[FaultKind]) -> Setup {
         // multiples of the golden ratio are spread evenly
         100.0 * f64::fract(seed * 0.618_033_988_749_895) + 7.0
     };
+    let control = &mut setup.control;
+    control.peck_clearance_mm = control.peck_clearance_mm.or(Some(0.731));
+    control.chip_break_retract_mm = control.chip_break_retract_mm.or(Some(0.417));
+    if control.reference_points.is_empty() {
+        control.reference_points = (0..4).map(|_| Position { values: place(&mut next), known: 0b1_1111_1111 }).collect();
+    }
     for kind in unset {
         match kind {
             FaultKind::WorkOffsetUnset { name } if setup.work_offset(name).is_none() => {
-                let linear = [true, true, true, false, false, false, true, true, true];
-                let values = linear.map(|linear| if linear { next() } else { 0.0 });
+                let values = place(&mut next);
                 let name = name.clone();
                 setup.work_offsets.push(WorkOffset { name, values });
             }
@@ -146,4 +140,9 @@ fn with_values(setup: &Setup, unset: &[FaultKind]) -> Setup {
         }
     }
     setup
+}
+
+/// A place with other linear coordinates each time; rotary axes at 0.
+fn place(next: &mut impl FnMut() -> f64) -> [f64; 9] {
+    core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() })
 }

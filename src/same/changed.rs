@@ -78,6 +78,7 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
     let mut walk = Walk {
         change,
         stands: [Stands::Open; 3],
+        keeps_length: change.keeps(before.input().setup.length_along()),
         last: None,
         apart: Apart::default(),
     };
@@ -92,7 +93,8 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
             (None, None) => break,
             (Some(Item::Motion(was)), Some(Item::Motion(is))) => walk.pair(&was, &is, &claim)?,
             (Some(was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => {
-                let same = change.other_unit && other_unit_event(&was, &is, change.end_mm)?;
+                let linuxcnc = before.input().dialect.quirks.rs274();
+                let same = change.other_unit && other_unit_event(&was, &is, (change.end_mm, !linuxcnc))?;
                 if !same {
                     happens(&was, &is, &claim)?;
                 }
@@ -112,6 +114,8 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
 struct Walk<'c> {
     change: &'c Change,
     stands: [Stands; 3],
+    /// A tool length shifts both programs alike.
+    keeps_length: bool,
     /// The motion before.
     last: Option<Step>,
     apart: Apart,
@@ -364,7 +368,7 @@ impl Walk<'_> {
                 .iter()
                 .any(|position| position.known & (1 << axis) != 0 && position.values[axis] != 0.0)
         });
-        if !turned && was.says_way & 0b11_1000 == 0 {
+        if !turned && was.says_way & !was.end.known & 0b11_1000 == 0 {
             return Ok(());
         }
         let what = if !self.change.is_shift() {
@@ -386,7 +390,7 @@ impl Walk<'_> {
             || last.motion.undeclared.set_here != before.motion.undeclared.set_here;
         let length = last.held.length_of != before.held.length_of
             || !same_number(last.motion.tool_length_mm, before.motion.tool_length_mm);
-        if other || length && !self.change.is_shift() {
+        if other || length && !self.keeps_length {
             self.stands = [Stands::Open; 3];
         }
     }
@@ -452,6 +456,12 @@ impl Change {
             self.linear
                 .map(|row| row[0] * vector.x + row[1] * vector.y + row[2] * vector.z),
         )
+    }
+
+    /// Whether a direction stays as it is.
+    fn keeps(&self, along: [f64; 3]) -> bool {
+        let along = Vec3::from(along);
+        (self.direction(&along) - along).norm() <= 1e-12
     }
 
     fn point(&self, point: &Vec3) -> Vec3 {

@@ -45,16 +45,16 @@ pub(crate) fn other_unit_settings(item: &Item, state: &ModalState) -> Result<(),
     Ok(())
 }
 
-/// Two things that happen: `true` where they are the same offsets written by the program, in mm, within rounding.
-pub(crate) fn other_unit_event(was: &Item, is: &Item, mm: f64) -> Result<bool, Verdict> {
+/// Two things that happen: `true` where they are the same offsets written by the program within rounding. `in_mm`: the words of stored offsets are
+/// in mm.
+pub(crate) fn other_unit_event(was: &Item, is: &Item, (mm, in_mm): (f64, bool)) -> Result<bool, Verdict> {
     let (Item::Happens { sort, words, .. }, Item::Happens { words: other, .. }) = (was, is) else {
         return Ok(false);
     };
     if *sort == Sort::End || !words.iter().any(may_be_length) {
         return Ok(false);
     }
-    // the words of stored offsets are in mm
-    let entry = words.iter().any(|word| word.name == "G10") && *sort == Sort::Event;
+    let entry = in_mm && words.iter().any(|word| word.name == "G10") && *sort == Sort::Event;
     let lengths = entry && !words.iter().chain(other).any(|word| word.name == "mm per unit");
     let axis = |word: &Argument| matches!(word.name.as_bytes(), [b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W' | b'R']);
     let near = |(a, b): (&Argument, &Argument)| match (&a.value, &b.value) {

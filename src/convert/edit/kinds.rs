@@ -207,7 +207,9 @@ impl<'a, 'd> Said<'a, 'd> {
             return self.refuse(coded.word.range, format!("{}: {why}", coded.code.id));
         }
         let arguments = |(code, _, given): &&(&Code, TextRange, bool)| {
-            !fine(code) || *given && !matches!(code.action, Action::NoMotion | Action::Declaration | Action::PathMode)
+            let plain = matches!(code.action, Action::NoMotion | Action::Declaration | Action::PathMode);
+            // jumps, conditions and calls: the run follows them
+            code.action != Action::SubprogramCall && (!fine(code) || *given && !plain)
         };
         if let Some((code, range, _)) = self.names.iter().find(arguments) {
             return self.refuse(*range, format!("{}: {why}", code.id));
@@ -215,7 +217,7 @@ impl<'a, 'd> Said<'a, 'd> {
         Ok(())
     }
 
-    /// Whether a coordinate is a step.
+    /// Whether a coordinate is a step, or a centre is written from the start of the arc.
     pub(super) fn is_step(&self, word: &Word, kind: Kind) -> bool {
         let called = match word.value {
             Value::Call(name, _) => Some(self.program().text(name).to_ascii_uppercase()),
@@ -224,6 +226,7 @@ impl<'a, 'd> Said<'a, 'd> {
         match (kind, called.as_deref()) {
             (Kind::Step(_), _) | (_, Some("IC")) => true,
             (_, Some(_)) => false,
+            (Kind::Centre(_), None) => !self.here.is.coordinates.arc_centre_absolute(),
             (_, None) => self.here.is.coordinates.incremental(),
         }
     }

@@ -186,6 +186,10 @@ impl Work<'_> {
         if said.has(Action::ReferenceReturn) || said.has(Action::ReferenceReturnOther) {
             return self.on_the_way(said, &words);
         }
+        let pecks = matches!(here.is.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
+        if pecks && self.size() != 1.0 {
+            return said.refuse(words[0].0.range, "the clearance of a peck cycle is a parameter of the control, which is not scaled");
+        }
         if let Shape::Rotate(axis, degrees) = self.shape {
             let mut turn = std::mem::take(&mut self.turn);
             let done = turn.block(self, said, &words, (axis, degrees));
@@ -262,8 +266,7 @@ impl Work<'_> {
             }
             Kind::Centre(axis) => {
                 let (factor, add) = self.along(axis);
-                let absolute = said.here.is.coordinates.arc_centre_absolute();
-                (factor, if absolute { add } else { 0.0 })
+                (factor, if said.is_step(word, kind) { 0.0 } else { add })
             }
             Kind::Level => {
                 let (factor, add) = self.along(along(plane));

@@ -72,7 +72,8 @@ impl Turn {
         let (sin, cos) = sin_cos(degrees);
         let turned = |x: f64, y: f64| [x * cos - y * sin, x * sin + y * cos];
         if centre.iter().any(Option::is_some) {
-            if here.is.coordinates.arc_centre_absolute() {
+            let steps = |word: &Word| said.is_step(word, Kind::Centre(0));
+            if !centre.iter().flatten().all(steps) {
                 return said.refuse(
                     words[0].0.range,
                     "absolute arc centres are not turned: write them from the start of the arc",

@@ -129,7 +129,7 @@ fn fine(code: &Code) -> bool {
                 | Action::ConstantSpindleSpeed
         )
         // with arguments their words are unknown
-        || action == Action::SubprogramCall && code.kind != CodeKind::Name
+        || action == Action::SubprogramCall && code.kind == CodeKind::M
 }
 
 impl Work<'_> {

@@ -112,7 +112,12 @@ fn with_values(setup: &Setup, unset: &[FaultKind]) -> Setup {
     control.peck_clearance_mm = control.peck_clearance_mm.or(Some(0.731));
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(Some(0.417));
     if control.reference_points.is_empty() {
-        control.reference_points = (0..4).map(|_| Position { values: place(&mut next), known: 0b1_1111_1111 }).collect();
+        control.reference_points = (0..4)
+            .map(|_| Position {
+                values: place(&mut next),
+                known: 0b1_1111_1111,
+            })
+            .collect();
     }
     for kind in unset {
         match kind {

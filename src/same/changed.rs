@@ -3,17 +3,20 @@
 use crate::compare::{Claim, held, next};
 use crate::ending::{at_end, stopped};
 use crate::happens::happens;
+use crate::input::Input;
 use crate::item::{Item, Step};
 use crate::judge::Judge;
 use crate::near::Near;
 use crate::numbers;
+use crate::process::Process;
 use crate::sentences::only_one;
 use crate::steps::Steps;
 use crate::unit::{other_unit_event, other_unit_settings, unit_of_stores};
 use crate::verdict::{Difference, Verdict};
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{AXIS_LETTERS, Feed, Motion, MotionKind, Orientation, Tilt, same_number};
+use trunnion_interp::{AXIS_LETTERS, ChainId, Feed, Motion, MotionKind, Orientation, Tilt, same_number};
+use trunnion_syntax::Address;
 
 /// What the program after does with the motions of the program before, and how near it must come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +81,7 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
     let mut walk = Walk {
         change,
         stands: [Stands::Open; 3],
+        names_rotary: names_rotary(before.input()),
         keeps_length: change.keeps(before.input().setup.length_along()),
         last: None,
         apart: Apart::default(),
@@ -92,7 +96,12 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
         match (was, is) {
             (None, None) => break,
             (Some(Item::Motion(was)), Some(Item::Motion(is))) => walk.pair(&was, &is, &claim)?,
-            (Some(was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => {
+            (Some(mut was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => {
+                if let Item::Happens { process, .. } = &mut was
+                    && change.mirrors(before.state().coordinates.plane())
+                {
+                    *process = Process::on_other_side(process);
+                }
                 let linuxcnc = before.input().dialect.quirks.rs274();
                 let same = change.other_unit && other_unit_event(&was, &is, (change.end_mm, !linuxcnc))?;
                 if !same {
@@ -114,6 +123,8 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
 struct Walk<'c> {
     change: &'c Change,
     stands: [Stands; 3],
+    /// The program before names a rotary axis.
+    names_rotary: bool,
     /// A tool length shifts both programs alike.
     keeps_length: bool,
     /// The motion before.
@@ -131,6 +142,15 @@ fn place(was: &Motion, is: &Motion, what: impl Into<String>) -> Difference {
 
 fn letter(axis: usize) -> char {
     char::from(AXIS_LETTERS[axis])
+}
+
+/// Whether a word of a program begins with the letter of a rotary axis.
+fn names_rotary(input: &Input<'_>) -> bool {
+    let mut words = input.program.blocks().flat_map(|block| block.words());
+    words.any(|word| match word.address {
+        Address::Letter(letter) => matches!(letter, b'A'..=b'C'),
+        Address::Indexed(..) | Address::Named(_) => true,
+    })
 }
 
 const UNKNOWN_PLACE: &str =
@@ -240,6 +260,7 @@ impl Walk<'_> {
             arc.sweep *= side * change.determinant().signum();
         }
         if change.mirrors(step.held.plane) {
+            step.process = Process::on_other_side(&step.process);
             step.held.compensation = match step.held.compensation {
                 41 => 42,
                 42 => 41,
@@ -368,7 +389,8 @@ impl Walk<'_> {
                 .iter()
                 .any(|position| position.known & (1 << axis) != 0 && position.values[axis] != 0.0)
         });
-        if !turned && was.says_way & !was.end.known & 0b11_1000 == 0 {
+        let open = was.says_way & !was.end.known & 0b11_1000 != 0;
+        if !turned && (!open || !self.names_rotary && was.chain == ChainId::MAIN) {
             return Ok(());
         }
         let what = if !self.change.is_shift() {

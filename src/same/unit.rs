@@ -86,7 +86,12 @@ pub(crate) fn other_unit_event(was: &Item, is: &Item, (mm, in_mm): (f64, bool)) 
 
 /// Variables that outlive the program may hold lengths.
 pub(crate) fn unit_of_stores(stored: &BTreeMap<String, Value>) -> Result<(), Verdict> {
-    let Some(name) = stored.keys().next() else {
+    // above #5000 are offsets and positions of the control
+    let own = |(name, value): &(&String, &Value)| {
+        let number = name.strip_prefix('#').and_then(|number| number.parse::<u32>().ok());
+        number.is_none_or(|number| number <= 5000) && !matches!(value, Value::Number(0.0))
+    };
+    let Some((name, _)) = stored.iter().find(own) else {
         return Ok(());
     };
     Err(Verdict::Unknown(Difference {

@@ -21,18 +21,30 @@ fn unit_and_positions_are_offered_proved_or_disabled_with_the_reason() {
     let inch = named("write in inch (proved)").unwrap_or_else(|| panic!("{found:?}"));
     let edits = inch["edit"]["changes"][URI].as_array().expect("edits").clone();
     let text = apply(PART, &edits);
-    assert!(text.contains("G20 G90") && text.contains("X1. Y2. Z0.2") && text.contains("Z-0.1 F10."), "{text}");
+    assert!(
+        text.contains("G20 G90") && text.contains("X1. Y2. Z0.2") && text.contains("Z-0.1 F10."),
+        "{text}"
+    );
     // there is nothing to do
     assert!(named("write in mm (proved)").is_none(), "{found:?}");
     // not at each move of the cursor
     let quiet = actions(&mut client, &json!({ "diagnostics": [], "triggerKind": 2 }));
-    assert!(quiet.iter().all(|action| action["kind"] != "refactor.rewrite"), "{quiet:?}");
+    assert!(
+        quiet.iter().all(|action| action["kind"] != "refactor.rewrite"),
+        "{quiet:?}"
+    );
     client.finish();
 
     let mut client = opened(URI, &PART.replace("Z-2.54", "Z#1"));
     let found = actions(&mut client, &asked);
-    let refused = found.iter().find(|action| action["title"].as_str().is_some_and(|title| title.starts_with("write in inch: not offered")));
-    let reason = refused.map(|action| action["disabled"]["reason"].to_string()).unwrap_or_default();
+    let refused = found.iter().find(|action| {
+        action["title"]
+            .as_str()
+            .is_some_and(|title| title.starts_with("write in inch: not offered"))
+    });
+    let reason = refused
+        .map(|action| action["disabled"]["reason"].to_string())
+        .unwrap_or_default();
     assert!(reason.contains("line 6: ") && reason.contains("Z#1"), "{found:?}");
     client.finish();
 }
@@ -42,16 +54,35 @@ fn an_edit_with_numbers_is_answered_or_refused() {
     let mut client = opened(URI, PART);
     let mut ask = |edit: Value| client.request("trunnion/edit", json!({ "textDocument": document(URI), "edit": edit }));
     let answer = ask(json!({ "kind": "shift", "by": [10, 0, -1] }));
-    let edits = answer["result"]["edits"].as_array().unwrap_or_else(|| panic!("{answer}")).clone();
+    let edits = answer["result"]["edits"]
+        .as_array()
+        .unwrap_or_else(|| panic!("{answer}"))
+        .clone();
     let text = apply(PART, &edits);
-    assert!(text.contains("G0 X35.4 Y50.8 Z4.08") && text.contains("Z-3.54 F254."), "{text}");
-    assert!(answer["result"]["summary"].as_str().is_some_and(|summary| summary.contains("proved")), "{answer}");
+    assert!(
+        text.contains("G0 X35.4 Y50.8 Z4.08") && text.contains("Z-3.54 F254."),
+        "{text}"
+    );
+    assert!(
+        answer["result"]["summary"]
+            .as_str()
+            .is_some_and(|summary| summary.contains("proved")),
+        "{answer}"
+    );
     let answer = ask(json!({ "kind": "rotate", "axis": "Z", "degrees": 90 }));
-    let edits = answer["result"]["edits"].as_array().unwrap_or_else(|| panic!("{answer}")).clone();
+    let edits = answer["result"]["edits"]
+        .as_array()
+        .unwrap_or_else(|| panic!("{answer}"))
+        .clone();
     assert!(apply(PART, &edits).contains("G0 X-50.8 Y25.4 Z5.08"), "{answer}");
     let answer = ask(json!({ "kind": "mirror", "axis": "Z" }));
     assert_eq!(answer["error"]["code"], -32803, "{answer}");
-    assert!(answer["error"]["message"].as_str().is_some_and(|message| message.contains("along the tool")), "{answer}");
+    assert!(
+        answer["error"]["message"]
+            .as_str()
+            .is_some_and(|message| message.contains("along the tool")),
+        "{answer}"
+    );
     let answer = ask(json!({ "kind": "twist" }));
     assert!(answer["error"]["code"].is_i64(), "{answer}");
     client.finish();

@@ -171,6 +171,15 @@ impl<'a, 'd> Said<'a, 'd> {
             b'P' | b'L' if numbers.iter().any(|action| self.has(*action)) => Kind::Plain,
             b'P' | b'L' | b'K' if self.drills() => Kind::Plain,
             b'Q' if self.drills() => Kind::Length,
+            // the number of an offset; under G41.1 a diameter
+            b'D' => {
+                let diameter = |coded: &Coded<'_>| matches!(coded.code.id.as_str(), "G41.1" | "G42.1");
+                if self.codes.iter().any(diameter) {
+                    Kind::Unknown
+                } else {
+                    Kind::Plain
+                }
+            }
             _ if self.calls() => Kind::Plain,
             _ => Kind::Unknown,
         }

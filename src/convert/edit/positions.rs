@@ -284,10 +284,11 @@ impl Work<'_> {
             if (rounded(exact, decimals) - exact).abs() > 5e-8 {
                 return said.refuse(word.range, "this position has more digits than can be written");
             }
-            let whole = !old.contains('.');
-            let point = !whole
-                || self.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement)
-                || self.setup.control.implicit_decimals.is_none() && self.dialect.quirks.macro_b();
+            let point = match self.setup.control.implicit_decimals {
+                Some(ImplicitDecimals::LeastIncrement) => true,
+                None if self.dialect.quirks.macro_b() => true,
+                _ => old.ends_with('.'),
+            };
             let text = written(&old, exact, decimals, decimals_of(&old), point);
             self.edits.set(self.program, range, &text)?;
         }

@@ -188,7 +188,10 @@ impl Work<'_> {
         }
         let pecks = matches!(here.is.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
         if pecks && self.size() != 1.0 {
-            return said.refuse(words[0].0.range, "the clearance of a peck cycle is a parameter of the control, which is not scaled");
+            return said.refuse(
+                words[0].0.range,
+                "the clearance of a peck cycle is a parameter of the control, which is not scaled",
+            );
         }
         if let Shape::Rotate(axis, degrees) = self.shape {
             let mut turn = std::mem::take(&mut self.turn);
@@ -335,7 +338,7 @@ impl Work<'_> {
                 (value / if inch { 10_000.0 } else { 1000.0 }, range, true)
             }
             None if self.dialect.quirks.macro_b() => (value, range, true),
-            _ => (value, range, !whole),
+            _ => (value, range, self.program.text(range).ends_with('.')),
         })
     }
 

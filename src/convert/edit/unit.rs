@@ -1,5 +1,5 @@
 //! Lengths and feeds in another unit.
-use super::edits::{Edits, Track, decimals_of, number_of, rounded, written};
+use super::edits::{Edits, Track, number_of, rounded, written};
 use super::kinds::{Kind, Said, code_of, has_lengths};
 use super::survey::survey;
 use super::{Change, Proposal};
@@ -267,7 +267,8 @@ impl Work<'_> {
                 value
             };
             let new = value * factor;
-            let point = !whole || least || self.setup.control.implicit_decimals.is_none() && self.needs_point();
+            let point =
+                least || old.ends_with('.') || self.setup.control.implicit_decimals.is_none() && self.needs_point();
             if is_feed {
                 let text = feed(&old, new, point);
                 self.edits.set(self.program, range, &text)?;
@@ -352,5 +353,5 @@ fn feed_stays(program: &Program, dialect: &Dialect) -> Result<bool, Refused> {
 fn feed(old: &str, value: f64, point: bool) -> String {
     let whole = value.abs().max(1e-9).log10().floor() as i32 + 1;
     let decimals = (FEED_DIGITS as i32 - whole).clamp(0, 9) as usize;
-    written(old, value, decimals, 0, point || decimals_of(old) > 0)
+    written(old, value, decimals, 0, point)
 }

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-const PART: &str = "%\nO1 (PART)\nN1 G21 G90 G17\nN2 G54 M3 S1000\nN3 G0 X10. Y20. Z5.\nN4 G1 Z-1. F100.\nN5 X30.\nN6 M30\n%\n";
+const PART: &str =
+    "%\nO1 (PART)\nN1 G21 G90 G17\nN2 G54 M3 S1000\nN3 G0 X10. Y20. Z5.\nN4 G1 Z-1. F100.\nN5 X30.\nN6 M30\n%\n";
 
 #[test]
 fn an_edit_is_printed_or_written_whole() {
@@ -23,7 +24,11 @@ fn an_edit_is_printed_or_written_whole() {
     let out = folder.path().join("out.nc");
     let output = trunnion(&[&shift[..], &["-o", str(&out)]].concat());
     assert_eq!((status(&output), text(&output.stdout).as_str()), (0, ""));
-    let moved = PART.replace("X10.", "X11.5").replace("Z5.", "Z3.").replace("Z-1.", "Z-3.").replace("X30.", "X31.5");
+    let moved = PART
+        .replace("X10.", "X11.5")
+        .replace("Z5.", "Z3.")
+        .replace("Z-1.", "Z-3.")
+        .replace("X30.", "X31.5");
     assert_eq!(fs::read_to_string(&out).expect("there"), moved);
 
     let output = trunnion(&[&shift[..], &["--write", "--backup", "-q"]].concat());
@@ -42,7 +47,11 @@ fn a_refused_edit_writes_nothing_and_says_where_and_why() {
     let base = ["edit", str(&file), "--dialect", "fanuc-30i"];
     let output = trunnion(&[&base[..], &["--shift", "X=1", "-o", str(&out)]].concat());
     assert_eq!(status(&output), 1);
-    assert!(text(&output.stderr).contains("part.nc:7:4: refused: X#1"), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains("part.nc:7:4: refused: X#1"),
+        "{}",
+        text(&output.stderr)
+    );
     assert!(!out.exists());
     for (wrong, part) in [
         (&["--shift", "X"][..], "has no `=`"),
@@ -54,7 +63,11 @@ fn a_refused_edit_writes_nothing_and_says_where_and_why() {
     ] {
         let output = trunnion(&[&base[..], wrong].concat());
         assert_eq!(status(&output), 2, "{wrong:?}");
-        assert!(text(&output.stderr).contains(part), "{wrong:?}: {}", text(&output.stderr));
+        assert!(
+            text(&output.stderr).contains(part),
+            "{wrong:?}: {}",
+            text(&output.stderr)
+        );
     }
     assert_eq!(fs::read_to_string(&file).expect("there"), program);
 }
@@ -82,7 +95,11 @@ fn real_programs_are_edited_and_proved_or_refused_with_a_reason() {
     files(&folder, &mut all);
     all.sort();
     // a sample, or all of them
-    let step = if std::env::var_os("TRUNNION_EDITS_ALL").is_some() { 1 } else { 23 };
+    let step = if std::env::var_os("TRUNNION_EDITS_ALL").is_some() {
+        1
+    } else {
+        23
+    };
     let edits: [&[&str]; 7] = [
         &["--unit", "inch"],
         &["--unit", "mm"],
@@ -105,12 +122,20 @@ fn real_programs_are_edited_and_proved_or_refused_with_a_reason() {
             match status(&output) {
                 0 => {
                     count[0] += 1;
-                    assert!(said.contains("proved by running both programs"), "{}: {said}", file.display());
+                    assert!(
+                        said.contains("proved by running both programs"),
+                        "{}: {said}",
+                        file.display()
+                    );
                     assert!(!output.stdout.is_empty(), "{}", file.display());
                 }
                 1 => {
                     count[1] += 1;
-                    assert!(output.stdout.is_empty() && said.contains("refused: "), "{}: {said}", file.display());
+                    assert!(
+                        output.stdout.is_empty() && said.contains("refused: "),
+                        "{}: {said}",
+                        file.display()
+                    );
                     let reason = said.split("refused: ").nth(1).unwrap_or_default();
                     *reasons.entry(reason.chars().take(70).collect()).or_default() += 1;
                 }
@@ -125,6 +150,9 @@ fn real_programs_are_edited_and_proved_or_refused_with_a_reason() {
     println!("edit: proved, refused, not read: {counts:?}");
     let mut common: Vec<_> = reasons.into_iter().collect();
     common.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    common.iter().take(40).for_each(|(reason, count)| println!("{count:5} {reason}"));
+    common
+        .iter()
+        .take(40)
+        .for_each(|(reason, count)| println!("{count:5} {reason}"));
     assert!(counts.values().any(|count| count[0] > 0), "{counts:?}");
 }

@@ -88,11 +88,12 @@ fn the_unit_changes_lengths_and_feeds_and_nothing_else() {
         INCH,
         "G20 G90 G17\nM3 S1000\nG0 X1 Y1\nG1 Z-0.1 F10\nM5\nM2\n",
     );
-    becomes(
+    // the unit of an Okuma is a parameter
+    refused(
         "okuma-osp",
-        "G21 G90 G17\nG15 H1\nS1000 M3\nG0 X25.4 Y50.8 Z5.08\nG1 Z-2.54 F254\nM2\n",
+        "G90 G17\nG15 H1\nS1000 M3\nG0 X25.4 Y50.8 Z5.08\nG1 Z-2.54 F254\nM2\n",
         INCH,
-        "G20 G90 G17\nG15 H1\nS1000 M3\nG0 X1 Y2 Z0.2\nG1 Z-0.1 F10\nM2\n",
+        "no code says in which unit",
     );
     // a lathe: X is a diameter, and U a step of it
     becomes(
@@ -263,9 +264,9 @@ fn a_path_is_turned_about_the_tool() {
     // cos 60 = 0.5, sin 60 = 0.8660254
     becomes(
         "okuma-osp",
-        "G21 G90 G17\nG15 H1\nS1000 M3\nG0 X10 Y0 Z5\nG1 Z-1 F100\nX20\nM2\n",
+        "G90 G17\nG15 H1\nS1000 M3\nG0 X10 Y0 Z5\nG1 Z-1 F100\nX20\nM2\n",
         Edit::Shape(Shape::Rotate(2, 60.0)),
-        "G21 G90 G17\nG15 H1\nS1000 M3\nG0 X5 Y8.66 Z5\nG1 Z-1 F100\nX10 Y17.321\nM2\n",
+        "G90 G17\nG15 H1\nS1000 M3\nG0 X5 Y8.66 Z5\nG1 Z-1 F100\nX10 Y17.321\nM2\n",
     );
     refused(
         "fanuc-30i",

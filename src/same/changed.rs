@@ -175,6 +175,7 @@ impl Walk<'_> {
         }
         self.rotary(was, is)?;
         self.new_zero(before);
+        self.lost(was);
         let moved = self.moved(before);
         held(&moved, after, claim)?;
         self.feeds(was, is)?;
@@ -414,6 +415,15 @@ impl Walk<'_> {
             || !same_number(last.motion.tool_length_mm, before.motion.tool_length_mm);
         if other || length && !self.keeps_length {
             self.stands = [Stands::Open; 3];
+        }
+    }
+
+    /// An axis whose position has become unknown between two motions (a tool change) has to be positioned again.
+    fn lost(&mut self, was: &Motion) {
+        for (axis, stands) in self.stands.iter_mut().enumerate() {
+            if was.start.known & (1 << axis) == 0 {
+                *stands = Stands::Open;
+            }
         }
     }
 

@@ -119,7 +119,8 @@ impl<'a, 'd> Said<'a, 'd> {
                 let name = format!("{}{number}", char::from(letter));
                 return match self.dialect.named_role(name.as_bytes()) {
                     Some(Role::ToolVector) => Kind::Vector,
-                    Some(Role::Speed | Role::M) => Kind::Plain,
+                    Some(Role::Speed | Role::M | Role::Variable) => Kind::Plain,
+                    None if self.dialect.role(letter) == Some(Role::Variable) => Kind::Plain,
                     Some(_) | None => Kind::Unknown,
                 };
             }
@@ -198,6 +199,9 @@ impl<'a, 'd> Said<'a, 'd> {
         match (name.as_str(), self.dialect.named_role(name.as_bytes())) {
             (",R" | ",C", _) => Kind::Length,
             ("RND" | "CHF" | "CHR", Some(Role::PathWord)) => Kind::Length,
+            // an assignment: where the variable is used, its value is not rewritten
+            (_, Some(Role::Variable)) => Kind::Plain,
+            _ if name.starts_with('#') => Kind::Plain,
             (_, Some(Role::ArcRadius)) => Kind::Radius,
             (_, Some(Role::ArcTurns)) => Kind::Plain,
             (_, Some(Role::ToolVector)) => Kind::Vector,
@@ -265,6 +269,7 @@ pub(super) fn has_lengths(block: &Block<'_>, dialect: &Dialect) -> bool {
             dialect.role(letter),
             Some(Role::Axis | Role::Increment | Role::ArcCentre | Role::ArcRadius | Role::Feed)
         ),
-        _ => true,
+        Address::Named(name) => !block.program().text(name).starts_with('#'),
+        Address::Indexed(letter, _) => dialect.role(letter) != Some(Role::Variable),
     })
 }

@@ -174,6 +174,13 @@ pub(super) fn run(global: &Global, command: &EditProgram) -> Result<Done, Failur
         decimals,
     ) {
         Ok(edited) => edited,
+        Err(refused) if refused.is_nothing => {
+            remark(global.quiet, &format!("{}: {}", loaded.name, refused.message));
+            if let Some(target) = &output {
+                target.write(loaded.program.source(), None)?;
+            }
+            return Ok(Done::Clean);
+        }
         Err(refused) => {
             let place = refused.place;
             let place = place.map_or_else(String::new, |(line, column)| format!(":{line}:{column}"));

@@ -26,7 +26,7 @@ impl Refused {
     pub(crate) fn nothing(message: impl Into<String>) -> Self {
         Self {
             is_nothing: true,
-            ..Self::new(message)
+            ..Self::new(format!("nothing to do: {}", message.into()))
         }
     }
     /// At a block.

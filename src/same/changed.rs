@@ -154,7 +154,7 @@ fn names_rotary(input: &Input<'_>) -> bool {
 }
 
 const UNKNOWN_PLACE: &str =
-    "is unknown, or comes from machine coordinates or a reference point: it cannot be moved with the part";
+    "is unknown, or comes from machine coordinates or a reference point: it cannot be moved with the part; position the axis by a rapid first";
 
 impl Walk<'_> {
     fn pair(&mut self, before: &Step, after: &Step, claim: &Claim) -> Result<(), Verdict> {

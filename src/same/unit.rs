@@ -21,7 +21,10 @@ const NO_LENGTHS: [&str; 9] = [
 
 /// Whether a word may carry a length.
 fn may_be_length(word: &Argument) -> bool {
-    !matches!(word.value, Value::Nothing) && !word.name.starts_with(['M', 'T', 'H', 'D', 'S'])
+    // numbers of codes, tools and offsets, and speeds: `M1`, `T`, `S2`
+    let number = word.name.strip_prefix(['M', 'T', 'H', 'D', 'S']);
+    let is_number = number.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()));
+    !matches!(word.value, Value::Nothing) && !is_number
 }
 
 /// What is in effect at an item must not depend on the unit of lengths.

@@ -26,6 +26,8 @@ pub(super) enum Kind {
     Feed,
     /// A component of a tool vector.
     Vector,
+    /// A word of a mode of path control, which may be a tolerance.
+    Tolerance,
     /// It has nothing to do with lengths.
     Plain,
     /// What it is, is not known here.
@@ -182,6 +184,7 @@ impl<'a, 'd> Said<'a, 'd> {
                 }
             }
             _ if self.calls() => Kind::Plain,
+            _ if self.has(Action::PathMode) => Kind::Tolerance,
             _ => Kind::Unknown,
         }
     }

@@ -46,7 +46,7 @@ pub(super) fn propose(
             Positions::Incremental => "incremental",
         };
         return Err(Refused::nothing(format!(
-            "no position can be written otherwise: what may be {name} is so already"
+            "what may be {name} is so already"
         )));
     }
     if let Some(block) = program

@@ -44,13 +44,13 @@ pub(super) fn propose(
         return Err(Refused::at(program, block.id(), message));
     }
     let Some(unit_mm) = work.unit_mm else {
-        return Err(Refused::nothing("the program has no coordinates: nothing to do"));
+        return Err(Refused::nothing("the program has no coordinates"));
     };
     let change = work.change(unit_mm);
     let notes = work.notes();
     let edits = work.edits.sorted(program);
     if edits.is_empty() {
-        return Err(Refused::nothing("no word of the program would change: nothing to do"));
+        return Err(Refused::nothing("no word of the program would change"));
     }
     Ok(Proposal { edits, change, notes })
 }
@@ -163,7 +163,7 @@ impl Work<'_> {
         )?;
         self.codes(said)?;
         self.taps |= said.has(Action::TapCycle) || said.has(Action::TapLeftCycle);
-        let moving = words.iter().any(|(_, kind)| !matches!(kind, Kind::Feed | Kind::Plain));
+        let moving = words.iter().any(|(_, kind)| !matches!(kind, Kind::Feed | Kind::Plain | Kind::Tolerance));
         if !moving {
             return Ok(());
         }
@@ -249,7 +249,7 @@ impl Work<'_> {
         let plane = said.here.is.coordinates.plane();
         let is_shift = matches!(self.shape, Shape::Shift(_));
         let (factor, add) = match kind {
-            Kind::Feed | Kind::Plain => return Ok(()),
+            Kind::Feed | Kind::Plain | Kind::Tolerance => return Ok(()),
             Kind::Axis(axis) | Kind::Step(axis) if axis > 2 => {
                 if is_shift {
                     return Ok(());

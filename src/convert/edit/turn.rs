@@ -59,7 +59,7 @@ impl Turn {
                 }
                 Kind::Centre(a) if a == u || a == v => centre[usize::from(a == v)] = Some(*word),
                 Kind::Axis(a) | Kind::Centre(a) if a == axis => {}
-                Kind::Feed | Kind::Plain | Kind::Radius | Kind::Level | Kind::Length => {}
+                Kind::Feed | Kind::Plain | Kind::Tolerance | Kind::Radius | Kind::Level | Kind::Length => {}
                 _ => {
                     let text = work.program.text(word.range);
                     return said.refuse(

@@ -38,7 +38,7 @@ pub(super) fn propose(
     if !work.changed {
         let name = name(unit);
         return Err(Refused::nothing(format!(
-            "the program is in {name} already: nothing to do"
+            "the program is in {name} already"
         )));
     }
     if let Some(block) = program
@@ -142,7 +142,7 @@ impl Work<'_> {
         for (word, kind) in said.words() {
             first = first.or(Some(word.range));
             match kind {
-                Kind::Unknown => unknown = unknown.or(Some(word)),
+                Kind::Unknown | Kind::Tolerance => unknown = unknown.or(Some(word)),
                 Kind::Rotary | Kind::Vector | Kind::Plain => {}
                 Kind::Feed if here.is.feed.mode() == FeedMode::InverseTime => {}
                 _ => lengths = true,
@@ -241,7 +241,7 @@ impl Work<'_> {
         for (word, kind) in said.words() {
             let is_feed = kind == Kind::Feed;
             let factor = match kind {
-                Kind::Rotary | Kind::Vector | Kind::Plain | Kind::Unknown => continue,
+                Kind::Rotary | Kind::Vector | Kind::Plain | Kind::Tolerance | Kind::Unknown => continue,
                 Kind::Feed if said.here.is.feed.mode() == FeedMode::InverseTime => continue,
                 // F of G70 of a Sinumerik stays in mm
                 Kind::Feed => self.feed_factor(said),

@@ -109,6 +109,7 @@ fn real_programs_are_edited_and_proved_or_refused_with_a_reason() {
         &["--mirror", "X"],
         &["--rotate", "Z=30"],
     ];
+    let mut proved = 0;
     let mut counts: BTreeMap<&str, [u32; 3]> = BTreeMap::new();
     let mut reasons: BTreeMap<String, u32> = BTreeMap::new();
     for (index, file) in all.iter().enumerate().step_by(step) {
@@ -122,12 +123,11 @@ fn real_programs_are_edited_and_proved_or_refused_with_a_reason() {
             match status(&output) {
                 0 => {
                     count[0] += 1;
-                    assert!(
-                        said.contains("proved by running both programs"),
-                        "{}: {said}",
-                        file.display()
-                    );
-                    assert!(!output.stdout.is_empty(), "{}", file.display());
+                    let is_proved = said.contains("proved by running both programs");
+                    let name = file.display();
+                    assert!(is_proved || said.contains("nothing to do"), "{name}: {said}");
+                    assert_eq!(!output.stdout.is_empty(), is_proved, "{name}");
+                    proved += u32::from(is_proved);
                 }
                 1 => {
                     count[1] += 1;
@@ -147,12 +147,12 @@ fn real_programs_are_edited_and_proved_or_refused_with_a_reason() {
             }
         }
     }
-    println!("edit: proved, refused, not read: {counts:?}");
+    println!("edit: {proved} proved; done, refused, not read: {counts:?}");
     let mut common: Vec<_> = reasons.into_iter().collect();
     common.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     common
         .iter()
         .take(40)
         .for_each(|(reason, count)| println!("{count:5} {reason}"));
-    assert!(counts.values().any(|count| count[0] > 0), "{counts:?}");
+    assert!(proved > 0, "{counts:?}");
 }

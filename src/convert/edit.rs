@@ -2,8 +2,10 @@
 //!
 //! An edit changes words and nothing else. It proposes; [`trunnion_certify::certify_change`] runs both texts and compares them motion for motion.
 //! What it cannot write or cannot prove is refused with the reason.
+mod claim;
 mod edits;
 mod kinds;
+mod klartext;
 mod positions;
 mod shape;
 mod survey;
@@ -70,7 +72,7 @@ impl Edited {
     pub fn summary(&self) -> String {
         let plural = |count: u64, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         format!(
-            "{} changed, and proved by running both programs: {} compared; ends within {:.6} mm (allowed {:.6} mm), the inside of arcs within {:.6} mm, \
+            "{} changed, and proved by running both programs: {} compared; ends within {:.6} mm (allowed {:.6} mm), arcs inside and steps of drilling within {:.6} mm, \
              feeds within {:.5} %",
             plural(self.edits.len() as u64, "word"),
             plural(self.apart.motions, "motion"),
@@ -102,13 +104,7 @@ pub fn edit(
     decimals: Option<usize>,
 ) -> Result<Edited, Refused> {
     match dialect.lex.format {
-        Format::Iso | Format::Osp => {}
-        Format::Klartext => {
-            return Err(Refused::new(
-                "edits of Klartext are not written yet: program a datum shift, a mirror image, a rotation or a scaling factor in it (TRANS DATUM, \
-                 cycles 8, 10 and 11), or convert it",
-            ));
-        }
+        Format::Iso | Format::Osp | Format::Klartext => {}
         Format::Apt => return Err(Refused::new("edits are for G code: change CL data in the CAM system")),
     }
     if let Some(error) = program.errors().first() {
@@ -116,6 +112,7 @@ pub fn edit(
         return Err(Refused::range(program, error.range, message));
     }
     let proposal = match edit {
+        _ if dialect.lex.format == Format::Klartext => klartext::propose(program, dialect, setup, edit, decimals)?,
         Edit::Unit(unit) => unit::propose(program, dialect, setup, unit, decimals)?,
         Edit::Positions(positions) => positions::propose(program, dialect, setup, positions)?,
         Edit::Shape(shape) => shape::propose(program, dialect, setup, shape, decimals)?,

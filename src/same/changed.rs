@@ -1,5 +1,6 @@
 //! Two programs of which the second makes the motions of the first elsewhere: shifted, turned, mirrored, scaled, or written in another unit or with
 //! other words. Each motion of the first is moved exactly, and then both are compared as any two programs are.
+use crate::change::Change;
 use crate::compare::{Claim, held, next};
 use crate::ending::{at_end, stopped};
 use crate::happens::happens;
@@ -13,27 +14,9 @@ use crate::sentences::only_one;
 use crate::steps::Steps;
 use crate::unit::{other_unit_event, other_unit_settings, unit_of_stores};
 use crate::verdict::{Difference, Verdict};
-use trunnion_dialect::Plane;
-use trunnion_geometry::Vec3;
-use trunnion_interp::{AXIS_LETTERS, ChainId, Feed, Motion, MotionKind, Orientation, Tilt, same_number};
+use trunnion_dialect::Action;
+use trunnion_interp::{AXIS_LETTERS, ChainId, Feed, Motion, MotionKind, Tilt, same_number};
 use trunnion_syntax::Address;
-
-/// What the program after does with the motions of the program before, and how near it must come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Change {
-    /// Rows of the matrix by which points of the work frame are multiplied: a turn, a mirror image, one factor for all axes, or the identity.
-    pub linear: [[f64; 3]; 3],
-    /// What is added to them after that, mm.
-    pub shift: [f64; 3],
-    /// The lengths of the program after are in another unit: what the programs say apart from motions must be no length.
-    pub other_unit: bool,
-    /// How far the ends of motions may be off, mm: rounding of the words.
-    pub end_mm: f64,
-    /// How far the inside of arcs may be off, mm: rounding of their ends and centres.
-    pub arc_mm: f64,
-    /// By which part feeds may differ.
-    pub feed_share: f64,
-}
 
 /// What a comparison has found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -83,6 +66,7 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
         stands: [Stands::Open; 3],
         names_rotary: names_rotary(before.input()),
         keeps_length: change.keeps(before.input().setup.length_along()),
+        drills: false,
         last: None,
         apart: Apart::default(),
     };
@@ -95,7 +79,10 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
         }
         match (was, is) {
             (None, None) => break,
-            (Some(Item::Motion(was)), Some(Item::Motion(is))) => walk.pair(&was, &is, &claim)?,
+            (Some(Item::Motion(was)), Some(Item::Motion(is))) => {
+                walk.drills = before.state().motion.is_some_and(Action::is_hole_cycle);
+                walk.pair(&was, &is, &claim)?;
+            }
             (Some(mut was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => {
                 if let Item::Happens { process, .. } = &mut was
                     && change.mirrors(before.state().coordinates.plane())
@@ -127,6 +114,8 @@ struct Walk<'c> {
     names_rotary: bool,
     /// A tool length shifts both programs alike.
     keeps_length: bool,
+    /// A drilling cycle is active: its steps add up several words.
+    drills: bool,
     /// The motion before.
     last: Option<Step>,
     apart: Apart,
@@ -153,8 +142,7 @@ fn names_rotary(input: &Input<'_>) -> bool {
     })
 }
 
-const UNKNOWN_PLACE: &str =
-    "is unknown, or comes from machine coordinates or a reference point: it cannot be moved with the part; position the axis by a rapid first";
+const UNKNOWN_PLACE: &str = "is unknown, or comes from machine coordinates or a reference point: it cannot be moved with the part; position the axis by a rapid first";
 
 impl Walk<'_> {
     fn pair(&mut self, before: &Step, after: &Step, claim: &Claim) -> Result<(), Verdict> {
@@ -176,7 +164,7 @@ impl Walk<'_> {
         self.rotary(was, is)?;
         self.new_zero(before);
         self.lost(was);
-        let moved = self.moved(before);
+        let moved = self.change.moved(before);
         held(&moved, after, claim)?;
         self.feeds(was, is)?;
         if was.machine_coordinates || !is_motion(was) {
@@ -224,53 +212,6 @@ impl Walk<'_> {
         self.inside(&moved, after)
     }
 
-    /// A motion of the program before where the change puts it.
-    fn moved(&self, step: &Step) -> Step {
-        let mut step = step.clone();
-        let change = self.change;
-        let motion = &mut step.motion;
-        if !motion.machine_coordinates {
-            for position in [&mut motion.start, &mut motion.end] {
-                let values = [position.values[0], position.values[1], position.values[2]];
-                let moved = change.point(&Vec3::from(values));
-                for axis in 0..3 {
-                    position.values[axis] = moved[axis];
-                }
-            }
-        }
-        if let Orientation::Vector(start, end) = motion.orientation {
-            let turn = |axis: Vec3| {
-                let turned = change.direction(&axis);
-                let length = turned.norm();
-                if length > 0.0 { turned / length } else { turned }
-            };
-            motion.orientation = Orientation::Vector(start.map(turn), turn(end));
-        }
-        if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
-            let size = change.determinant().abs().cbrt();
-            (arc.start, arc.end, arc.centre) = (
-                change.point(&arc.start),
-                change.point(&arc.end),
-                change.point(&arc.centre),
-            );
-            (arc.radius_start, arc.radius_end) = (arc.radius_start * size, arc.radius_end * size);
-            // the sweep is counted about the normal, which the program after has on the same side of the plane
-            let normal = change.direction(&arc.normal) / size;
-            let side = if normal.dot(&arc.normal) < -0.5 { -1.0 } else { 1.0 };
-            arc.normal = normal * side;
-            arc.sweep *= side * change.determinant().signum();
-        }
-        if change.mirrors(step.held.plane) {
-            step.process = Process::on_other_side(&step.process);
-            step.held.compensation = match step.held.compensation {
-                41 => 42,
-                42 => 41,
-                other => other,
-            };
-        }
-        step
-    }
-
     /// The coordinates of X, Y and Z at the end, those in `bits`.
     fn ends(&mut self, was: &Motion, moved: &Motion, is: &Motion, bits: u16) -> Result<(), Verdict> {
         let is_end = &is.end;
@@ -284,7 +225,12 @@ impl Walk<'_> {
                 return Err(Verdict::Unknown(place(was, is, what)));
             }
             let off = (moved.end.values[axis] - is_end.values[axis]).abs();
-            if off.is_nan() || off > self.change.end_mm {
+            let most = if self.drills {
+                self.change.arc_mm
+            } else {
+                self.change.end_mm
+            };
+            if off.is_nan() || off > most {
                 let what = format!(
                     "{} ends at {} mm, and not at {} mm",
                     letter(axis),
@@ -313,7 +259,7 @@ impl Walk<'_> {
 
     /// Arcs, rotary axes, tool vectors and zero points, as two programs are compared.
     fn inside(&self, before: &Step, after: &Step) -> Result<(), Verdict> {
-        let mm = if matches!(before.motion.kind, MotionKind::Arc(_)) {
+        let mm = if self.drills || matches!(before.motion.kind, MotionKind::Arc(_)) {
             self.change.arc_mm
         } else {
             self.change.end_mm
@@ -452,87 +398,5 @@ fn goes(motion: &Motion, axis: usize) -> bool {
         (true, true) => motion.start.values[axis] != motion.end.values[axis],
         (false, true) | (true, false) => true,
         (false, false) => motion.says_way & bit != 0,
-    }
-}
-
-const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-impl Change {
-    /// The same path, within rounding.
-    pub fn nothing(end_mm: f64, arc_mm: f64, feed_share: f64) -> Self {
-        Self {
-            linear: IDENTITY,
-            shift: [0.0; 3],
-            other_unit: false,
-            end_mm,
-            arc_mm,
-            feed_share,
-        }
-    }
-
-    /// Whether lengths change.
-    pub fn scales(&self) -> bool {
-        (self.determinant().abs() - 1.0).abs() > 1e-9
-    }
-
-    fn is_shift(&self) -> bool {
-        self.linear == IDENTITY
-    }
-
-    fn is_nothing(&self) -> bool {
-        self.is_shift() && self.shift == [0.0; 3]
-    }
-
-    fn direction(&self, vector: &Vec3) -> Vec3 {
-        Vec3::from(
-            self.linear
-                .map(|row| row[0] * vector.x + row[1] * vector.y + row[2] * vector.z),
-        )
-    }
-
-    /// Whether a direction stays as it is.
-    fn keeps(&self, along: [f64; 3]) -> bool {
-        let along = Vec3::from(along);
-        (self.direction(&along) - along).norm() <= 1e-12
-    }
-
-    fn point(&self, point: &Vec3) -> Vec3 {
-        self.direction(point) + Vec3::from(self.shift)
-    }
-
-    fn determinant(&self) -> f64 {
-        let [a, b, c] = self.linear;
-        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-    }
-
-    /// Whether left and right change sides in a plane, seen from its normal.
-    fn mirrors(&self, plane: Plane) -> bool {
-        let (u, v) = match plane {
-            Plane::Xy => (0, 1),
-            Plane::Zx => (2, 0),
-            Plane::Yz => (1, 2),
-        };
-        self.linear[u][u] * self.linear[v][v] - self.linear[u][v] * self.linear[v][u] < 0.0
-    }
-
-    /// Whether a coordinate changes.
-    fn touches(&self, axis: usize) -> bool {
-        self.linear[axis] != IDENTITY[axis] || self.shift[axis] != 0.0
-    }
-
-    /// The axes that are mixed with each other.
-    fn groups(&self) -> Vec<Vec<usize>> {
-        let mixed = |a: usize, b: usize| self.linear[a][b] != 0.0 || self.linear[b][a] != 0.0;
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        for axis in 0..3 {
-            match groups
-                .iter_mut()
-                .find(|group| group.iter().any(|other| mixed(*other, axis)))
-            {
-                Some(group) => group.push(axis),
-                None => groups.push(vec![axis]),
-            }
-        }
-        groups
     }
 }

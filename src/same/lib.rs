@@ -7,6 +7,7 @@
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod actions;
 mod begin;
+mod change;
 mod changed;
 mod compare;
 mod counted;
@@ -34,7 +35,8 @@ mod twins;
 mod unit;
 mod verdict;
 
-pub use changed::{Apart, Change, compare_changed};
+pub use change::Change;
+pub use changed::{Apart, compare_changed};
 pub use compare::{Claim, compare};
 pub use exact::Exact;
 pub use input::Input;

@@ -45,9 +45,7 @@ pub(super) fn propose(
             Positions::Absolute => "absolute",
             Positions::Incremental => "incremental",
         };
-        return Err(Refused::nothing(format!(
-            "what may be {name} is so already"
-        )));
+        return Err(Refused::nothing(format!("what may be {name} is so already")));
     }
     if let Some(block) = program
         .blocks()

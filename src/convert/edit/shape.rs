@@ -3,7 +3,7 @@ use super::edits::{Edits, Track, decimals_of, number_of, rounded, written};
 use super::kinds::{Kind, Said, has_lengths};
 use super::survey::survey;
 use super::turn::Turn;
-use super::{Change, Proposal, Shape};
+use super::{Proposal, Shape, claim};
 use crate::refuse::Refused;
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Plane};
 use trunnion_interp::{ImplicitDecimals, Setup};
@@ -19,7 +19,7 @@ pub(super) fn propose(
     shape: Shape,
     decimals: Option<usize>,
 ) -> Result<Proposal, Refused> {
-    possible(dialect, shape)?;
+    claim::possible(dialect, shape)?;
     let mut work = Work {
         program,
         dialect,
@@ -55,40 +55,19 @@ pub(super) fn propose(
     Ok(Proposal { edits, change, notes })
 }
 
-/// What no program can be.
-fn possible(dialect: &Dialect, shape: Shape) -> Result<(), Refused> {
-    let lathe = dialect.quirks.diameter;
-    match shape {
-        Shape::Scale(factor) if !(factor.is_finite() && factor > 0.0) => Err(Refused::new(
-            "the scale must be a positive number; --mirror turns a sign",
-        )),
-        Shape::Mirror(_) | Shape::Rotate(..) if lathe => Err(Refused::new(
-            "a turned part is not mirrored or turned on a lathe: the tool cuts on one side of the spindle axis",
-        )),
-        Shape::Shift(by) if lathe && by[0] != 0.0 => Err(Refused::new(
-            "a shift along X of a turned part changes its diameters and is no shift of the part: shift along Z",
-        )),
-        Shape::Shift(by) if by.iter().any(|value| !value.is_finite()) => {
-            Err(Refused::new("a shift must be a number of at most nine digits"))
-        }
-        Shape::Rotate(_, degrees) if !degrees.is_finite() => Err(Refused::new("the angle must be a number of degrees")),
-        _ => Ok(()),
-    }
-}
-
 pub(super) struct Work<'a> {
     pub(super) program: &'a Program,
     dialect: &'a Dialect,
     setup: &'a Setup,
-    shape: Shape,
+    pub(super) shape: Shape,
     least: Option<usize>,
     pub(super) decimals: usize,
     pub(super) edits: Edits,
     pub(super) track: Track,
     unit_mm: Option<f64>,
     turn: Turn,
-    compensated: bool,
-    taps: bool,
+    pub(super) compensated: bool,
+    pub(super) taps: bool,
 }
 
 /// Codes that leave the meaning of coordinates as it is, or give it back.
@@ -163,7 +142,9 @@ impl Work<'_> {
         )?;
         self.codes(said)?;
         self.taps |= said.has(Action::TapCycle) || said.has(Action::TapLeftCycle);
-        let moving = words.iter().any(|(_, kind)| !matches!(kind, Kind::Feed | Kind::Plain | Kind::Tolerance));
+        let moving = words
+            .iter()
+            .any(|(_, kind)| !matches!(kind, Kind::Feed | Kind::Plain | Kind::Tolerance));
         if !moving {
             return Ok(());
         }
@@ -379,52 +360,5 @@ impl Work<'_> {
                 .set(self.program, coded.word.value_range, &format!("{zeros}{other}"))?;
         }
         Ok(())
-    }
-
-    /// What is to be proved.
-    fn change(&self, unit_mm: f64) -> Change {
-        let exact = matches!(self.shape, Shape::Shift(_) | Shape::Mirror(_));
-        let end_mm = if exact {
-            1e-6
-        } else {
-            unit_mm * 0.5 * 10f64.powi(-(self.decimals as i32)) * 1.000_1 + 1e-9
-        };
-        let mut change = Change::nothing(end_mm, 10.0 * end_mm, 1e-9);
-        match self.shape {
-            Shape::Shift(by) => change.shift = by.map(|by| by * unit_mm),
-            Shape::Scale(factor) => (0..3).for_each(|axis| change.linear[axis][axis] = factor),
-            Shape::Mirror(axis) => change.linear[axis][axis] = -1.0,
-            Shape::Rotate(axis, degrees) => {
-                let (sin, cos) = super::turn::sin_cos(degrees);
-                let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-                (change.linear[u][u], change.linear[u][v]) = (cos, -sin);
-                (change.linear[v][u], change.linear[v][v]) = (sin, cos);
-            }
-        }
-        change
-    }
-
-    fn notes(&self) -> Vec<String> {
-        let mut notes = vec![
-            "the part is another one: check the program again for travel, clamps and stock; what is in machine coordinates (G53, G28) stays".to_owned(),
-        ];
-        match self.shape {
-            Shape::Mirror(_) => {
-                notes
-                    .push("climb milling becomes conventional milling, because the spindle turns as before".to_owned());
-                if self.taps {
-                    notes.push("tapped holes keep their hand: a right-hand thread stays one".to_owned());
-                }
-            }
-            Shape::Scale(_) => {
-                notes
-                    .push("feeds, speeds, dwells and tools are unchanged; peck steps and levels are scaled".to_owned());
-                if self.compensated {
-                    notes.push("the radius of cutter compensation is not scaled".to_owned());
-                }
-            }
-            Shape::Shift(_) | Shape::Rotate(..) => {}
-        }
-        notes
     }
 }

@@ -37,9 +37,7 @@ pub(super) fn propose(
     let ran = survey(program, dialect, setup, |here| work.block(&Said::read(here, dialect)))?;
     if !work.changed {
         let name = name(unit);
-        return Err(Refused::nothing(format!(
-            "the program is in {name} already"
-        )));
+        return Err(Refused::nothing(format!("the program is in {name} already")));
     }
     if let Some(block) = program
         .blocks()
@@ -281,12 +279,18 @@ impl Work<'_> {
                 Kind::Axis(axis) | Kind::Step(axis) if !said.is_step(&word, kind) => {
                     self.track.absolute(axis, new, self.decimals)
                 }
+                // a shorter step might need one more to the same depth
+                Kind::Length if said.drills() => up(new, self.decimals),
                 _ => rounded(new, self.decimals),
             };
             if factor == 1.0 {
                 continue;
             }
-            let plain = written(&old, rounded(new, self.decimals), self.decimals, 0, point);
+            let plain = match kind {
+                Kind::Axis(_) | Kind::Step(_) => rounded(new, self.decimals),
+                _ => result,
+            };
+            let plain = written(&old, plain, self.decimals, 0, point);
             let text = written(&old, result, self.decimals, 0, point);
             self.edits.put(self.program, range, text, plain)?;
         }
@@ -346,6 +350,17 @@ fn feed_stays(program: &Program, dialect: &Dialect) -> Result<bool, Refused> {
         )),
         (lengths, None) => Ok(lengths.is_some()),
         (None, Some(_)) => Ok(false),
+    }
+}
+
+/// A positive length rounded up.
+fn up(value: f64, decimals: usize) -> f64 {
+    let near = rounded(value, decimals);
+    let step = 10f64.powi(-(decimals as i32));
+    if near < value - 1e-9 * step {
+        rounded(near + step, decimals)
+    } else {
+        near
     }
 }
 

@@ -170,7 +170,7 @@ impl Walk<'_> {
         if was.machine_coordinates || !is_motion(was) {
             self.not_moved(was, is)?;
             self.last = Some(before.clone());
-            return if is_motion(was) { self.rest(was, is) } else { Ok(()) };
+            return if is_motion(was) { rest(was, is) } else { Ok(()) };
         }
         let cut = was.is_feed();
         for group in self.change.groups() {
@@ -205,9 +205,11 @@ impl Walk<'_> {
             }
             let bits = group.iter().fold(0, |all, axis| all | 1 << *axis);
             self.ends(was, &moved.motion, is, bits)?;
-            group.iter().for_each(|axis| self.stands[*axis] = Stands::Moved);
+            for axis in &group {
+                self.stands[*axis] = Stands::Moved;
+            }
         }
-        self.rest(was, is)?;
+        rest(was, is)?;
         self.last = Some(before.clone());
         self.inside(&moved, after)
     }
@@ -240,19 +242,6 @@ impl Walk<'_> {
                 return Err(Verdict::Differs(place(was, is, what)));
             }
             self.apart.end_mm = self.apart.end_mm.max(off);
-        }
-        Ok(())
-    }
-
-    /// The axes other than X, Y and Z.
-    fn rest(&self, was: &Motion, is: &Motion) -> Result<(), Verdict> {
-        for axis in 3..9 {
-            let differs = (was.end.known ^ is.end.known) & (1 << axis) != 0
-                || was.end.known & (1 << axis) != 0 && !same_number(was.end.values[axis], is.end.values[axis]);
-            if differs {
-                let what = format!("the end of {} differs", letter(axis));
-                return Err(Verdict::Differs(place(was, is, what)));
-            }
         }
         Ok(())
     }
@@ -389,6 +378,19 @@ impl Walk<'_> {
 
 fn is_motion(motion: &Motion) -> bool {
     !matches!(motion.kind, MotionKind::Dwell(_))
+}
+
+/// The axes other than X, Y and Z.
+fn rest(was: &Motion, is: &Motion) -> Result<(), Verdict> {
+    for axis in 3..9 {
+        let differs = (was.end.known ^ is.end.known) & (1 << axis) != 0
+            || was.end.known & (1 << axis) != 0 && !same_number(was.end.values[axis], is.end.values[axis]);
+        if differs {
+            let what = format!("the end of {} differs", letter(axis));
+            return Err(Verdict::Differs(place(was, is, what)));
+        }
+    }
+    Ok(())
 }
 
 /// Whether a motion moves an axis, as far as that is known.

@@ -37,7 +37,11 @@ impl Work<'_> {
         let mut change = Change::nothing(end_mm, 10.0 * end_mm, 1e-9);
         match self.shape {
             Shape::Shift(by) => change.shift = by.map(|by| by * unit_mm),
-            Shape::Scale(factor) => (0..3).for_each(|axis| change.linear[axis][axis] = factor),
+            Shape::Scale(factor) => {
+                for axis in 0..3 {
+                    change.linear[axis][axis] = factor;
+                }
+            }
             Shape::Mirror(axis) => change.linear[axis][axis] = -1.0,
             Shape::Rotate(axis, degrees) => {
                 let (sin, cos) = super::turn::sin_cos(degrees);

@@ -129,7 +129,7 @@ impl<'a, 'd> Said<'a, 'd> {
         };
         let axis = AxisLetter::new(letter).map(|axis| usize::from(axis.0));
         match self.dialect.role(letter) {
-            Some(Role::Axis | Role::Increment) if self.has(Action::Dwell) => Kind::Plain,
+            Some(Role::Axis | Role::Increment | Role::Feed) if self.has(Action::Dwell) => Kind::Plain,
             Some(Role::Axis) => match axis {
                 Some(axis) if (3..6).contains(&axis) => Kind::Rotary,
                 Some(axis) => Kind::Axis(axis),
@@ -143,17 +143,22 @@ impl<'a, 'd> Said<'a, 'd> {
             },
             Some(Role::ArcCentre) if self.here.is.tool_axis.vectors() => Kind::Vector,
             Some(Role::ArcCentre) if self.arc() => Kind::Centre(usize::from(letter.wrapping_sub(b'I')).min(2)),
-            Some(Role::ArcCentre) => Kind::Unknown,
             Some(Role::ArcRadius) if self.has(Action::RotationOn) => Kind::Unknown,
             Some(Role::ArcRadius) if self.drills() => Kind::Level,
             Some(Role::ArcRadius) if self.arc() => Kind::Radius,
             Some(Role::ArcRadius) if self.has(Action::DataEntry) && !self.dialect.quirks.rs274() => Kind::Length,
-            Some(Role::ArcRadius) => Kind::Unknown,
-            Some(Role::Feed) if self.has(Action::Dwell) => Kind::Plain,
             Some(Role::Feed) => Kind::Feed,
             Some(Role::Parameter) => self.parameter(letter),
             Some(Role::ToolVector) => Kind::Vector,
-            Some(Role::PathWord | Role::NotModelled | Role::NotFollowed | Role::Variable) | None => Kind::Unknown,
+            Some(
+                Role::ArcCentre
+                | Role::ArcRadius
+                | Role::PathWord
+                | Role::NotModelled
+                | Role::NotFollowed
+                | Role::Variable,
+            )
+            | None => Kind::Unknown,
             Some(_) => Kind::Plain,
         }
     }
@@ -200,8 +205,7 @@ impl<'a, 'd> Said<'a, 'd> {
         let name: String = name.chars().filter(|c| !c.is_whitespace()).collect();
         let name = name.to_ascii_uppercase();
         match (name.as_str(), self.dialect.named_role(name.as_bytes())) {
-            (",R" | ",C", _) => Kind::Length,
-            ("RND" | "CHF" | "CHR", Some(Role::PathWord)) => Kind::Length,
+            (",R" | ",C", _) | ("RND" | "CHF" | "CHR", Some(Role::PathWord)) => Kind::Length,
             // an assignment: where the variable is used, its value is not rewritten
             (_, Some(Role::Variable)) => Kind::Plain,
             _ if name.starts_with('#') => Kind::Plain,

@@ -122,7 +122,11 @@ pub(super) fn propose(
             notes.push("lengths and radii in the tool table are not part of the program".to_owned());
         }
         Edit::Shape(Shape::Shift(by)) => change.shift = by.map(|by| by * work.unit_mm),
-        Edit::Shape(Shape::Scale(factor)) => (0..3).for_each(|axis| change.linear[axis][axis] = factor),
+        Edit::Shape(Shape::Scale(factor)) => {
+            for axis in 0..3 {
+                change.linear[axis][axis] = factor;
+            }
+        }
         Edit::Shape(Shape::Mirror(axis)) => {
             change.linear[axis][axis] = -1.0;
             notes.push("climb milling becomes conventional milling, because the spindle turns as before".to_owned());
@@ -144,9 +148,8 @@ impl Work<'_> {
         let said = Sentence::read(self.program, block);
         let is_unit = matches!(self.edit, Edit::Unit(_));
         match said.head() {
-            "" | "M" | "LBL" | "STOP" => Ok(()),
+            "" | "M" | "LBL" | "STOP" | "BEGIN" | "END" => Ok(()),
             "CALL" if said.words.get(1).is_some_and(|word| word.0 == "LBL") => Ok(()),
-            "BEGIN" | "END" => Ok(()),
             "BLK" if !is_unit => Ok(()),
             "BLK" => said.words.iter().skip(2).try_for_each(|word| match word.2 {
                 Some(range) if matches!(word.0.as_str(), "X" | "Y" | "Z") => self.length(range),
@@ -208,10 +211,10 @@ impl Work<'_> {
                 ("RL", None) => self.turned(*range, along, "RR")?,
                 ("RR", None) => self.turned(*range, along, "RL")?,
                 ("DR", None) if *next == Some(TokenKind::Plus) => {
-                    self.turned(TextRange::new(range.end, range.end + 1), along, "-")?
+                    self.turned(TextRange::new(range.end, range.end + 1), along, "-")?;
                 }
                 ("DR", None) if *next == Some(TokenKind::Minus) => {
-                    self.turned(TextRange::new(range.end, range.end + 1), along, "+")?
+                    self.turned(TextRange::new(range.end, range.end + 1), along, "+")?;
                 }
                 ("R" | "M", Some(_)) | ("FMAX" | "F" | "FAUTO" | "AUTO" | "MAX", None) => {}
                 ("L" | "C" | "CC" | "CR" | "CT" | "RND" | "CHF", _) if place == 0 => {}

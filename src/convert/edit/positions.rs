@@ -136,7 +136,7 @@ impl Work<'_> {
         self.unit_mm = here.is.coordinates.unit_mm();
         let words: Vec<(Word, Kind)> = said
             .words()
-            .filter(|(word, kind)| self.is_position(said, word, *kind))
+            .filter(|(word, kind)| is_position(said, word, *kind))
             .collect();
         let stays = self.stays(said, &words)?;
         let before = self.incremental.unwrap_or(here.was.coordinates.incremental());
@@ -155,15 +155,6 @@ impl Work<'_> {
         self.kept |= stays && !words.is_empty();
         self.learn(said, &words, mode);
         Ok(())
-    }
-
-    /// A coordinate that G90 and G91 concern.
-    fn is_position(&self, said: &Said<'_, '_>, word: &Word, kind: Kind) -> bool {
-        match kind {
-            Kind::Axis(_) | Kind::Rotary => !matches!(word.value, Value::Call(..)),
-            Kind::Level => said.drills(),
-            _ => false,
-        }
     }
 
     /// Whether the words of a block stay as they are.
@@ -320,6 +311,15 @@ impl Work<'_> {
                 self.known |= 1 << axis;
             }
         }
+    }
+}
+
+/// A coordinate that G90 and G91 concern.
+fn is_position(said: &Said<'_, '_>, word: &Word, kind: Kind) -> bool {
+    match kind {
+        Kind::Axis(_) | Kind::Rotary => !matches!(word.value, Value::Call(..)),
+        Kind::Level => said.drills(),
+        _ => false,
     }
 }
 

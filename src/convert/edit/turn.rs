@@ -52,9 +52,9 @@ impl Turn {
                 Kind::Axis(a) if a == u || a == v => {
                     named[usize::from(a == v)] = Some(*word);
                     if said.is_step(word, *kind) {
-                        steps += 1
+                        steps += 1;
                     } else {
-                        places += 1
+                        places += 1;
                     }
                 }
                 Kind::Centre(a) if a == u || a == v => centre[usize::from(a == v)] = Some(*word),
@@ -71,20 +71,7 @@ impl Turn {
         }
         let (sin, cos) = sin_cos(degrees);
         let turned = |x: f64, y: f64| [x * cos - y * sin, x * sin + y * cos];
-        if centre.iter().any(Option::is_some) {
-            let steps = |word: &Word| said.is_step(word, Kind::Centre(0));
-            if !centre.iter().flatten().all(steps) {
-                return said.refuse(
-                    words[0].0.range,
-                    "absolute arc centres are not turned: write them from the start of the arc",
-                );
-            }
-            let value =
-                |word: Option<Word>| word.map_or(Ok(0.0), |word| work.number(said, &word).map(|number| number.0));
-            let [i, j] = turned(value(centre[0])?, value(centre[1])?);
-            let letters = [u, v].map(|axis| ['I', 'J', 'K'][axis]);
-            write_both(work, said, centre, [i, j], letters)?;
-        }
+        turn_centre(work, said, centre, (turned, [u, v]))?;
         if named.iter().all(Option::is_none) {
             return Ok(());
         }
@@ -122,6 +109,27 @@ impl Turn {
         self.last = Some(new);
         write_both(work, said, named, values, [LETTERS[u], LETTERS[v]])
     }
+}
+
+/// Turns the centre of an arc, if the block has one.
+fn turn_centre(
+    work: &mut Work<'_>,
+    said: &Said<'_, '_>,
+    centre: [Option<Word>; 2],
+    (turned, axes): (impl Fn(f64, f64) -> [f64; 2], [usize; 2]),
+) -> Result<(), Refused> {
+    let Some(first) = centre.iter().flatten().next() else {
+        return Ok(());
+    };
+    if !centre.iter().flatten().all(|word| said.is_step(word, Kind::Centre(0))) {
+        return said.refuse(
+            first.range,
+            "absolute arc centres are not turned: write them from the start of the arc",
+        );
+    }
+    let value = |word: Option<Word>| word.map_or(Ok(0.0), |word| work.number(said, &word).map(|number| number.0));
+    let values = turned(value(centre[0])?, value(centre[1])?);
+    write_both(work, said, centre, values, axes.map(|axis| ['I', 'J', 'K'][axis]))
 }
 
 /// Writes two words of a block; one that is missing is put beside the other.

@@ -260,7 +260,7 @@ impl Work<'_> {
             let whole = !old.contains('.');
             let least = self.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement) && whole;
             let value = if least {
-                value / self.increments(said, is_feed)
+                value / increments(said, is_feed)
             } else {
                 value
             };
@@ -302,17 +302,6 @@ impl Work<'_> {
         self.dialect.quirks.macro_b()
     }
 
-    /// In how many least increments a unit is divided.
-    fn increments(&self, said: &Said<'_, '_>, is_feed: bool) -> f64 {
-        let inch = said.here.is.coordinates.unit_mm() != 1.0;
-        match (is_feed, said.here.is.feed.mode(), inch) {
-            (true, FeedMode::PerMinute, false) | (true, FeedMode::InverseTime, _) => 1.0,
-            (true, FeedMode::PerMinute, true) | (true, FeedMode::PerRevolution, false) => 100.0,
-            (true, FeedMode::PerRevolution, true) | (false, _, true) => 10_000.0,
-            (false, _, false) => 1000.0,
-        }
-    }
-
     fn feed_factor(&self, said: &Said<'_, '_>) -> f64 {
         if self.feed_stays {
             return 1.0;
@@ -350,6 +339,17 @@ fn feed_stays(program: &Program, dialect: &Dialect) -> Result<bool, Refused> {
         )),
         (lengths, None) => Ok(lengths.is_some()),
         (None, Some(_)) => Ok(false),
+    }
+}
+
+/// In how many least increments a unit is divided.
+fn increments(said: &Said<'_, '_>, is_feed: bool) -> f64 {
+    let inch = said.here.is.coordinates.unit_mm() != 1.0;
+    match (is_feed, said.here.is.feed.mode(), inch) {
+        (true, FeedMode::PerMinute, false) | (true, FeedMode::InverseTime, _) => 1.0,
+        (true, FeedMode::PerMinute, true) | (true, FeedMode::PerRevolution, false) => 100.0,
+        (true, FeedMode::PerRevolution, true) | (false, _, true) => 10_000.0,
+        (false, _, false) => 1000.0,
     }
 }
 

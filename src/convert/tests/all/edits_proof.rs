@@ -1,6 +1,6 @@
 //! The proof of edits: words that are wrong after an edit are found, opposites give the program again; and edits of Klartext.
 use crate::edits::{INCH, INCREMENTAL, MM, becomes, dialect, refused, run_with, shift};
-use trunnion_certify::certify_change;
+use trunnion_certify::{Change, certify_change};
 use trunnion_convert::{Edit, Shape, edit};
 use trunnion_interp::Setup;
 use trunnion_syntax::{Address, TextEdit, Value, apply_edits, parse};
@@ -158,4 +158,44 @@ fn klartext_is_edited_as_far_as_its_words_are_known() {
         shift(1.0, 0.0, 0.0),
         "CYCL",
     );
+}
+
+#[test]
+fn what_nobody_declares_proves_nothing() {
+    // X20 of G55 is ten from X10 of G54 only if both are at one place
+    let head = "%\nO1\nG21 G90 G17\nG54 M3 S100\nG0 X10. Y5. Z50.\nG55\n";
+    let absolute = format!("{head}G0 X20. Y5.\nG1 Z-1. F100.\nM30\n%\n");
+    let steps = format!("{head}G91 G0 X10. Y0.\nG90 G1 Z-1. F100.\nM30\n%\n");
+    let dialect = dialect("fanuc-30i");
+    let [absolute, steps] = [absolute, steps].map(|text| parse(text.into_bytes(), dialect.lex));
+    let same = Change::nothing(1e-6, 1e-6, 1e-9);
+    let setup = Setup::default();
+    assert!(certify_change([&absolute, &absolute], dialect, &setup, &same).is_ok());
+    assert!(certify_change([&absolute, &steps], dialect, &setup, &same).is_err());
+}
+
+#[test]
+fn rotary_axes_are_shifted_under_tip_control_only() {
+    let part = |on: &str| {
+        format!(
+            "%\nO1\nG21 G90 G17 G94\nT1 M6\nS1000 M3\n{on}\nG0 X1. Y2. Z60. A10. C20.\nG1 X3. Y2. Z60. A12. C25. F500.\nM30\n%\n"
+        )
+    };
+    let guided = part("G43.4 H1");
+    becomes(
+        "fanuc-30i",
+        &guided,
+        shift(1.0, 0.0, 0.5),
+        &guided
+            .replace("X1. ", "X2. ")
+            .replace("X3. ", "X4. ")
+            .replace("Z60. ", "Z60.5 "),
+    );
+    refused(
+        "fanuc-30i",
+        &part("G43 H1"),
+        shift(1.0, 0.0, 0.5),
+        "without tool centre point control",
+    );
+    refused("fanuc-30i", &guided, Edit::Shape(Shape::Mirror(0)), "rotary axes");
 }

@@ -3,6 +3,7 @@
 //! Both texts are run from scratch. Where zero points, tool lengths or reference points are not declared, both are run with values that are
 //! unlike each other in their place, so that no equality comes from taking them as zero.
 use crate::conversion::is_grave;
+use crate::{Outcome, switch};
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, FaultKind, Lacks, Position, Setup, Tool, WorkOffset};
 use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed};
@@ -51,14 +52,48 @@ pub fn certify_change(
 ) -> Result<Apart, Unproved> {
     let mut setup = setup.clone();
     setup.limits = setup.limits.of_steps();
+    if setup.control.block_delete.is_some() {
+        return run(programs, dialect, &setup, change);
+    }
+    let switches = switch::switches(programs.map(Program::source), [dialect; 2]);
+    let found = |what: String| Unproved::Found {
+        differs: false,
+        before: None,
+        what,
+    };
+    if let Err(Outcome::Unknown(gap)) = switch::at_most_one(&switches) {
+        return Err(found(gap.message));
+    }
+    if switches.is_empty() && setup.library.0.is_none() {
+        return run(programs, dialect, &setup, change);
+    }
+    // a claim holds in both states of the switch
+    setup.control.block_delete = Some(true);
+    let skipped = run(programs, dialect, &setup, change).map_err(|why| match why {
+        Unproved::Found { differs, before, what } => Unproved::Found {
+            differs,
+            before,
+            what: format!("where blocks with / are skipped (whether they are is not declared: --block-delete), {what}"),
+        },
+        fault @ Unproved::Fault { .. } => fault,
+    })?;
+    setup.control.block_delete = Some(false);
+    let mut apart = run(programs, dialect, &setup, change)?;
+    apart.end_mm = apart.end_mm.max(skipped.end_mm);
+    apart.feed_share = apart.feed_share.max(skipped.feed_share);
+    Ok(apart)
+}
+
+/// The proof in one state of block delete.
+fn run(programs: [&Program; 2], dialect: &Dialect, setup: &Setup, change: &Change) -> Result<Apart, Unproved> {
     let mut unset = Vec::new();
     for program in programs {
-        let mut steps = Steps::new(input(program, dialect, &setup));
+        let mut steps = Steps::new(input(program, dialect, setup));
         steps.watch_faults();
         while steps.next().is_some() {}
         unset.extend(steps.take_faults().into_iter().map(|fault| fault.kind));
     }
-    let setup = with_values(&setup, &unset);
+    let setup = with_values(setup, &unset);
     let [mut old, mut new] = programs.map(|program| Steps::new(input(program, dialect, &setup)));
     old.watch_faults();
     new.watch_faults();

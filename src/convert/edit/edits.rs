@@ -9,8 +9,8 @@ pub(super) struct Edits(BTreeMap<(u32, u32), New>);
 
 struct New {
     text: String,
-    /// The text without regard to what was rounded before.
-    plain: String,
+    /// The text without regard to what was rounded before, where it is another one.
+    plain: Option<Box<str>>,
 }
 
 impl Edits {
@@ -25,10 +25,14 @@ impl Edits {
         let key = (range.start, range.end);
         match self.0.get_mut(&key) {
             None => {
+                let plain = (plain != text).then(|| plain.into_boxed_str());
                 self.0.insert(key, New { text, plain });
             }
             Some(known) if known.text == text => {}
-            Some(known) if known.plain == plain => known.text = plain,
+            Some(known) if known.plain.as_deref().unwrap_or(&known.text) == plain => {
+                known.plain = None;
+                known.text = plain;
+            }
             Some(_) => {
                 let message = format!(
                     "`{}` runs more than once, and would have to be written in different ways",

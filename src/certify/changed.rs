@@ -68,6 +68,8 @@ pub fn certify_change(
         return run(programs, dialect, &setup, change);
     }
     // a claim holds in both states of the switch
+    setup.control.block_delete = Some(false);
+    let mut apart = run(programs, dialect, &setup, change)?;
     setup.control.block_delete = Some(true);
     let skipped = run(programs, dialect, &setup, change).map_err(|why| match why {
         Unproved::Found { differs, before, what } => Unproved::Found {
@@ -77,8 +79,6 @@ pub fn certify_change(
         },
         fault @ Unproved::Fault { .. } => fault,
     })?;
-    setup.control.block_delete = Some(false);
-    let mut apart = run(programs, dialect, &setup, change)?;
     apart.end_mm = apart.end_mm.max(skipped.end_mm);
     apart.feed_share = apart.feed_share.max(skipped.feed_share);
     Ok(apart)

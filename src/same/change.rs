@@ -1,9 +1,11 @@
 //! A change of the path: where it puts points, directions and whole motions.
+use crate::input::Input;
 use crate::item::Step;
 use crate::process::Process;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{MotionKind, Orientation};
+use trunnion_syntax::Address;
 
 /// What the program after does with the motions of the program before, and how near it must come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,4 +151,13 @@ impl Change {
         }
         step
     }
+}
+
+/// Whether a word of a program begins with the letter of a rotary axis.
+pub(crate) fn names_rotary(input: &Input<'_>) -> bool {
+    let mut words = input.program.blocks().flat_map(|block| block.words());
+    words.any(|word| match word.address {
+        Address::Letter(letter) => matches!(letter, b'A'..=b'C'),
+        Address::Indexed(..) | Address::Named(_) => true,
+    })
 }

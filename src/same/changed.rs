@@ -1,10 +1,9 @@
 //! Two programs of which the second makes the motions of the first elsewhere: shifted, turned, mirrored, scaled, or written in another unit or with
 //! other words. Each motion of the first is moved exactly, and then both are compared as any two programs are.
-use crate::change::Change;
+use crate::change::{Change, names_rotary};
 use crate::compare::{Claim, held, next};
 use crate::ending::{at_end, stopped};
 use crate::happens::happens;
-use crate::input::Input;
 use crate::item::{Item, Step};
 use crate::judge::Judge;
 use crate::near::Near;
@@ -16,7 +15,6 @@ use crate::unit::{other_unit_event, other_unit_settings, unit_of_stores};
 use crate::verdict::{Difference, Verdict};
 use trunnion_dialect::Action;
 use trunnion_interp::{AXIS_LETTERS, ChainId, Feed, Motion, MotionKind, Tilt, same_number};
-use trunnion_syntax::Address;
 
 /// What a comparison has found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -131,15 +129,6 @@ fn place(was: &Motion, is: &Motion, what: impl Into<String>) -> Difference {
 
 fn letter(axis: usize) -> char {
     char::from(AXIS_LETTERS[axis])
-}
-
-/// Whether a word of a program begins with the letter of a rotary axis.
-fn names_rotary(input: &Input<'_>) -> bool {
-    let mut words = input.program.blocks().flat_map(|block| block.words());
-    words.any(|word| match word.address {
-        Address::Letter(letter) => matches!(letter, b'A'..=b'C'),
-        Address::Indexed(..) | Address::Named(_) => true,
-    })
 }
 
 const UNKNOWN_PLACE: &str = "is unknown, or comes from machine coordinates or a reference point: it cannot be moved with the part; position the axis by a rapid first";

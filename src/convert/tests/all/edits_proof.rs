@@ -202,7 +202,8 @@ fn rotary_axes_are_shifted_under_tip_control_only() {
 
 #[test]
 fn an_edit_holds_with_blocks_run_and_skipped() {
-    let part = |line: &str| format!("%\nO1\nG21 G90 G17\nG54 M3 S100\nG0 X1. Y2. Z5.\n{line}\nG1 Z-1. F100.\nX3.\nM30\n%\n");
+    let part =
+        |line: &str| format!("%\nO1\nG21 G90 G17\nG54 M3 S100\nG0 X1. Y2. Z5.\n{line}\nG1 Z-1. F100.\nX3.\nM30\n%\n");
     becomes(
         "fanuc-30i",
         &part("/G0 X7."),
@@ -210,6 +211,16 @@ fn an_edit_holds_with_blocks_run_and_skipped() {
         &part("/G0 X8.").replace("X1.", "X2.").replace("X3.", "X4."),
     );
     // the step begins where the skipped block would have led
-    refused("fanuc-30i", &part("/G0 X7.").replace("\nX3.", "\nX9."), INCREMENTAL, "skipped");
-    refused("fanuc-30i", &part("/G0 X7.\n/2 G0 X8."), shift(1.0, 0.0, 0.0), "several switches");
+    refused(
+        "fanuc-30i",
+        &part("/G0 X7.").replace("\nX3.", "\nX9."),
+        INCREMENTAL,
+        "skipped",
+    );
+    refused(
+        "fanuc-30i",
+        &part("/G0 X7.\n/2 G0 X8."),
+        shift(1.0, 0.0, 0.0),
+        "several switches",
+    );
 }

@@ -10,6 +10,7 @@ use crate::{
     capabilities::capabilities,
     code_action,
     coloured::Coloured,
+    edits::{self, EditAnswer, EditParams},
     event::Event,
     hover, navigate, outbox,
     owner::Owner,
@@ -81,6 +82,13 @@ impl Backend {
             backplot::backplot(snapshot, &params)
         })
         .await
+    }
+
+    /// `trunnion/edit`.
+    pub(crate) async fn edit(&self, params: EditParams) -> Result<EditAnswer> {
+        let uri = params.text_document.uri.clone();
+        self.ask(&uri, Need::Parsed, move |snapshot| edits::answer(snapshot, &params))
+            .await
     }
 }
 

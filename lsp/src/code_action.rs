@@ -1,6 +1,7 @@
-//! Quick fixes: rewrites that fix a finding, offered only when proved; a refusal is shown with its reason.
+//! Quick fixes: rewrites that fix a finding, offered only when proved; a refusal is shown with its reason. On request also edits of the whole program.
 use crate::{
     analysis::{Analysed, Parsed},
+    edits,
     position::{Encoding, offset, range},
     to_proto,
 };
@@ -26,13 +27,18 @@ pub(crate) fn code_actions(
     let Some((_, session)) = analysed.judged() else {
         return Some(Vec::new());
     };
+    let mut whole = Vec::new();
+    if edits::wanted(&params.context) {
+        whole = edits::actions(&analysed.parsed, encoding);
+    }
+    let whole = whole.into_iter().map(CodeActionOrCommand::CodeAction);
     let wanted = params
         .context
         .only
         .as_ref()
         .is_none_or(|kinds| kinds.contains(&CodeActionKind::QUICKFIX));
     if !wanted {
-        return Some(Vec::new());
+        return Some(whole.collect());
     }
     let start = offset(
         &analysed.parsed.text,
@@ -58,7 +64,8 @@ pub(crate) fn code_actions(
         .into_iter()
         .filter_map(rewrite)
         .flat_map(|r| actions(analysed, r, (start, end), encoding));
-    Some(likely.chain(actions).map(CodeActionOrCommand::CodeAction).collect())
+    let fixes = likely.chain(actions).map(CodeActionOrCommand::CodeAction);
+    Some(fixes.chain(whole).collect())
 }
 
 /// The text that a finding takes for likely, in place of what is there.

@@ -11,6 +11,7 @@ mod cheap;
 mod code_action;
 mod coloured;
 mod document;
+mod edits;
 mod event;
 mod exit;
 mod folder;
@@ -57,6 +58,7 @@ pub fn serve() -> i32 {
     runtime.block_on(async move {
         let (service, socket) = LspService::build(|client| Backend::start(client, Arc::clone(&seen)))
             .custom_method("trunnion/backplot", Backend::backplot)
+            .custom_method("trunnion/edit", Backend::edit)
             .finish();
         let service = Outer::new(service, Arc::clone(&seen));
         let (messages, input) = tokio::io::duplex(1 << 16);

@@ -30,6 +30,7 @@ pub use claim::{ConversionClaim, ConversionProof, Part};
 pub use effects::Terms;
 pub use known::Known;
 pub use proof::{converted, converted_on};
+pub(crate) use reading::is_grave;
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
 pub use track::{Track, carried, rotary};
 pub use words::{moved_axes, same_words};

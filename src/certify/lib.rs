@@ -5,6 +5,7 @@
 mod canonical;
 mod certificate;
 mod chain;
+mod changed;
 mod chosen;
 mod claim;
 mod clear;
@@ -32,7 +33,9 @@ pub use certificate::{
     TextDigest, Worst, WorstChanges,
 };
 pub use chain::{CHAIN_SCHEMA, Chain, ChainStep};
+pub use changed::{Unproved, certify_change};
 pub use claim::{Claim, RefitSource};
 pub use digest::same_machine;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
+pub use trunnion_same::{Apart, Change};
 pub use verdict::{Gap, Outcome, Witness};

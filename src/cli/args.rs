@@ -8,7 +8,8 @@ pub(crate) use fix::Fix;
 pub(crate) use people::{Completions, Init, Report, Schema};
 
 use super::{
-    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, servo::Servo, stats::Stats, surface::Surface,
+    convert::Convert, diff::Diff, edit::EditProgram, fmt::Fmt, plot::Plot, sample::Sample, servo::Servo, stats::Stats,
+    surface::Surface,
 };
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -152,6 +153,8 @@ pub(crate) enum Command {
     /// Convert APT/CL to G-code, Klartext or Okuma OSP and back, or between dialects and machines. The result is proved motion by motion, or
     /// refused.
     Convert(Convert),
+    /// Change the unit, absolute or incremental words, or shift, scale, mirror or turn the path. Proved motion by motion, or refused.
+    Edit(EditProgram),
     /// Format the layout: spacing, case, indentation, block numbers. Proved not to change what the program does.
     Fmt(Fmt),
     /// Show where two programs move the tool differently, not where their text differs.

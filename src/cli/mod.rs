@@ -5,6 +5,7 @@ mod certify;
 mod check;
 mod convert;
 mod diff;
+mod edit;
 mod explain;
 mod failure;
 mod fix;
@@ -54,6 +55,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Fix(command) => fix::run(global, command),
         Command::Certify(command) => certify::run(global, command),
         Command::Convert(command) => convert::run(global, command),
+        Command::Edit(command) => edit::run(global, command),
         Command::Fmt(command) => fmt::run(global, command),
         Command::Diff(command) => diff::run(global, command),
         Command::Stats(command) => stats::run(global, command),

@@ -254,7 +254,7 @@ fn held(reading: &Reading, setup: &trunnion_interp::Setup) -> Result<(), Refused
     Err(Refused::at(&reading.program, block, message))
 }
 
-fn wording(program: &Program, fault: &Fault) -> String {
+pub(crate) fn wording(program: &Program, fault: &Fault) -> String {
     let text: String = program.text(fault.range).chars().take(40).collect();
     match &fault.kind {
         FaultKind::NotModelled { what } if what.starts_with("INSERT") => {

@@ -5,6 +5,7 @@
 mod cl;
 mod clamps;
 mod convert;
+mod edit;
 mod emit;
 mod emit_apt;
 mod emit_code;
@@ -33,7 +34,9 @@ mod travel;
 
 pub use cl::{ClFeed, ClPoint, ClTool, cl_text};
 pub use convert::{Converted, Source, convert};
+pub use edit::{Edit, Edited, Positions, Shape, edit};
 pub use options::{Options, OrientationWords, Target, Units};
 pub use post::{BUILTIN_POSTS, Post, PostError, builtin_post, builtin_post_source, load_post};
 pub use refuse::Refused;
 pub use travel::Beyond;
+pub use trunnion_certify::{Apart, Change};

@@ -9,6 +9,8 @@ pub struct Refused {
     pub place: Option<(u32, u32)>,
     /// What is wrong and what to do.
     pub message: String,
+    /// There is nothing to do.
+    pub is_nothing: bool,
 }
 
 impl Refused {
@@ -17,6 +19,14 @@ impl Refused {
         Self {
             place: None,
             message: message.into(),
+            is_nothing: false,
+        }
+    }
+    /// There is nothing to do, and why.
+    pub(crate) fn nothing(message: impl Into<String>) -> Self {
+        Self {
+            is_nothing: true,
+            ..Self::new(format!("nothing to do: {}", message.into()))
         }
     }
     /// At a block.
@@ -29,6 +39,7 @@ impl Refused {
         Self {
             place: Some(LineIndex::new(source).line_column(source, range.start)),
             message: message.into(),
+            is_nothing: false,
         }
     }
 }

@@ -322,7 +322,7 @@ pub(crate) fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
 }
 
 /// What must be the same at two motions before their paths are compared.
-fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
+pub(crate) fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     let (a, b) = (&was.motion, &is.motion);
     let place = |what: String| Difference {
         before: Some(a.block),

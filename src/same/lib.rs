@@ -7,6 +7,8 @@
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod actions;
 mod begin;
+mod change;
+mod changed;
 mod compare;
 mod counted;
 mod curve;
@@ -31,8 +33,11 @@ mod sentences;
 mod since;
 mod steps;
 mod twins;
+mod unit;
 mod verdict;
 
+pub use change::Change;
+pub use changed::{Apart, compare_changed};
 pub use compare::{Claim, compare};
 pub use exact::Exact;
 pub use input::Input;

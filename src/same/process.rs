@@ -103,6 +103,25 @@ impl Process {
             .collect()
     }
 
+    /// The first setting that `asks` wants, with its key.
+    pub(crate) fn lengthy(&self, asks: impl Fn(&str, &[Argument]) -> bool) -> Option<(&str, &[Argument])> {
+        let mut all = self.settings.iter().map(|(key, to)| (key.as_ref(), to.as_slice()));
+        all.find(|(key, to)| asks(key, to))
+    }
+
+    /// The same with cutter radius compensation on the other side.
+    pub(crate) fn on_other_side(this: &Arc<Self>) -> Arc<Self> {
+        const KEY: &str = "compensation";
+        let other = match this.get(KEY) {
+            [only] if only.name == "G41" => "G42",
+            [only] if only.name == "G42" => "G41",
+            _ => return Arc::clone(this),
+        };
+        let mut process = Self::clone(this);
+        process.settings.insert(Cow::Borrowed(KEY), vec![Argument::code(other)]);
+        Arc::new(process)
+    }
+
     /// Whether the spindle is known to be stopped: then its speed does not matter.
     fn spindle_is_stopped(&self) -> bool {
         matches!(self.get("spindle"), [only] if only.name == "M5")

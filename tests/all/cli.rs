@@ -5,6 +5,7 @@ mod certificates;
 mod commands;
 mod convert;
 mod diff;
+mod edit;
 mod files;
 mod findings;
 mod fix;

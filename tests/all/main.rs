@@ -16,6 +16,7 @@ mod lsp;
 mod lsp_backplot;
 mod lsp_client;
 mod lsp_edits;
+mod lsp_edits_asked;
 mod lsp_features;
 mod lsp_fixes;
 mod lsp_large;

@@ -3,6 +3,7 @@ import * as vscode from 'vscode';
 import { LanguageClient, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
 import { Backplot } from './backplot';
 import { chooseDialect, chooseMachine } from './choose';
+import { type Edit, editProgram } from './edits';
 import { LANGUAGES } from './languages';
 import { findProgram, firstFolder } from './server';
 import { type Status, StatusItem } from './status';
@@ -46,6 +47,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<Api> {
     vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
     vscode.commands.registerCommand('trunnion.showBackplot', () => backplot.open()),
     vscode.commands.registerCommand('trunnion.compareBackplot', () => backplot.compare()),
+    vscode.commands.registerCommand('trunnion.editProgram', (edit?: Edit) => editProgram(client, edit)),
     // what a lens does: it shows the block with which the operation begins
     vscode.commands.registerCommand('trunnion.showOperation', async (uri: string, line: number) => {
       const start = new vscode.Position(line, 0);

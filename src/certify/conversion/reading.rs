@@ -371,7 +371,7 @@ fn shift(motion: &Motion, state: &ModalState, setup: &Setup, unnamed: &str) -> [
 }
 
 /// Why a fault makes it unsafe to say what the program does; `None` where poses do not depend on it.
-pub(super) fn is_grave(kind: &FaultKind) -> bool {
+pub(crate) fn is_grave(kind: &FaultKind) -> bool {
     match kind {
         FaultKind::WorkOffsetUnset { .. }
         | FaultKind::ToolLengthUnset { .. }

@@ -56,6 +56,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "convert-klartext",
         &["convert", "FILE", "--to", "heidenhain-klartext"],
     ),
+    command("fix", "edit-unit", &["edit", "FILE", "--unit", "inch"]),
+    command("fix", "edit-rotate", &["edit", "FILE", "--rotate", "Z=30"]),
     command("fix", "fix", &["fix", "FILE"]),
     command(
         "fix",

@@ -55,6 +55,7 @@ fn no_output_replaces_an_input() {
         &["plot", p, "--kind", "joints", "-o", str(&settings)],
         &["convert", p, "--to", "apt", "-o", p],
         &["fix", p, "-o", p],
+        &["edit", p, "--mirror", "X", "-o", p],
         &["fix", p, "--certificate", p],
         &["canon", p, "--parameters", p],
     ];

@@ -3,6 +3,8 @@
 mod approach;
 mod clamps;
 mod code;
+mod edits;
+mod edits_proof;
 mod guide_vane;
 mod holes;
 mod kept;

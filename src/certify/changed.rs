@@ -1,0 +1,188 @@
+//! Proof of an edit: the program after makes the motions of the program before, written otherwise, or moved, turned, mirrored or scaled.
+//!
+//! Both texts are run from scratch. Where zero points, tool lengths or reference points are not declared, both are run with values that are
+//! unlike each other in their place, so that no equality comes from taking them as zero.
+use crate::conversion::is_grave;
+use crate::{Outcome, switch};
+use trunnion_dialect::Dialect;
+use trunnion_interp::{Fault, FaultKind, Lacks, Position, Setup, Tool, WorkOffset};
+use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed};
+use trunnion_syntax::{BlockId, Program};
+
+/// Why an edit is not proved.
+#[derive(Clone, Debug)]
+pub enum Unproved {
+    /// The programs differ, or it is unknown whether they do.
+    Found {
+        /// They differ; otherwise it is unknown.
+        differs: bool,
+        /// Block of the program before, where there is one.
+        before: Option<BlockId>,
+        /// One sentence.
+        what: String,
+    },
+    /// A fault makes it unknown what a program does.
+    Fault {
+        /// It is in the program after.
+        after: bool,
+        /// What it is.
+        fault: Box<Fault>,
+    },
+}
+
+/// Whether a fault leaves open what the path is: the radius of a tool that is not declared does not, where both programs name the same path.
+fn matters(fault: &Fault, change: &Change) -> bool {
+    is_grave(&fault.kind)
+        && match fault.kind.lacks() {
+            Some(Lacks::ReferencePoint) => false,
+            Some(Lacks::Radius(_)) => change.scales(),
+            _ => true,
+        }
+}
+
+/// Proves that `after` does what `before` does, but for `change`.
+///
+/// # Errors
+/// The first difference, what is unknown, or a fault.
+pub fn certify_change(
+    programs: [&Program; 2],
+    dialect: &Dialect,
+    setup: &Setup,
+    change: &Change,
+) -> Result<Apart, Unproved> {
+    let mut setup = setup.clone();
+    setup.limits = setup.limits.of_steps();
+    if setup.control.block_delete.is_some() {
+        return run(programs, dialect, &setup, change);
+    }
+    let switches = switch::switches(programs.map(Program::source), [dialect; 2]);
+    let found = |what: String| Unproved::Found {
+        differs: false,
+        before: None,
+        what,
+    };
+    if let Err(Outcome::Unknown(gap)) = switch::at_most_one(&switches) {
+        return Err(found(gap.message));
+    }
+    if switches.is_empty() && setup.library.0.is_none() {
+        return run(programs, dialect, &setup, change);
+    }
+    // a claim holds in both states of the switch
+    setup.control.block_delete = Some(false);
+    let mut apart = run(programs, dialect, &setup, change)?;
+    setup.control.block_delete = Some(true);
+    let skipped = run(programs, dialect, &setup, change).map_err(|why| match why {
+        Unproved::Found { differs, before, what } => Unproved::Found {
+            differs,
+            before,
+            what: format!("where blocks with / are skipped (whether they are is not declared: --block-delete), {what}"),
+        },
+        fault @ Unproved::Fault { .. } => fault,
+    })?;
+    apart.end_mm = apart.end_mm.max(skipped.end_mm);
+    apart.feed_share = apart.feed_share.max(skipped.feed_share);
+    Ok(apart)
+}
+
+/// The proof in one state of block delete.
+fn run(programs: [&Program; 2], dialect: &Dialect, setup: &Setup, change: &Change) -> Result<Apart, Unproved> {
+    let mut unset = Vec::new();
+    for program in programs {
+        let mut steps = Steps::new(input(program, dialect, setup));
+        steps.watch_faults();
+        while steps.next().is_some() {}
+        unset.extend(steps.take_faults().into_iter().map(|fault| fault.kind));
+    }
+    let setup = with_values(setup, &unset);
+    let [mut old, mut new] = programs.map(|program| Steps::new(input(program, dialect, &setup)));
+    old.watch_faults();
+    new.watch_faults();
+    let verdict = compare_changed(&mut old, &mut new, change);
+    for (after, faults) in [(false, old.take_faults()), (true, new.take_faults())] {
+        if let Some(fault) = faults.into_iter().find(|fault| matters(fault, change)) {
+            let fault = Box::new(fault);
+            return Err(Unproved::Fault { after, fault });
+        }
+    }
+    match verdict {
+        Ok(apart) => Ok(apart),
+        Err(Verdict::Differs(found)) => Err(found_at(true, found)),
+        Err(Verdict::Unknown(found)) => Err(found_at(false, found)),
+        Err(Verdict::Same) => Err(Unproved::Found {
+            differs: false,
+            before: None,
+            what: "the comparison ended early".to_owned(),
+        }),
+    }
+}
+
+fn input<'a>(program: &'a Program, dialect: &'a Dialect, setup: &'a Setup) -> Input<'a> {
+    Input {
+        program,
+        dialect,
+        setup,
+        machine: None,
+    }
+}
+
+fn found_at(differs: bool, found: trunnion_same::Difference) -> Unproved {
+    Unproved::Found {
+        differs,
+        before: found.before,
+        what: found.what,
+    }
+}
+
+/// The setup with values in the place of those that nobody declares: zero points, tool lengths, reference points, distances that a parameter of the
+/// control holds. They are unlike each other, and no sums of each other, so that nothing is the same because of them.
+fn with_values(setup: &Setup, unset: &[FaultKind]) -> Setup {
+    let mut setup = setup.clone();
+    let mut seed = 0.0;
+    let mut next = || {
+        seed += 1.0;
+        // multiples of the golden ratio are spread evenly
+        100.0 * f64::fract(seed * 0.618_033_988_749_895) + 7.0
+    };
+    let control = &mut setup.control;
+    control.peck_clearance_mm = control.peck_clearance_mm.or(Some(0.731));
+    control.chip_break_retract_mm = control.chip_break_retract_mm.or(Some(0.417));
+    if control.reference_points.is_empty() {
+        control.reference_points = (0..4)
+            .map(|_| Position {
+                values: place(&mut next),
+                known: 0b1_1111_1111,
+            })
+            .collect();
+    }
+    for kind in unset {
+        match kind {
+            FaultKind::WorkOffsetUnset { name } if setup.work_offset(name).is_none() => {
+                let values = place(&mut next);
+                let name = name.clone();
+                setup.work_offsets.push(WorkOffset { name, values });
+            }
+            FaultKind::ToolLengthUnset { tool } => {
+                let digits: String = tool.chars().filter(char::is_ascii_digit).collect();
+                let Ok(number) = digits.parse::<u32>() else { continue };
+                let length = Some(next());
+                match setup.tools.iter_mut().find(|known| known.number == number) {
+                    Some(known) => known.length_mm = known.length_mm.or(length),
+                    None => setup.tools.push(Tool {
+                        number,
+                        shape: None,
+                        diameter_mm: None,
+                        length_mm: length,
+                        holder_mm: None,
+                    }),
+                }
+            }
+            _ => {}
+        }
+    }
+    setup
+}
+
+/// A place with other linear coordinates each time; rotary axes at 0.
+fn place(next: &mut impl FnMut() -> f64) -> [f64; 9] {
+    core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() })
+}

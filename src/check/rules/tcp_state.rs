@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn apt_needs_no_code_to_lead_the_tip() {
-        for (axis, passes) in [("", true), ("MULTAX\n", true), ("MULTAX/OFF\n", true)] {
+        for axis in ["", "MULTAX\n", "MULTAX/OFF\n"] {
             let end = if axis == "MULTAX\n" { ",0,0,1" } else { "" };
             let text = format!(
                 "PARTNO P\nUNITS/MM\nCUTTER/6\n{axis}LOADTL/1\nSPINDL/1000,RPM,CLW\nFEDRAT/500\nGOTO/0,0,5{end}\nGOTO/9,0,5{end}\nFINI\n"

@@ -6,6 +6,7 @@ mod five_axis;
 mod holes;
 mod klartext;
 mod okuma;
+mod patterns;
 mod planes;
 
 use crate::support::{fault_line, run_bytes, shared};

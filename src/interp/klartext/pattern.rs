@@ -111,25 +111,22 @@ impl Klartext<'_> {
     pub(super) fn call_pattern(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
-        match self.memory.pattern.clone() {
-            Some(points) => {
-                self.not_modelled_once("CYCL CALL PAT: the way between its points", report);
-                let axes = self.axes();
-                for point in points {
-                    let mut end = self.memory.frames.programmed(&self.core.state.position);
-                    for axis in &axes[..2] {
-                        match point.get(*axis) {
-                            Some(value) => end.set(*axis, value),
-                            None => end.forget(*axis),
-                        }
+        if let Some(points) = self.memory.pattern.clone() {
+            self.not_modelled_once("CYCL CALL PAT: the way between its points", report);
+            let axes = self.axes();
+            for point in points {
+                let mut end = self.memory.frames.programmed(&self.core.state.position);
+                for axis in &axes[..2] {
+                    match point.get(*axis) {
+                        Some(value) => end.set(*axis, value),
+                        None => end.forget(*axis),
                     }
-                    self.work_at(end, Some(0.0), &found, report);
                 }
+                self.work_at(end, Some(0.0), &found, report);
             }
-            None => {
-                Self::not_modelled("CYCL CALL PAT: the points of a pattern", report);
-                self.unknown_motion(report);
-            }
+        } else {
+            Self::not_modelled("CYCL CALL PAT: the points of a pattern", report);
+            self.unknown_motion(report);
         }
         self.codes_after(&found);
     }

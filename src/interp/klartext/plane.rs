@@ -7,6 +7,7 @@
 //! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED and AXIAL are not followed.
 use super::Klartext;
 use super::datum::PLANE;
+use super::values::Value;
 use super::words::{Said, Words};
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::frames::Tilted;
@@ -94,7 +95,7 @@ impl Klartext<'_> {
     }
 
     /// The plane of one angle about an axis of the active one. The order of several is not stated, and nothing is relative to an unknown plane.
-    fn relative(&self, said: [Option<Option<f64>>; 3]) -> Option<Mat3> {
+    fn relative(&self, said: [Option<Value>; 3]) -> Option<Mat3> {
         let active = self.memory.frames.tilt.map_or_else(Mat3::identity, |tilt| tilt.turn);
         let mut given = said
             .iter()

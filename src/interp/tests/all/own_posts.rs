@@ -54,7 +54,7 @@ impl Step {
     /// The radius of an arc about a centre: the mean of both ends.
     fn radius(&self, centre: Vec3) -> f64 {
         let of = |point: Vec3| trunnion_geometry::math::hypot(point.x - centre.x, point.y - centre.y);
-        (of(self.from) + of(self.to)) / 2.0
+        f64::midpoint(of(self.from), of(self.to))
     }
     /// The direction of the way in the plane at its start.
     fn heading(&self) -> Option<Vec3> {

@@ -227,11 +227,8 @@ impl Style {
 fn source() -> Option<Vec<Target>> {
     let bytes = shared("four-controls/siemens/5X_Milling.mpf")?;
     let text = String::from_utf8_lossy(&bytes);
-    let some: String = text
-        .lines()
-        .take(TARGETS + 100)
-        .map(|line| format!("{line}\n"))
-        .collect();
+    let some: Vec<&str> = text.lines().take(TARGETS + 100).collect();
+    let some = some.join("\n");
     let found = targets(
         &run_bytes("sinumerik-840d", some.as_bytes(), &Setup::default())
             .1

@@ -54,7 +54,7 @@ fn sections(siemens: &str) -> (Vec<Section>, String) {
                 "Y" => (here[1], moves) = (value, true),
                 "Z" => level = true,
                 "F" => {
-                    feed = word[1..].to_owned();
+                    word[1..].clone_into(&mut feed);
                     text += &format!("F{feed}\n");
                 }
                 _ => {}
@@ -225,7 +225,9 @@ impl Writer {
             self.line(&format!("CALL LBL {label}"));
             self.behind += &format!("LBL {label}\n{}\nLBL 0\n", blocks.join("\n"));
         } else {
-            blocks.iter().for_each(|block| self.line(block));
+            for block in &blocks {
+                self.line(block);
+            }
         }
     }
 }

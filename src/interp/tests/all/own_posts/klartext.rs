@@ -283,7 +283,7 @@ impl Writer<'_> {
                 } else {
                     let mut end = self.end(step, full);
                     if full && style.ends == Ends::Incremental {
-                        end = " IX+0 IY+0".to_owned();
+                        " IX+0 IY+0".clone_into(&mut end);
                     }
                     format!("C{end} {direction}{feed}")
                 };

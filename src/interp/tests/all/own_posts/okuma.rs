@@ -96,7 +96,9 @@ impl Style {
                 put("RTS");
             }
         } else {
-            blocks.iter().for_each(|block| put(block));
+            for block in &blocks {
+                put(block);
+            }
             put("G90");
             put("M2");
         }

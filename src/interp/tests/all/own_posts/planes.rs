@@ -47,7 +47,7 @@ fn forms([a, b, c]: [f64; 3], turn: &Mat3) -> Vec<(&'static str, Vec<String>)> {
     let [nx, ny, nz] = <[f64; 3]>::from(normal).map(plain9);
     let z: Vec3 = turn.column(2).into();
     let nutation = trunnion_geometry::math::atan2(trunnion_geometry::math::hypot(z.x, z.y), z.z).to_degrees();
-    let (precession, rotation) = if nutation.sin().abs() > 1e-9 && nutation > 1e-9 {
+    let (precession, rotation) = if (1e-9..180.0 - 1e-9).contains(&nutation) {
         (
             trunnion_geometry::math::atan2(z.x, -z.y).to_degrees(),
             trunnion_geometry::math::atan2(turn[(2, 0)], turn[(2, 1)]).to_degrees(),

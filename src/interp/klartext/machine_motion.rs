@@ -110,7 +110,9 @@ impl Klartext<'_> {
             Feed::Unknown
         };
         let orientation = self.core.held_orientation();
-        let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        // it moves X, Y and Z although the block does not name them
+        motion.says_way |= LINEAR;
         self.memory.heading = None;
         self.emit(&motion, report);
     }

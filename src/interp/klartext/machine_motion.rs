@@ -112,7 +112,7 @@ impl Klartext<'_> {
         let orientation = self.core.held_orientation();
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         // it moves X, Y and Z although the block does not name them
-        motion.says_way |= LINEAR;
+        motion.says_way |= LINEAR & !end.known;
         self.memory.heading = None;
         self.emit(&motion, report);
     }

@@ -174,6 +174,9 @@ impl<'d> Iso<'d> {
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";
             }
+            Action::NoMotion if found.code.group.as_deref() == Some("orientation-angles") => {
+                self.memory.own.contour.euler = found.code.id == "ORIEULER";
+            }
             Action::ProgramStop => block.stops_program = Some(found.code.id != "M0"),
             Action::NoMotion | Action::PathMode | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),

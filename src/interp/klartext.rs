@@ -17,6 +17,7 @@ mod machine_motion;
 mod old_cycle;
 mod path;
 mod path_words;
+mod pattern;
 mod plane;
 mod sentence;
 mod tool;
@@ -27,7 +28,7 @@ use crate::core::{Core, Report};
 use crate::engine::Engine;
 use crate::frames::{Frames, Tilted};
 use crate::reported::Reported;
-use crate::{Fault, FaultKind, Motion, Sink};
+use crate::{Fault, FaultKind, Motion, Position, Sink};
 use flow::{Flow, Request};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -71,6 +72,8 @@ pub(crate) struct Memory {
     opened_cycle: Option<u32>,
     /// The cycle that CYCL CALL runs.
     cycle: hole::Cycle,
+    /// The points of PATTERN DEF.
+    pattern: Option<Vec<Position>>,
     /// M89.
     runs_after_each: bool,
     /// M136.

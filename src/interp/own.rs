@@ -146,6 +146,7 @@ impl Own {
     /// All variables have unknown values.
     pub(crate) fn lose(&mut self) {
         self.changes += 1;
+        self.contour.euler = false;
         let known = self.known();
         if !known.is_empty() {
             self.before_loss = known;

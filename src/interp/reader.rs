@@ -213,7 +213,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 self.words.by_letter.keep(letter, said);
             }
             Role::PathWord => self.path_word(word),
-            Role::NotModelled if self.sinumerik_number(letter, word) => {}
+            Role::NotModelled if self.sinumerik_number(letter, word) || self.orientation_angle(letter, word) => {}
             Role::NotModelled => {
                 self.words.forgets_all = true;
                 self.not_modelled(word.range);

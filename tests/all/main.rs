@@ -34,6 +34,7 @@ mod rewrites;
 mod rules;
 mod same;
 mod samples;
+mod sinumerik;
 mod site;
 mod tidy;
 mod wild;

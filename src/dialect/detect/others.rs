@@ -230,8 +230,8 @@ fn okuma(code: &str, votes: &mut Votes) {
             votes.add("okuma-osp", 4, "a sequence name");
         }
         if plain && (label.starts_with("NLAP") || label.starts_with("NAT")) {
-            votes.add("okuma-osp", 8, "a sequence name NLAP or NAT");
-            votes.add("okuma-osp-lathe", 4, "a sequence name NLAP or NAT");
+            votes.add("okuma-osp", 8, SEQUENCE_NAME);
+            votes.add("okuma-osp-lathe", 4, SEQUENCE_NAME);
         }
     }
     // T with the offset twice: T010101
@@ -241,6 +241,9 @@ fn okuma(code: &str, votes: &mut Votes) {
         votes.add("okuma-osp-lathe", 4, "a T word of six digits");
     }
 }
+
+/// A habit of programs for lathes, which some for machining centres have too.
+pub(super) const SEQUENCE_NAME: &str = "a sequence name NLAP or NAT";
 
 /// Whether only an Okuma for turning has what is in a line: limits of the spindle, turrets, sides, driven tools, LAP (NC-PB/gEdit, syntax-okuma.md).
 pub(super) fn okuma_turns(code: &str) -> bool {

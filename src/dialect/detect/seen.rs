@@ -156,10 +156,15 @@ impl Seen {
     }
 
     /// Which Okuma an Okuma program is for. A lathe has signs of its own; one without them moves X and never Y, and has nothing that only a
-    /// machining centre has.
+    /// machining centre has. A name NAT1 is no sign beside what only a machining centre has.
     pub(super) fn okuma_name(&self, known: Surroundings<'_>) -> &'static str {
         let (turns, mills) = self.okuma;
-        let sign = turns || self.shape.turns() || self.votes.weight(&["okuma-osp-lathe"]) > 0;
+        let habit = |sign: &str| (mills || self.shape.mill) && sign.starts_with(others::SEQUENCE_NAME);
+        let voted = self
+            .votes
+            .strongest(&["okuma-osp-lathe"])
+            .is_some_and(|vote| !habit(&vote.sign));
+        let sign = turns || self.shape.turns() || voted;
         let flat = self.shape.is_flat() && !mills && !self.shape.mill && known.turns != Some(false);
         if sign || flat { "okuma-osp-lathe" } else { "okuma-osp" }
     }

@@ -61,6 +61,23 @@ fn okuma_mills_and_lathes() {
             "N1 V1=2\nCALL OSUB AB=V1\nIF [V1 EQ 2] NEND\nNEND M2\n",
             "okuma-osp",
         ),
+        // names of sections for tools: lathes have them, and machining centres too
+        (
+            "a.min",
+            "O100\nG15 H2\nNAT01 T5 M6\nG56 H5\nG0 X1 Y2 Z3\nM2\n",
+            "okuma-osp",
+        ),
+        (
+            "a.min",
+            "G15 H2\nNAT1 G0 X1 Y2\nG81 X1 Y2 Z-3 R2 F50\nG80\nM2\n",
+            "okuma-osp",
+        ),
+        ("a.min", "NAT1 G0 X50 Z2\nG1 Z-10 F0.2\nM2\n", "okuma-osp-lathe"),
+        (
+            "a.min",
+            "NAT1 G50 S2000\nT010101\nG0 X50 Y0 Z2\nG81 X1 Z-3 R2\nM2\n",
+            "okuma-osp-lathe",
+        ),
         ("a.min", "G0 X50 Z2\nG1 Z-10 F0.2\nM2\n", "okuma-osp-lathe"),
         ("a.min", "G50 S2000\nT010101\nG0 X50 Y0 Z2\nM2\n", "okuma-osp-lathe"),
     ] {

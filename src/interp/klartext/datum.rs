@@ -85,10 +85,7 @@ impl Klartext<'_> {
             }
             // tolerance, oriented stop, contour data
             13 | 14 | 20 | 32 | 270..=272 => {}
-            220 | 221 => {
-                Self::not_modelled(format!("cycle {cycle}: a pattern of holes"), report);
-                self.unknown_motion(report);
-            }
+            220 | 221 => self.pattern_cycle(cycle, words, report),
             _ => self.define_cycle(cycle, line, words, report),
         }
     }

@@ -5,9 +5,8 @@
 //! in position control, interpolated with the tool axis (HEIDENHAIN Technical Manual MANUALplus 620, p. 1028).
 use super::Klartext;
 use super::hole::{Cycle, CycleFeed, Hole};
-use super::path_words::PathWords;
 use super::words::Words;
-use crate::core::{LINEAR, Report};
+use crate::core::Report;
 use crate::{Feed, MotionKind, Refusal};
 use trunnion_syntax::TextRange;
 
@@ -29,8 +28,7 @@ impl Klartext<'_> {
     /// CYCL CALL, CYCL CALL POS, CYCL CALL PAT.
     pub(crate) fn call_cycle(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         if words.takes_word("PAT") {
-            Self::not_modelled("CYCL CALL PAT: the points of a pattern", report);
-            return self.unknown_motion(report);
+            return self.call_pattern(words, report);
         }
         let positioned = words.takes_word("POS");
         let found = self.path_words(words, report);
@@ -41,46 +39,6 @@ impl Klartext<'_> {
             self.run_cycle(report);
         }
         self.codes_after(&found);
-    }
-
-    /// CYCL CALL POS X Y Z: the cycle at a place, whose coordinate along the tool axis shifts the cycle's levels (NC-PB/gEdit,
-    /// docs/user/transformations.md: "a second datum shift on top of Q203"). In which order the axes go there is not taken from a source.
-    fn call_at(&mut self, found: &PathWords, report: &mut Report<'_>) {
-        if found.given & LINEAR != LINEAR {
-            let message = "CYCL CALL POS needs the coordinates of all three axes";
-            Self::rejected(Refusal::MissingWord, message, report);
-        }
-        self.not_modelled_once("CYCL CALL POS: the way to its position", report);
-        let along = self.axes()[2];
-        let mut end = self.memory.frames.programmed(&self.core.state.position);
-        self.place(found, &mut end);
-        let shift = end.get(along).filter(|_| found.given & (1 << along) != 0);
-        let before = self.core.state.feed;
-        let mut hole = match &self.memory.cycle {
-            Cycle::Hole(hole) => Some(hole.clone()),
-            _ => None,
-        };
-        let unit = self.core.state.coordinates.unit_mm();
-        if let Some(hole) = &mut hole {
-            hole.surface = hole.surface.zip(shift).map(|(surface, shift)| surface + shift / unit);
-        }
-        // every hole begins at its clearance
-        let level = hole
-            .as_ref()
-            .and_then(|hole| Some((hole.surface? + hole.clear?) * unit));
-        match level {
-            Some(level) => end.set(along, level),
-            None => end.forget(along),
-        }
-        let start = self.memory.frames.programmed(&self.core.state.position);
-        self.memory.was_rapid = false;
-        self.go(MotionKind::Unknown, start, end, found, report);
-        match hole {
-            Some(hole) => self.drill(&hole, report),
-            None => self.run_cycle(report),
-        }
-        // its F is that of the way to the place
-        self.core.state.feed = before;
     }
 
     /// Runs the cycle that is defined where the tool is.
@@ -140,7 +98,7 @@ impl Klartext<'_> {
         value.map_or(Feed::Unknown, Feed::PerMinute)
     }
 
-    fn drill(&mut self, hole: &Hole, report: &mut Report<'_>) {
+    pub(super) fn drill(&mut self, hole: &Hole, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let (Some(clear), Some(depth), Some(surface)) = (hole.clear, hole.depth, hole.surface) else {
             self.not_modelled_once(

@@ -110,7 +110,13 @@ impl Klartext<'_> {
             Feed::Unknown
         };
         let orientation = self.core.held_orientation();
-        let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
+        // it moves axes that the block does not name
+        let along = distance.and(along).unwrap_or(Vec3::new(1.0, 1.0, 1.0));
+        let moved = (0..3)
+            .filter(|axis| along[*axis] != 0.0)
+            .fold(0, |all, axis| all | 1 << axis);
+        motion.says_way |= moved & !end.known;
         self.memory.heading = None;
         self.emit(&motion, report);
     }

@@ -2,10 +2,12 @@
 //!
 //! SPATIAL: Rz(SPC) Ry(SPB) Rx(SPA), about fixed axes A, B, C. EULER: Rz(EULPR) Rx(EULNU) Rz(EULROT). VECTOR: x from the base vector, z along
 //! the normal. POINTS: x from the first point to the second, the third on the side of y; the datum stays. Sources: TNC guide, PLANE SPATIAL;
-//! TNC 640 DIN/ISO 34059x p. 420 and 424. Where the swivel leaves a rotary axis free, COORD ROT (the default) keeps it and turns the
-//! coordinates. RELATIV in a plane that is tilted, PROJECTED and AXIAL are not followed.
+//! TNC 640 DIN/ISO 34059x p. 420 and 424. RELATIV: one angle, about an axis of the plane that is active (iTNC 530 340 422 user's manual, p. 456:
+//! it acts incrementally; TNC7 81762x-17: it is a transformation in the system of the working plane). Where the swivel leaves a rotary axis free,
+//! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED and AXIAL are not followed.
 use super::Klartext;
 use super::datum::PLANE;
+use super::values::Value;
 use super::words::{Said, Words};
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::frames::Tilted;
@@ -77,20 +79,11 @@ impl Klartext<'_> {
                 // P1X and the like are read as P, then 1, then X
                 self.points(words.text, report)
             }
-            "RELATIV" | "RELATIVE" => {
-                let angles = [number("SPA"), number("SPB"), number("SPC")].map(|said| said.unwrap_or(Some(0.0)));
-                spatial(angles).filter(|_| !self.is_tilted())
-            }
+            "RELATIV" | "RELATIVE" => self.relative([number("SPA"), number("SPB"), number("SPC")]),
             _ => None,
         };
         let Some(turn) = turn else {
-            let relative = name.starts_with("RELATIV");
-            let what = if relative {
-                "in a tilted plane"
-            } else {
-                "its values, or the form itself"
-            };
-            Self::not_modelled(format!("PLANE {name}: {what}"), report);
+            Self::not_modelled(format!("PLANE {name}: its values, or the form itself"), report);
             self.tilt_to(None);
             self.memory.angles_wait = None;
             return self.lose(PLANE);
@@ -99,6 +92,19 @@ impl Klartext<'_> {
         if turns_table && swivel.is_some() && turn[(2, 2)] == 1.0 {
             self.turn_table(report);
         }
+    }
+
+    /// The plane of one angle about an axis of the active one. The order of several is not stated, and nothing is relative to an unknown plane.
+    fn relative(&self, said: [Option<Value>; 3]) -> Option<Mat3> {
+        let active = self.memory.frames.tilt.map_or_else(Mat3::identity, |tilt| tilt.turn);
+        let mut given = said
+            .iter()
+            .enumerate()
+            .filter_map(|(axis, said)| Some((axis, (*said)?)));
+        let (axis, angle) = given.next()?;
+        let alone = given.next().is_none() && self.memory.lost & PLANE == 0;
+        let turn = Tilted::new(Vec3::zeros(), &[(axis, angle.filter(|_| alone)?)]).turn;
+        Some(active * turn)
     }
 
     /// TABLE ROT makes a difference where the swivel leaves an axis free: parallel to the tool, as a vertical tool does on most machines.

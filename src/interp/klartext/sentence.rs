@@ -48,7 +48,8 @@ impl Klartext<'_> {
                 self.core.state.spindle.switch(false);
             }
             b"BLK" => {}
-            b"TCH" | b"PATTERN" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"SPL" | b"DECLARE" => {
+            b"PATTERN" => self.pattern(&mut words, report),
+            b"TCH" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"SPL" | b"DECLARE" => {
                 self.not_followed(first.name(), report);
             }
             b"IF" | b"ELSE" | b"ELSEIF" | b"END" | b"WHILE" | b"FOR" | b"BREAK" | b"CONTINUE" => {
@@ -90,7 +91,7 @@ impl Klartext<'_> {
         let start: Vec<&str> = text.trim_start_matches(digits).split_whitespace().take(2).collect();
         Self::not_modelled(start.join(" "), report);
         match name.as_str() {
-            "DECLARE" | "PATTERN" | "CONTOUR" => {}
+            "DECLARE" | "CONTOUR" => {}
             "TCH" => {
                 self.core.forget_position();
                 self.memory.parameters.lose();

@@ -1,5 +1,6 @@
-//! Variables of the user task: V1 to V200 are common and keep their values; names of up to four characters that begin with two letters are local
-//! to a program; names that begin with V and a letter belong to the control.
+//! Variables of the user task: V1 to V200, and VC1 to VC200 on machining centres (OSP MACRO, nc-macro-lab.na.coocan.jp/osp2.html), are common and
+//! keep their values; names of up to four characters that begin with two letters are local to a program; all other names that begin with V and a
+//! letter belong to the control.
 use crate::flow::Calling;
 use crate::own::{Own, Sort};
 use std::collections::BTreeSet;
@@ -38,9 +39,11 @@ pub(super) fn class(name: &str) -> Class {
     let plain = bytes.iter().all(u8::is_ascii_alphanumeric);
     match bytes {
         _ if !plain => Class::None,
-        [b'v', digits @ ..] if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) => {
-            let number = name[1..].parse().unwrap_or(0);
-            if (1..=COMMON).contains(&number) && bytes[1] != b'0' {
+        [b'v', b'c', digits @ ..] | [b'v', digits @ ..]
+            if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) =>
+        {
+            let number = name[name.len() - digits.len()..].parse().unwrap_or(0);
+            if (1..=COMMON).contains(&number) && digits[0] != b'0' {
                 Class::Common
             } else {
                 Class::Control
@@ -122,7 +125,11 @@ mod tests {
             ("v01", Class::Control),
             ("v201", Class::Control),
             ("vzofx", Class::Control),
-            ("vc1", Class::Control),
+            ("vc1", Class::Common),
+            ("vc200", Class::Common),
+            ("vc201", Class::Control),
+            ("vc", Class::Control),
+            ("vc1a", Class::Control),
             ("dia1", Class::Local),
             ("px", Class::Local),
             ("p1", Class::None),

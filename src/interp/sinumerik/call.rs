@@ -215,6 +215,7 @@ impl Iso<'_> {
         let used = own.end_scope(level.scope);
         own.levels = own.levels.saturating_sub(1);
         own.in_modal = level.in_modal;
+        own.contour.euler &= !level.saves;
         for (here, there) in &level.references {
             own.assign(there, used.value(here));
         }

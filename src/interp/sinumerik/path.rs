@@ -1,9 +1,10 @@
 //! Words that give a path by something other than its end and centre: polar coordinates about a pole (AP, RP), the opening angle of an arc
-//! (AR), the angle of a line (ANG), an intermediate point (I1 J1 K1), corners (CHF, CHR, RND, RNDM), and the angle of a turned frame (RPL).
+//! (AR), the angle of a line (ANG), an intermediate point (I1 J1 K1), corners (CHF, CHR, RND, RNDM), the angle of a turned frame (RPL), and the
+//! tool's orientation by Euler angles (A2, B2, C2 under ORIEULER).
 //! Where their values are known they become coordinates and centres; else the block is not followed.
 //!
 //! Source: Sinumerik 840D sl Programming Manual, Fundamentals: polar coordinates, circular interpolation, contour definitions, chamfer and
-//! rounding. What a pole or a polar angle means under G91, or after a change of the frame, is not taken from there.
+//! rounding; Programming Guide Advanced, 04.00, p. 7-225: A2 turns about Z, B2 about the new X, C2 about the new Z, which turns no tool. What a pole or a polar angle means under G91, or after a change of the frame, is not taken from there.
 use super::pole::Pole;
 use crate::arc::plane_axes;
 use crate::codes::BlockCodes;
@@ -36,6 +37,8 @@ pub(crate) struct PathWords {
     pub(super) opening: Option<f64>,
     /// ANG, deg.
     pub(super) angle: Option<f64>,
+    /// A2, B2, C2, deg.
+    angles: Places<3>,
     /// RPL, deg.
     frame: Option<f64>,
     /// CHF (F), CHR (C) or RND (R).
@@ -76,6 +79,8 @@ pub(crate) struct Contour {
     pub(super) angle: Option<(f64, [f64; 2])>,
     /// RNDM, mm; 0: off.
     pub(crate) rounding: f64,
+    /// ORIEULER is in effect; false: what A2, B2 and C2 mean is machine data, or not followed.
+    pub(crate) euler: bool,
     /// Where the last motion in the plane ended, and its direction there.
     pub(super) heading: Option<(Position, Vec3)>,
 }
@@ -95,6 +100,24 @@ impl Contour {
 }
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// `A2=`, `B2=`, `C2=`; false: another word.
+    pub(crate) fn orientation_angle(&mut self, letter: u8, word: &Word) -> bool {
+        let second = self.program.bytes(word.range).get(1).copied();
+        if !matches!(letter, b'A'..=b'C') || second != Some(b'2') || self.own.as_ref().is_none_or(|own| own.is_task) {
+            return false;
+        }
+        self.first(word);
+        let said = self.said_place(word);
+        let Some(own) = self.own.as_mut() else { return false };
+        let path = &mut own.path;
+        path.range = path.range.or(Some(word.range));
+        let place = usize::from(letter - b'A');
+        path.unread |= path.angles.given & (1 << place) != 0 || !matches!(said.1, Reading::Modal | Reading::Absolute);
+        put(&mut path.angles, place, said);
+        path.unread |= path.angles.unread != 0;
+        true
+    }
+
     /// One of these words.
     pub(crate) fn path_word(&mut self, word: &Word) {
         self.first(word);
@@ -189,6 +212,9 @@ impl Iso<'_> {
         if path.frame.is_some() {
             return None;
         }
+        if path.angles.any() {
+            self.vector_of_angles(path, words)?;
+        }
         let motion = self.core.state.motion;
         let through = motion == Some(Action::ArcThroughPoint) && words.axes.any();
         if path.through.any() && !through || block.not_modelled {
@@ -206,6 +232,17 @@ impl Iso<'_> {
         if let Some((_, size)) = path.corner {
             let moves = words.axes.any() && !block.dwell && !block.machine_coordinates;
             (size >= 0.0 && moves).then_some(())?;
+        }
+        Some(())
+    }
+
+    /// The tool vector of A2 and B2 under ORIEULER.
+    fn vector_of_angles(&self, path: &PathWords, words: &mut Words) -> Option<()> {
+        let known = self.memory.own.contour.euler && path.angles.given & 0b11 == 0b11 && !words.vector.any();
+        known.then_some(())?;
+        let [(sin_a, cos_a), (sin_b, cos_b)] = [0, 1].map(|at| sin_cos_degrees(path.angles.values[at]));
+        for (at, value) in [sin_a * sin_b, -cos_a * sin_b, cos_b].into_iter().enumerate() {
+            put_absolute(&mut words.vector, at, value);
         }
         Some(())
     }

@@ -62,6 +62,12 @@ fn a_circle_of_nx_has_eleven_numbers() {
     let arc = "FEDRAT/9\nGOTO/30,0,0\nCIRCLE/0,0,0,0,0,1,30,0.06,0.5,30,0\nGOTO/0,30,0\n";
     assert_eq!(lines("apt", arc)[1], "A(0 0 0; 90) X0 Y30 Z0 F9 tcp <0 0 1>");
     assert_eq!(faults("apt", arc), [""; 0]);
+    // as a parser of posts has it in its tests: the last four numbers do not change the arc
+    let other = "FEDRAT/9\nGOTO/236.4575,-30,0\nCIRCLE/206.4575,-30,0,0,0,1,30,0.06,0.5,30,0\nGOTO/206.4575,0,0\n";
+    assert_eq!(
+        lines("apt", other)[1],
+        "A(206.4575 -30 0; 90) X206.4575 Y0 Z0 F9 tcp <0 0 1>"
+    );
     let off = arc.replace(",30,0.06", ",31,0.06");
     assert!(
         faults("apt", &off)[0].contains("ArcRadiusMismatch"),

@@ -5,7 +5,7 @@ use trunnion_interp::{ControlData, Feed, Motion, MotionKind, Setup};
 
 /// How the tool gets to the bottom of a hole, as the motions in it say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+pub(crate) enum Way {
     OneStroke,
     ChipsBroken,
     Cleared,
@@ -16,7 +16,7 @@ enum Way {
 
 /// How it gets out of the hole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Out {
+pub(crate) enum Out {
     Rapid,
     Feed,
     NotKnown,
@@ -24,17 +24,17 @@ enum Out {
 
 /// One visit of the tool to a hole.
 #[derive(Clone, Debug)]
-struct Hole {
+pub(crate) struct Hole {
     /// In 0.01 mm.
-    place: (i64, i64),
-    bottom: f64,
+    pub(crate) place: (i64, i64),
+    pub(crate) bottom: f64,
     /// mm for each turn of the spindle, of the last stroke.
-    pitch: Option<f64>,
-    strokes: u32,
+    pub(crate) pitch: Option<f64>,
+    pub(crate) strokes: u32,
     cleared: u32,
     broken: u32,
-    open: bool,
-    out: Out,
+    pub(crate) open: bool,
+    pub(crate) out: Out,
 }
 
 impl Hole {
@@ -50,7 +50,7 @@ impl Hole {
             out: Out::NotKnown,
         }
     }
-    fn way(&self) -> Way {
+    pub(crate) fn way(&self) -> Way {
         match self {
             Self { open: true, .. } => Way::NotKnown,
             // the last time out is the end of the hole
@@ -67,7 +67,7 @@ impl Hole {
 }
 
 /// The holes in the order in which the tool visits them; `surface`: Z of it. A visit ends when the tool goes to another place.
-fn holes(dialect: &str, text: &str, surface: f64) -> Vec<Hole> {
+pub(crate) fn holes(dialect: &str, text: &str, surface: f64) -> Vec<Hole> {
     let setup = Setup {
         control: ControlData {
             peck_clearance_mm: Some(0.2),

@@ -318,3 +318,22 @@ fn holes_of_the_shared_part() {
     let common = own.iter().filter(|hole| siemens.contains(hole)).count();
     assert_eq!((own.len(), siemens.len(), common), (41, 33, 33));
 }
+
+/// M140 moves X, Y and Z, which its block does not name: to the limit that is to an unknown place, in a tilted plane too.
+#[test]
+fn a_retreat_to_the_limit_ends_at_an_unknown_place() {
+    let plane = "PLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN FMAX\n";
+    for (before, back, known) in [
+        ("", "M140 MB MAX FMAX", false),
+        (plane, "M140 MB MAX F3000", false),
+        ("", "M140 MB50 FMAX", true),
+        (plane, "L M140 MB50 FMAX", true),
+    ] {
+        let text = program(&format!("{before}L X+0 Y+0 Z+5 R0 FMAX\n{back}\nL M30\n"));
+        let motions = run_text(NAME, &text).motions;
+        let last = motions.last().expect("a motion");
+        assert_eq!(last.end.xyz().is_some(), known, "{before}{back}");
+        // what is left open has moved
+        assert_eq!(last.says_way & 0b111 == 0b111, !known, "{before}{back}");
+    }
+}

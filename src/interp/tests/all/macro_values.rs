@@ -119,10 +119,15 @@ fn additional_offsets_and_more_of_what_is_in_force() {
     let setup = Setup {
         work_offsets: vec![
             offset("G54.1 P1", [1.0, 2.0, 3.0]),
+            offset("G54.1 P2", [11.0, 12.0, 13.0]),
             offset("G54.1 P48", [0.0, 7.0, 0.0]),
         ],
         ..Setup::default()
     };
+    // #7003 is Z of P1, #7023 of P2
+    let found = run_bytes(FANUC, b"G0X#7003Y#7023\nM30\n", &setup).1;
+    let end = found.motions[0].end;
+    assert_eq!((end.get(0), end.get(1)), (Some(3.0), Some(13.0)));
     let source = b"G0X#7003Y#7942\n#7022=5.\nX#7022\nM30\n";
     let log = run_bytes(FANUC, source, &setup).1;
     let ends: Vec<_> = log

@@ -34,6 +34,7 @@ mod one_block;
 mod one_part;
 mod orientation;
 mod own_codes;
+mod own_posts;
 mod planes_agree;
 mod properties;
 mod repeated;

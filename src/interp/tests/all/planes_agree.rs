@@ -204,11 +204,18 @@ fn the_same_plane_in_every_form_of_every_control() {
     assert!(compared > 40_000, "{compared}");
 }
 
-/// PLANE RELATIV turns about one axis of a plane that is not tilted, as PLANE SPATIAL does.
+/// PLANE RELATIV turns about one axis of the plane that is active: as PLANE SPATIAL does where none is, and else about the turned axis.
 #[test]
 fn a_relative_plane_of_one_angle() {
     let mut random = Angles(7);
     for _ in 0..1_000 {
+        let [a, b, c, d] = [0; 4].map(|_| random.next());
+        let blocks = format!(
+            "PLANE SPATIAL SPA{a:+} SPB+0 SPC{c:+} STAY\nPLANE RELATIV SPB{b:+} STAY\nPLANE RELATIV SPC{d:+} STAY\n"
+        );
+        let found = columns(KLARTEXT, &blocks, &Setup::default()).expect("known");
+        let wanted = about(2, c) * about(0, a) * about(1, b) * about(2, d);
+        assert!((found - wanted).norm() < 1e-9, "{blocks}");
         for (axis, word) in ["SPA", "SPB", "SPC"].into_iter().enumerate() {
             let angle = random.next();
             let blocks = format!("PLANE RELATIV {word}{angle:+} STAY\n");
@@ -227,9 +234,10 @@ fn forms_without_a_source_stay_unknown_by_name() {
             "PLANE PROJECTED",
         ),
         (KLARTEXT, "PLANE AXIAL A+10 C+20 STAY\n", "PLANE AXIAL"),
+        (KLARTEXT, "PLANE RELATIV SPA+10 SPB+20 STAY\n", "PLANE RELATIV"),
         (
             KLARTEXT,
-            "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nPLANE RELATIV SPB+20 STAY\n",
+            "PLANE AXIAL A+10 C+20 STAY\nPLANE RELATIV SPB+20 STAY\n",
             "PLANE RELATIV",
         ),
         (FANUC, "G68.2 P4 X0. Y0. Z0. I10. J20. K0.\n", "G68.2"),

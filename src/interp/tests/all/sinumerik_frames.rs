@@ -167,3 +167,50 @@ fn forms_of_traori() {
             .is_some()
     );
 }
+
+/// A2 turns about Z, B2 about the new X; C2 turns about the tool. So it is under ORIEULER alone.
+#[test]
+fn orientation_by_euler_angles() {
+    let vector = |blocks: &str| -> Option<[f64; 3]> {
+        let text = format!("G17 G90 G71 F100\nTRAORI\nG1 X0 Y0 Z0 A3=0 B3=0 C3=1\n{blocks}\nM30\n");
+        let motions = run_text(NAME, &text).motions;
+        match motions.last().expect("a motion").orientation {
+            trunnion_interp::Orientation::Vector(_, vector) => Some(vector.into()),
+            trunnion_interp::Orientation::Words => None,
+        }
+    };
+    for (angles, wanted) in [
+        ("A2=90 B2=30", [0.5, 0.0, 0.75f64.sqrt()]),
+        ("A2=90 B2=30 C2=77", [0.5, 0.0, 0.75f64.sqrt()]),
+        ("A2=0 B2=90", [0.0, -1.0, 0.0]),
+        ("A2=-90 B2=90", [-1.0, 0.0, 0.0]),
+        ("A2=45 B2=0", [0.0, 0.0, 1.0]),
+    ] {
+        let found = vector(&format!("ORIEULER\nG1 X1 Y2 Z3 {angles}")).expect("a vector");
+        assert!(
+            (0..3).all(|at| (found[at] - wanted[at]).abs() < 1e-9),
+            "{angles}: {found:?}"
+        );
+        let text = format!("G17 G90 G71 F100\nTRAORI\nORIEULER G1 X1 Y2 Z3 {angles}\nM30\n");
+        assert_eq!(faults(NAME, &text), [] as [String; 0], "{angles}");
+    }
+    // what is not ORIEULER, not both angles, not plain, or beside a vector
+    for blocks in [
+        "G1 X1 A2=90 B2=30",
+        "ORIEULER\nORIRPY\nG1 X1 A2=90 B2=30",
+        "ORIEULER\nORIRPY2\nG1 X1 A2=90 B2=30",
+        "ORIEULER\nG1 X1 A2=90",
+        "ORIEULER\nG1 X1 B2=90 C2=1",
+        "ORIEULER\nG1 X1 A2=IC(90) B2=30",
+        "ORIEULER\nG1 X1 A2=R77 B2=30",
+        "ORIEULER\nG1 X1 A2=90 B2=30 C3=1",
+    ] {
+        let text = format!("G17 G90 G71 F100\nTRAORI\nG1 X0 Y0 Z0\n{blocks}\nM30\n");
+        assert!(
+            faults(NAME, &text).iter().any(|fault| fault.contains("NotModelled")),
+            "{blocks}"
+        );
+        let last = run_text(NAME, &text).motions.last().map(|motion| motion.end.xyz());
+        assert_eq!(last, Some(None), "{blocks}");
+    }
+}

@@ -1,10 +1,13 @@
 //! What a block says of a motion whose end, feed or time is not known: the numbers of the motion are not the place, and two that are not known need not be
 //! equal (decision 0029). Then the words of both blocks must be the same.
 use crate::steps::Steps;
+use std::fmt::Write as _;
 use std::sync::Arc;
 use trunnion_dialect::Role;
-use trunnion_interp::{AxisLetter, Feed, ModalState, Motion, MotionKind, canonical_text};
-use trunnion_syntax::{Address, Block, Format, Item, Value, Word};
+use trunnion_interp::{
+    AXIS_LETTERS, AxisLetter, ChainId, Feed, ModalState, Motion, MotionKind, Swivel, canonical_text,
+};
+use trunnion_syntax::{Address, Block, BlockId, Format, Item, Value, Word};
 
 /// X, Y and Z.
 const LINEAR: u16 = 7;
@@ -48,7 +51,11 @@ impl Steps<'_> {
             ),
             arc: matches!(motion.kind, MotionKind::Arc(Some(_))),
         };
-        if axes == 0 && !lost.feed && !lost.kind {
+        // the block of a motion in another file is that of the call: what moved is not in it
+        let elsewhere = || self.calls_of(motion).last().is_some_and(|frame| frame.is_place);
+        let turns = motion.tilt.swivel != Swivel::No || motion.tilt.free != 0;
+        if axes == 0 && !lost.feed && !lost.kind || turns && !lost.kind || motion.chain != ChainId::MAIN && elsewhere()
+        {
             return None;
         }
         let program = self.input.program;
@@ -62,11 +69,16 @@ impl Steps<'_> {
             Format::Klartext => self.sentence_of(&block, &lost, &mut said),
             Format::Apt => said.whole(self.text(&program.text(block.range())), lost.linear),
         }
-        said.counts.then(|| said.told(self.state()))
+        said.counts.then(|| said.told(motion, self.state()))
     }
 
     /// A text with its known values, in one spelling.
     fn text(&self, text: &str) -> String {
+        if self.input.dialect.quirks.declares_names() {
+            // what is between parentheses are arguments
+            let text = text.replace('(', "[").replace(')', "]");
+            return self.interpreter.resolved_text(&canonical_text(&text));
+        }
         self.interpreter.resolved_text(&canonical_text(text))
     }
 
@@ -139,17 +151,27 @@ impl Steps<'_> {
     fn sentence_of(&self, block: &Block<'_>, lost: &Lost, said: &mut Said) {
         let Some(sentence) = block.sentence() else { return };
         let text = String::from_utf8_lossy(&sentence.text()).to_ascii_uppercase();
+        // the corner that follows cuts off the end
+        let blocks = (block.id().0 + 1..block.program().block_count() as u32).map(BlockId);
+        let next = blocks.filter_map(|id| block.program().block(id).sentence()).next();
+        let corner = next.map(|next| String::from_utf8_lossy(&next.text()).to_ascii_uppercase());
+        if let Some(corner) = corner.filter(|text| text.starts_with("RND") || text.starts_with("CHF")) {
+            said.whole(self.text(&corner), lost.linear);
+        }
         let mut words = text.split_whitespace();
         if words.next() != Some("L") {
             return said.whole(self.text(&text), lost.linear || lost.feed);
         }
         for word in words {
             let bare = word.strip_prefix('I').unwrap_or(word);
-            let axis = bare.bytes().next().and_then(AxisLetter::new);
+            let is_value = |byte: &u8| byte.is_ascii_digit() || b"+-.,Q".contains(byte);
+            let named = bare.as_bytes().get(1).is_some_and(is_value);
+            let axis = bare.bytes().next().and_then(AxisLetter::new).filter(|_| named);
             match axis {
                 Some(axis) => said.whole(self.text(word), lost.axes & (1 << axis.0) != 0),
                 None if word.starts_with('F') => said.whole_if(lost.feed, &|| self.text(word), lost.feed),
-                None if matches!(word, "R0" | "RL" | "RR") || word.starts_with('M') && word != "M91" => {}
+                None if matches!(word, "R0" | "RL" | "RR" | "AUTO" | "MAX")
+                    || word.starts_with('M') && word != "M91" => {}
                 None => said.whole(self.text(word), lost.linear),
             }
         }
@@ -169,11 +191,18 @@ impl Said {
         }
     }
 
-    /// In one order, with what the numbers are.
-    fn told(mut self, state: &ModalState) -> Arc<str> {
+    /// In one order, with what the numbers are. Where a corner has cut off the end, or a cycle has several levels, the unknown values still differ by as much
+    /// as the places do.
+    fn told(mut self, motion: &Motion, state: &ModalState) -> Arc<str> {
         self.words.sort();
         let coordinates = &state.coordinates;
         let mut told = self.words.join(" ");
+        for axis in (0..3).filter(|axis| motion.end.known & (1 << axis) == 0) {
+            let value = motion.end.values[axis];
+            if value != 0.0 && !value.is_nan() {
+                let _ = write!(told, " {}: {value:.6}", char::from(AXIS_LETTERS[axis]));
+            }
+        }
         if coordinates.incremental() {
             told.push_str(" (incremental)");
         }

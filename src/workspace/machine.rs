@@ -87,3 +87,30 @@ fn load(path: &Path, texts: &Texts) -> Result<FoundMachine, LoadError> {
     let file = Some(path.to_owned());
     Ok(FoundMachine { machine, file })
 }
+
+/// A machine that `trunnion.toml` names and that is not there, at the line that names it. What is wrong inside a machine file keeps its own place.
+pub(crate) fn in_settings(error: LoadError, name: &str, config_file: Option<&(PathBuf, String)>) -> LoadError {
+    let Some((file, text)) = config_file else {
+        return error;
+    };
+    let path = file.parent().unwrap_or(Path::new("")).join(name);
+    if path.is_file() {
+        return error;
+    }
+    let mut span = None;
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let rest = line.trim_start().strip_prefix("machine");
+        if rest.is_some_and(|rest| rest.trim_start().starts_with('=')) {
+            span = Some(start..start);
+            break;
+        }
+        start += line.len();
+    }
+    let message = if error.place.is_empty() {
+        error.message
+    } else {
+        format!("`machine` names {}: {}", error.place, error.message)
+    };
+    LoadError::at(file, text, span.as_ref(), message)
+}

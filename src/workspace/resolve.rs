@@ -311,40 +311,14 @@ fn machine_for(
     }
     if let Some(name) = &config.machine {
         let folder = config_file.and_then(|(path, _)| path.parent());
-        let machine = find_in(name, folder, &overrides.texts).map_err(|error| in_settings(error, name, config_file))?;
+        let machine = find_in(name, folder, &overrides.texts)
+            .map_err(|error| crate::machine::in_settings(error, name, config_file))?;
         if let (Err(error), Some((path, text))) = (config.check_axes(&machine.machine), config_file) {
             return Err(LoadError::at(path, text, error.span.as_ref(), &error.message));
         }
         return Ok((Some(machine), "trunnion.toml".into()));
     }
     Ok((None, "none is named".into()))
-}
-
-/// A machine that `trunnion.toml` names and that is not there, at the line that names it. What is wrong inside a machine file keeps its own place.
-fn in_settings(error: LoadError, name: &str, config_file: Option<&(PathBuf, String)>) -> LoadError {
-    let Some((file, text)) = config_file else {
-        return error;
-    };
-    let path = file.parent().unwrap_or(Path::new("")).join(name);
-    if path.is_file() {
-        return error;
-    }
-    let mut span = None;
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        let rest = line.trim_start().strip_prefix("machine");
-        if rest.is_some_and(|rest| rest.trim_start().starts_with('=')) {
-            span = Some(start..start);
-            break;
-        }
-        start += line.len();
-    }
-    let message = if error.place.is_empty() {
-        error.message
-    } else {
-        format!("`machine` names {}: {}", error.place, error.message)
-    };
-    LoadError::at(file, text, span.as_ref(), message)
 }
 
 fn dialect_for(

@@ -165,7 +165,7 @@ fn hostile_files_end_in_a_clear_answer() {
         let missing = trunnion(&[command, str(&folder.path().join("none.nc"))]);
         assert_eq!(status(&missing), 2, "{command}");
         assert!(
-            text(&missing.stderr).contains("none.nc: cannot read the file"),
+            text(&missing.stderr).contains("none.nc: there is no such file"),
             "{}",
             text(&missing.stderr)
         );

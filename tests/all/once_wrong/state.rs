@@ -128,11 +128,8 @@ pub(super) const STATE: &[Item] = &[
     (
         "H0 between two cuts",
         ["fanuc-30i", ""],
-        [
-            HEAD,
-            "T1 M6\nG43 H1 Z50.\nG1 Z0. F100.\nG0 Z50.\nG43 H0\nG0 Z5.\nG1 X5.\nM30\n",
-        ],
-        &["12 warning missing-tool-length"],
+        [HEAD, "G1 Z0. F100.\nG0 Z50.\nG43 H0\nG0 Z5.\nG1 X5.\nM30\n"],
+        &["10 warning missing-tool-length"],
         [5, 6],
     ),
     (

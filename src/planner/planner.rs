@@ -147,13 +147,7 @@ impl<'m> Planner<'m> {
         let passage = self.passage(&course, control);
         self.lose(&mut course, &passage, first);
         if passage.speed == [0.0; 2] {
-            // a stop: what came before is complete
-            let own = self.run.pieces.split_off(first);
-            if let Some(open) = self.open.last_mut() {
-                open.overlap += 0.5 * passage.overlap;
-            }
-            self.flush(out);
-            self.run.pieces = own;
+            self.complete(first, passage.overlap, out);
         } else if let Some(round) = passage.round {
             self.round(&mut course, &round, first);
         } else if let Some(piece) = self.run.pieces.get_mut(first) {
@@ -175,9 +169,17 @@ impl<'m> Planner<'m> {
             overlap: 0.5 * passage.overlap,
         });
         self.last = Some(course);
-        if self.open.len() >= self.enough {
-            self.settle(out);
+        self.settle(out);
+    }
+
+    /// A stop: what came before the pieces from `first` on is complete.
+    fn complete(&mut self, first: usize, overlap: f64, out: &mut impl FnMut(Timed)) {
+        let own = self.run.pieces.split_off(first);
+        if let Some(open) = self.open.last_mut() {
+            open.overlap += 0.5 * overlap;
         }
+        self.flush(out);
+        self.run.pieces = own;
     }
 
     /// The machine stands still for a time: a tool change, an M code. Counts as a motion of its own.

@@ -53,7 +53,7 @@ impl Steps<'_> {
         };
         // the block of a motion in another file is that of the call: what moved is not in it
         let elsewhere = || self.calls_of(motion).last().is_some_and(|frame| frame.is_place);
-        let turns = motion.tilt.swivel != Swivel::No || motion.tilt.free != 0;
+        let turns = motion.tilt.swivel != Swivel::No;
         if axes == 0 && !lost.feed && !lost.kind || turns && !lost.kind || motion.chain != ChainId::MAIN && elsewhere()
         {
             return None;
@@ -152,8 +152,8 @@ impl Steps<'_> {
         let Some(sentence) = block.sentence() else { return };
         let text = String::from_utf8_lossy(&sentence.text()).to_ascii_uppercase();
         // the corner that follows cuts off the end
-        let blocks = (block.id().0 + 1..block.program().block_count() as u32).map(BlockId);
-        let next = blocks.filter_map(|id| block.program().block(id).sentence()).next();
+        let mut blocks = (block.id().0 + 1..block.program().block_count() as u32).map(BlockId);
+        let next = blocks.find_map(|id| block.program().block(id).sentence());
         let corner = next.map(|next| String::from_utf8_lossy(&next.text()).to_ascii_uppercase());
         if let Some(corner) = corner.filter(|text| text.starts_with("RND") || text.starts_with("CHF")) {
             said.whole(self.text(&corner), lost.linear);

@@ -24,6 +24,9 @@ impl Planner<'_> {
     /// Emits what is settled of a long run, so that neither memory nor the time of a plan grows with it. The filter that limits the jerk is the longest one
     /// that the machine may need: of many motions it costs too little for a search of a better one.
     pub(super) fn settle(&mut self, out: &mut impl FnMut(Timed)) {
+        if self.open.len() < self.enough {
+            return;
+        }
         self.enough = 2 * self.open.len();
         let count = self.last.as_ref().map_or(0, |last| last.count);
         let most = self.run.pieces.len().saturating_sub(count);

@@ -15,6 +15,7 @@ use crate::numbers;
 use crate::rapids;
 use crate::refit::{Followed, Following, Joint, Refit, begin_apart, begin_together, follow, may_begin};
 use crate::retracts;
+use crate::said;
 use crate::sentences::{kind, only_one, undecided};
 use crate::steps::Steps;
 use crate::twins::Twins;
@@ -353,20 +354,10 @@ pub(crate) fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> 
         }
     }
     in_effect(was, is, claim)?;
-    if was.said != is.said {
-        let quoted = |step: &Step| {
-            step.said
-                .as_deref()
-                .map_or("all that it says is known".to_owned(), |words| format!("`{words}`"))
-        };
-        let what = format!(
-            "where it ends or how fast is unknown, and the blocks say different things: {} and {}",
-            quoted(was),
-            quoted(is)
-        );
-        return Err(Verdict::Unknown(place(what)));
+    match said::unlike(was.said.as_deref(), is.said.as_deref()) {
+        Some(what) => Err(Verdict::Unknown(place(what))),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Two lines that end together: they are compared as one pair.

@@ -14,6 +14,24 @@ const LINEAR: u16 = 7;
 /// All axes.
 const ALL: u16 = 0x1ff;
 
+/// Between what a block says and the values that are not known.
+const ENDS: char = '\n';
+
+/// Why two blocks may do different things where the result is not known; `None` where they say the same.
+pub(crate) fn unlike(was: Option<&str>, is: Option<&str>) -> Option<String> {
+    if was == is {
+        return None;
+    }
+    let words = [was, is].map(|said| said.and_then(|said| said.split(ENDS).next()));
+    let what = if words[0] == words[1] {
+        "where both end is unknown, and it depends on other blocks that differ".to_owned()
+    } else {
+        let [was, is] = words.map(|words| words.map_or("nothing unknown".to_owned(), |words| format!("`{words}`")));
+        format!("where it ends or how fast is unknown, and the blocks say different things: {was} and {is}")
+    };
+    Some(what)
+}
+
 /// What a motion leaves open.
 struct Lost {
     /// Axes without a known end, bits as in `Position::known`.
@@ -197,17 +215,18 @@ impl Said {
         self.words.sort();
         let coordinates = &state.coordinates;
         let mut told = self.words.join(" ");
-        for axis in (0..3).filter(|axis| motion.end.known & (1 << axis) == 0) {
-            let value = motion.end.values[axis];
-            if value != 0.0 && !value.is_nan() {
-                let _ = write!(told, " {}: {value:.6}", char::from(AXIS_LETTERS[axis]));
-            }
-        }
         if coordinates.incremental() {
             told.push_str(" (incremental)");
         }
         if coordinates.unit_mm() != 1.0 {
             told.push_str(" (inch)");
+        }
+        told.push(ENDS);
+        for axis in (0..3).filter(|axis| motion.end.known & (1 << axis) == 0) {
+            let value = motion.end.values[axis];
+            if value != 0.0 && !value.is_nan() {
+                let _ = write!(told, "{}{value:.6}", char::from(AXIS_LETTERS[axis]));
+            }
         }
         told.into()
     }

@@ -245,16 +245,12 @@ fn asked(claim: &Claim) -> trunnion_same::Claim {
         deg: degrees,
         pieces: matches!(claim, Claim::InsertedPoints { .. }),
         frees_feed: matches!(claim, Claim::AdaptedFeed { .. }),
-        across: false,
-        straight_rapids: false,
-        plane_counts: true,
-        no_rotary: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
         cuts: !claim.is_rewrite() && !matches!(claim, Claim::ClearRapids { .. } | Claim::InsertedRetracts { .. }),
         rapid_runs: matches!(claim, Claim::ClearRapids { .. }),
         retracts: matches!(claim, Claim::InsertedRetracts { .. }),
         refit: refit(claim),
-        exact: None,
+        ..trunnion_same::Claim::STRICT
     }
 }
 

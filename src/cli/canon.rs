@@ -108,15 +108,11 @@ struct Kept {
 impl Kept {
     fn read(path: &Path, outputs: &mut Outputs) -> Result<Self, Failure> {
         let target = outputs.output("--parameters", path)?;
-        let mut backup = path.as_os_str().to_owned();
-        backup.push(".bak");
         let exists = path.exists();
         Ok(Self {
             path: path.to_owned(),
             bytes: if exists { load::read(path)? } else { Vec::new() },
-            backup: exists
-                .then(|| outputs.output("--parameters", Path::new(&backup)))
-                .transpose()?,
+            backup: exists.then(|| outputs.backup("--parameters", path)).transpose()?,
             target,
         })
     }

@@ -154,12 +154,9 @@ pub(super) fn run(global: &Global, command: &EditProgram) -> Result<Done, Failur
     let mut outputs = loaded.outputs();
     let output = command.output.as_ref();
     let output = output.map(|path| outputs.output("-o", path)).transpose()?;
-    let mut backup = command.file.clone().into_os_string();
-    backup.push(".bak");
-    let backup = PathBuf::from(backup);
     let backup = command
         .backup
-        .then(|| outputs.output("--backup", &backup))
+        .then(|| outputs.backup("--backup", &command.file))
         .transpose()?;
     if command.write {
         trunnion_files::sweep_beside(&command.file);

@@ -12,7 +12,7 @@ use crate::cli::out::Out;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use report::{Outcome, Step};
 use similar::TextDiff;
-use std::{io::IsTerminal, path::PathBuf};
+use std::io::IsTerminal;
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_certify::{Chain, ChainStep};
@@ -78,12 +78,9 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| outputs.output("-o", path))
         .transpose()?;
-    let mut backup = command.file.clone().into_os_string();
-    backup.push(".bak");
-    let backup = PathBuf::from(backup);
     let backup = command
         .backup
-        .then(|| outputs.output("--backup", &backup))
+        .then(|| outputs.backup("--backup", &command.file))
         .transpose()?;
     let certificate = command.certificate.as_ref();
     let certificate = certificate

@@ -105,18 +105,9 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     let claim = Claim {
         mm: tolerance.mm,
         deg: tolerance.deg,
-        frees_feed: false,
-        pieces: false,
-        across: false,
-        straight_rapids: false,
-        plane_counts: true,
-        no_rotary: false,
         path_only,
         cuts: true,
-        refit: None,
-        rapid_runs: false,
-        retracts: false,
-        exact: None,
+        ..Claim::STRICT
     };
     let mut near = Near {
         mm: tolerance.mm,

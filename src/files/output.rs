@@ -67,6 +67,16 @@ impl Outputs {
         });
     }
 
+    /// The file next to `original` that keeps it, named as it is with `.bak` behind; `option` asked for it.
+    ///
+    /// # Errors
+    /// As of [`Self::output`].
+    pub fn backup(&mut self, option: &str, original: &Path) -> Result<Target, FileError> {
+        let mut path = original.as_os_str().to_owned();
+        path.push(".bak");
+        self.output(option, Path::new(&path))
+    }
+
     /// An output named by `option` (`-o`, `--certificate`); `-` is standard output. Files that killed runs left next to it are removed.
     ///
     /// # Errors

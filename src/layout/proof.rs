@@ -28,23 +28,11 @@ pub fn first_difference(
         machine: None,
     };
     let claim = Claim {
-        mm: 0.0,
-        deg: 0.0,
-        frees_feed: false,
-        pieces: false,
-        path_only: false,
-        across: false,
-        straight_rapids: false,
-        plane_counts: true,
-        no_rotary: false,
-        cuts: false,
-        refit: None,
-        rapid_runs: false,
-        retracts: false,
         exact: Some(Exact {
             frees_block_numbers: renumbered,
             most_blocks,
         }),
+        ..Claim::STRICT
     };
     let [mut old, mut new] = [Steps::new(input(before)), Steps::new(input(after))];
     let mut near = Near { mm: 0.0, deg: 0.0 };

@@ -47,17 +47,7 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
         deg: 1e-9,
         // compared here
         frees_feed: true,
-        path_only: false,
-        across: false,
-        straight_rapids: false,
-        plane_counts: true,
-        no_rotary: false,
-        cuts: false,
-        pieces: false,
-        refit: None,
-        rapid_runs: false,
-        retracts: false,
-        exact: None,
+        ..Claim::STRICT
     };
     let mut walk = Walk {
         change,

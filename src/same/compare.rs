@@ -58,6 +58,26 @@ pub struct Claim {
     pub exact: Option<Exact>,
 }
 
+impl Claim {
+    /// Both programs do the same, motion by motion: no tolerance, and nothing may differ. Other claims say in what they differ from it.
+    pub const STRICT: Self = Self {
+        mm: 0.0,
+        deg: 0.0,
+        frees_feed: false,
+        path_only: false,
+        across: false,
+        straight_rapids: false,
+        plane_counts: true,
+        no_rotary: false,
+        cuts: false,
+        pieces: false,
+        refit: None,
+        rapid_runs: false,
+        retracts: false,
+        exact: None,
+    };
+}
+
 /// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same even if values
 /// are unknown in them.
 pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {

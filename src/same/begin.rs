@@ -1,5 +1,5 @@
 //! Where two motions begin, and whether one whose start is unknown may be a part of the other.
-use crate::compare::Claim;
+use crate::Claim;
 use crate::cut::may_be_cut;
 use crate::item::{Item, Step};
 use crate::near::same_sort;

@@ -1,7 +1,8 @@
 //! Two programs of which the second makes the motions of the first elsewhere: shifted, turned, mirrored, scaled, or written in another unit or with
 //! other words. Each motion of the first is moved exactly, and then both are compared as any two programs are.
+use crate::Claim;
 use crate::change::{Change, names_rotary};
-use crate::compare::{Claim, held, next};
+use crate::compare::{held, next};
 use crate::ending::{at_end, stopped};
 use crate::happens::happens;
 use crate::item::{Item, Step};

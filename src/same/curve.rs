@@ -2,7 +2,7 @@
 //! known amount ([`Motion::slack_mm`]): both chains of lines are walked side by side, and that amount is added.
 //!
 //! What else must be the same, and when the path in the part has the shape of the programmed one, is as in [`crate::refit`].
-use crate::compare::Claim;
+use crate::Claim;
 use crate::in_effect::in_effect;
 use crate::item::{Item, Step};
 use crate::judge::Judge;

@@ -1,5 +1,5 @@
 //! Motions that do nothing, and motions that another program makes in several pieces.
-use crate::compare::Claim;
+use crate::Claim;
 use crate::item::Step;
 use trunnion_geometry::arc::Arc;
 use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};

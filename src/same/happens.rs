@@ -1,5 +1,5 @@
 //! Two things that programs do apart from motions.
-use crate::compare::Claim;
+use crate::Claim;
 use crate::item::{Item, Sort};
 use crate::process::{shown, stops, unlike};
 use crate::sentences::at;

@@ -1,5 +1,5 @@
 //! What must be in effect in both programs at two motions.
-use crate::compare::Claim;
+use crate::Claim;
 use crate::item::Step;
 use crate::process::{motion_difference, unlike};
 use crate::verdict::{Difference, Verdict};

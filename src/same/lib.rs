@@ -9,6 +9,7 @@ mod actions;
 mod begin;
 mod change;
 mod changed;
+mod claim;
 mod compare;
 mod counted;
 mod curve;
@@ -38,7 +39,8 @@ mod verdict;
 
 pub use change::Change;
 pub use changed::{Apart, compare_changed};
-pub use compare::{Claim, compare};
+pub use claim::Claim;
+pub use compare::compare;
 pub use exact::Exact;
 pub use input::Input;
 pub use item::{Item, Sort, Step, Stop};

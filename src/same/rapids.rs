@@ -1,5 +1,5 @@
 //! Rapid motions one after the other: where only their ends matter, two programs may make different ones between them.
-use crate::compare::Claim;
+use crate::Claim;
 use crate::item::{Item, Step};
 use crate::process::{motion_difference, unlike};
 use crate::steps::Steps;

@@ -2,7 +2,7 @@
 //!
 //! Everything but the path must be the same at each of them: feed, spindle, tool, offsets, plane of the tool. The rotary axes stand still, so
 //! that the path in the part has the shape of the programmed one.
-use crate::compare::Claim;
+use crate::Claim;
 use crate::cut::may_be_cut;
 use crate::item::Step;
 use crate::sentences::kind;

@@ -1,5 +1,6 @@
 //! Motions that only the program after has: away from the part with rapids, and back with lines at feed, between two cuts.
-use crate::compare::{Claim, next};
+use crate::Claim;
+use crate::compare::next;
 use crate::in_effect::in_effect;
 use crate::item::{Item, Step};
 use crate::judge::Judge;

@@ -4,7 +4,7 @@
 //! docs/controllers/heidenhain.md, 5). How the tool goes from one to the next, what a coordinate along the tool axis other than 0 does, and
 //! the other forms (ROW, PAT, FRAME, CIRC, PITCHCIRC) are not taken from a source.
 //!
-//! 220: Q241 places on the circle of diameter Q244 about Q216, Q217, from the angle Q245 on; the step is Q247, or, where that is 0, divides the way to Q246
+//! 220: Q241 places on the circle of diameter Q244 about Q216, Q217, from the angle Q245 on; the step is Q247, or, where that is 0, divides the arc to Q246
 //! (TNC 320 cycle programming, 9/2016, p. 178). 221: Q242 places with distance Q237 from Q225, Q226 on, turned by Q224 (TNC 128 77184x-01, p. 380); in which
 //! order it goes through several lines is not taken from a source, nor whether the clearances of the pattern or those of the cycle count where they differ.
 use super::Klartext;
@@ -24,7 +24,7 @@ impl Klartext<'_> {
             let message = "CYCL CALL POS needs the coordinates of all three axes";
             Self::rejected(Refusal::MissingWord, message, report);
         }
-        self.not_modelled_once("CYCL CALL POS: the way to its position", report);
+        self.not_modelled_once("CYCL CALL POS: the path to its position", report);
         let along = self.axes()[2];
         let mut end = self.memory.frames.programmed(&self.core.state.position);
         self.place(found, &mut end);
@@ -59,7 +59,7 @@ impl Klartext<'_> {
             Some(hole) => self.drill(&hole, report),
             None => self.run_cycle(report),
         }
-        // its F is that of the way to the place
+        // its F is that of the path to the place
         self.core.state.feed = before;
     }
 
@@ -112,7 +112,7 @@ impl Klartext<'_> {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
         if let Some(points) = self.memory.pattern.clone() {
-            self.not_modelled_once("CYCL CALL PAT: the way between its points", report);
+            self.not_modelled_once("CYCL CALL PAT: the path between its points", report);
             let axes = self.axes();
             for point in points {
                 let mut end = self.memory.frames.programmed(&self.core.state.position);
@@ -163,7 +163,7 @@ impl Klartext<'_> {
             Self::not_modelled(format!("cycle {cycle}: a pattern of holes"), report);
             return self.unknown_motion(report);
         };
-        self.not_modelled_once(&format!("cycle {cycle}: the way between its places"), report);
+        self.not_modelled_once(&format!("cycle {cycle}: the path between its places"), report);
         let unit = self.core.state.coordinates.unit_mm();
         let axes = self.axes();
         for place in places {

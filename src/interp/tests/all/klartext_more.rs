@@ -298,7 +298,7 @@ fn a_cycle_at_a_place() {
     );
     let found = faults(NAME, &text);
     assert!(
-        found.iter().any(|fault| fault.contains("the way to its position")),
+        found.iter().any(|fault| fault.contains("the path to its position")),
         "{found:?}"
     );
     let text = program(&format!(

@@ -259,6 +259,9 @@ impl Own {
                 None => (one, Some(0.0)),
                 Some((name, value)) => (name, self.value(value)),
             };
+            if !named::is_variable_name(name.split('[').next().unwrap_or(name).trim()) {
+                continue;
+            }
             if kind.eq_ignore_ascii_case("FRAME") && !name.contains('[') {
                 let name = name.trim().to_ascii_lowercase();
                 let is_plain = value.is_some() && !one.contains('=');

@@ -10,6 +10,13 @@ fn with_stem<'m, V>(map: &'m BTreeMap<Box<str>, V>, stem: &str) -> impl Iterator
     map.get_key_value(stem).into_iter().chain(elements)
 }
 
+/// Whether a declaration can give a variable this name: letters, digits and underscores (Sinumerik 840D sl Programming Manual, Job
+/// Planning, user-defined variables). Anything else is a mistake of the program and declares nothing.
+pub(super) fn is_variable_name(name: &str) -> bool {
+    let all = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    all && name.starts_with(|first: char| !first.is_ascii_digit())
+}
+
 impl Own {
     /// The known values of the variables that a text names.
     pub(crate) fn named_in(&self, text: &str) -> Vec<Argument> {

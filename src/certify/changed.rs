@@ -1,12 +1,12 @@
 //! Proof of an edit: the program after makes the motions of the program before, written otherwise, or moved, turned, mirrored or scaled.
 //!
-//! Both texts are run from scratch. Where zero points, tool lengths or reference points are not declared, both are run with values that are
-//! unlike each other in their place, so that no equality comes from taking them as zero.
+//! Both texts are run from scratch, with stand-ins for the values that nobody declares ([`trunnion_same::with_stand_ins`]), so that no
+//! equality comes from taking them as zero.
 use crate::conversion::is_grave;
 use crate::{Outcome, switch};
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, FaultKind, Lacks, Position, Setup, Tool, WorkOffset};
-use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed};
+use trunnion_interp::{Fault, Lacks, Position, Setup};
+use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed, with_stand_ins};
 use trunnion_syntax::{BlockId, Program};
 
 /// Why an edit is not proved.
@@ -93,7 +93,7 @@ fn run(programs: [&Program; 2], dialect: &Dialect, setup: &Setup, change: &Chang
         while steps.next().is_some() {}
         unset.extend(steps.take_faults().into_iter().map(|fault| fault.kind));
     }
-    let setup = with_values(setup, &unset);
+    let setup = with_levels(with_stand_ins(setup, &unset));
     let [mut old, mut new] = programs.map(|program| Steps::new(input(program, dialect, &setup)));
     old.watch_faults();
     new.watch_faults();
@@ -133,56 +133,24 @@ fn found_at(differs: bool, found: trunnion_same::Difference) -> Unproved {
     }
 }
 
-/// The setup with values in the place of those that nobody declares: zero points, tool lengths, reference points, distances that a parameter of the
-/// control holds. They are unlike each other, and no sums of each other, so that nothing is the same because of them.
-fn with_values(setup: &Setup, unset: &[FaultKind]) -> Setup {
-    let mut setup = setup.clone();
-    let mut seed = 0.0;
-    let mut next = || {
-        seed += 1.0;
-        // multiples of the golden ratio are spread evenly
-        100.0 * f64::fract(seed * 0.618_033_988_749_895) + 7.0
-    };
+/// Reference points and distances that a parameter of the control holds, unlike each other, where they are not declared.
+fn with_levels(mut setup: Setup) -> Setup {
     let control = &mut setup.control;
     control.peck_clearance_mm = control.peck_clearance_mm.or(Some(0.731));
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(Some(0.417));
     if control.reference_points.is_empty() {
-        control.reference_points = (0..4)
-            .map(|_| Position {
-                values: place(&mut next),
-                known: 0b1_1111_1111,
-            })
-            .collect();
-    }
-    for kind in unset {
-        match kind {
-            FaultKind::WorkOffsetUnset { name } if setup.work_offset(name).is_none() => {
-                let values = place(&mut next);
-                let name = name.clone();
-                setup.work_offsets.push(WorkOffset { name, values });
-            }
-            FaultKind::ToolLengthUnset { tool } => {
-                let digits: String = tool.chars().filter(char::is_ascii_digit).collect();
-                let Ok(number) = digits.parse::<u32>() else { continue };
-                let length = Some(next());
-                match setup.tools.iter_mut().find(|known| known.number == number) {
-                    Some(known) => known.length_mm = known.length_mm.or(length),
-                    None => setup.tools.push(Tool {
-                        number,
-                        shape: None,
-                        diameter_mm: None,
-                        length_mm: length,
-                        holder_mm: None,
-                    }),
+        let place = |number: u32| Position {
+            values: core::array::from_fn(|axis| {
+                let linear = !(3..6).contains(&axis);
+                if linear {
+                    f64::from(number) * 61.7 + axis as f64 * 13.3 + 211.9
+                } else {
+                    0.0
                 }
-            }
-            _ => {}
-        }
+            }),
+            known: 0b1_1111_1111,
+        };
+        control.reference_points = (0..4).map(place).collect();
     }
     setup
-}
-
-/// A place with other linear coordinates each time; rotary axes at 0.
-fn place(next: &mut impl FnMut() -> f64) -> [f64; 9] {
-    core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() })
 }

@@ -34,7 +34,11 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         Some(load::load(global, &command.after)?)
     };
     let before = loaded.program.source();
-    let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
+    let programs: Vec<&load::Loaded> = std::iter::once(&loaded).chain(second.as_ref()).collect();
+    let (dialect, setup) = (
+        loaded.resolved.dialect,
+        &load::with_assumed(&loaded.resolved.setup, &programs),
+    );
     let mut steps = Vec::new();
     let unlike = second.as_ref().and_then(|second| settings::differ(&loaded, second));
     let outcome = if let Some(message) = unlike {
@@ -84,7 +88,6 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         });
         Some(diff::shared(&loaded, second, tolerances, verdict))
     };
-    let programs: Vec<&load::Loaded> = std::iter::once(&loaded).chain(second.as_ref()).collect();
     let assuming = load::assuming(&programs);
     let done = say(command, &steps, outcome, shared);
     if let Some(line) = assuming {

@@ -87,12 +87,15 @@ fn with_pair<T>(before: &load::Loaded, after: &load::Loaded, then: impl FnOnce(&
             .parent()
             .map(std::path::Path::to_path_buf)
     };
-    let mut beside = new.setup.clone();
+    let [setup, mut beside] = [old, new].map(|resolved| load::with_assumed(&resolved.setup, &[before, after]));
     if folder(before) == folder(after) {
         beside.library = old.setup.library.clone();
     }
     let pair = Pair {
-        before: before.input(),
+        before: Input {
+            setup: &setup,
+            ..before.input()
+        },
         after: Input {
             machine: old.machine.as_ref(),
             setup: &beside,

@@ -11,9 +11,9 @@ use std::{
 use trunnion_check::assumptions;
 use trunnion_dialect::Foreign;
 use trunnion_files::{Outputs, Seen, Target};
-use trunnion_interp::{Fault, FaultKind, Limits};
+use trunnion_interp::{Fault, FaultKind, Limits, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::Input;
+use trunnion_same::{Input, Steps, undeclared, with_zeros};
 use trunnion_syntax::{LineIndex, Program};
 use trunnion_workspace::{Overrides, Resolved, resolve};
 
@@ -111,6 +111,24 @@ pub(crate) fn assumed_by(programs: &[&Loaded]) -> Vec<String> {
     let mut known = BTreeSet::new();
     let all = programs.iter().flat_map(|loaded| loaded.assumptions());
     all.filter(|text| known.insert(text.clone())).collect()
+}
+
+/// The setup of programs that are compared, with the zero points and tool lengths at 0 that --assume names and nobody declares.
+pub(crate) fn with_assumed(setup: &Setup, programs: &[&Loaded]) -> Setup {
+    let mut unset = Vec::new();
+    for loaded in programs {
+        let assume = loaded.resolved.assume;
+        if assume.work_offset || assume.tool_length {
+            let mut steps = Steps::new(loaded.input());
+            steps.watch_faults();
+            steps.by_ref().for_each(drop);
+            unset.extend(undeclared(&mut steps).into_iter().filter(|kind| match kind {
+                FaultKind::WorkOffsetUnset { .. } => assume.work_offset,
+                _ => assume.tool_length,
+            }));
+        }
+    }
+    with_zeros(setup, &unset)
 }
 
 /// The global options.

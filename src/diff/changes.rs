@@ -7,7 +7,10 @@ use crate::match_up::match_up;
 use crate::point::{Point, Tolerance};
 use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
-use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, run_alike};
+use trunnion_interp::FaultKind;
+use trunnion_same::{
+    Claim, Difference, Input, Near, Steps, Stop, Verdict, only_by_chance, run_alike, undeclared, unrelated,
+};
 use trunnion_syntax::BlockId;
 
 /// This many motions are compared in detail; more are only counted.
@@ -116,6 +119,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     let mut sides = [Steps::new(before), Steps::new(after)];
     for side in &mut sides {
         side.count_motions(place_unknown);
+        side.watch_faults();
     }
     let [one, other] = &mut sides;
     let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
@@ -123,6 +127,10 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     let to_their_ends = sides.iter().all(|steps| steps.stop().is_none());
     if matches!(verdict, Verdict::Unknown(_)) && to_their_ends && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
+    }
+    if verdict == Verdict::Same {
+        let unset: Vec<_> = sides.iter_mut().flat_map(undeclared).collect();
+        verdict = by_chance(pair, &claim, near, &unset).map_or(verdict, Verdict::Unknown);
     }
     if verdict == Verdict::Same || only_cut_short(&verdict, &sides) {
         let mut found = Found::new(verdict);
@@ -136,6 +144,27 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         return found;
     }
     list(pair, tolerance, verdict)
+}
+
+/// Where two programs are the same only because of values that nobody declares.
+fn by_chance(pair: &Pair<'_>, claim: &Claim, mut near: Near, unset: &[FaultKind]) -> Option<Difference> {
+    if pair.before.program.source() == pair.after.program.source() {
+        return None;
+    }
+    let setups = [pair.before, pair.after].map(|input| unrelated(input.setup, unset));
+    let [Some(before), Some(after)] = &setups else {
+        return None;
+    };
+    let mut sides =
+        [(pair.before, before), (pair.after, after)].map(|(input, setup)| Steps::new(Input { setup, ..input }));
+    let [one, other] = &mut sides;
+    match trunnion_same::compare(one, other, claim, &mut near) {
+        Verdict::Differs(found) => Some(Difference {
+            what: only_by_chance(unset),
+            ..found
+        }),
+        Verdict::Same | Verdict::Unknown(_) => None,
+    }
 }
 
 /// Whether the runs were the same up to where a bound ended one of them: then there is nothing to list.

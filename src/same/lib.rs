@@ -34,6 +34,7 @@ mod sentences;
 mod since;
 mod steps;
 mod twins;
+mod undeclared;
 mod unit;
 mod verdict;
 
@@ -50,4 +51,5 @@ pub use process::{Held, Process, offset_name, shown};
 pub use refit::{Refit, Refitted};
 pub use steps::Steps;
 pub use twins::run_alike;
+pub use undeclared::{only_by_chance, undeclared, unrelated, with_stand_ins, with_zeros};
 pub use verdict::{Difference, Verdict};

@@ -1,0 +1,110 @@
+//! What nobody declares, and what two programs still have in common.
+use crate::Steps;
+use trunnion_interp::{FaultKind, Setup, Tool, WorkOffset};
+
+/// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name.
+pub fn undeclared(steps: &mut Steps<'_>) -> Vec<FaultKind> {
+    let kinds = steps.take_faults().into_iter().map(|fault| fault.kind);
+    kinds.filter(is_undeclared).collect()
+}
+
+fn is_undeclared(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::WorkOffsetUnset { .. } | FaultKind::ToolLengthUnset { .. }
+    )
+}
+
+/// The setup with stand-ins for the zero points and tool lengths of `unset`, where these make a difference: see [`with_stand_ins`]. `None`:
+/// there are less than two of a kind, and one has no relation to another.
+pub fn unrelated(setup: &Setup, unset: &[FaultKind]) -> Option<Setup> {
+    let count = |of: fn(&FaultKind) -> Option<&String>| {
+        let mut names: Vec<&String> = unset.iter().filter_map(of).collect();
+        names.sort_unstable();
+        names.dedup();
+        names.len()
+    };
+    let zeros = count(|kind| match kind {
+        FaultKind::WorkOffsetUnset { name } => Some(name),
+        _ => None,
+    });
+    let lengths = count(|kind| match kind {
+        FaultKind::ToolLengthUnset { tool } => Some(tool),
+        _ => None,
+    });
+    (zeros > 1 || lengths > 1).then(|| with_stand_ins(setup, unset))
+}
+
+/// The setup with stand-ins for the zero points and tool lengths of `unset`. They are unlike each other and no sums of each other, so that
+/// nothing is the same because of them: coordinates depend on these values linearly, and what holds for values without a relation holds
+/// for all.
+pub fn with_stand_ins(setup: &Setup, unset: &[FaultKind]) -> Setup {
+    let mut seed = 0.0;
+    with_values(setup, unset, &mut || {
+        seed += 1.0;
+        // multiples of the golden ratio are spread evenly
+        100.0 * f64::fract(seed * 0.618_033_988_749_895) + 7.0
+    })
+}
+
+/// The setup with the zero points and tool lengths of `unset` at 0.
+pub fn with_zeros(setup: &Setup, unset: &[FaultKind]) -> Setup {
+    with_values(setup, unset, &mut || 0.0)
+}
+
+fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64) -> Setup {
+    let mut setup = setup.clone();
+    for kind in unset {
+        match kind {
+            FaultKind::WorkOffsetUnset { name } if setup.work_offset(name).is_none() => {
+                let values = core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() });
+                let name = name.clone();
+                setup.work_offsets.push(WorkOffset { name, values });
+            }
+            FaultKind::ToolLengthUnset { tool } => {
+                let digits: String = tool.chars().filter(char::is_ascii_digit).collect();
+                let Ok(number) = digits.parse::<u32>() else { continue };
+                let length = Some(next());
+                match setup.tools.iter_mut().find(|known| known.number == number) {
+                    Some(known) => known.length_mm = known.length_mm.or(length),
+                    None => setup.tools.push(Tool {
+                        number,
+                        shape: None,
+                        diameter_mm: None,
+                        length_mm: length,
+                        holder_mm: None,
+                    }),
+                }
+            }
+            _ => {}
+        }
+    }
+    setup
+}
+
+/// Why two programs that are the same with all of `unset` at 0 are not proved to be: one sentence.
+pub fn only_by_chance(unset: &[FaultKind]) -> String {
+    let names = |of: fn(&FaultKind) -> Option<String>| {
+        let mut names: Vec<String> = unset.iter().filter_map(of).collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    };
+    let mut all = names(|kind| match kind {
+        FaultKind::WorkOffsetUnset { name } => Some(name.clone()),
+        _ => None,
+    });
+    let lengths = names(|kind| match kind {
+        FaultKind::ToolLengthUnset { tool } => Some(format!("the tool length {tool}")),
+        _ => None,
+    });
+    let flags = [(all.is_empty(), "work-offset"), (lengths.is_empty(), "tool-length")];
+    let flags: Vec<&str> = flags.iter().filter(|(none, _)| !none).map(|(_, flag)| *flag).collect();
+    all.extend(lengths);
+    let last = all.pop().unwrap_or_default();
+    format!(
+        "they are the same only for certain values of {} and {last}, which are not declared: declare them, or take them as zero with --assume {}",
+        all.join(", "),
+        flags.join(",")
+    )
+}

@@ -29,6 +29,8 @@ pub(crate) struct AptState {
     pub(crate) axis: Option<Orientation>,
     /// The last vector could not be read, so no orientation is in effect.
     pub(crate) axis_lost: bool,
+    /// MULTAX/OFF was programmed: tool axes of motions are not expected until MULTAX/ON.
+    pub(crate) axis_fixed: bool,
     /// Where the coordinates of the records are in the part.
     pub(crate) frame: frame::Frame,
     /// The last cycle that was described; `None`: there is none, or what it does is not known.
@@ -176,7 +178,10 @@ impl Apt<'_> {
             b"DELAY" => return Some(self.delay(&args, report)),
             b"FEDRAT" => self.fedrat(&args, report),
             b"UNITS" | b"UNIT" => self.units(&args, report),
-            b"MULTAX" => self.core.state.tool_axis.set_multax(!args.has(program, "OFF")),
+            b"MULTAX" => {
+                self.kept.axis_fixed = args.has(program, "OFF");
+                self.core.state.tool_axis.set_multax(!self.kept.axis_fixed);
+            }
             b"TLAXIS" => self.tool_axis(&args, report),
             b"SPINDL" => self.spindl(&args, report),
             b"CUTTER" => self.cutter(&args, report),

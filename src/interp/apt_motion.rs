@@ -177,7 +177,13 @@ impl Apt<'_> {
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
         let set = self.kept.axis.take();
         if let Some(vector) = vector {
-            return self.core.unit_vector(vector, true, range, report);
+            let now = self.core.unit_vector(vector, true, range, report);
+            if self.kept.axis_fixed && !self.is_held(now) {
+                let what = "a tool axis after MULTAX/OFF: whether the postprocessor follows it".to_owned();
+                report.fault(range, FaultKind::NotModelled { what });
+                return Orientation::Words;
+            }
+            return now;
         }
         if self.core.state.tool_axis.multax() && set.is_none() {
             report.fault(range, FaultKind::AptVectorMissing);
@@ -188,6 +194,17 @@ impl Apt<'_> {
             (None, Orientation::Words) if self.kept.axis_lost => Orientation::Words,
             (None, Orientation::Words) => Orientation::Vector(None, self.kept.frame.tool()),
         }
+    }
+
+    /// Whether the tool is along this axis already.
+    fn is_held(&self, orientation: Orientation) -> bool {
+        const SAME: f64 = 1e-6;
+        let before = match self.core.state.orientation {
+            Orientation::Vector(_, before) => before,
+            Orientation::Words if self.kept.axis_lost => return false,
+            Orientation::Words => self.kept.frame.tool(),
+        };
+        matches!(orientation, Orientation::Vector(_, now) if (now - before).norm() < SAME)
     }
 
     /// The motion to a point.

@@ -11,6 +11,7 @@ use crate::words::{Places, WordValue, Words};
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::{Arc, Turning};
+use trunnion_syntax::TextRange;
 
 /// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
 const STANDS_MM: f64 = 1e-9;
@@ -68,7 +69,8 @@ impl Iso<'_> {
         let feed = if self.core.state.motion == Some(Action::Thread) {
             self.lead(words, report)
         } else if self.core.state.motion == Some(Action::VariableThread) {
-            // the lead changes along the path
+            let what = "a thread of variable lead: its feed".to_owned();
+            report.fault(TextRange::default(), FaultKind::NotModelled { what });
             self.feed_of(kind, words, report);
             Feed::Unknown
         } else {

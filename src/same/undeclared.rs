@@ -1,5 +1,5 @@
 //! What nobody declares, and what two programs still have in common.
-use crate::Steps;
+use crate::{Steps, offset_name};
 use trunnion_interp::{FaultKind, Setup, Tool, WorkOffset};
 
 /// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name.
@@ -15,24 +15,30 @@ fn is_undeclared(kind: &FaultKind) -> bool {
     )
 }
 
-/// The setup with stand-ins for the zero points and tool lengths of `unset`, where these make a difference: see [`with_stand_ins`]. `None`:
-/// there are less than two of a kind, and one has no relation to another.
-pub fn unrelated(setup: &Setup, unset: &[FaultKind]) -> Option<Setup> {
-    let count = |of: fn(&FaultKind) -> Option<&String>| {
-        let mut names: Vec<&String> = unset.iter().filter_map(of).collect();
+/// Names of the zero points and of the tool lengths, each once, where there are at least two: one has no relation to another.
+fn related(unset: &[FaultKind]) -> [Vec<String>; 2] {
+    let names = |of: fn(&FaultKind) -> Option<String>| {
+        let mut names: Vec<String> = unset.iter().filter_map(of).collect();
         names.sort_unstable();
         names.dedup();
-        names.len()
+        if names.len() < 2 { Vec::new() } else { names }
     };
-    let zeros = count(|kind| match kind {
-        FaultKind::WorkOffsetUnset { name } => Some(name),
+    let zeros = names(|kind| match kind {
+        FaultKind::WorkOffsetUnset { name } => Some(offset_name(name).to_string()),
         _ => None,
     });
-    let lengths = count(|kind| match kind {
-        FaultKind::ToolLengthUnset { tool } => Some(tool),
+    let lengths = names(|kind| match kind {
+        FaultKind::ToolLengthUnset { tool } => Some(format!("the tool length {tool}")),
         _ => None,
     });
-    (zeros > 1 || lengths > 1).then(|| with_stand_ins(setup, unset))
+    [zeros, lengths]
+}
+
+/// The setup with stand-ins for the zero points and tool lengths of `unset`, where these make a difference: see [`with_stand_ins`]. `None`:
+/// there are less than two of a kind.
+pub fn unrelated(setup: &Setup, unset: &[FaultKind]) -> Option<Setup> {
+    let some = related(unset).iter().any(|names| !names.is_empty());
+    some.then(|| with_stand_ins(setup, unset))
 }
 
 /// The setup with stand-ins for the zero points and tool lengths of `unset`. They are unlike each other and no sums of each other, so that
@@ -57,7 +63,15 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
     for kind in unset {
         match kind {
             FaultKind::WorkOffsetUnset { name } if setup.work_offset(name).is_none() => {
-                let values = core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() });
+                // under its other name
+                let known = setup
+                    .work_offsets
+                    .iter()
+                    .find(|known| offset_name(&known.name) == offset_name(name));
+                let values = known.map_or_else(
+                    || core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() }),
+                    |known| known.values,
+                );
                 let name = name.clone();
                 setup.work_offsets.push(WorkOffset { name, values });
             }
@@ -84,27 +98,14 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
 
 /// Why two programs that are the same with all of `unset` at 0 are not proved to be: one sentence.
 pub fn only_by_chance(unset: &[FaultKind]) -> String {
-    let names = |of: fn(&FaultKind) -> Option<String>| {
-        let mut names: Vec<String> = unset.iter().filter_map(of).collect();
-        names.sort_unstable();
-        names.dedup();
-        names
-    };
-    let mut all = names(|kind| match kind {
-        FaultKind::WorkOffsetUnset { name } => Some(name.clone()),
-        _ => None,
-    });
-    let lengths = names(|kind| match kind {
-        FaultKind::ToolLengthUnset { tool } => Some(format!("the tool length {tool}")),
-        _ => None,
-    });
-    let flags = [(all.is_empty(), "work-offset"), (lengths.is_empty(), "tool-length")];
+    let [mut names, lengths] = related(unset);
+    let flags = [(names.is_empty(), "work-offset"), (lengths.is_empty(), "tool-length")];
     let flags: Vec<&str> = flags.iter().filter(|(none, _)| !none).map(|(_, flag)| *flag).collect();
-    all.extend(lengths);
-    let last = all.pop().unwrap_or_default();
+    names.extend(lengths);
+    let last = names.pop().unwrap_or_default();
     format!(
         "they are the same only for certain values of {} and {last}, which are not declared: declare them, or take them as zero with --assume {}",
-        all.join(", "),
+        names.join(", "),
         flags.join(",")
     )
 }

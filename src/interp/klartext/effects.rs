@@ -95,6 +95,7 @@ impl Klartext<'_> {
             }
             0 => after.extend(stop()),
             1 => after.push(Effect::Event(vec![Argument::code("M1")])),
+            6 => after.extend([Effect::Event(vec![Argument::code("M6")]), Effect::left("spindle")]),
             _ => {}
         }
         *unmodelled |= !CODES.contains(&code) && !matches!(code, 129 | 136 | 137 | 140);

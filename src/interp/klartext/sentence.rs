@@ -236,8 +236,9 @@ impl Klartext<'_> {
             match code {
                 // M0 stops the spindle and the coolant too (TNC 155 programming manual, p. 15; TNC 640 user's manual, M functions)
                 0 | 5 => self.core.state.spindle.switch(false),
-                // where the operator has chosen the optional stop, so does M1
-                1 => self.core.state.spindle.leave_to_machine(),
+                // where the operator has chosen the optional stop, so does M1; M6 stops the spindle as well, and the program where a machine
+                // parameter says so (helmancnc.com, Heidenhain M codes; TNC 155 programming manual, p. 15)
+                1 | 6 => self.core.state.spindle.leave_to_machine(),
                 2 | 30 => {
                     self.core.state.spindle.switch(false);
                     self.core.state.ended = true;

@@ -10,6 +10,37 @@ pub(super) const STATE: &[Item] = &[
         [1, 4],
     ),
     (
+        "M6 of a TNC may stop the spindle",
+        ["heidenhain-klartext", ""],
+        [KLARTEXT, "M6\nL X+10 F100\nM30\nEND PGM A MM\n"],
+        &["5 unknown spindle-off-cut"],
+        [1, 2],
+    ),
+    (
+        "a transformation whose number is left out",
+        ["sinumerik-840d", ""],
+        [SINUMERIK, "TRAANG\nG1 X10 F100\nM30\n"],
+        &["5 unknown not-modelled"],
+        [1, 2],
+    ),
+    (
+        "a thread of variable lead",
+        ["fanuc-30i", ""],
+        [HEAD, "G34 Z-20. F1. K0.1\nM30\n"],
+        &["6 unknown not-modelled"],
+        [2, 3],
+    ),
+    (
+        "a tool axis after MULTAX/OFF",
+        ["apt", ""],
+        [
+            "PARTNO A\nUNITS/MM\nMULTAX/ON\nLOADTL/1\nSPINDL/RPM,1000,CLW\nRAPID\nGOTO/0,0,50,0,0,1\n",
+            "FEDRAT/100,MMPM\nMULTAX/OFF\nGOTO/1,0,50,0,0,1\nGOTO/1,0,50,0,0.6,0.8\nFINI\n",
+        ],
+        &["11 unknown not-modelled"],
+        [3, 3],
+    ),
+    (
         "M0 of a Haas stops the spindle",
         ["haas-ngc", ""],
         [HEAD, "G1 Z-1. F100.\nM0\nX10.\nM30\n"],

@@ -118,7 +118,12 @@ impl Run<'_> {
             if let Some(faults) = &mut self.faults {
                 let range = trunnion_syntax::TextRange::default();
                 let kind = FaultKind::NotDecided { what };
-                faults.push(Fault { block, range, kind });
+                faults.push(Fault {
+                    place: None,
+                    block,
+                    range,
+                    kind,
+                });
             }
         }
     }

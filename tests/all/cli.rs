@@ -22,6 +22,7 @@ mod retarget;
 mod servo;
 mod stats;
 mod steps;
+mod stumbles;
 mod switching;
 mod timing;
 pub(crate) mod tools;

@@ -1,4 +1,5 @@
 //! The text of `trunnion.toml`: every unknown key, unknown name and value out of range is an error with its place.
+use super::control::KnownDialect;
 use super::{Config, ConfigError, RuleLevel, TOLERANCES, nose, tool};
 use crate::{Severity, did_you_mean, or_known};
 use serde::Deserialize;
@@ -71,7 +72,12 @@ pub(super) struct FileTool {
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     let file: File = toml::from_str(text).map_err(|error| ConfigError {
-        message: trunnion_dialect::plain_toml(text, error.message(), error.span()),
+        message: trunnion_dialect::plain_toml(
+            Some(trunnion_dialect::KeyFile::Settings),
+            text,
+            error.message(),
+            error.span(),
+        ),
         span: error.span(),
     })?;
     let mut config = Config {
@@ -104,8 +110,13 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     config.subprogram_path = folders(file.subprogram_path)?;
     config.machine_path = folders(file.machine_path)?;
     config.fix = file.fix.settings()?;
-    config.setup.control = file.control.data()?;
-    config.setup.variables = super::variables::variables(&file.variables)?;
+    let dialect = config.dialect.as_deref().and_then(trunnion_dialect::builtin);
+    config.setup.control = file.control.data(match dialect {
+        Some(dialect) => KnownDialect::Named(dialect),
+        None if config.dialect_table.is_some() => KnownDialect::Table,
+        None => KnownDialect::Unset,
+    })?;
+    (config.setup.variables, config.setup.named_variables) = super::variables::variables(&file.variables, dialect)?;
     if let Some(blocks) = &file.limits.blocks {
         config.setup.limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
     }

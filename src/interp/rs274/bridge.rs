@@ -1,7 +1,7 @@
 //! Canonical calls of LinuxCNC's interpreter become motions and modal state.
 use super::call_state::CallState;
 use super::chords::chords;
-use super::faults::{fault_of, placed};
+use super::faults::{fault_of, placed, says_place};
 use super::frames::Shift;
 use crate::core::Core;
 use crate::{Fault, FaultKind, Feed, Motion, MotionKind, Orientation, Position, Sink};
@@ -56,11 +56,22 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.program.block(block).range()
         };
         self.calls.has_other_effects |= crate::effects::has_other_effects(&kind);
+        let place = match self.calls.paths.get(at.file.0 as usize) {
+            Some(path) if at.file != FileId::MAIN && !says_place(&kind) => {
+                Some(format!("{path} line {}", at.line + 1).into())
+            }
+            _ => None,
+        };
         let kind = match self.calls.paths.get(at.file.0 as usize) {
             Some(path) if at.file != FileId::MAIN => placed(kind, format!("{path}, line {}", at.line + 1)),
             _ => kind,
         };
-        self.sink.fault(Fault { block, range, kind });
+        self.sink.fault(Fault {
+            place,
+            block,
+            range,
+            kind,
+        });
     }
 
     /// `codes`: ten times the numbers of the G codes that may be meant, for the place.

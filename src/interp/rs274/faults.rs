@@ -32,6 +32,17 @@ pub(super) fn placed(kind: FaultKind, place: String) -> FaultKind {
     }
 }
 
+/// Whether [`placed`] puts the place into the text of a fact.
+pub(super) fn says_place(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::Rejected { .. }
+            | FaultKind::NotModelled { .. }
+            | FaultKind::NotDecided { .. }
+            | FaultKind::MissingSubprogram { .. }
+    )
+}
+
 /// The fact that reports an error.
 pub(super) fn fault_of(error: &Error) -> FaultKind {
     if let Some(missing) = &error.missing {

@@ -6,6 +6,7 @@ use crate::file::validate::{Fault, finite, non_negative};
 use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, Planning, PoleAction, PostureRule, RapidPath};
 use std::collections::BTreeMap;
+use trunnion_dialect::Dialect;
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 
@@ -36,6 +37,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         orientation = tcp.orientation;
     }
     let family = family.unwrap_or_else(|| "generic".to_owned());
+    let dialect = trunnion_dialect::builtin(&family);
     let feed = one_of("feed", raw.feed.as_ref(), &["xyz", "combined"])?;
     let mut control = Control {
         tcp_great_circle: orientation == Some(RawOrientation::GreatCircle),
@@ -71,7 +73,11 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
         spline_arcs_mm: non_negative("spline_arcs", raw.spline_arcs.as_ref())?,
         tool_change: tool_change(raw, axes)?,
-        power_on: raw.power_on.as_deref().map(power_on).transpose()?,
+        power_on: raw
+            .power_on
+            .as_deref()
+            .map(|codes| power_on(codes, dialect))
+            .transpose()?,
         planning: Planning::default(),
     };
     if let Some(pole) = &raw.pole {
@@ -202,8 +208,8 @@ fn position(key: &str, place: &BTreeMap<Word, Number>, axes: &[Axis]) -> Result<
     Ok(out)
 }
 
-/// G codes in effect at power-on: which of them a control knows is a matter of its dialect.
-fn power_on(words: &[Word]) -> Result<Vec<String>, Fault> {
+/// G codes in effect at power-on, which the control must know; `dialect`: that of its family.
+fn power_on(words: &[Word], dialect: Option<&Dialect>) -> Result<Vec<String>, Fault> {
     for word in words {
         if !is_g_code(word.get_ref()) {
             let message = format!(
@@ -215,6 +221,10 @@ fn power_on(words: &[Word]) -> Result<Vec<String>, Fault> {
                 span: word.span(),
             });
         }
+        trunnion_dialect::known_at_power_on(word.get_ref(), dialect).map_err(|message| Fault {
+            message,
+            span: word.span(),
+        })?;
     }
     Ok(words.iter().map(|word| word.get_ref().clone()).collect())
 }

@@ -48,8 +48,7 @@ pub(crate) struct Reporter<'a> {
     /// The block it looks at; `None`: the block of what it reports.
     block: Option<BlockId>,
     sequence: u64,
-    /// The line of a called program that the fault is about.
-    place: Option<Box<str>>,
+    pub(crate) place: Option<Box<str>>,
     /// The calls in which the current block runs.
     chain: ChainId,
     pending: Vec<Draft<'a>>,
@@ -162,7 +161,7 @@ impl<'a> Reporter<'a> {
             return false;
         };
         let text = self.program.text(slip.range);
-        let is_name = text.bytes().nth(1).is_some_and(|byte| byte.is_ascii_alphabetic()) && !text.contains(['.', '=']);
+        let is_name = text.as_bytes().get(1).is_some_and(u8::is_ascii_alphabetic) && !text.contains(['.', '=']);
         !is_name && self.is_slip(range)
     }
 
@@ -327,11 +326,6 @@ impl<'a> Reporter<'a> {
     pub(crate) fn origin(&mut self, again: bool, chain: ChainId) {
         self.log.again = again;
         self.chain = chain;
-    }
-
-    /// What is reported from here on is about this line of a called program, `None`: about the block itself.
-    pub(crate) fn place(&mut self, place: Option<&str>) {
-        self.place = place.map(Box::from);
     }
 
     /// Whether the running rule has reported nothing and counted nothing.

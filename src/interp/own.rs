@@ -132,21 +132,6 @@ pub(crate) struct Own {
 }
 
 impl Own {
-    /// What the settings declare: R parameters of a Sinumerik, common variables of an Okuma.
-    pub(crate) fn take_declared(&mut self, declared: &crate::NamedVariables) {
-        for (name, value) in &declared.0 {
-            let key = name.to_ascii_lowercase();
-            let is_own = if self.is_task {
-                crate::osp::is_common(&key)
-            } else {
-                r_parameter(&key).is_some()
-            };
-            if is_own {
-                self.assign(name, Some(*value));
-            }
-        }
-        self.fresh.clear();
-    }
     /// A block begins.
     pub(crate) fn begin_block(&mut self) {
         self.fresh.clear();

@@ -27,3 +27,4 @@ mod switching;
 mod timing;
 pub(crate) mod tools;
 mod twins;
+mod usage;

@@ -194,7 +194,7 @@ impl Klartext<'_> {
                 block,
                 range,
                 kind,
-            })
+            });
         };
         if let Request::Jump(key) | Request::Call(key) | Request::Repeat(key, _) = &request
             && self.is_doubled(key, program)

@@ -1,12 +1,12 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
 use crate::file::planning::{corner_model, planning};
+use crate::file::power_on::power_on;
 use crate::file::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
 use crate::file::text::number;
 use crate::file::validate::{Fault, finite, non_negative};
 use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, Planning, PoleAction, PostureRule, RapidPath};
 use std::collections::BTreeMap;
-use trunnion_dialect::Dialect;
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 
@@ -206,34 +206,6 @@ fn position(key: &str, place: &BTreeMap<Word, Number>, axes: &[Axis]) -> Result<
         }
     }
     Ok(out)
-}
-
-/// G codes in effect at power-on, which the control must know; `dialect`: that of its family.
-fn power_on(words: &[Word], dialect: Option<&Dialect>) -> Result<Vec<String>, Fault> {
-    for word in words {
-        if !is_g_code(word.get_ref()) {
-            let message = format!(
-                "{:?} is not a G code: write G and its number, for example \"G17\"",
-                word.get_ref()
-            );
-            return Err(Fault {
-                message,
-                span: word.span(),
-            });
-        }
-        trunnion_dialect::known_at_power_on(word.get_ref(), dialect).map_err(|message| Fault {
-            message,
-            span: word.span(),
-        })?;
-    }
-    Ok(words.iter().map(|word| word.get_ref().clone()).collect())
-}
-
-/// `G17`, `G5.1`.
-fn is_g_code(code: &str) -> bool {
-    code.strip_prefix('G').is_some_and(|number| {
-        number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') && number.parse::<f64>().is_ok()
-    })
 }
 
 pub(crate) fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {

@@ -58,7 +58,7 @@ fn assigned(source: &[u8], start: usize, end: usize) -> Option<Slip> {
         && unsigned.iter().all(in_number)
         && unsigned.iter().any(|byte| byte.eq_ignore_ascii_case(&b'O'))
         && unsigned.iter().any(u8::is_ascii_digit)
-        && unsigned.iter().filter(|byte| **byte == b'.').count() <= 1
+        && unsigned.split(|byte| *byte == b'.').count() <= 2
         && !goes_on(&source[end..]);
     let before = source[..start]
         .trim_ascii_end()

@@ -98,6 +98,23 @@ pub(super) enum KnownDialect<'d> {
     Table,
 }
 
+impl KnownDialect<'static> {
+    pub(super) fn of(config: &super::Config) -> Self {
+        match config.dialect.as_deref().and_then(trunnion_dialect::builtin) {
+            Some(dialect) => Self::Named(dialect),
+            None if config.dialect_table.is_some() => Self::Table,
+            None => Self::Unset,
+        }
+    }
+
+    pub(super) fn named(self) -> Option<&'static Dialect> {
+        match self {
+            Self::Named(dialect) => Some(dialect),
+            Self::Unset | Self::Table => None,
+        }
+    }
+}
+
 impl FileControl {
     /// As the interpreter wants it.
     pub(super) fn data(&self, known: KnownDialect<'_>) -> Result<ControlData, ConfigError> {

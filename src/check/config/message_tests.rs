@@ -1,7 +1,7 @@
 //! What is wrong with a settings file, in words.
 #[test]
 fn what_is_wrong_is_said_with_its_key() {
-    for (text, wanted) in [
+    says(&[
         (
             "[tolerances]\ntip = \"0.02\"\n",
             "`tip` in [tolerances] must be a number (`path-deviation`: how far the tip may leave the programmed segment, mm): `tip = 0.02`",
@@ -40,6 +40,22 @@ fn what_is_wrong_is_said_with_its_key() {
             "[limits]\nblock = 5\n",
             "unknown key `block` in [limits]; did you mean `blocks`?",
         ),
+    ]);
+}
+
+/// Each text is refused with the message.
+#[track_caller]
+fn says(all: &[(&str, &str)]) {
+    for (text, wanted) in all {
+        let error = crate::config::Config::parse(text).expect_err(text);
+        assert_eq!(error.message, *wanted, "{text}");
+    }
+}
+
+/// A key that is missing or in the wrong table, and a value of another kind, get a line that is right.
+#[test]
+fn a_line_that_is_right_is_shown() {
+    says(&[
         (
             "[[tool]]\ndiameter = 5\n",
             "[[tool]] lacks `number` (Number of the tool, each once): add `number = 1`",
@@ -85,8 +101,5 @@ fn what_is_wrong_is_said_with_its_key() {
             "machin = \"mill-3axis\"\n",
             "unknown key `machin`; did you mean `machine`?",
         ),
-    ] {
-        let error = crate::config::Config::parse(text).expect_err(text);
-        assert_eq!(error.message, wanted, "{text}");
-    }
+    ]);
 }

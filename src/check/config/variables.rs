@@ -40,12 +40,11 @@ impl Family {
     fn of(dialect: &Dialect) -> Self {
         match (dialect.lex.format, dialect.quirks.language) {
             (Format::Klartext, _) => Self::Klartext,
-            (Format::Apt, _) => Self::None,
+            (Format::Apt, _) | (_, Language::Words) => Self::None,
             (_, Language::MacroB) => Self::Macro,
             (_, Language::Linuxcnc) => Self::Linuxcnc,
             (_, Language::Sinumerik) => Self::Sinumerik,
             (_, Language::UserTask) => Self::Okuma,
-            (_, Language::Words) => Self::None,
         }
     }
 
@@ -69,11 +68,14 @@ enum Variable {
     Name(String, Family),
 }
 
+/// What the section declares.
+pub(super) struct Declared {
+    pub(super) numbered: Vec<(u32, Option<f64>)>,
+    pub(super) named: NamedVariables,
+}
+
 /// Values by number, and by name, each sorted. `dialect`: the one that the settings name.
-pub(super) fn variables(
-    section: &FileVariables,
-    dialect: Option<&Dialect>,
-) -> Result<(Vec<(u32, Option<f64>)>, NamedVariables), ConfigError> {
+pub(super) fn variables(section: &FileVariables, dialect: Option<&Dialect>) -> Result<Declared, ConfigError> {
     let mut numbered: Vec<(u32, Option<f64>)> = Vec::new();
     let mut named: Vec<(String, f64)> = Vec::new();
     for (name, value) in section {
@@ -114,7 +116,10 @@ pub(super) fn variables(
     }
     numbered.sort_unstable_by_key(|(number, _)| *number);
     named.sort_unstable_by(|one, other| one.0.cmp(&other.0));
-    Ok((numbered, NamedVariables(named)))
+    Ok(Declared {
+        numbered,
+        named: NamedVariables(named),
+    })
 }
 
 fn fault<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {

@@ -156,7 +156,8 @@ fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
     out.push_str("</table></section>\n");
 }
 
-fn program(out: &mut String, at: usize, part: &Part) {
+/// The verdict, in what it was found, and what it says nothing about.
+fn head(out: &mut String, at: usize, part: &Part) {
     let verdict = part.verdict.name();
     let _ = writeln!(
         out,
@@ -173,6 +174,10 @@ fn program(out: &mut String, at: usize, part: &Part) {
         );
     }
     let _ = writeln!(out, "<p class=\"line\">{}</p>", escape(&part.line));
+}
+
+fn program(out: &mut String, at: usize, part: &Part) {
+    head(out, at, part);
     out.push_str("<section><h3>Coverage</h3><table>");
     for (name, value) in &part.facts {
         let _ = writeln!(out, "<tr><th scope=\"row\">{name}</th><td>{}</td></tr>", escape(value));

@@ -37,7 +37,6 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         orientation = tcp.orientation;
     }
     let family = family.unwrap_or_else(|| "generic".to_owned());
-    let dialect = trunnion_dialect::builtin(&family);
     let feed = one_of("feed", raw.feed.as_ref(), &["xyz", "combined"])?;
     let mut control = Control {
         tcp_great_circle: orientation == Some(RawOrientation::GreatCircle),
@@ -50,6 +49,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
             Some(RawRapid::Dogleg) => RapidPath::Dogleg,
         },
         branch: branch(raw.branch.as_ref(), &family, axes)?,
+        power_on: power_on(raw.power_on.as_deref(), &family)?,
         pole_cone: None,
         pole_action: PoleAction::Through,
         feed: match feed.as_deref() {
@@ -73,11 +73,6 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
         spline_arcs_mm: non_negative("spline_arcs", raw.spline_arcs.as_ref())?,
         tool_change: tool_change(raw, axes)?,
-        power_on: raw
-            .power_on
-            .as_deref()
-            .map(|codes| power_on(codes, dialect))
-            .transpose()?,
         planning: Planning::default(),
     };
     if let Some(pole) = &raw.pole {

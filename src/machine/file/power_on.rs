@@ -1,27 +1,29 @@
 //! `[control] power_on`: G codes in effect at power-on.
 use crate::file::raw::Word;
 use crate::file::validate::Fault;
-use trunnion_dialect::Dialect;
 
-/// G codes in effect at power-on, which the control must know; `dialect`: that of its family.
-pub(super) fn power_on(words: &[Word], dialect: Option<&Dialect>) -> Result<Vec<String>, Fault> {
-    for word in words {
-        if !is_g_code(word.get_ref()) {
-            let message = format!(
+/// The codes, which the control must know; `family`: its kind.
+pub(super) fn power_on(words: Option<&[Word]>, family: &str) -> Result<Option<Vec<String>>, Fault> {
+    let Some(words) = words else { return Ok(None) };
+    let dialect = trunnion_dialect::builtin(family);
+    let code = |word: &Word| {
+        let message = if is_g_code(word.get_ref()) {
+            trunnion_dialect::known_at_power_on(word.get_ref(), dialect).err()
+        } else {
+            Some(format!(
                 "{:?} is not a G code: write G and its number, for example \"G17\"",
                 word.get_ref()
-            );
-            return Err(Fault {
+            ))
+        };
+        match message {
+            None => Ok(word.get_ref().clone()),
+            Some(message) => Err(Fault {
                 message,
                 span: word.span(),
-            });
+            }),
         }
-        trunnion_dialect::known_at_power_on(word.get_ref(), dialect).map_err(|message| Fault {
-            message,
-            span: word.span(),
-        })?;
-    }
-    Ok(words.iter().map(|word| word.get_ref().clone()).collect())
+    };
+    words.iter().map(code).collect::<Result<_, _>>().map(Some)
 }
 
 /// `G17`, `G5.1`.

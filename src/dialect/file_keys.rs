@@ -131,6 +131,12 @@ impl Key {
         all.map(move |(name, node)| (name.as_str(), self.with(node)))
     }
 
+    /// A key that this table must have, else one that it may have.
+    pub fn first_key(self) -> Option<&'static str> {
+        let required = self.entered().resolved()["required"][0].as_str();
+        required.or_else(|| self.keys().next().map(|(name, _)| name))
+    }
+
     /// What it means; empty where the schema does not say.
     pub fn description(self) -> &'static str {
         let own = self.node["description"].as_str();

@@ -136,13 +136,13 @@ impl Complaint<'_> {
         } else {
             format!(" ({meaning})")
         };
-        let line = self.right_line(&name, known, place.lists);
+        let line = self.right_line(&place.table, &name, known, place.lists);
         let here = self.in_table(&place.table);
         Some(format!("{whose}{here} must be {kind}{meaning}{line}"))
     }
 
     /// A line that is right, as the end of a sentence: with the value that was written, if it only has to be written otherwise.
-    fn right_line(&self, name: &str, known: Option<Key>, lists: usize) -> String {
+    fn right_line(&self, around: &[String], name: &str, known: Option<Key>, lists: usize) -> String {
         let written = self
             .span
             .clone()
@@ -168,14 +168,13 @@ impl Complaint<'_> {
                 return format!(": `{shown} = {values}`");
             }
         }
-        let table = known.filter(|_| lists == 0).filter(|key| key.keys().next().is_some());
-        if let Some((key, file)) = table.zip(self.file) {
-            let mut names = key.keys().map(|(name, _)| name);
-            let first = names.next().unwrap_or_default();
-            return format!(
-                ": write `{}` on a line of its own and its keys below, for example `{first}`",
-                file.title(&[name])
-            );
+        let table = known.filter(|_| lists == 0).and_then(Key::first_key);
+        if let Some((first, file)) = table.zip(self.file) {
+            let header = match around {
+                [] => file.title(&[name]),
+                around => format!("[{}.{name}]", around.join(".")),
+            };
+            return format!(": write `{header}` on a line of its own and its keys below, for example `{first}`");
         }
         known
             .and_then(Key::example)

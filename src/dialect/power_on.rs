@@ -27,7 +27,7 @@ pub fn known_at_power_on(code: &str, dialect: Option<&Dialect>) -> Result<(), St
     let whose = dialect.map_or("no control that is known here", |dialect| dialect.name.as_str());
     let other = "; write the codes as the page of the dialect lists them, for example `power_on = [\"G17\", \"G90\"]`";
     let hint = did_you_mean(code, &known, other);
-    Err(format!("`power_on` names {code}, and {whose} has no such G code{hint}"))
+    Err(format!("`power_on`: {whose} has no G code `{code}`{hint}"))
 }
 
 #[cfg(test)]
@@ -41,13 +41,10 @@ mod tests {
         assert_eq!(known_at_power_on("G17", fanuc), Ok(()));
         assert_eq!(known_at_power_on("G710", builtin("sinumerik-840d")), Ok(()));
         let said = known_at_power_on("G177", fanuc).expect_err("no code");
-        assert_eq!(
-            said,
-            "`power_on` names G177, and fanuc-30i has no such G code; did you mean `G17`?"
-        );
+        assert_eq!(said, "`power_on`: fanuc-30i has no G code `G177`; did you mean `G17`?");
         // a code of another control
         let said = known_at_power_on("G710", fanuc).expect_err("no code of this one");
-        assert!(said.contains("fanuc-30i has no such G code"), "{said}");
+        assert!(said.contains("fanuc-30i has no G code `G710`"), "{said}");
         assert_eq!(known_at_power_on("G710", None), Ok(()));
         let said = known_at_power_on("G9999", None).expect_err("no code");
         assert!(said.contains("no control that is known here"), "{said}");

@@ -34,7 +34,7 @@ fn what_is_wrong_is_said_with_its_key() {
         ),
         (
             "dialect = \"fanuc-30i\"\n[control]\npower_on = [\"G17\", \"G177\"]\n",
-            "`power_on` names G177, and fanuc-30i has no such G code; did you mean `G17`?",
+            "`power_on`: fanuc-30i has no G code `G177`; did you mean `G17`?",
         ),
         (
             "[limits]\nblock = 5\n",
@@ -84,6 +84,11 @@ fn a_line_that_is_right_is_shown() {
         (
             "limits = 5\n",
             "`limits` must be a table (Bounds of a run): write `[limits]` on a line of its own and its keys below, for example `blocks`",
+        ),
+        (
+            "[control]\ntcp_codes = 5\n",
+            "`tcp_codes` in [control] must be a table (LinuxCNC: codes of the machine builder that switch the kinematics): write \
+             `[control.tcp_codes]` on a line of its own and its keys below, for example `at_start`",
         ),
         (
             "tool = 5\n",

@@ -78,7 +78,7 @@ tail | [control];;pole = { action = "jump" } | "jump" | known: through
 tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
 tail | [control];;units = "cm" | "cm" | units
 tail | [control];;power_on = ["G177"] | "G177" | did you mean `G17`
-tail | [control];;family = "fanuc-30i";;power_on = ["G710"] | "G710" | fanuc-30i has no such G code
+tail | [control];;family = "fanuc-30i";;power_on = ["G710"] | "G710" | fanuc-30i has no G code `G710`
 tail | [control];;reference_points = [{ Q = 1 }] | Q | not an axis
 tail | [control];;reference_points = [{ X = inf }] | inf | reference_points
 tail | [control];;tool_change = { Q = 1 } | Q | not an axis

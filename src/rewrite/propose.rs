@@ -165,26 +165,11 @@ pub struct Rewrite {
     pub docs: &'static str,
     /// Rules whose findings it may fix.
     pub cures: &'static [&'static str],
+    /// What it reads and writes, in G code alone; `None`: it works on the blocks of any format.
+    pub(crate) writes: Option<&'static str>,
     /// Proposes.
     pub(crate) proposes: fn(&Program, &Settings<'_>, &Options) -> Proposed,
 }
-
-/// Rewrites that work on the blocks of any format, not on words of G code.
-const ANY_FORMAT: [&str; 2] = ["renumber", "retarget"];
-
-/// What each of the others reads and writes.
-const WRITES: [(&str, &str); 10] = [
-    ("switch-angles", "rotary words of blocks"),
-    ("unwind-rotary", "rotary words of blocks"),
-    ("smooth-pole", "X, Y, Z and rotary words of blocks"),
-    ("insert-retract", "blocks of G0 and G1"),
-    ("reroute-rapid", "blocks of G0"),
-    ("fit-arcs", "G2 and G3 with I, J and K"),
-    ("fit-splines", "curves of G code"),
-    ("drop-redundant", "blocks and words of G1"),
-    ("insert-points", "blocks of G1"),
-    ("adapt-feed", "F words of blocks"),
-];
 
 impl Rewrite {
     /// Proposes.
@@ -202,30 +187,11 @@ impl Rewrite {
 
     /// What it reads and writes, where it does so in G code only and the program is Klartext.
     pub fn only_in_g_code(&self, program: &Program) -> Option<&'static str> {
-        if program.options().format != Format::Klartext || ANY_FORMAT.contains(&self.name) {
-            return None;
-        }
-        let known = WRITES.iter().find(|(name, _)| *name == self.name);
-        Some(known.map_or("words of G code", |(_, writes)| writes))
+        self.writes.filter(|_| program.options().format == Format::Klartext)
     }
 
     /// Whether it may fix this finding: the rule that reports it says so.
     pub fn may_fix(&self, finding: &Diagnostic) -> bool {
         finding.fixes.contains(&self.name)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{ANY_FORMAT, WRITES};
-
-    #[test]
-    fn every_rewrite_says_what_it_writes() {
-        let names: Vec<&str> = crate::rewrites().iter().map(|rewrite| rewrite.name).collect();
-        for name in &names {
-            let writes = WRITES.iter().any(|(known, _)| known == name);
-            assert!(writes != ANY_FORMAT.contains(name), "{name}");
-        }
-        assert!(WRITES.iter().all(|(name, _)| names.contains(name)));
     }
 }

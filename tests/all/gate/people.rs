@@ -111,7 +111,7 @@ fn a_report_holds_everything_in_one_page() {
 #[test]
 fn a_report_says_what_it_did_not_look_at() {
     let folder = TempDir::new().expect("a folder");
-    let program = "%\nO1\nG21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 X0. Y0.\nG43 H1 Z50.\nG1 Z40. F200.\nG0 Z50.\nM5\nM30\n%\n";
+    let program = "%\nO1\nG21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 G43 H1 X0. Y0. Z50.\nG1 Z40. F200.\nG0 Z50.\nM5\nM30\n%\n";
     write(&folder, "good.nc", program);
     let more = [
         "good.nc",

@@ -12,6 +12,7 @@ mod variables;
 pub use fix::{FixCost, FixPoint, FixSettings, FixSource};
 pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
+pub(crate) use variables::declaration;
 
 use crate::{Assume, Severity};
 use trunnion_dialect::{Dialect, Foreign};
@@ -120,7 +121,6 @@ pub const TOLERANCES: &[(&str, &str)] = &[
         "swap_excess",
         "branch-swap: rotary travel more than the cheapest move without a swap, deg",
     ),
-    ("pole_touch", "no rule uses it at present: distance to the pole, deg"),
     (
         "feed_drop_warning",
         "feed-drop: part of the programmed feed, 0 to 1, below which it is a warning",
@@ -209,7 +209,6 @@ fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
         "pole_cone" => tolerances.pole_cone = rad(value),
         "pole_angle" => tolerances.pole_angle = rad(value),
         "swap_excess" => tolerances.swap_excess = rad(value),
-        "pole_touch" => tolerances.pole_touch = rad(value),
         "feed_drop_warning" => tolerances.feed_drop_warning = value,
         "feed_drop_error" => tolerances.feed_drop_error = value,
         _ => return false,

@@ -304,9 +304,11 @@ impl Sink for Pass<'_> {
         self.tally.fault(&fault);
         self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
         let at = (Some(fault.block), self.executed);
+        self.reporter.place.clone_from(&fault.place);
         ask(&self.rules, &mut self.reporter, at, |wake, out| {
             wake.read_fault(&fault, out);
         });
+        self.reporter.place = None;
     }
 }
 

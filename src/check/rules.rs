@@ -337,6 +337,7 @@ mod tests {
         };
         for kind in faults().into_iter().filter(|kind| !unset(kind)) {
             let fault = Fault {
+                place: None,
                 block: BlockId(0),
                 range: TextRange::new(0, 5),
                 kind,

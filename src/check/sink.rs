@@ -48,6 +48,7 @@ pub(crate) struct Reporter<'a> {
     /// The block it looks at; `None`: the block of what it reports.
     block: Option<BlockId>,
     sequence: u64,
+    pub(crate) place: Option<Box<str>>,
     /// The calls in which the current block runs.
     chain: ChainId,
     pending: Vec<Draft<'a>>,
@@ -82,6 +83,7 @@ impl<'a> Reporter<'a> {
             severity: Severity::Error,
             level: None,
             block: None,
+            place: None,
             sequence: 0,
             chain: ChainId::MAIN,
             pending: Vec::new(),
@@ -159,7 +161,7 @@ impl<'a> Reporter<'a> {
             return false;
         };
         let text = self.program.text(slip.range);
-        let is_name = text.bytes().nth(1).is_some_and(|byte| byte.is_ascii_alphabetic()) && !text.contains('.');
+        let is_name = text.as_bytes().get(1).is_some_and(u8::is_ascii_alphabetic) && !text.contains(['.', '=']);
         !is_name && self.is_slip(range)
     }
 
@@ -260,6 +262,9 @@ impl<'a> Reporter<'a> {
         self.pending
             .push(Draft::new(self.program, block, self.name, self.severity, origin));
         let last = self.pending.len() - 1;
+        if let Some(place) = &self.place {
+            self.pending[last].note(format!("in {place}"));
+        }
         &mut self.pending[last]
     }
 

@@ -32,6 +32,9 @@ pub(crate) fn letter_o(program: &Program, at: u32) -> Option<Slip> {
     }
     let end = at + after;
     let mut start = at - before;
+    if let Some(slip) = assigned(source, start, end) {
+        return Some(slip);
+    }
     while start < end {
         let in_number = |byte: &&u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-' | b'O' | b'o');
         let stop = start + 1 + source[start + 1..end].iter().take_while(in_number).count();
@@ -41,6 +44,37 @@ pub(crate) fn letter_o(program: &Program, at: u32) -> Option<Slip> {
         start = stop;
     }
     None
+}
+
+/// A number behind `=` with a letter O in it: `F=200O`, with its address.
+fn assigned(source: &[u8], start: usize, end: usize) -> Option<Slip> {
+    let number = &source[start..end];
+    let in_number = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'O' | b'o');
+    let unsigned = number
+        .strip_prefix(b"-")
+        .or_else(|| number.strip_prefix(b"+"))
+        .unwrap_or(number);
+    let is_slip = matches!(unsigned, [b'0'..=b'9' | b'.', ..])
+        && unsigned.iter().all(in_number)
+        && unsigned.iter().any(|byte| byte.eq_ignore_ascii_case(&b'O'))
+        && unsigned.iter().any(u8::is_ascii_digit)
+        && unsigned.split(|byte| *byte == b'.').count() <= 2
+        && !goes_on(&source[end..]);
+    let before = source[..start]
+        .trim_ascii_end()
+        .strip_suffix(b"=")
+        .filter(|_| is_slip)?;
+    let named =
+        |byte: &&u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'#' | b'$' | b'<' | b'>' | b'[' | b']');
+    let before = before.trim_ascii_end();
+    let name = before.iter().rev().take(FAR).take_while(named).count();
+    let from = before.len() - name;
+    let address = core::str::from_utf8(&source[from..start]).ok()?;
+    let digits = core::str::from_utf8(number).ok()?.replace(['O', 'o'], "0");
+    (name > 0).then(|| Slip {
+        range: TextRange::new(from as u32, end as u32),
+        meant: format!("{address}{digits}"),
+    })
 }
 
 fn word(source: &[u8], start: usize, end: usize) -> Option<Slip> {
@@ -147,6 +181,14 @@ mod tests {
     #[test]
     fn a_word_with_a_letter_o_is_found_at_each_of_its_bytes() {
         for (text, at, wanted) in [
+            ("G1 F=200O Y1", 8, Some("F=2000")),
+            ("G1 F=200O Y1", 5, Some("F=2000")),
+            ("R1 = -1O.5\nM30", 6, Some("R1 = -10.5")),
+            ("#<_a>=1o", 6, Some("#<_a>=10")),
+            ("F=2O0O.O.", 4, None),
+            ("F=2O(3)", 3, None),
+            ("F=O5", 2, None),
+            ("2O", 1, None),
             ("G1 X5O. F100", 3, Some("X50.")),
             ("G1 X5O. F100", 6, Some("X50.")),
             ("G1X5O.Y3.", 5, Some("X50.")),

@@ -1,6 +1,7 @@
 //! The command line arguments; docs/commands.md lists the commands.
 mod check;
 mod fix;
+pub(crate) mod lines;
 mod people;
 
 pub(crate) use check::{Check, CheckFormat};

@@ -48,18 +48,6 @@ pub(crate) enum SourceOf {
     Chords,
 }
 
-/// Reads `12` or `12-40`.
-pub(crate) fn lines(text: &str) -> Result<(u32, u32), String> {
-    let number = |text: &str| text.trim().parse::<u32>().ok().filter(|&line| line > 0);
-    let range = match text.split_once('-') {
-        Some((first, last)) => number(first).zip(number(last)),
-        None => number(text).map(|line| (line, line)),
-    };
-    range
-        .filter(|(first, last)| first <= last)
-        .ok_or_else(|| "write a line, or the first and the last with `-` between them: 12 or 12-40".to_owned())
-}
-
 /// Runs `fix`. A rewrite that changes nothing because it is refused makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.file)?;
@@ -228,6 +216,7 @@ fn apply_all(
     };
     let mut program = loaded.program.clone();
     let bar = progress(global.quiet, chosen.len());
+    let mut only_in_g_code = Vec::new();
     for rewrite in chosen {
         bar.set_message(rewrite.name);
         let index = LineIndex::new(program.source());
@@ -242,7 +231,10 @@ fn apply_all(
                 .is_none_or(|(first, last)| line(ends.0) <= last && first <= line(ends.1))
         };
         let attempt = attempt_at(rewrite, &program, &settings, options, touches);
-        bar.suspend(|| say(global.quiet, &loaded.name, rewrite.name, &attempt));
+        match rewrite.only_in_g_code(&program) {
+            Some(writes) => only_in_g_code.push(format!("{} ({writes})", rewrite.name)),
+            None => bar.suspend(|| say(global.quiet, &loaded.name, rewrite.name, &attempt)),
+        }
         let mut gained = Vec::new();
         if let (Some(proved), Some(machine)) = (&attempt.proved, settings.machine) {
             let after = parse(proved.after.clone(), loaded.resolved.dialect.lex);
@@ -262,6 +254,16 @@ fn apply_all(
         bar.inc(1);
     }
     bar.finish_and_clear();
+    if !only_in_g_code.is_empty() {
+        remark(
+            false,
+            &format!(
+                "{}: not made in Klartext, because each reads and writes G code only: {}",
+                loaded.name,
+                only_in_g_code.join(", ")
+            ),
+        );
+    }
     outcome
 }
 

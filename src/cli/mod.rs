@@ -10,6 +10,7 @@ mod explain;
 mod failure;
 mod fix;
 mod fmt;
+mod help;
 mod init;
 mod json;
 mod legs;
@@ -33,7 +34,7 @@ mod verdict;
 mod walk;
 
 use args::{Args, Command};
-use clap::Parser;
+use clap::FromArgMatches;
 use std::process::ExitCode;
 
 /// The result of a command.
@@ -46,7 +47,10 @@ pub(crate) enum Done {
 
 /// Parses arguments and runs one command. 0: clean, 1: found, 2: the job could not be done.
 pub(crate) fn run() -> ExitCode {
-    let args = Args::parse();
+    let args = match Args::from_arg_matches(&help::command().get_matches()) {
+        Ok(args) => args,
+        Err(error) => error.exit(),
+    };
     let global = &args.global;
     let result = match &args.command {
         Command::Check(command) => check::run(global, command),

@@ -41,8 +41,8 @@ pub(crate) struct Plot {
     #[arg(long, value_name = "DEG")]
     around_pole: Option<f64>,
     /// Draw only the blocks of these lines, for example 100-250.
-    #[arg(long, value_name = "FROM-TO")]
-    lines: Option<String>,
+    #[arg(long, value_name = "FIRST[-LAST]", value_parser = super::args::lines::lines)]
+    lines: Option<(u32, u32)>,
     /// servo: the corner at the start of the motion in this line.
     #[arg(long, value_name = "LINE")]
     at: Option<u32>,
@@ -78,7 +78,7 @@ enum Axis {
 
 /// Runs `plot`.
 pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
-    let lines = command.lines.as_deref().map(span).transpose()?;
+    let lines = command.lines;
     if let Some(angle) = command.around_pole
         && !(angle > 0.0 && angle <= 90.0)
     {
@@ -121,7 +121,7 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         remark(
             global.quiet,
             &format!(
-                "{}: from line {line} on each motion is drawn by its ends alone; --lines FROM-TO draws a part in detail",
+                "{}: from line {line} on each motion is drawn by its ends alone; --lines FIRST-LAST draws a part in detail",
                 loaded.name
             ),
         );
@@ -276,16 +276,4 @@ pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header 
         title: shown(&format!("{title}: {name}")).into_owned(),
         subtitle: shown(&subtitle).into_owned(),
     }
-}
-
-/// `100-250`.
-pub(super) fn span(text: &str) -> Result<(u32, u32), Failure> {
-    let parsed = text
-        .split_once('-')
-        .and_then(|(from, to)| Some((from.trim().parse::<u32>().ok()?, to.trim().parse::<u32>().ok()?)));
-    parsed.filter(|(from, to)| *from >= 1 && from <= to).ok_or_else(|| {
-        Failure::new(format!(
-            "--lines {text}: write two line numbers starting from 1, for example 100-250"
-        ))
-    })
 }

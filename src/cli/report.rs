@@ -71,8 +71,13 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
 fn total(parts: &[Part]) -> String {
     let of = |verdict: Verdict| parts.iter().filter(|part| part.verdict == verdict).count();
     let programs = super::verdict::counted(parts.len() as u64, "program");
+    let in_part = |part: &&Part| part.verdict == Verdict::Pass && !part.not_looked_at.is_empty();
+    let in_part = match parts.iter().filter(in_part).count() {
+        0 => String::new(),
+        some => format!(" ({some} looked at in part)"),
+    };
     format!(
-        "{programs}: {} passed, {} unknown, {} failed",
+        "{programs}: {} passed{in_part}, {} unknown, {} failed",
         of(Verdict::Pass),
         of(Verdict::Unknown),
         of(Verdict::Fail)
@@ -98,6 +103,10 @@ fn fits(bytes: usize, done: usize, all: usize) -> Result<(), Failure> {
 struct Part {
     name: String,
     verdict: Verdict,
+    /// In what it was found: ` on mill-3axis`.
+    judged_in: String,
+    /// What it says nothing about.
+    not_looked_at: Vec<String>,
     /// The line that `check` prints.
     line: String,
     /// Name and value: machine, dialect, scope, coverage.
@@ -141,6 +150,11 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         accepted: 0,
     };
     let line = super::verdict::verdict_line(&judged, false);
+    let not_looked_at = super::verdict::not_looked_at(&judged);
+    let judged_in = match judged.not_read {
+        Some(_) => String::new(),
+        None => super::verdict::judged_in(scope, judged.machine),
+    };
     let denied = super::check::is_found(&report, deny, global.strict);
     let readable = loaded.not_read().is_none();
     let facts = page::facts(&loaded, &report, scope);
@@ -158,6 +172,8 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     };
     let part = Part {
         verdict,
+        judged_in,
+        not_looked_at,
         line,
         facts,
         findings,

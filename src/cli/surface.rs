@@ -35,8 +35,8 @@ pub(crate) struct Surface {
     #[arg(long, value_name = "MM", default_value_t = 1.0)]
     reach: f64,
     /// Judge only the blocks of these lines, for example 100-250.
-    #[arg(long, value_name = "FROM-TO")]
-    lines: Option<String>,
+    #[arg(long, value_name = "FIRST[-LAST]", value_parser = super::args::lines::lines)]
+    lines: Option<(u32, u32)>,
     /// Exit with status 1 if an error is larger than this, in mm.
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
@@ -129,7 +129,7 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
             "the path of some feed blocks is unknown".to_owned()
         } else if errors.apart > 0 {
             format!(
-                "{} feed blocks start or end off the surface; --lines FROM-TO leaves them out",
+                "{} feed blocks start or end off the surface; --lines FIRST-LAST leaves them out",
                 errors.apart
             )
         } else {
@@ -143,11 +143,18 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
 }
 
 fn read(path: &Path, close: f64) -> Result<Required, Failure> {
-    let bytes = load::read(path)?;
     let kind = path
         .extension()
         .map(|e| e.to_string_lossy().to_ascii_lowercase())
         .unwrap_or_default();
+    if !["toml", "json", "stl"].contains(&kind.as_str()) {
+        return Err(Failure::file(
+            path,
+            "--required takes the surface that the part must have: grids and patches in a file that ends in .toml or .json, or an STL that ends in \
+             .stl; a program has no such surface",
+        ));
+    }
+    let bytes = load::read(path)?;
     let read = if kind == "stl" {
         required_stl(&bytes)
     } else {
@@ -179,7 +186,7 @@ fn judge(
         close: command.close,
         spots: if command.plot.is_some() { SPOTS } else { 0 },
     };
-    let lines = command.lines.as_deref().map(plot::span).transpose()?;
+    let lines = command.lines;
     let mut judge = Judge::new(surface, machine, options);
     let given_up = each_leg(loaded, machine, index, lines, |leg, _, state| {
         judge.leg(leg, leg.motion.other_length(state.tool.own_length_mm()).is_none());

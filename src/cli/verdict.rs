@@ -24,6 +24,55 @@ pub(super) struct Judged<'a> {
     pub(super) accepted: usize,
 }
 
+/// In what a verdict was found: ` on mill-3axis`, ` in scope motion (no machine)`.
+pub(super) fn judged_in(scope: Scope, machine: Option<&str>) -> String {
+    match (scope, machine) {
+        (Scope::Machine, Some(machine)) => format!(" on {machine}"),
+        (Scope::Machine, None) => " on no machine".to_owned(),
+        (scope, None) => format!(" in scope {} (no machine)", scope.name()),
+        (scope, Some(_)) => format!(" in scope {}", scope.name()),
+    }
+}
+
+/// What a verdict says nothing about: the machine, blocks that did not run, motions whose path is unknown.
+pub(super) fn not_looked_at(file: &Judged<'_>) -> Vec<String> {
+    let mut left = Vec::new();
+    if file.not_read.is_some() {
+        return left;
+    }
+    let why = |scope: Scope| match file.machine {
+        None => "no machine is named".to_owned(),
+        Some(_) => format!("the scope is {}", scope.name()),
+    };
+    match file.scope {
+        Scope::Machine if file.machine.is_some() => {}
+        Scope::Language => left.push(format!(
+            "motions, and axes, limits and speeds of a machine ({})",
+            why(file.scope)
+        )),
+        scope => left.push(format!("axes, limits and speeds of a machine ({})", why(scope))),
+    }
+    let c = file.coverage;
+    if c.blocks_run < c.blocks {
+        left.push(format!(
+            "{} of {} that did not run",
+            c.blocks - c.blocks_run,
+            counted(c.blocks, "block")
+        ));
+    }
+    if c.motions_known < c.motions {
+        let unknown = c.motions - c.motions_known;
+        left.push(format!(
+            "the path of {unknown} of {}, which is unknown",
+            counted(c.motions, "motion")
+        ));
+    }
+    if c.given_up.is_some() {
+        left.push("everything after the run was given up".to_owned());
+    }
+    left
+}
+
 /// The last line of the pretty form: verdict and counts.
 pub(super) fn verdict_line(file: &Judged<'_>, color: bool) -> String {
     let (word, code) = match file.verdict {
@@ -39,12 +88,7 @@ pub(super) fn verdict_line(file: &Judged<'_>, color: bool) -> String {
     if let Some(why) = &file.not_read {
         return format!("{word} {}: not read, because {why}", shown(file.name));
     }
-    let of = match (file.scope, file.machine) {
-        (Scope::Machine, Some(machine)) => format!(" on {machine}"),
-        (Scope::Machine, None) => " on no machine".to_owned(),
-        (scope, None) => format!(" in scope {} (no machine)", scope.name()),
-        (scope, Some(_)) => format!(" in scope {}", scope.name()),
-    };
+    let of = judged_in(file.scope, file.machine);
     let s = &file.summary;
     let mut line = format!(
         "{word} {}{of}: {} of {} run, {}",

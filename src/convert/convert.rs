@@ -265,7 +265,7 @@ pub(crate) fn wording(program: &Program, fault: &Fault) -> String {
                 Some(Lacks::ReferencePoint) => "; declare `reference_points` in [control] of the machine file or of trunnion.toml",
                 Some(Lacks::Caller(_)) => "; convert the program that calls it",
                 Some(Lacks::Radius(_)) => "; declare the radius in a comment or as a [[tool]] of trunnion.toml",
-                None => "",
+                Some(Lacks::Meaning(_)) | None => "",
             };
             format!("not modelled: {what}. The motion of the tool is unknown from here on{remedy}")
         }

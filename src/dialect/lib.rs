@@ -10,15 +10,18 @@ mod decisions;
 mod detect;
 mod dialect;
 mod facts;
+mod file_keys;
 mod modeline;
 mod nearest;
 mod own_table;
 mod path_mode;
 mod pattern;
 mod plain_toml;
+mod power_on;
 mod quirks;
 mod schema;
 mod textmate;
+mod toml_place;
 mod unsupported;
 
 pub use action::Role;
@@ -32,13 +35,16 @@ pub use detect::{
 };
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;
+pub use file_keys::{Key, KeyFile};
 pub use modeline::{Modeline, modeline};
 pub use nearest::{did_you_mean, nearest, or_known};
 pub use own_table::TableError;
 pub use path_mode::PathMode;
 pub use plain_toml::plain_toml;
+pub use power_on::known_at_power_on;
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;
+pub use toml_place::TomlPlace;
 pub use trunnion_vocabulary::{Action, Plane};
 
 pub use unsupported::{UNSUPPORTED, Unsupported, unsupported};

@@ -11,7 +11,7 @@ pub fn nearest<'a>(wanted: &str, known: impl Iterator<Item = &'a str>) -> Option
     let letters = letters(wanted);
     let wanted: Vec<char> = wanted.chars().collect();
     let most = wanted.len() / 3;
-    let mut row = Vec::with_capacity(LONGEST);
+    let mut rows = [const { Vec::new() }; 3];
     let near = known.filter_map(|name| {
         // a program may hold millions of unknown names: most known ones are ruled out at a glance. A change takes away one letter at most,
         // and brings one
@@ -20,7 +20,7 @@ pub fn nearest<'a>(wanted: &str, known: impl Iterator<Item = &'a str>) -> Option
         {
             return None;
         }
-        Some((distance_within(most, &wanted, name, &mut row)?, name))
+        Some((distance_within(most, &wanted, name, &mut rows)?, name))
     });
     near.min().map(|(_, name)| name)
 }
@@ -39,27 +39,36 @@ fn letters(name: &str) -> u64 {
     name.chars().fold(0, |set, letter| set | 1 << (letter as u32 % 64))
 }
 
-/// Characters to add, remove or replace to turn one text into the other (Levenshtein), if no more than `most`; `row`:
-/// storage that is used again.
-fn distance_within(most: usize, to: &[char], from: &str, row: &mut Vec<usize>) -> Option<usize> {
-    row.clear();
-    row.extend(0..=to.len());
+/// Characters to add, remove, replace or swap with their neighbour to turn one text into the other (optimal string alignment: Damerau 1964,
+/// Levenshtein 1966), if no more than `most`; `rows`: storage that is used again.
+fn distance_within(most: usize, to: &[char], from: &str, rows: &mut [Vec<usize>; 3]) -> Option<usize> {
+    rows[2].clear();
+    rows[2].extend(0..=to.len());
+    let (mut ours_before, mut least_before) = (None, 0);
     for (i, ours) in from.chars().enumerate() {
-        let mut diagonal = i;
+        // two rows back, one row back, and the row that is written
+        rows.rotate_left(1);
+        rows[2].resize(to.len() + 1, 0);
+        let [two_back, back, row] = rows;
         row[0] = i + 1;
         let mut least = row[0];
         for (j, theirs) in to.iter().enumerate() {
-            let replaced = diagonal + usize::from(ours != *theirs);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-            least = least.min(row[j + 1]);
+            let mut changes = (back[j] + usize::from(ours != *theirs))
+                .min(row[j] + 1)
+                .min(back[j + 1] + 1);
+            if j > 0 && ours_before == Some(*theirs) && to[j - 1] == ours {
+                changes = changes.min(two_back[j - 1] + 1);
+            }
+            row[j + 1] = changes;
+            least = least.min(changes);
         }
-        // no later row has a smaller number
-        if least > most {
+        // no later row has a smaller number than the least of two
+        if least.min(least_before) > most {
             return None;
         }
+        (ours_before, least_before) = (Some(ours), least);
     }
-    Some(row[to.len()]).filter(|changes| *changes <= most)
+    Some(rows[2][to.len()]).filter(|changes| *changes <= most)
 }
 
 /// The end of a sentence about an unknown name: ``; did you mean `name`?`` if one is near, else `other`.
@@ -143,7 +152,7 @@ mod tests {
         ] {
             let to: Vec<char> = wanted.chars().collect();
             let all = known.iter().filter_map(|name| {
-                let changes = distance_within(to.len() / 3, &to, name, &mut Vec::new())?;
+                let changes = distance_within(to.len() / 3, &to, name, &mut Default::default())?;
                 Some((changes, *name))
             });
             assert_eq!(
@@ -160,12 +169,14 @@ mod tests {
             ("", "", 0),
             ("", "abc", 3),
             ("kitten", "sitting", 3),
-            ("abc", "acb", 2),
+            ("abc", "acb", 1),
+            ("SPUA", "SUPA", 1),
+            ("ab", "bca", 3),
             ("größe", "grösse", 2),
         ] {
             for (one, other) in [(from, to), (to, from)] {
                 let other: Vec<char> = other.chars().collect();
-                let within = |most| distance_within(most, &other, one, &mut Vec::new());
+                let within = |most| distance_within(most, &other, one, &mut Default::default());
                 for most in 0..9 {
                     assert_eq!(
                         within(most),

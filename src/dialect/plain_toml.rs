@@ -1,61 +1,221 @@
-//! What is wrong with a TOML file (settings, machine, dialect), for people: its reader speaks of fields, variants and types.
-use crate::nearest::{did_you_mean, or_known};
+//! What is wrong with a TOML file (settings, machine, dialect), for people: its reader speaks of fields, variants and types. The message names the
+//! key, its table, what the value must be, and a line that is right.
+use crate::file_keys::{Key, KeyFile};
+use crate::nearest::{did_you_mean, nearest, or_known};
+use crate::toml_place::TomlPlace;
 use core::ops::Range;
 
-/// Keys whose numbers are lengths.
-const LENGTHS: [&str; 6] = ["tip", "diameter", "corner_radius", "length", "clearance", "nose_radius"];
-
-/// The message of the reader of TOML, with the key that it is about. `span`: the bytes of the text where it is.
-pub fn plain_toml(text: &str, message: &str, span: Option<Range<usize>>) -> String {
-    if let Some(rest) = message.strip_prefix("unknown field `")
-        && let Some((key, known)) = rest.split_once('`')
+/// The message of the reader of TOML in words. `span`: the bytes of the text where it is; `file`: whose keys they are, where they are published.
+pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option<Range<usize>>) -> String {
+    let complaint = Complaint { file, text, span };
+    if let Some(key) = message
+        .strip_prefix("missing field `")
+        .and_then(|rest| rest.strip_suffix('`'))
     {
-        let known: Vec<&str> = known.split('`').skip(1).step_by(2).collect();
-        return format!("unknown key `{key}`{}", or_known(key, &known, "keys"));
+        return complaint.missing(key);
     }
-    if let Some((given, known)) = message
+    if let Some((key, rest)) = message
+        .strip_prefix("unknown field `")
+        .and_then(|rest| rest.split_once('`'))
+    {
+        let known: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();
+        return complaint.unknown(key, &known);
+    }
+    if let Some((given, rest)) = message
         .strip_prefix("unknown variant `")
         .and_then(|rest| rest.split_once("`, expected "))
     {
-        let known: Vec<&str> = known.split('`').skip(1).step_by(2).collect();
-        let what = key(text, span).map_or_else(String::new, |key| format!(" of `{key}`"));
-        return format!(
-            "unknown value `{given}`{what}{}",
-            did_you_mean(given, &known, &format!("; write {}", known.join(" or ")))
-        );
+        let known: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();
+        return complaint.unknown_value(given, &known);
     }
+    let expected = ["invalid type: ", "invalid value: ", "invalid length "];
     let told = || {
-        let (given, wanted) = message.strip_prefix("invalid type: ")?.split_once(", expected ")?;
-        let key = key(text, span)?;
-        let number = match wanted {
-            "f64" if LENGTHS.contains(&key) => "a number in mm",
-            "f64" => "a number",
-            "i64" | "u32" | "u64" | "usize" => "a whole number",
-            _ => "",
-        };
-        let what = match wanted {
-            _ if !number.is_empty() => number,
-            "a string" => "a text in quotes",
-            "a sequence" => "a list in brackets",
-            "a boolean" => "true or false",
-            "a map" => "a table",
-            _ if wanted.starts_with("an array of length 3") => "a list of three numbers, like [0, 0, 1]",
-            _ if wanted.starts_with("an array of length 2") => "a list of two numbers, like [-100, 100]",
-            _ => return None,
-        };
-        let inside = given.strip_prefix("string \"").and_then(|rest| rest.strip_suffix('"'));
-        let meant = inside.filter(|inside| !number.is_empty() && inside.parse::<f64>().is_ok());
-        let example = meant.map_or_else(String::new, |meant| format!(": `{key} = {meant}`"));
-        Some(format!("`{key}` must be {what}{example}"))
+        let rest = expected.iter().find_map(|start| message.strip_prefix(start))?;
+        complaint.wrong_kind(rest.rsplit_once(", expected ")?.1)
     };
     told().unwrap_or_else(|| message.to_owned())
 }
 
-/// The key before a value.
-fn key(text: &str, span: Option<Range<usize>>) -> Option<&str> {
-    let before = text.get(..span?.start)?;
-    let line = before.rsplit(['\n', '{', ',']).next()?;
-    let key = line.split('=').next()?.trim();
-    let is_key = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-');
-    (!key.is_empty() && key.bytes().all(is_key)).then_some(key)
+/// Something that the reader refuses, with its place.
+struct Complaint<'t> {
+    file: Option<KeyFile>,
+    text: &'t str,
+    span: Option<Range<usize>>,
+}
+
+impl Complaint<'_> {
+    fn place(&self) -> Option<TomlPlace> {
+        Some(TomlPlace::of(self.text, self.span.clone()?.start))
+    }
+
+    fn key_at(&self, table: &[String], name: &str) -> Option<Key> {
+        let mut path = table.to_vec();
+        path.push(name.to_owned());
+        self.file?.at(&path)
+    }
+
+    /// ` in [limits]`; empty at the top of the file.
+    fn in_table(&self, table: &[String]) -> String {
+        match self.file {
+            Some(file) if !table.is_empty() => format!(" in {}", file.title(table)),
+            _ => String::new(),
+        }
+    }
+
+    fn missing(&self, key: &str) -> String {
+        let start = self.span.as_ref().map_or(0, |span| span.start);
+        let table = TomlPlace::of_table(self.text, start);
+        let whose = match self.file {
+            Some(file) if !table.is_empty() => file.title(&table),
+            _ => "the file".to_owned(),
+        };
+        let Some(known) = self.key_at(&table, key) else {
+            return format!("{whose} lacks `{key}`: add it");
+        };
+        let line = known
+            .example()
+            .map_or_else(|| format!("`{key}`"), |example| format!("`{key} = {example}`"));
+        format!("{whose} lacks `{key}` ({}): add {line}", known.meaning())
+    }
+
+    fn unknown(&self, key: &str, known: &[&str]) -> String {
+        let table = self.place().map(|place| place.table).unwrap_or_default();
+        let here = self.in_table(&table);
+        // a key of another table is more likely misplaced than misspelt
+        let elsewhere = self.file.map(|file| file.tables_with(key)).unwrap_or_default();
+        if let (Some(file), [first, ..]) = (self.file, elsewhere.as_slice())
+            && nearest(key, known.iter().copied()).is_none()
+        {
+            let places: Vec<String> = (elsewhere.iter().take(3))
+                .map(|path| match path.as_slice() {
+                    [] => "the top of the file, before the first table".to_owned(),
+                    path => file.title(path),
+                })
+                .collect();
+            let given = self.key_at(&first.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>(), key);
+            let what = given.map_or("", Key::meaning);
+            let what = if elsewhere.len() == 1 && !what.is_empty() {
+                format!(" ({what})")
+            } else {
+                String::new()
+            };
+            return format!("unknown key `{key}`{here}: it belongs in {}{what}", places.join(" or "));
+        }
+        format!("unknown key `{key}`{here}{}", or_known(key, known, "keys"))
+    }
+
+    fn unknown_value(&self, given: &str, known: &[&str]) -> String {
+        let what = self.place().map_or_else(String::new, |place| {
+            let named = place
+                .key
+                .as_ref()
+                .map_or_else(String::new, |key| format!(" of `{key}`"));
+            named + &self.in_table(&place.table)
+        });
+        format!(
+            "unknown value `{given}`{what}{}",
+            did_you_mean(given, known, &format!("; write {}", known.join(" or ")))
+        )
+    }
+
+    /// A value of another kind than the one that is `expected`.
+    fn wrong_kind(&self, expected: &str) -> Option<String> {
+        let place = self.place()?;
+        let name = place.key.clone()?;
+        let known = self.key_at(&place.table, &name);
+        let entry = known.and_then(|key| (0..place.lists).try_fold(key, |key, _| key.item()));
+        let kind = entry.and_then(Key::kind).or_else(|| plain_kind(expected))?;
+        let whose = if place.lists > 0 {
+            format!("an entry of `{name}`")
+        } else {
+            format!("`{name}`")
+        };
+        let meaning = known.map_or("", Key::meaning);
+        let meaning = if meaning.is_empty() {
+            String::new()
+        } else {
+            format!(" ({meaning})")
+        };
+        let line = self.right_line(&place.table, &name, known, place.lists);
+        let here = self.in_table(&place.table);
+        Some(format!("{whose}{here} must be {kind}{meaning}{line}"))
+    }
+
+    /// A line that is right, as the end of a sentence: with the value that was written, if it only has to be written otherwise.
+    fn right_line(&self, around: &[String], name: &str, known: Option<Key>, lists: usize) -> String {
+        let written = self
+            .span
+            .clone()
+            .and_then(|span| self.text.get(span))
+            .unwrap_or_default()
+            .trim();
+        let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-');
+        let shown = if name.bytes().all(is_bare) {
+            name.to_owned()
+        } else {
+            format!("\"{name}\"")
+        };
+        if lists == 0 {
+            let kind = known.and_then(Key::kind);
+            let inside = written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+            let number = inside.filter(|inside| inside.parse::<f64>().is_ok_and(f64::is_finite));
+            if let (Some(number), Some("a number" | "a whole number")) = (number, kind.as_deref()) {
+                return format!(": `{shown} = {number}`");
+            }
+            if kind.as_deref() == Some("a table")
+                && let Some(values) = axis_values(written)
+            {
+                return format!(": `{shown} = {values}`");
+            }
+        }
+        let table = known.filter(|_| lists == 0).and_then(Key::first_key);
+        if let Some((first, file)) = table.zip(self.file) {
+            let header = match around {
+                [] => file.title(&[name]),
+                around => format!("[{}.{name}]", around.join(".")),
+            };
+            return format!(": write `{header}` on a line of its own and its keys below, for example `{first}`");
+        }
+        known
+            .and_then(Key::example)
+            .map_or_else(String::new, |example| format!(": `{shown} = {example}`"))
+    }
+}
+
+/// `[10, 20, 30]` as values of X, Y and Z; none for anything else.
+fn axis_values(list: &str) -> Option<String> {
+    let inside = list.strip_prefix('[')?.strip_suffix(']')?;
+    let values: Vec<&str> = inside
+        .split(',')
+        .map(str::trim)
+        .filter(|value| !value.is_empty())
+        .collect();
+    let numbers = (1..=3).contains(&values.len())
+        && values
+            .iter()
+            .all(|value| value.parse::<f64>().is_ok_and(f64::is_finite));
+    let named = || {
+        values
+            .iter()
+            .zip(["X", "Y", "Z"])
+            .map(|(value, axis)| format!("{axis} = {value}"))
+    };
+    numbers.then(|| format!("{{ {} }}", named().collect::<Vec<_>>().join(", ")))
+}
+
+/// What the reader expects, in words.
+fn plain_kind(expected: &str) -> Option<String> {
+    let kind = match expected {
+        "f64" => "a number",
+        "i64" | "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number",
+        "a string" | "string" => "a text in quotes",
+        "a sequence" => "a list in brackets",
+        "a boolean" => "true or false",
+        "a map" => "a table",
+        _ if expected.starts_with("an array of length 3") => "a list of three numbers, like [0, 0, 1]",
+        _ if expected.starts_with("an array of length 2") => "a list of two numbers, like [-100, 100]",
+        _ if expected.starts_with("struct ") => "a table",
+        _ => return None,
+    };
+    Some(kind.to_owned())
 }

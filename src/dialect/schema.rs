@@ -129,7 +129,7 @@ pub(crate) struct CodeRow {
 /// Loads a table; `extends` may name a built-in dialect.
 pub fn load(toml: &str) -> Result<Dialect, DialectError> {
     let table: Table = toml::from_str(toml).map_err(|error| DialectError {
-        message: crate::plain_toml(toml, error.message(), error.span()),
+        message: crate::plain_toml(None, toml, error.message(), error.span()),
         span: error.span(),
     })?;
     assemble(table)

@@ -1,13 +1,7 @@
-//! Keys of `trunnion.toml` and of machine files. The reader of the file itself says which keys a table may have, so that the list is always
-//! the true one; the example of the settings page explains those of `trunnion.toml`.
+//! Keys of `trunnion.toml` and of machine files. Their published schemas say which keys a table may have and explain them.
 use core::ops::Range;
 use trunnion_check::{Config, or_known};
-
-/// The page of settings, whose example explains each key.
-const PAGE: &str = include_str!("../../docs/settings.md");
-
-/// A key that no table has.
-const PROBE: &str = "zzqqzz";
+use trunnion_dialect::{Key, KeyFile, TomlPlace};
 
 /// Which file it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,20 +26,11 @@ impl TomlFile {
         }
     }
 
-    /// The keys that the table with this header may have; empty where any key may stand, and where there is no such table.
-    fn keys(self, header: &str) -> Vec<String> {
-        let head = match self {
-            Self::Settings => "",
-            Self::Machine => "schema = \"ncmachine/1\"\n",
-        };
-        let probe = format!("{head}{header}\n{PROBE} = 0\n");
-        let Some((message, _)) = self.problem(&probe) else {
-            return Vec::new();
-        };
-        let Some((_, known)) = message.split_once(&format!("`{PROBE}`; known keys: ")) else {
-            return Vec::new();
-        };
-        known.split(", ").map(str::to_owned).collect()
+    fn keys(self) -> KeyFile {
+        match self {
+            Self::Settings => KeyFile::Settings,
+            Self::Machine => KeyFile::Machine,
+        }
     }
 }
 
@@ -70,108 +55,143 @@ fn unknown_name(config: &Config, text: &str) -> Option<(String, Option<Range<usi
     Some((format!("unknown machine `{name}`{hint}"), place(name)))
 }
 
-/// The header of the table that byte `at` is in, as it is written; empty at the top.
-fn header(text: &str, at: usize) -> &str {
-    let before = text.get(..at).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    before[..line_start]
-        .lines()
-        .rev()
-        .map(str::trim)
-        .find(|line| line.starts_with('['))
-        .map_or("", |line| line.split('#').next().unwrap_or(line).trim())
+/// What the schema says of a key, with a line that is right.
+fn docs(name: &str, key: Key) -> String {
+    let example = key.example().filter(|_| key.keys().next().is_none());
+    let example = example.map_or_else(String::new, |value| format!("\n\n```toml\n{name} = {value}\n```"));
+    key.description().to_owned() + &example
 }
 
-/// Keys for the beginning of a line, with their explanation, and the bytes that they take the place of.
+fn in_key(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-')
+}
+
+/// Keys for the place of the cursor, with their explanation, and the bytes that they take the place of.
 pub fn toml_completions(file: TomlFile, text: &str, at: usize) -> (Vec<(String, String)>, Range<usize>) {
     let at = at.min(text.len());
     let before = text.get(..at).unwrap_or(text);
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let line = &before[start..];
-    let (typed, header, list) = match line.trim_start().trim_start_matches('[') {
-        _ if line.contains(['=', '#', '"']) => return (Vec::new(), at..at),
-        name if line.trim_start().starts_with('[') => (name, "", file.keys("")),
-        name => (name, header(text, at), file.keys(header(text, at))),
+    let letters = line.bytes().rev().take_while(|byte| in_key(*byte)).count();
+    let (typed, from) = (&line[line.len() - letters..], at - letters);
+    // an open `[` at the beginning of a line is the header of a table
+    let table = match line[..line.len() - letters].trim() {
+        "[" | "[[" => Vec::new(),
+        _ if line.contains(['#', '"']) => return (Vec::new(), at..at),
+        _ => {
+            let place = TomlPlace::of(text, from);
+            if place.key.is_some() {
+                return (Vec::new(), at..at);
+            }
+            place.table
+        }
     };
-    let from = at - typed.len();
-    let found = list
-        .into_iter()
-        .filter(|key| key.starts_with(typed))
-        .map(|key| {
-            let docs = docs(file, header, &key);
-            (key, docs)
-        })
-        .collect();
-    (found, from..at)
+    let table = file.keys().at(&table);
+    let keys = table.into_iter().flat_map(Key::keys);
+    let found = keys.filter(|(key, _)| key.starts_with(typed));
+    (
+        found.map(|(name, key)| (name.to_owned(), docs(name, key))).collect(),
+        from..at,
+    )
 }
 
 /// What the key at a byte means, and its bytes.
 pub fn toml_at(file: TomlFile, text: &str, at: usize) -> Option<(String, Range<usize>)> {
     let at = at.min(text.len());
-    let start = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
-    let line = text[start..].lines().next()?;
-    let bare = line.trim_start();
-    let indent = line.len() - bare.len();
-    let (key, from, header) = if bare.starts_with('[') {
-        let name = bare.trim_start_matches('[');
-        let key = name.split([']', '.']).next()?.trim();
-        (key, start + indent + bare.len() - name.len(), "")
-    } else {
-        (bare.split('=').next()?.trim(), start + indent, header(text, at))
-    };
-    if key.is_empty() || key.starts_with('#') || !(from..=from + key.len()).contains(&at) {
+    let (before, after) = text.split_at_checked(at)?;
+    let from = at - before.bytes().rev().take_while(|byte| in_key(*byte)).count();
+    let to = at + after.bytes().take_while(|byte| in_key(*byte)).count();
+    let rest = text[to..].trim_start_matches([' ', '\t']);
+    if from == to || !rest.starts_with(['=', ']', '.']) {
         return None;
     }
-    let known = file.keys(header);
-    if !known.is_empty() && !known.iter().any(|name| name == key) {
+    let place = TomlPlace::of(text, from);
+    if place.key.is_some() {
         return None;
     }
-    let docs = docs(file, header, key);
-    if docs.is_empty() && known.is_empty() {
-        return None;
-    }
-    Some((
-        format!("**{key}** {docs}").trim_end().to_owned(),
-        from..from + key.len(),
-    ))
+    let name = &text[from..to];
+    let key = file.keys().at(&place.table)?.key(name)?;
+    let docs = docs(name, key);
+    (!docs.is_empty()).then(|| (format!("**{name}** {docs}"), from..to))
 }
 
-/// What the page of settings says about a key: the line of its example, with its remark.
-fn docs(file: TomlFile, header: &str, key: &str) -> String {
-    if file == TomlFile::Machine {
-        let item = PAGE.lines().position(|line| {
-            line.starts_with(&format!("* `{key}")) || line.starts_with(&format!("* `[control] {key}"))
-        });
-        let Some(item) = item else { return String::new() };
-        let mut text = String::new();
-        for line in PAGE
-            .lines()
-            .skip(item)
-            .enumerate()
-            .take_while(|(at, line)| *at == 0 || line.starts_with("  "))
-            .map(|(_, line)| line)
-        {
-            text.push_str(line.trim_start_matches("* ").trim());
-            text.push(' ');
-        }
-        return text.trim_end().to_owned();
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hover(file: TomlFile, text: &str) -> Option<String> {
+        let at = text.find('|').expect("a mark");
+        toml_at(file, &text.replace('|', ""), at).map(|(said, _)| said)
     }
-    let example = PAGE.split("```").nth(1).unwrap_or_default();
-    let mut table = "";
-    for line in example.lines() {
-        let (code, remark) = line
-            .split_once(" # ")
-            .or_else(|| line.split_once("# "))
-            .unwrap_or((line, ""));
-        let code = code.trim();
-        if code.starts_with('[') {
-            table = code;
-            if header.is_empty() && code.trim_matches(['[', ']']) == key {
-                return remark.trim().to_owned();
+
+    /// Every key of both schemas has a description, and the editor shows it where the key stands.
+    #[test]
+    fn every_key_is_explained_where_it_stands() {
+        fn all(table: Key, path: &mut Vec<&'static str>, found: &mut Vec<(Vec<&'static str>, &'static str)>) {
+            for (name, key) in table.keys() {
+                path.push(name);
+                found.push((path.clone(), key.description()));
+                all(key, path, found);
+                path.pop();
             }
-        } else if table == header && code.split('=').next().is_some_and(|name| name.trim() == key) {
-            return format!("{}\n\n```toml\n{code}\n```", remark.trim());
+        }
+        for file in [TomlFile::Settings, TomlFile::Machine] {
+            let mut found = Vec::new();
+            all(file.keys().root(), &mut Vec::new(), &mut found);
+            assert!(found.len() > 60, "{file:?}: {}", found.len());
+            for (path, said) in found {
+                assert!(said.len() > 1, "{file:?} {path:?} has no description");
+                let (name, tables) = path.split_last().expect("a name");
+                let text = match tables {
+                    [] => format!("|{name} = 1"),
+                    [table, inner @ ..] => {
+                        let open: String = inner.iter().map(|name| format!("{name} = {{ ")).collect();
+                        format!("{}\n{open}|{name} = 1", file.keys().title(&[table]))
+                    }
+                };
+                let shown = hover(file, &text).unwrap_or_else(|| panic!("{text}"));
+                assert!(shown.starts_with(&format!("**{name}** {said}")), "{text}: {shown}");
+            }
         }
     }
-    String::new()
+
+    #[test]
+    fn only_keys_are_explained() {
+        for text in [
+            "machine = \"mi|ll-3axis\"",
+            "# mach|ine",
+            "[limits]\nmach|ine = 1",
+            "nos|uch = 1",
+            "|",
+        ] {
+            assert_eq!(hover(TomlFile::Settings, text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn keys_are_completed_in_their_table() {
+        let names = |file, text: &str| -> Vec<String> {
+            let at = text.find('|').expect("a mark");
+            let (found, place) = toml_completions(file, &text.replace('|', ""), at);
+            assert!(place.end == at && place.start <= at);
+            found
+                .into_iter()
+                .map(|(name, docs)| {
+                    assert!(docs.len() > 1, "{name}");
+                    name
+                })
+                .collect()
+        };
+        assert_eq!(names(TomlFile::Settings, "[limits]\nbl|"), ["blocks"]);
+        assert_eq!(names(TomlFile::Settings, "mach|"), ["machine", "machine_path"]);
+        assert_eq!(names(TomlFile::Settings, "[[to|"), ["tolerances", "tool"]);
+        assert_eq!(
+            names(TomlFile::Machine, "[[axis]]\nletter = \"X\"\ndyn = { vmax = 1, am|"),
+            ["amax"]
+        );
+        assert_eq!(names(TomlFile::Machine, "[control.corner]\nmod|"), ["model"]);
+        for none in ["machine = m|", "# mach|", "[variables]\nR|"] {
+            assert!(names(TomlFile::Settings, none).is_empty(), "{none}");
+        }
+    }
 }

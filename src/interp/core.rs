@@ -78,6 +78,7 @@ impl Report<'_> {
             range
         };
         (self.faults)(Fault {
+            place: None,
             block: self.block,
             range,
             kind,
@@ -325,7 +326,12 @@ impl<'d> Core<'d> {
         if let Some(block) = self.last_content.filter(|_| !self.proper_end) {
             let range = program.block(block).range();
             let kind = FaultKind::MissingProgramEnd;
-            sink.fault(Fault { block, range, kind });
+            sink.fault(Fault {
+                place: None,
+                block,
+                range,
+                kind,
+            });
         }
     }
 }

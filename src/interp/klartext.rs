@@ -148,6 +148,12 @@ impl<'d> Klartext<'d> {
             out: Vec::new(),
             cycle_motions: 0,
         };
+        let setup = std::sync::Arc::clone(&engine.core.setup);
+        for (name, value) in &setup.named_variables.0 {
+            if let Some(parameter) = words::Words::new(name.as_bytes()).parameter() {
+                engine.memory.parameters.set(parameter, Some(*value));
+            }
+        }
         if let Some(values) = base {
             engine.core.state.zero.choose(None, 0);
             engine.memory.frames.selected = values;

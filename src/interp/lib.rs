@@ -65,11 +65,12 @@ pub use leader::leader;
 pub use returns::{block_numbers, is_block_number, may_return_to_numbers};
 pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
+pub use trunnion_ngc::is_stored_global;
 pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
     FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library,
-    Limits, Loaded, ModalState, Motion, MotionKind, Nose, Orientation, OuterCorner, Placed, Position, Posture,
-    ProgramRun, Reach, Refusal, RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes,
-    TcpMistake, Tilt, Tool, ToolShape, Undeclared, Value, WorkOffset, is_left, same_number,
+    Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation, OuterCorner, Placed, Position,
+    Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes,
+    TcpMistake, Tilt, Tool, ToolShape, Undeclared, UnknownName, Value, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

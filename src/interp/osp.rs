@@ -10,7 +10,7 @@ mod words;
 
 pub(crate) use call::{Level, With};
 pub(crate) use index::{files, index};
-pub(crate) use variables::{Task, is_of_control, why_unknown};
+pub(crate) use variables::{Task, is_common, is_of_control, why_unknown};
 
 /// Statements of the flow.
 const STATEMENTS: [&[u8]; 6] = [b"IF", b"GOTO", b"CALL", b"RTS", b"MODIN", b"MODOUT"];

@@ -284,9 +284,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 return;
             }
             let kind = if self.dialect.quirks.user_names() {
-                FaultKind::NotModelled {
-                    what: self.text(call.range),
-                }
+                FaultKind::name_lacks(&self.text(call.range), false)
             } else {
                 FaultKind::UnknownCode { machine_builder: false }
             };

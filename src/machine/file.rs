@@ -9,6 +9,7 @@ pub(crate) mod gantry;
 pub(crate) mod obstacle;
 pub(crate) mod places;
 pub(crate) mod planning;
+mod power_on;
 pub(crate) mod raw;
 pub(crate) mod spec;
 pub(crate) mod text;

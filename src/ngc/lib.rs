@@ -24,6 +24,7 @@ pub use canon::{Canon, Coolant, MotionMode, Pose, Side, SpindleTurn, Stop, Switc
 pub use engine::{At, ChainId, Engine, Frame, Sink, Step};
 pub use error::{Error, Missing, Problem};
 pub use flow::Refused;
+pub use parameters::is_stored_global;
 pub use print::Listing;
 pub use setup::{BadLine, Ini, Parameters, Setup, Start, ToolEntry, ToolTable};
 pub use source::{FileId, Source};

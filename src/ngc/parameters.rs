@@ -79,9 +79,15 @@ impl Store {
                 *place = value;
             }
         }
+        let mut globals = Names::default();
+        for (name, value) in &setup.parameters.globals {
+            if is_stored_global(name) {
+                globals.set(&Name::new(name), *value);
+            }
+        }
         Self {
             numbers,
-            globals: Names::default(),
+            globals,
             locals: Names::default(),
             aside: Vec::new(),
             numbers_aside: Vec::new(),
@@ -304,6 +310,12 @@ impl Variables for Values<'_> {
     fn exists(&self, name: &str) -> bool {
         self.named(name).is_ok() && !self.is_of_caller(name)
     }
+}
+
+/// Whether a name, in lower case and without `#<` and `>`, is that of a global parameter that programs write: not one of the control's own.
+pub fn is_stored_global(name: &str) -> bool {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-' | b'.');
+    name.len() > 1 && name.starts_with('_') && name.bytes().all(plain) && !Values::is_system(&Name::new(name))
 }
 
 /// Whether a name is global.

@@ -73,6 +73,8 @@ pub struct ToolTable {
 pub struct Parameters {
     /// Index and value, ascending.
     pub values: Vec<(u32, f64)>,
+    /// Global names, in lower case, and values, which are there before a program runs.
+    pub globals: Vec<(String, f64)>,
 }
 
 /// What a program is run with.

@@ -165,12 +165,11 @@ pub struct Rewrite {
     pub docs: &'static str,
     /// Rules whose findings it may fix.
     pub cures: &'static [&'static str],
+    /// What it reads and writes, in G code alone; `None`: it works on the blocks of any format.
+    pub(crate) writes: Option<&'static str>,
     /// Proposes.
     pub(crate) proposes: fn(&Program, &Settings<'_>, &Options) -> Proposed,
 }
-
-/// Rewrites that work on the blocks of any format, not on words of G code.
-const ANY_FORMAT: [&str; 2] = ["renumber", "retarget"];
 
 impl Rewrite {
     /// Proposes.
@@ -178,10 +177,17 @@ impl Rewrite {
     /// # Errors
     /// Why it proposes nothing.
     pub fn propose(&self, program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
-        if program.options().format == Format::Klartext && !ANY_FORMAT.contains(&self.name) {
-            return Err("Klartext: this rewrite reads and writes words of G code, and is not made there".into());
+        if let Some(writes) = self.only_in_g_code(program) {
+            return Err(
+                format!("it reads and writes {writes}, and only in G code: nothing is written in Klartext").into(),
+            );
         }
         (self.proposes)(program, settings, options)
+    }
+
+    /// What it reads and writes, where it does so in G code only and the program is Klartext.
+    pub fn only_in_g_code(&self, program: &Program) -> Option<&'static str> {
+        self.writes.filter(|_| program.options().format == Format::Klartext)
     }
 
     /// Whether it may fix this finding: the rule that reports it says so.

@@ -22,6 +22,8 @@ use trunnion_syntax::Program;
 pub(crate) struct Body {
     /// Rules whose findings it may fix.
     pub(crate) cures: &'static [&'static str],
+    /// What it reads and writes, in G code alone; `None`: it works on the blocks of any format.
+    pub(crate) writes: Option<&'static str>,
     /// Proposes; see [`Rewrite::propose`].
     pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Proposed,
 }
@@ -38,6 +40,7 @@ macro_rules! table {
                 name: header::text(&NAME),
                 docs: header::text(&DOCS),
                 cures: $file::REWRITE.cures,
+                writes: $file::REWRITE.writes,
                 proposes: $file::REWRITE.propose,
             };
             &REWRITE

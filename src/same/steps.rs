@@ -110,16 +110,16 @@ impl Run<'_> {
     #[cold]
     fn give_up(&mut self, block: BlockId) {
         if !std::mem::replace(&mut self.given_up, true) {
-            let most = self.most_in_block;
+            let (most, by_bound) = (self.most_in_block, true);
             let why = format!("one block makes more than {most} motions: raise `held` of [limits] in trunnion.toml");
-            let what = why.clone();
-            let by_bound = true;
+            let fault = Fault {
+                block,
+                range: trunnion_syntax::TextRange::default(),
+                kind: FaultKind::NotDecided { what: why.clone() },
+                place: None,
+            };
+            self.faults.iter_mut().for_each(|faults| faults.push(fault.clone()));
             self.stop.get_or_insert(Stop { block, why, by_bound });
-            if let Some(faults) = &mut self.faults {
-                let range = trunnion_syntax::TextRange::default();
-                let kind = FaultKind::NotDecided { what };
-                faults.push(Fault { block, range, kind });
-            }
         }
     }
 }

@@ -72,10 +72,25 @@ pub enum Lacks<'a> {
     Radius(&'a str),
     /// The arguments of a subprogram that nothing in its file calls, by its label.
     Caller(&'a str),
+    /// The meaning of a name.
+    Meaning(UnknownName<'a>),
+}
+
+/// A name that is no code of the control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownName<'a> {
+    /// As written, with the arguments behind it.
+    pub text: &'a str,
+    /// It may be a program, and none of this name was found.
+    pub is_program: bool,
+    /// Where it stands, if that is another file: ` in SUB.SPF, line 3`.
+    pub place: &'a str,
 }
 
 const REFERENCE_LACKS: &str = ": its position is not declared";
 const CALLER_LACKS: &str = ": its arguments are unknown, because nothing in this file calls it";
+const NAME_LACKS: &str = ": no code of the control";
+const PROGRAM_LACKS: &str = ", and no program of that name was found";
 const RADIUS_OF: &str = "cutter radius compensation: the radius of ";
 const RADIUS_LACKS: &str = " is not declared; the programmed path is used instead";
 
@@ -98,6 +113,13 @@ impl FaultKind {
         Self::NotModelled { what }
     }
 
+    /// A name that is no code of the control; `is_program`: it may be a program, and none was found.
+    pub fn name_lacks(text: &str, is_program: bool) -> Self {
+        let program = if is_program { PROGRAM_LACKS } else { "" };
+        let what = format!("{text}{NAME_LACKS}{program}");
+        Self::NotModelled { what }
+    }
+
     /// What is not declared, where that is why something is not modelled.
     pub fn lacks(&self) -> Option<Lacks<'_>> {
         let Self::NotModelled { what } = self else { return None };
@@ -106,6 +128,14 @@ impl FaultKind {
         }
         if let Some(label) = what.strip_suffix(CALLER_LACKS) {
             return Some(Lacks::Caller(label));
+        }
+        if let Some((text, rest)) = what.split_once(NAME_LACKS) {
+            let place = rest.strip_prefix(PROGRAM_LACKS);
+            return Some(Lacks::Meaning(UnknownName {
+                text,
+                is_program: place.is_some(),
+                place: place.unwrap_or(rest),
+            }));
         }
         what.strip_prefix(RADIUS_OF)?
             .strip_suffix(RADIUS_LACKS)
@@ -262,4 +292,7 @@ pub struct Fault {
     pub range: TextRange,
     /// What.
     pub kind: FaultKind,
+    /// The line of a called program that it is about, where the kind does not say it: `SUB.SPF line 3: G1 X5`. Block and range are then those of
+    /// the call.
+    pub place: Option<Box<str>>,
 }

@@ -17,7 +17,7 @@ pub use action::{Action, Plane};
 pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, is_left, same_number};
-pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake};
+pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake, UnknownName};
 pub use library::{Files, Limits, Loaded, Searched};
 pub use modal::{
     Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
@@ -26,7 +26,7 @@ pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
-    ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, Nose, OuterCorner, RollPitchYaw, RoughingEscape,
-    Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner, RollPitchYaw,
+    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

@@ -240,7 +240,14 @@ pub struct Setup {
     pub enter_definitions: bool,
     /// Numbered variables that have a value before the program runs, sorted by number, each once; `None` is vacant. In program units.
     pub variables: Vec<(u32, Option<f64>)>,
+    /// The same for variables with names.
+    pub named_variables: NamedVariables,
 }
+
+/// Variables with names that have a value before the program runs, as their language writes them, sorted, each once: `R1` (Sinumerik), `Q5`, `QR1`
+/// (Klartext), `V1`, `VC1` (Okuma), `#<_name>` (LinuxCNC). Each language reads its own. In program units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NamedVariables(pub Vec<(String, f64)>);
 
 impl Setup {
     /// A declared work offset by its name, in either case.

@@ -315,7 +315,7 @@ fn settings_and_machine_files_have_findings_hover_and_completion() {
     assert!(!client.first_diagnostics(uri, 1).is_empty());
     let ask = json!({ "textDocument": document(uri), "position": { "line": 3, "character": 3 } });
     let answer = client.request("textDocument/completion", ask);
-    assert_eq!(labels(&answer), ["limits", "limit_margin"]);
+    assert_eq!(labels(&answer), ["limit_margin", "limits"]);
     client.finish();
 }
 

@@ -74,11 +74,45 @@ record! {
     }
 }
 
-record! {
-    Tolerances {
-        tip_mm = 1, pole_cone = 2, pole_angle = 3, swap_excess = 4, pole_touch = 5, feed_drop_warning = 6,
-        feed_drop_error = 7, orientation = 8, swept_mm = 9, rotary_ratio = 10, linear_ratio = 11, rapid_ratio = 12,
-        pivot_mm = 13, near_mm = 14, clearance_mm = 15,
+/// The default of `pole_touch` in deg, a tolerance of all versions up to 0.1 that no rule read: they wrote it.
+const POLE_TOUCH_DEG: f64 = 0.01;
+
+impl Encode for Tolerances {
+    fn encode(&self, out: &mut CanonicalV1) {
+        let Self {
+            tip_mm,
+            pole_cone,
+            pole_angle,
+            swap_excess,
+            feed_drop_warning,
+            feed_drop_error,
+            orientation,
+            swept_mm,
+            rotary_ratio,
+            linear_ratio,
+            rapid_ratio,
+            pivot_mm,
+            near_mm,
+            clearance_mm,
+        } = self;
+        out.record(|fields| {
+            fields
+                .field(1, tip_mm)
+                .field(2, pole_cone)
+                .field(3, pole_angle)
+                .field(4, swap_excess)
+                .field(5, &trunnion_geometry::rad(POLE_TOUCH_DEG))
+                .field(6, feed_drop_warning)
+                .field(7, feed_drop_error)
+                .field(8, orientation)
+                .field(9, swept_mm)
+                .field(10, rotary_ratio)
+                .field(11, linear_ratio)
+                .field(12, rapid_ratio)
+                .field(13, pivot_mm)
+                .field(14, near_mm)
+                .field(15, clearance_mm);
+        });
     }
 }
 

@@ -1,11 +1,13 @@
 //! What a program is run with: tools, work offsets, bounds, parameters of the control, variables.
 use super::{CanonicalV1, Encode};
-use trunnion_interp::{ClampCodes, ControlData, Limits, Position, Setup, TcpCodes, Tool, ToolShape, WorkOffset};
+use trunnion_interp::{
+    ClampCodes, ControlData, Limits, NamedVariables, Position, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+};
 
 // Each called program of the library has its own digest in the certificate.
 record! {
     Setup {
-        tools = 1, work_offsets = 2, limits = 3, control = 4, variables = 5,
+        tools = 1, work_offsets = 2, limits = 3, control = 4, variables = 5, named_variables = 6,
     } without {
         // no proof asks for the others
         library, unnamed_stand, enter_definitions,
@@ -53,6 +55,16 @@ record! {
     } without {
         // of the machine, which is encoded as a whole
         has_rotary, axes_declared,
+    }
+}
+
+/// Left out where there are none, as in older versions.
+impl Encode for NamedVariables {
+    fn encode(&self, out: &mut CanonicalV1) {
+        self.0.encode(out);
+    }
+    fn is_nothing(&self) -> bool {
+        self.0.is_empty()
     }
 }
 

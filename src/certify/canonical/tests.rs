@@ -225,6 +225,9 @@ fn every_fact_of_a_setup_counts() {
             |s| s.control.clamp_codes[5] = Some(ClampCodes { on: 10, off: 11 }),
             |s| s.control.further_axes = b"UV".to_vec(),
             |s| s.control.length_along = Some([0.0, 0.0, 1.0]),
+            |s| s.named_variables.0.push(("R1".to_owned(), 1.0)),
+            |s| s.named_variables.0.push(("R1".to_owned(), 2.0)),
+            |s| s.named_variables.0.push(("R2".to_owned(), 1.0)),
             |s| s.control.reference_points.push(Position::default()),
             |s| {
                 let mut point = Position::default();

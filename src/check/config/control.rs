@@ -3,6 +3,7 @@ use super::ConfigError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
+use trunnion_dialect::Dialect;
 use trunnion_interp::{
     AxisLetter, ControlData, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
     RoughingEscape, TcpCodes,
@@ -87,9 +88,36 @@ pub(super) struct FileControl {
     power_on: Option<Vec<Spanned<String>>>,
 }
 
+/// What the settings say of the dialect.
+#[derive(Clone, Copy)]
+pub(super) enum KnownDialect<'d> {
+    /// Nothing: each program has its own.
+    Unset,
+    Named(&'d Dialect),
+    /// A table of one shop, which is not read here.
+    Table,
+}
+
+impl KnownDialect<'static> {
+    pub(super) fn of(config: &super::Config) -> Self {
+        match config.dialect.as_deref().and_then(trunnion_dialect::builtin) {
+            Some(dialect) => Self::Named(dialect),
+            None if config.dialect_table.is_some() => Self::Table,
+            None => Self::Unset,
+        }
+    }
+
+    pub(super) fn named(self) -> Option<&'static Dialect> {
+        match self {
+            Self::Named(dialect) => Some(dialect),
+            Self::Unset | Self::Table => None,
+        }
+    }
+}
+
 impl FileControl {
     /// As the interpreter wants it.
-    pub(super) fn data(&self) -> Result<ControlData, ConfigError> {
+    pub(super) fn data(&self, known: KnownDialect<'_>) -> Result<ControlData, ConfigError> {
         let mut reference_points = Vec::new();
         for point in &self.reference_points {
             reference_points.push(position(point)?);
@@ -144,7 +172,7 @@ impl FileControl {
             power_on: self
                 .power_on
                 .as_ref()
-                .map(|codes| codes.iter().map(g_code).collect())
+                .map(|codes| codes.iter().map(|code| g_code(code, known)).collect())
                 .transpose()?,
         })
     }
@@ -190,9 +218,18 @@ fn bore_shift(way: &Spanned<String>) -> Result<(usize, f64), ConfigError> {
 }
 
 /// `G17`.
-fn g_code(code: &Spanned<String>) -> Result<String, ConfigError> {
+fn g_code(code: &Spanned<String>, known: KnownDialect<'_>) -> Result<String, ConfigError> {
     let number = code.get_ref().strip_prefix('G').unwrap_or_default();
     if !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') {
+        let dialect = match known {
+            KnownDialect::Table => return Ok(code.get_ref().clone()),
+            KnownDialect::Named(dialect) => Some(dialect),
+            KnownDialect::Unset => None,
+        };
+        trunnion_dialect::known_at_power_on(code.get_ref(), dialect).map_err(|message| ConfigError {
+            message,
+            span: Some(code.span()),
+        })?;
         return Ok(code.get_ref().clone());
     }
     let message = format!(

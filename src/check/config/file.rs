@@ -1,4 +1,5 @@
 //! The text of `trunnion.toml`: every unknown key, unknown name and value out of range is an error with its place.
+use super::control::KnownDialect;
 use super::{Config, ConfigError, RuleLevel, TOLERANCES, nose, tool};
 use crate::{Severity, did_you_mean, or_known};
 use serde::Deserialize;
@@ -71,7 +72,12 @@ pub(super) struct FileTool {
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     let file: File = toml::from_str(text).map_err(|error| ConfigError {
-        message: trunnion_dialect::plain_toml(text, error.message(), error.span()),
+        message: trunnion_dialect::plain_toml(
+            Some(trunnion_dialect::KeyFile::Settings),
+            text,
+            error.message(),
+            error.span(),
+        ),
         span: error.span(),
     })?;
     let mut config = Config {
@@ -104,21 +110,11 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     config.subprogram_path = folders(file.subprogram_path)?;
     config.machine_path = folders(file.machine_path)?;
     config.fix = file.fix.settings()?;
-    config.setup.control = file.control.data()?;
-    config.setup.variables = super::variables::variables(&file.variables)?;
-    if let Some(blocks) = &file.limits.blocks {
-        config.setup.limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
-    }
-    if let Some(steps) = &file.limits.steps {
-        config.setup.limits.steps = limit("steps", steps, MOST_BLOCKS)?;
-    }
-    if let Some(held) = &file.limits.held {
-        config.setup.limits.held = limit("held", held, MOST_BLOCKS)?;
-    }
-    if let Some(depth) = &file.limits.depth {
-        // within bounds of u32 by `limit`
-        config.setup.limits.depth = limit("depth", depth, MOST_DEPTH)? as u32;
-    }
+    let dialect = KnownDialect::of(&config);
+    config.setup.control = file.control.data(dialect)?;
+    let declared = super::variables::variables(&file.variables, dialect.named())?;
+    (config.setup.variables, config.setup.named_variables) = (declared.numbered, declared.named);
+    bounds(&file.limits, &mut config.setup.limits)?;
     for (name, level) in file.rules {
         config.rules.push(rule_level(&name, &level)?);
     }
@@ -149,6 +145,24 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         config.setup.work_offsets.push(work_offset(&name, &values)?);
     }
     Ok(config)
+}
+
+/// `[limits]`.
+fn bounds(file: &FileLimits, limits: &mut trunnion_interp::Limits) -> Result<(), ConfigError> {
+    if let Some(blocks) = &file.blocks {
+        limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
+    }
+    if let Some(steps) = &file.steps {
+        limits.steps = limit("steps", steps, MOST_BLOCKS)?;
+    }
+    if let Some(held) = &file.held {
+        limits.held = limit("held", held, MOST_BLOCKS)?;
+    }
+    if let Some(depth) = &file.depth {
+        // within bounds of u32 by `limit`
+        limits.depth = limit("depth", depth, MOST_DEPTH)? as u32;
+    }
+    Ok(())
 }
 
 /// Names of folders with their places in the file.

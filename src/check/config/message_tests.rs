@@ -1,12 +1,15 @@
 //! What is wrong with a settings file, in words.
 #[test]
 fn what_is_wrong_is_said_with_its_key() {
-    for (text, wanted) in [
+    says(&[
         (
             "[tolerances]\ntip = \"0.02\"\n",
-            "`tip` must be a number in mm: `tip = 0.02`",
+            "`tip` in [tolerances] must be a number (`path-deviation`: how far the tip may leave the programmed segment, mm): `tip = 0.02`",
         ),
-        ("[tolerances]\ntip = \"small\"\n", "`tip` must be a number in mm"),
+        (
+            "[tolerances]\ntip = \"small\"\n",
+            "`tip` in [tolerances] must be a number (`path-deviation`: how far the tip may leave the programmed segment, mm): `tip = 1.0`",
+        ),
         (
             "[[tool]]\nnumber = 1\nshape = \"turning\"\nnose_radius = 0.8\n",
             "a turning tool needs its nose radius in mm and where its tip is: `nose_radius = 0.8`, `tip_direction = 3`",
@@ -19,15 +22,89 @@ fn what_is_wrong_is_said_with_its_key() {
             "[[tool]]\nnumber = 1\nnose_radius = 0.8\n",
             "`nose_radius` and `tip_direction` belong to a turning tool: add `shape = \"turning\"`",
         ),
-        ("machine = 3\n", "`machine` must be a text in quotes"),
-        ("[limits]\nblocks = 0.5\n", "`blocks` must be a whole number"),
-        ("[limits]\nblock = 5\n", "unknown key `block`; did you mean `blocks`?"),
+        (
+            "machine = 3\n",
+            "`machine` must be a text in quotes (The machine: name of a built-in one (`trunnion machine list`), or a file relative to this one): \
+             `machine = \"mill-3axis\"`",
+        ),
+        (
+            "[limits]\nblocks = 0.5\n",
+            "`blocks` in [limits] must be a whole number (Executed blocks in addition to those of the text, after which `check` reports a loop as \
+             endless, from 1): `blocks = 4000000`",
+        ),
+        (
+            "dialect = \"fanuc-30i\"\n[control]\npower_on = [\"G17\", \"G177\"]\n",
+            "`power_on`: fanuc-30i has no G code `G177`; did you mean `G17`?",
+        ),
+        (
+            "[limits]\nblock = 5\n",
+            "unknown key `block` in [limits]; did you mean `blocks`?",
+        ),
+    ]);
+}
+
+/// Each text is refused with the message.
+#[track_caller]
+fn says(all: &[(&str, &str)]) {
+    for (text, wanted) in all {
+        let error = crate::config::Config::parse(text).expect_err(text);
+        assert_eq!(error.message, *wanted, "{text}");
+    }
+}
+
+/// A key that is missing or in the wrong table, and a value of another kind, get a line that is right.
+#[test]
+fn a_line_that_is_right_is_shown() {
+    says(&[
+        (
+            "[[tool]]\ndiameter = 5\n",
+            "[[tool]] lacks `number` (Number of the tool, each once): add `number = 1`",
+        ),
+        (
+            "tool = [{ diameter = 5 }]\n",
+            "[[tool]] lacks `number` (Number of the tool, each once): add `number = 1`",
+        ),
+        (
+            "[[tool]]\nnumber = 1\ntip = 3\n",
+            "unknown key `tip` in [[tool]]: it belongs in [tolerances] (`path-deviation`: how far the tip may leave the programmed segment, mm)",
+        ),
+        ("diameter = 5\n", "unknown key `diameter`: it belongs in [[tool]] (mm)"),
+        (
+            "[work_offsets]\nG54 = [0, -10.5, 0]\n",
+            "`G54` in [work_offsets] must be a table: `G54 = { X = 0, Y = -10.5, Z = 0 }`",
+        ),
+        (
+            "[work_offsets]\n\"G54.1 P1\" = 0\n",
+            "`G54.1 P1` in [work_offsets] must be a table: `\"G54.1 P1\" = { X = 0, Y = 0, Z = 0 }`",
+        ),
+        (
+            "[work_offsets]\nG54 = { X = \"5\" }\n",
+            "`X` in [work_offsets] G54 must be a number: `X = 5`",
+        ),
+        (
+            "limits = 5\n",
+            "`limits` must be a table (Bounds of a run): write `[limits]` on a line of its own and its keys below, for example `blocks`",
+        ),
+        (
+            "[control]\ntcp_codes = 5\n",
+            "`tcp_codes` in [control] must be a table (LinuxCNC: codes of the machine builder that switch the kinematics): write \
+             `[control.tcp_codes]` on a line of its own and its keys below, for example `at_start`",
+        ),
+        (
+            "tool = 5\n",
+            "`tool` must be a list of tables (The tools): write `[[tool]]` on a line of its own and its keys below, for example `number`",
+        ),
+        (
+            "port_to = [5]\n",
+            "an entry of `port_to` must be a text in quotes (Dialects of other controls: the rule `porting` reports what would change its meaning there)",
+        ),
+        (
+            "[format]\ncase = 5\n",
+            "`case` in [format] must be \"upper\" or \"lower\" or \"keep\" (Case of letters: \"upper\" (default), \"lower\" or \"keep\"): `case = \"upper\"`",
+        ),
         (
             "machin = \"mill-3axis\"\n",
             "unknown key `machin`; did you mean `machine`?",
         ),
-    ] {
-        let error = crate::config::Config::parse(text).expect_err(text);
-        assert_eq!(error.message, wanted, "{text}");
-    }
+    ]);
 }

@@ -25,6 +25,7 @@
 //!
 //! # Sources
 //! * docs/contract.md#verdicts
+use crate::config::declaration;
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
@@ -37,21 +38,16 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         } else {
             format!("where the program continues depends on {what}")
         };
+        let declaration = declaration(what, out.dialect());
         out.report(fault.range, message)
             .note("what runs after it was not checked")
-            .help(if is_numbered(what) {
-                "declare the value if it is known ([variables] in trunnion.toml), or check the program that sets it or calls this one"
-            } else {
-                "check the program that sets the value or calls this one, or check this part with the value written into it"
+            .help(match declaration {
+                Some(line) => format!(
+                    "declare the value if it is known ([variables] in trunnion.toml: {line}), or check the program that sets it or calls this one"
+                ),
+                None => "check the program that sets the value or calls this one, or check this part with the value written into it"
+                    .to_owned(),
             })
             .unknown();
     }
-}
-
-/// Whether a text names a variable that the settings can declare: `#100` and above.
-fn is_numbered(what: &str) -> bool {
-    what.split('#').skip(1).any(|rest| {
-        let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
-        digits.parse::<u32>().is_ok_and(|number| number >= 100)
-    })
 }

@@ -25,10 +25,11 @@
 //! * docs/contract.md#verdicts
 //! * FANUC Series 15i-MA B-63324EN/03, helical interpolation: bit HTG (parameter 1401; of the Series 30i 1403).
 //! * Sinumerik 6FC5398-2EP40-0BA0 (12/2019), p. 750: the plane assigns the lengths of a tool to axes, setting data 42940.
+use crate::config::declaration;
 use crate::facts::Margin;
 use crate::prelude::*;
 use trunnion_dialect::Plane;
-use trunnion_interp::Lacks;
+use trunnion_interp::{Lacks, UnknownName};
 
 pub(super) const RULE: Body = Body::sound(
     Info,
@@ -115,12 +116,21 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .merge(Merge::once(1));
         return;
     }
+    if let Some(Lacks::Meaning(name)) = fault.kind.lacks() {
+        return unknown_name(fault, name, out);
+    }
     if let FaultKind::NotModelled { what } = &fault.kind {
         if out.is_slip_of_digits(fault.range) {
             return;
         }
         let (note, remedy) = radius_advice(&fault.kind, what);
         let (what, declare) = divided(what);
+        let declare = declare.or_else(|| {
+            let line = declaration(what, out.dialect())?;
+            Some(format!(
+                "if the program does not set its value and it is known, declare it ([variables] in trunnion.toml: {line}); else {BY_HAND}"
+            ))
+        });
         let near = out.near_code(what);
         let hint = near
             .as_ref()
@@ -134,6 +144,47 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .unknown()
             .merge(Merge::once(hash(cause(what))));
         draft.help(declare.or(remedy).unwrap_or_else(|| BY_HAND.to_owned()));
+    }
+}
+
+/// A name that the control may know, or that a file which is not here may define: it is unknown what it does.
+fn unknown_name(fault: &Fault, name: UnknownName<'_>, out: &mut Reporter<'_>) {
+    if out.is_slip_of_digits(fault.range) {
+        return;
+    }
+    let UnknownName {
+        text,
+        is_program,
+        place,
+    } = name;
+    let near = out.near_code(text);
+    let hint = near
+        .as_ref()
+        .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    let meant = near.filter(|_| out.text(fault.range) == text);
+    let stem = text.split(['(', ' ']).next().unwrap_or_default().to_ascii_uppercase();
+    let program = if is_program {
+        format!(", and no program {}.SPF or .MPF was found", short(&stem))
+    } else {
+        String::new()
+    };
+    let dialect = &out.dialect().name;
+    let message = format!("`{}`{place} is no code of {dialect}{program}{hint}", short(text));
+    let draft = out
+        .report(fault.range, message)
+        .replace_with_some(meant)
+        .note(radius_advice(&fault.kind, text).0)
+        .unknown()
+        .merge(Merge::once(hash(&stem)));
+    if is_program {
+        draft
+            .note("programs are looked for in this file, in its folder and in the folders of `subprogram_path`")
+            .help(
+                "correct the name; if it is a program, put it in the folder of this one, or name its folder in trunnion.toml: \
+                 subprogram_path = [\"subs\"]",
+            );
+    } else {
+        draft.help("correct the name, or inspect by hand what depends on it");
     }
 }
 

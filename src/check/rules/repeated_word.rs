@@ -28,7 +28,7 @@ pub(super) const RULE: Body = Body::sound(
 );
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if fault.kind == FaultKind::RepeatedWord {
+    if fault.kind == FaultKind::RepeatedWord && !out.is_slip(fault.range) {
         let text = out.text(fault.range);
         let last_wins = out.dialect().advice.last_word_wins;
         let draft = out.report(fault.range, format!("`{text}` repeats a word of this block"));

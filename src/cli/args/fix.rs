@@ -11,7 +11,7 @@ pub(crate) struct Fix {
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub(crate) rewrite: Vec<String>,
     /// Change only what touches these lines of the program. A rewrite of the whole program is applied whole or not at all.
-    #[arg(long, value_name = "FIRST[-LAST]", value_parser = crate::cli::fix::lines)]
+    #[arg(long, value_name = "FIRST[-LAST]", value_parser = super::lines::lines)]
     pub(crate) lines: Option<(u32, u32)>,
     /// How far the tip (for ball tools: the centre of the ball) may move, in mm.
     #[arg(long, value_name = "MM")]

@@ -98,7 +98,7 @@ pub(super) fn facts(loaded: &Loaded, report: &Report, scope: Scope) -> Vec<(&'st
 /// The whole page.
 pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
     let title = match parts {
-        [one] => format!("{} {}", word(one.verdict), one.name),
+        [one] => format!("{}{}: {}", word(one.verdict), one.judged_in, one.name),
         many => format!("{} programs", many.len()),
     };
     let mut out = format!(
@@ -129,7 +129,7 @@ fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
     let count = |verdict| parts.iter().filter(|part| part.verdict == verdict).count();
     let _ = writeln!(
         out,
-        "<section><h2>Overview</h2><p>{} pass, {} fail, {} unknown, {} not checked</p><table><tr><th>verdict</th><th>program</th></tr>",
+        "<section><h2>Overview</h2><p>{} pass, {} fail, {} unknown, {} not checked</p><table><tr><th>verdict</th><th>program</th><th>not looked at</th></tr>",
         count(Verdict::Pass),
         count(Verdict::Fail),
         count(Verdict::Unknown),
@@ -139,30 +139,45 @@ fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
         let verdict = part.verdict.name();
         let _ = writeln!(
             out,
-            "<tr><td class=\"{verdict}\">{}</td><td><a href=\"#p{at}\">{}</a></td></tr>",
+            "<tr><td class=\"{verdict}\">{}{}</td><td><a href=\"#p{at}\">{}</a></td><td>{}</td></tr>",
             word(part.verdict),
-            escape(&part.name)
+            escape(&part.judged_in),
+            escape(&part.name),
+            escape(&part.not_looked_at.join("; "))
         );
     }
     for failure in failures {
         let _ = writeln!(
             out,
-            "<tr><td class=\"fail\">NOT CHECKED</td><td>{}</td></tr>",
+            "<tr><td class=\"fail\">NOT CHECKED</td><td>{}</td><td></td></tr>",
             escape(failure)
         );
     }
     out.push_str("</table></section>\n");
 }
 
-fn program(out: &mut String, at: usize, part: &Part) {
+/// The verdict, in what it was found, and what it says nothing about.
+fn head(out: &mut String, at: usize, part: &Part) {
     let verdict = part.verdict.name();
     let _ = writeln!(
         out,
-        "<article id=\"p{at}\"><h2><span class=\"badge {verdict}\">{}</span> {}</h2>\n<p class=\"line\">{}</p>",
+        "<article id=\"p{at}\"><h2><span class=\"badge {verdict}\">{}{}</span> {}</h2>\n",
         word(part.verdict),
+        escape(&part.judged_in),
         escape(&part.name),
-        escape(&part.line)
     );
+    if !part.not_looked_at.is_empty() {
+        let _ = writeln!(
+            out,
+            "<p class=\"left unknown\">Not looked at: {}.</p>",
+            escape(&part.not_looked_at.join("; "))
+        );
+    }
+    let _ = writeln!(out, "<p class=\"line\">{}</p>", escape(&part.line));
+}
+
+fn program(out: &mut String, at: usize, part: &Part) {
+    head(out, at, part);
     out.push_str("<section><h3>Coverage</h3><table>");
     for (name, value) in &part.facts {
         let _ = writeln!(out, "<tr><th scope=\"row\">{name}</th><td>{}</td></tr>", escape(value));

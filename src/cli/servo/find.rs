@@ -63,6 +63,18 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
         )));
     }
     let index = LineIndex::new(loaded.program.source());
+    let last = index
+        .line_column(
+            loaded.program.source(),
+            loaded.program.source().trim_ascii_end().len() as u32,
+        )
+        .0;
+    if !(1..=last).contains(&line) {
+        return Err(Failure::new(format!(
+            "--at {line}: {} has the lines 1 to {last}; name the line of the motion after the corner",
+            loaded.name
+        )));
+    }
     let (mut before, mut after): (Option<Side>, Option<Side>) = (None, None);
     let mut known: (Joints, u16) = ([0.0; _], 0);
     let mut stopped = None;

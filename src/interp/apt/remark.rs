@@ -84,6 +84,7 @@ fn say_remark(why: Option<&str>, range: TextRange, block: &Block<'_>, sink: &mut
     if let Some(why) = why {
         let what = why.to_owned();
         sink.fault(Fault {
+            place: None,
             block: block.id(),
             range,
             kind: FaultKind::NotModelled { what },

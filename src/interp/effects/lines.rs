@@ -47,6 +47,7 @@ impl Iso<'_> {
             _ => text.to_owned(),
         };
         sink.fault(crate::Fault {
+            place: None,
             block: view.id(),
             range: view.range(),
             kind: crate::FaultKind::NotModelled { what },

@@ -182,6 +182,7 @@ impl Iso<'_> {
             sink,
         };
         through.fault(Fault {
+            place: None,
             block: BlockId(block),
             range,
             kind,
@@ -200,6 +201,7 @@ impl Iso<'_> {
                 _ => BlockId(self.flow.next),
             };
             sink.fault(Fault {
+                place: None,
                 block,
                 range: main.block(block).range(),
                 kind: FaultKind::EndlessLoop { blocks, proved },

@@ -34,18 +34,34 @@ impl<S: Sink> Sink for Through<'_, S> {
         let Some(called) = self.called else {
             return self.sink.fault(fault);
         };
+        let (kind, place) = carried(called, &fault);
         self.sink.fault(Fault {
-            kind: carried(called, &fault),
+            kind,
+            place,
             block: self.place.main,
             range: self.place.main_range,
         });
     }
 }
 
-/// A fact about a block of another file, reported at the call.
-fn carried(called: &Called, fault: &Fault) -> FaultKind {
-    let place = format!("{}, line {}", called.path, fault.block.0 + 1);
-    match &fault.kind {
+/// Characters of a line that are shown.
+const SHOWN: usize = 60;
+
+/// A fact about a block of another file, reported at the call; and its line, where the fact does not say it.
+fn carried(called: &Called, fault: &Fault) -> (FaultKind, Option<Box<str>>) {
+    let line = fault.block.0 + 1;
+    let Some(kind) = placed(called, fault, &format!("{}, line {line}", called.path)) else {
+        let text = called.program.text(called.program.block(fault.block).range());
+        let text: String = text.trim().chars().take(SHOWN).collect();
+        let place = format!("{} line {line}: {text}", called.path);
+        return (fault.kind.clone(), Some(place.into()));
+    };
+    (kind, None)
+}
+
+/// The fact with its place in its text; `None`: it has none.
+fn placed(called: &Called, fault: &Fault, place: &str) -> Option<FaultKind> {
+    Some(match &fault.kind {
         kind if is_textual(kind) => FaultKind::NotModelled {
             what: format!(
                 "`{}` in {place}: check that file",
@@ -73,8 +89,8 @@ fn carried(called: &Called, fault: &Fault) -> FaultKind {
             name: name.clone(),
             searched: searched.clone(),
             alarm: alarm.clone(),
-            caller: Some(place),
+            caller: Some(place.to_owned()),
         },
-        other => other.clone(),
-    }
+        _ => return None,
+    })
 }

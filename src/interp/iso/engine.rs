@@ -141,6 +141,7 @@ impl<'d> Iso<'d> {
         };
         engine.memory.own.is_task = engine.core.dialect.quirks.user_task();
         let setup = std::sync::Arc::clone(&engine.core.setup);
+        engine.memory.own.take_declared(&setup.named_variables);
         let (name, key) = if engine.core.dialect.quirks.first_offset_at_start {
             (Some("G54".into()), "G54")
         } else {

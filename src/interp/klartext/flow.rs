@@ -77,7 +77,12 @@ impl Klartext<'_> {
             };
             let range = main.block(at).range();
             let kind = FaultKind::EndlessLoop { blocks, proved };
-            sink.fault(Fault { block: at, range, kind });
+            sink.fault(Fault {
+                place: None,
+                block: at,
+                range,
+                kind,
+            });
             self.stop(main, block, sink);
             return Some(block);
         }
@@ -183,7 +188,14 @@ impl Klartext<'_> {
     ) -> Request {
         let range = program.block(BlockId(from)).range();
         let block = BlockId(from);
-        let mut tell = |kind: FaultKind| sink.fault(Fault { block, range, kind });
+        let mut tell = |kind: FaultKind| {
+            sink.fault(Fault {
+                place: None,
+                block,
+                range,
+                kind,
+            });
+        };
         if let Request::Jump(key) | Request::Call(key) | Request::Repeat(key, _) = &request
             && self.is_doubled(key, program)
         {

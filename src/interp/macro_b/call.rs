@@ -172,7 +172,12 @@ impl Iso<'_> {
         };
         let message = "the called program ends without M99".to_owned();
         let kind: FaultKind = rejected(self.core.dialect, Mistake::EndOfRecord, Refusal::ProgramEnd, message);
-        sink.fault(Fault { block, range, kind });
+        sink.fault(Fault {
+            place: None,
+            block,
+            range,
+            kind,
+        });
         self.stop();
     }
 }

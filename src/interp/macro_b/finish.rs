@@ -54,6 +54,7 @@ impl Iso<'_> {
                 broken.message.clone(),
             );
             sink.fault(Fault {
+                place: None,
                 block: BlockId(broken.block),
                 range: broken.range,
                 kind,
@@ -96,7 +97,12 @@ impl Iso<'_> {
                 own: None,
                 report: |range: TextRange, kind: FaultKind| {
                     if is_of_text(&kind) {
-                        sink.fault(Fault { block, range, kind });
+                        sink.fault(Fault {
+                            place: None,
+                            block,
+                            range,
+                            kind,
+                        });
                     }
                 },
             };

@@ -62,6 +62,11 @@ pub(crate) fn is_of_control(name: &[u8]) -> bool {
     !matches!(class(&stem), Class::Common | Class::Local)
 }
 
+/// Whether a name, in lower case, is that of a common variable.
+pub(crate) fn is_common(name: &str) -> bool {
+    class(name) == Class::Common
+}
+
 /// Why the value of a name is not known.
 pub(crate) fn why_unknown(name: &str) -> String {
     let shown = name.trim_end_matches('[').to_ascii_uppercase();

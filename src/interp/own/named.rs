@@ -18,6 +18,22 @@ pub(super) fn is_variable_name(name: &str) -> bool {
 }
 
 impl Own {
+    /// What the settings declare: R parameters of a Sinumerik, common variables of an Okuma.
+    pub(crate) fn take_declared(&mut self, declared: &crate::NamedVariables) {
+        for (name, value) in &declared.0 {
+            let key = name.to_ascii_lowercase();
+            let is_own = if self.is_task {
+                crate::osp::is_common(&key)
+            } else {
+                super::r_parameter(&key).is_some()
+            };
+            if is_own {
+                self.assign(name, Some(*value));
+            }
+        }
+        self.fresh.clear();
+    }
+
     /// The known values of the variables that a text names.
     pub(crate) fn named_in(&self, text: &str) -> Vec<Argument> {
         let lower = text.to_ascii_lowercase();

@@ -4,7 +4,7 @@ use super::chords::chords;
 use super::faults::{fault_of, placed};
 use super::frames::Shift;
 use crate::core::Core;
-use crate::{Fault, FaultKind, Feed, Motion, MotionKind, Orientation, Position, Sink};
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Sink};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
 use trunnion_ngc::{At, Canon, Error, FileId, OwnCode, Pose, State};
@@ -56,11 +56,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.program.block(block).range()
         };
         self.calls.has_other_effects |= crate::effects::has_other_effects(&kind);
-        let kind = match self.calls.paths.get(at.file.0 as usize) {
-            Some(path) if at.file != FileId::MAIN => placed(kind, format!("{path}, line {}", at.line + 1)),
-            _ => kind,
-        };
-        self.sink.fault(Fault { block, range, kind });
+        let in_called = at.file != FileId::MAIN;
+        let path = self.calls.paths.get(at.file.0 as usize).filter(|_| in_called);
+        let place = path.map(|path| (&**path, at.line + 1));
+        self.sink.fault(placed((block, range), kind, place));
     }
 
     /// `codes`: ten times the numbers of the G codes that may be meant, for the place.

@@ -331,7 +331,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if let Some(block) = written.next() {
             let range = self.program.block(block).range();
             let kind = FaultKind::MissingProgramEnd;
-            self.sink.fault(Fault { block, range, kind });
+            self.sink.fault(Fault {
+                place: None,
+                block,
+                range,
+                kind,
+            });
         }
     }
 }

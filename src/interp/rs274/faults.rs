@@ -1,10 +1,21 @@
 //! Refusals of LinuxCNC's interpreter as facts for the check floor.
-use crate::FaultKind;
+use crate::{Fault, FaultKind};
 use trunnion_ngc::{Class, Error};
+use trunnion_syntax::{BlockId, TextRange};
 
-/// A fact about a line of a called file, reported at the call.
-pub(super) fn placed(kind: FaultKind, place: String) -> FaultKind {
-    match kind {
+/// A fact at a block and range of the program. `at`: the file and line that it is about, where that is a called one; said in its text, or apart.
+pub(super) fn placed((block, range): (BlockId, TextRange), kind: FaultKind, at: Option<(&str, u32)>) -> Fault {
+    let fault = |kind, place| Fault {
+        block,
+        range,
+        kind,
+        place,
+    };
+    let Some((path, line)) = at else {
+        return fault(kind, None);
+    };
+    let place = format!("{path}, line {line}");
+    let kind = match kind {
         FaultKind::Rejected {
             refusal,
             message,
@@ -28,8 +39,9 @@ pub(super) fn placed(kind: FaultKind, place: String) -> FaultKind {
             alarm,
             caller: Some(place),
         },
-        other => other,
-    }
+        other => return fault(other, Some(format!("{path} line {line}").into())),
+    };
+    fault(kind, None)
 }
 
 /// The fact that reports an error.

@@ -113,9 +113,21 @@ pub(super) fn at_start(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> C
             rows: tools.map(|tool| row(tool, units)).collect(),
             spindle: None,
         },
-        parameters: Parameters { values },
+        parameters: Parameters {
+            values,
+            globals: globals(setup),
+        },
         files: setup.library.0.clone(),
         limits: setup.limits,
         ..CallState::default()
     }
+}
+
+/// Global names that the settings declare, without `#<` and `>`.
+fn globals(setup: &Setup) -> Vec<(String, f64)> {
+    let inside = |name: &str| Some(name.strip_prefix("#<")?.strip_suffix('>')?.to_owned());
+    let declared = setup.named_variables.0.iter();
+    declared
+        .filter_map(|(name, value)| Some((inside(name)?, *value)))
+        .collect()
 }

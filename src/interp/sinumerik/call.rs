@@ -270,6 +270,7 @@ impl Iso<'_> {
         let what = "a subprogram that ends without M17 or RET: taken as its return".to_owned();
         if place.file == 0 {
             sink.fault(Fault {
+                place: None,
                 block: BlockId(last),
                 range,
                 kind: FaultKind::NotModelled { what },

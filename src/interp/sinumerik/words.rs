@@ -159,17 +159,20 @@ impl<'d> Iso<'d> {
         let repeats = words.letters & (1 << (b'P' - b'A')) != 0;
         let declared = matches!(&key, Key::Name(name) if own.declared.contains(name));
         let sure = number.is_some() || repeats || declared;
-        if !alone || !(sure || self.is_program(&key, program)) {
+        let is_known = sure || self.is_program(&key, program);
+        if !alone || !is_known {
             // as far as is known it may move anything
             words.forgets_all = true;
             self.memory.own.lose();
-            report.fault(
-                range,
+            let text = program.text(range);
+            let kind = if is_known {
                 FaultKind::NotModelled {
-                    what: program.text(range).trim().to_owned(),
-                },
-            );
-            return;
+                    what: text.trim().to_owned(),
+                }
+            } else {
+                FaultKind::name_lacks(text.trim(), true)
+            };
+            return report.fault(range, kind);
         }
         words.declares = true;
         let times = match words.p.number() {

@@ -1,5 +1,6 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
 use crate::file::planning::{corner_model, planning};
+use crate::file::power_on::power_on;
 use crate::file::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
 use crate::file::text::number;
 use crate::file::validate::{Fault, finite, non_negative};
@@ -48,6 +49,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
             Some(RawRapid::Dogleg) => RapidPath::Dogleg,
         },
         branch: branch(raw.branch.as_ref(), &family, axes)?,
+        power_on: power_on(raw.power_on.as_deref(), &family)?,
         pole_cone: None,
         pole_action: PoleAction::Through,
         feed: match feed.as_deref() {
@@ -71,7 +73,6 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         thread_finish_mm: non_negative("thread_finish", raw.thread_finish.as_ref())?,
         spline_arcs_mm: non_negative("spline_arcs", raw.spline_arcs.as_ref())?,
         tool_change: tool_change(raw, axes)?,
-        power_on: raw.power_on.as_deref().map(power_on).transpose()?,
         planning: Planning::default(),
     };
     if let Some(pole) = &raw.pole {
@@ -200,30 +201,6 @@ fn position(key: &str, place: &BTreeMap<Word, Number>, axes: &[Axis]) -> Result<
         }
     }
     Ok(out)
-}
-
-/// G codes in effect at power-on: which of them a control knows is a matter of its dialect.
-fn power_on(words: &[Word]) -> Result<Vec<String>, Fault> {
-    for word in words {
-        if !is_g_code(word.get_ref()) {
-            let message = format!(
-                "{:?} is not a G code: write G and its number, for example \"G17\"",
-                word.get_ref()
-            );
-            return Err(Fault {
-                message,
-                span: word.span(),
-            });
-        }
-    }
-    Ok(words.iter().map(|word| word.get_ref().clone()).collect())
-}
-
-/// `G17`, `G5.1`.
-fn is_g_code(code: &str) -> bool {
-    code.strip_prefix('G').is_some_and(|number| {
-        number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') && number.parse::<f64>().is_ok()
-    })
 }
 
 pub(crate) fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {

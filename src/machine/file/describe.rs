@@ -91,7 +91,6 @@ pub fn describe(machine: &Machine) -> Description {
             ("swept", tolerances.swept_mm, "mm"),
             ("pole_cone", deg(tolerances.pole_cone), "deg"),
             ("pole_angle", deg(tolerances.pole_angle), "deg"),
-            ("pole_touch", deg(tolerances.pole_touch), "deg"),
             ("swap_excess", deg(tolerances.swap_excess), "deg"),
             ("rotary_ratio", tolerances.rotary_ratio, "deg/deg"),
             ("linear_ratio", tolerances.linear_ratio, "mm/mm"),

@@ -11,7 +11,7 @@ head | units = { time = "min" } | "min" | write "s"
 head | spindle = { tool_axis = [0, 0, 2] } | [0, 0, 2] | [0.000000000, 0.000000000, 1.000000000]
 head | spindle = { tool_axis = [0, 0, 0] } | [0, 0, 0] | zero vector
 head | spindle = { gauge_point = [0, nan, 0] } | [0, nan, 0] | three numbers
-head | spindle = { gauge_point = [0, 0] } | [0, 0] | length 2
+head | spindle = { gauge_point = [0, 0] } | [0, 0] | in [spindle] must be a list of three numbers
 axes | {letter="Q", sign=1} | "Q" | not an axis letter
 axes | {letter="XY"} | "XY" | not an axis letter
 axes | {letter="C", sign=1} | "C" | side =
@@ -77,6 +77,8 @@ tail | [control];;pole = { passing_type = 3 } | 3 | write 1 or 2
 tail | [control];;pole = { action = "jump" } | "jump" | known: through
 tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
 tail | [control];;units = "cm" | "cm" | units
+tail | [control];;power_on = ["G177"] | "G177" | did you mean `G17`
+tail | [control];;family = "fanuc-30i";;power_on = ["G710"] | "G710" | fanuc-30i has no G code `G710`
 tail | [control];;reference_points = [{ Q = 1 }] | Q | not an axis
 tail | [control];;reference_points = [{ X = inf }] | inf | reference_points
 tail | [control];;tool_change = { Q = 1 } | Q | not an axis

@@ -308,7 +308,6 @@ pub(crate) struct RawTolerances {
     pub(crate) clearance: Option<Number>,
     pub(crate) pole_cone: Option<Number>,
     pub(crate) pole_angle: Option<Number>,
-    pub(crate) pole_touch: Option<Number>,
     pub(crate) swap_excess: Option<Number>,
     pub(crate) feed_drop: Option<Number>,
     pub(crate) feed_drop_error: Option<Number>,

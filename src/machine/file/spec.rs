@@ -40,7 +40,12 @@ impl std::error::Error for MachineError {}
 /// Loads and validates a machine file. `id` is its name for reports (file stem).
 pub fn load(id: &str, toml: &str) -> Result<Machine, MachineError> {
     let raw: RawMachine = toml::from_str(toml).map_err(|error| MachineError {
-        message: trunnion_dialect::plain_toml(toml, error.message(), error.span()),
+        message: trunnion_dialect::plain_toml(
+            Some(trunnion_dialect::KeyFile::Machine),
+            toml,
+            error.message(),
+            error.span(),
+        ),
         span: error.span(),
     })?;
     build(id, &raw).map_err(|fault| MachineError {
@@ -331,7 +336,6 @@ fn tolerances(raw: &RawTolerances) -> Result<Tolerances, Fault> {
         near_mm: positive("collision_near", raw.collision_near.as_ref())?.unwrap_or(default.near_mm),
         pole_cone: angle("pole_cone", raw.pole_cone.as_ref(), default.pole_cone)?,
         pole_angle: angle("pole_angle", raw.pole_angle.as_ref(), default.pole_angle)?,
-        pole_touch: angle("pole_touch", raw.pole_touch.as_ref(), default.pole_touch)?,
         swap_excess: angle("swap_excess", raw.swap_excess.as_ref(), default.swap_excess)?,
         feed_drop_warning: share("feed_drop", raw.feed_drop.as_ref(), default.feed_drop_warning)?,
         feed_drop_error: share("feed_drop_error", raw.feed_drop_error.as_ref(), default.feed_drop_error)?,

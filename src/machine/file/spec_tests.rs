@@ -78,7 +78,6 @@ rapid_ratio = 3
 collision_near = 3.0
 pole_cone = 3
 pole_angle = 11
-pole_touch = 0.02
 swap_excess = 6
 feed_drop = 0.7
 feed_drop_error = 0.2

@@ -254,8 +254,6 @@ pub struct Tolerances {
     pub pole_angle: f64,
     /// branch-swap: rotary excess, rad.
     pub swap_excess: f64,
-    /// pole-crossing: distance to the pole, rad.
-    pub pole_touch: f64,
     /// feed-drop: share of the programmed feed below which a warning is given.
     pub feed_drop_warning: f64,
     /// feed-drop: share below which it is an error.
@@ -293,7 +291,6 @@ impl Default for Tolerances {
             pole_cone: deg(2.0),
             pole_angle: deg(10.0),
             swap_excess: deg(5.0),
-            pole_touch: deg(0.01),
             feed_drop_warning: 0.8,
             feed_drop_error: 0.3,
             orientation: deg(0.1),

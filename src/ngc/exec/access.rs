@@ -114,6 +114,9 @@ impl Engine {
                 (index, value)
             })
             .collect();
-        crate::Parameters { values }
+        crate::Parameters {
+            values,
+            globals: Vec::new(),
+        }
     }
 }

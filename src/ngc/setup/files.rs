@@ -168,7 +168,10 @@ impl Parameters {
             }
             values.push((index, value));
         }
-        Ok(Self { values })
+        Ok(Self {
+            values,
+            globals: Vec::new(),
+        })
     }
     /// The text of a parameter file.
     pub fn text(&self) -> String {

@@ -62,6 +62,7 @@ use trunnion_syntax::{Address, BlockId, Program, TextEdit, TextRange, Value};
 
 pub(super) const REWRITE: Body = Body {
     cures: &["axis-overspeed", "feed-drop", "axis-acceleration"],
+    writes: Some("F words of blocks"),
     propose,
 };
 

@@ -53,7 +53,11 @@ use trunnion_geometry::Vec3;
 use trunnion_interp::{block_numbers, may_return_to_numbers};
 use trunnion_syntax::Program;
 
-pub(super) const REWRITE: Body = Body { cures: &[], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &[],
+    writes: Some("blocks and words of G1"),
+    propose,
+};
 
 /// Points are on a line exactly if they are no farther from it than this share of the largest coordinate.
 const EXACT: f64 = 1e-9;

@@ -59,7 +59,11 @@ use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_syntax::Program;
 
-pub(super) const REWRITE: Body = Body { cures: &[], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &[],
+    writes: Some("G2 and G3 with I, J and K"),
+    propose,
+};
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     if !program.options().format.has_words() {

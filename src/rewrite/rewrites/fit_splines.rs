@@ -67,7 +67,11 @@ use trunnion_check::Settings;
 use trunnion_dialect::{Action, Plane};
 use trunnion_syntax::Program;
 
-pub(super) const REWRITE: Body = Body { cures: &[], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &[],
+    writes: Some("curves of G code"),
+    propose,
+};
 
 /// How curves are written for a control, and how far it may be from them, mm; else why they are not.
 fn form(settings: &Settings<'_>) -> Result<(Form, f64), Refusal> {

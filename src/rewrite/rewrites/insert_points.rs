@@ -60,6 +60,7 @@ use trunnion_syntax::{Program, TextEdit, TextRange};
 
 pub(super) const REWRITE: Body = Body {
     cures: &["path-deviation"],
+    writes: Some("blocks of G1"),
     propose,
 };
 

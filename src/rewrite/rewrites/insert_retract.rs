@@ -65,6 +65,7 @@ use trunnion_syntax::{Address, Program, TextEdit, TextRange};
 
 pub(super) const REWRITE: Body = Body {
     cures: &["branch-swap"],
+    writes: Some("blocks of G0 and G1"),
     propose,
 };
 

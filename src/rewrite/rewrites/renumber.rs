@@ -44,7 +44,11 @@ use trunnion_check::Settings;
 use trunnion_layout::{Numbers, Renumbered};
 use trunnion_syntax::{LineIndex, Program, TextEdit, parse};
 
-pub(super) const REWRITE: Body = Body { cures: &[], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &[],
+    writes: None,
+    propose,
+};
 
 /// First number and step: room for blocks that are added by hand.
 const NUMBERS: Numbers = Numbers { start: 10, step: 10 };

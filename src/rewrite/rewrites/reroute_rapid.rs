@@ -64,6 +64,7 @@ use trunnion_syntax::{Address, Item, Program, TextEdit, TextRange, Value, Word};
 
 pub(super) const REWRITE: Body = Body {
     cures: &["rapid-through-obstacle", "excess-rapid-travel"],
+    writes: Some("blocks of G0"),
     propose,
 };
 

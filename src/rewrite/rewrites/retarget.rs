@@ -46,7 +46,11 @@ use crate::{Options, Proposed, Refusal};
 use trunnion_check::Settings;
 use trunnion_syntax::Program;
 
-pub(super) const REWRITE: Body = Body { cures: &[], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &[],
+    writes: None,
+    propose,
+};
 
 /// It has no edits: the caller that knows the target asks the converter.
 fn propose(_: &Program, _: &Settings<'_>, _: &Options) -> Proposed {

@@ -93,6 +93,7 @@ pub(super) const REWRITE: Body = Body {
         "feed-drop",
         "pole-flip",
     ],
+    writes: Some("X, Y, Z and rotary words of blocks"),
     propose,
 };
 

@@ -74,6 +74,7 @@ pub(super) const REWRITE: Body = Body {
         "pole-crossing",
         "pole-flip",
     ],
+    writes: Some("rotary words of blocks"),
     propose,
 };
 

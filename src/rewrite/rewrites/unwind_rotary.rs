@@ -56,6 +56,7 @@ pub(super) const REWRITE: Body = Body {
         "feed-drop",
         "path-deviation",
     ],
+    writes: Some("rotary words of blocks"),
     propose,
 };
 

@@ -42,7 +42,9 @@ fn messages_name_what_is_wrong_and_what_was_meant() {
     write(&folder, "trunnion.toml", "[tolerances]\ntip = \"0.02\"\n");
     let said = text(&trunnion(&["check", str(&folder.path().join("a.nc"))]).stderr);
     assert!(
-        said.contains("trunnion.toml:2:7: `tip` must be a number in mm: `tip = 0.02`"),
+        said.contains(
+            "trunnion.toml:2:7: `tip` in [tolerances] must be a number (`path-deviation`: how far the tip may leave"
+        ) && said.contains("mm): `tip = 0.02`"),
         "{said}"
     );
 

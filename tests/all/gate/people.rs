@@ -107,6 +107,43 @@ fn a_report_holds_everything_in_one_page() {
     assert!(page.contains("default-src 'none'"));
 }
 
+/// What was not looked at stands beside the verdict, as large as it.
+#[test]
+fn a_report_says_what_it_did_not_look_at() {
+    let folder = TempDir::new().expect("a folder");
+    let program = "%\nO1\nG21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 G43 H1 X0. Y0. Z50.\nG1 Z40. F200.\nG0 Z50.\nM5\nM30\n%\n";
+    write(&folder, "good.nc", program);
+    let more = [
+        "good.nc",
+        "--dialect",
+        "fanuc-30i",
+        "--assume",
+        "work-offset,tool-length",
+    ];
+    let (without, status) = page(folder.path(), &more);
+    assert_eq!(status, 0, "{without}");
+    let left = "Not looked at: axes, limits and speeds of a machine (no machine is named).";
+    assert!(without.contains("<h1>PASS in scope motion (no machine): good.nc</h1>"));
+    assert!(without.contains("<span class=\"badge pass\">PASS in scope motion (no machine)</span>"));
+    assert!(without.contains(&format!("<p class=\"left unknown\">{left}</p>")));
+    let (with, status) = page(folder.path(), &[&more[..], &["--machine", "mill-3axis"]].concat());
+    assert_eq!(status, 0);
+    assert!(with.contains("<h1>PASS on mill-3axis: good.nc</h1>") && !with.contains("Not looked at"));
+    // of a folder, in the line of each program
+    write(&folder, "other.nc", program);
+    let (both, _) = page(folder.path(), &[&["."], &more[1..]].concat());
+    assert_eq!(
+        both.matches("<td class=\"pass\">PASS in scope motion (no machine)</td>")
+            .count(),
+        2
+    );
+    assert_eq!(
+        both.matches("<td>axes, limits and speeds of a machine (no machine is named)</td>")
+            .count(),
+        2
+    );
+}
+
 #[test]
 fn a_report_of_a_folder_lists_its_programs() {
     let folder = folder();

@@ -196,3 +196,45 @@ fn the_schemas_of_files_know_all_keys() {
         assert!(wanted.len() > 20 && missing.is_empty(), "{name}: {missing:?}");
     }
 }
+
+/// The keys of a schema with their descriptions: those at the top and those of each definition once.
+fn described(schema: &Value) -> Vec<(String, String)> {
+    let definitions = schema["$defs"]
+        .as_object()
+        .into_iter()
+        .flat_map(serde_json::Map::values);
+    let tables = std::iter::once(schema).chain(definitions);
+    let all = tables.filter_map(|table| table["properties"].as_object()).flatten();
+    let mut all: Vec<_> = all
+        .map(|(name, key)| (name.clone(), key["description"].as_str().unwrap_or_default().to_owned()))
+        .collect();
+    all.sort();
+    all
+}
+
+/// The pages list exactly the keys of the schemas, with their descriptions, and every key has one.
+#[test]
+fn the_pages_list_the_keys_of_the_schemas() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (name, page) in [("settings", "docs/settings.md"), ("machine", "docs/machines.md")] {
+        let wanted = described(&schema(name));
+        assert!(wanted.len() > 60, "{name}");
+        let bare: Vec<_> = wanted.iter().filter(|(_, said)| said.is_empty()).collect();
+        assert!(bare.is_empty(), "{name}: no description of {bare:?}");
+        let text = fs::read_to_string(root.join(page)).expect("read");
+        let table = text.split("## All keys").nth(1).expect("the table");
+        let row = |line: &str| {
+            let (key, said) = line.strip_prefix("| `")?.split_once("` | ")?;
+            Some((key.to_owned(), said.strip_suffix(" |")?.to_owned()))
+        };
+        let mut listed: Vec<_> = table.lines().filter_map(row).collect();
+        listed.sort();
+        let missing: Vec<_> = wanted.iter().filter(|key| !listed.contains(key)).collect();
+        let foreign: Vec<_> = listed.iter().filter(|key| !wanted.contains(key)).collect();
+        assert!(
+            missing.is_empty() && foreign.is_empty(),
+            "{page}: missing {missing:?}; not in the schema {foreign:?}"
+        );
+        assert_eq!(listed.len(), wanted.len(), "{page}: a key is listed twice");
+    }
+}

@@ -159,7 +159,10 @@ fn what_a_call_leaves_open_is_said() {
     // a name alone may be the machine's
     assert_eq!(
         run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nX=R1\nM30\n").1,
-        ["3 `NOSUCH` not modelled: NOSUCH", "5 `R1` not modelled: R1"]
+        [
+            "3 `NOSUCH` not modelled: NOSUCH: no code of the control, and no program of that name was found",
+            "5 `R1` not modelled: R1"
+        ]
     );
     assert_eq!(run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nM30\n").0, ["R X1 Y1", "R X2"]);
     assert_eq!(run("OPEN\nM30\n").1.len(), 1);

@@ -67,6 +67,7 @@ impl Complaint<'_> {
         let table = TomlPlace::of_table(self.text, start);
         let whose = match self.file {
             Some(file) if !table.is_empty() => file.title(&table),
+            None if !table.is_empty() => format!("[{}]", table.join(".")),
             _ => "the file".to_owned(),
         };
         let Some(known) = self.key_at(&table, key) else {

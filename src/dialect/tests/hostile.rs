@@ -66,8 +66,8 @@ fn unknown_keys_and_values() {
         "unknown key",
         "arc-tolerance-relative",
     );
-    refused_with("[lex]\nformat = \"iso\"\n", "missing field", "");
-    refused_with("[codes]\nG0 = { action = \"rapid\" }\n", "missing field `doc`", "");
+    refused_with("[lex]\nformat = \"iso\"\n", "the file lacks `", "");
+    refused_with("[codes]\nG0 = { action = \"rapid\" }\n", "[codes.G0] lacks `doc`", "");
     refused_with("[codes]\nG0 = 5\n", "invalid type", "5");
 }
 

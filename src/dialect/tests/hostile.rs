@@ -66,7 +66,7 @@ fn unknown_keys_and_values() {
         "unknown key",
         "arc-tolerance-relative",
     );
-    refused_with("[lex]\nformat = \"iso\"\n", "the file lacks `", "");
+    refused_with("[lex]\nformat = \"iso\"\n", "[lex] lacks `paren-comment`", "");
     refused_with("[codes]\nG0 = { action = \"rapid\" }\n", "[codes.G0] lacks `doc`", "");
     refused_with("[codes]\nG0 = 5\n", "invalid type", "5");
 }

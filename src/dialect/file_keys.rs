@@ -116,9 +116,9 @@ impl Key {
         items.is_object().then(|| self.with(items))
     }
 
-    /// A key of this table.
+    /// A key of this table, or of an entry where it is a list of tables.
     pub fn key(self, name: &str) -> Option<Self> {
-        let node = self.resolved();
+        let node = self.entered().resolved();
         let own = node["properties"].get(name);
         let any = || Some(&node["additionalProperties"]).filter(|any| any.is_object());
         own.or_else(any).map(|node| self.with(node))

@@ -29,6 +29,10 @@ pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option
         return complaint.unknown_value(given, &known);
     }
     let expected = ["invalid type: ", "invalid value: ", "invalid length "];
+    // one of several words
+    if message == "wanted string or table" {
+        return complaint.wrong_kind("a string").unwrap_or_else(|| message.to_owned());
+    }
     let told = || {
         let rest = expected.iter().find_map(|start| message.strip_prefix(start))?;
         complaint.wrong_kind(rest.rsplit_once(", expected ")?.1)
@@ -67,6 +71,7 @@ impl Complaint<'_> {
         let table = TomlPlace::of_table(self.text, start);
         let whose = match self.file {
             Some(file) if !table.is_empty() => file.title(&table),
+            None if !table.is_empty() => format!("[{}]", table.join(".")),
             _ => "the file".to_owned(),
         };
         let Some(known) = self.key_at(&table, key) else {

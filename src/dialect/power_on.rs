@@ -1,7 +1,7 @@
 //! G codes that a settings or machine file names as in effect at power-on.
 use crate::code::CodeKind;
 use crate::nearest::did_you_mean;
-use crate::{BUILTIN_NAMES, Dialect, builtin};
+use crate::{Action, BUILTIN_NAMES, Dialect, builtin};
 
 /// Why a code cannot be in effect at power-on: the control does not have it, or, where it is not known which control it is, no control that this
 /// program reads has it.
@@ -14,20 +14,46 @@ pub fn known_at_power_on(code: &str, dialect: Option<&Dialect>) -> Result<(), St
         Some(one) => vec![one],
         None => all.collect(),
     };
-    let codes = dialects.iter().flat_map(|dialect| dialect.codes());
-    let mut known: Vec<&str> = codes
-        .filter(|own| own.kind == CodeKind::G)
+    let codes = || {
+        dialects
+            .iter()
+            .flat_map(|dialect| dialect.codes())
+            .filter(|own| own.kind == CodeKind::G)
+    };
+    if codes().any(|own| own.id == code) {
+        return Ok(());
+    }
+    let mut known: Vec<&str> = codes()
+        .filter(|own| sets(own.action))
         .map(|own| own.id.as_str())
         .collect();
     known.sort_unstable();
     known.dedup();
-    if known.contains(&code) {
-        return Ok(());
-    }
-    let whose = dialect.map_or("no control that is known here", |dialect| dialect.name.as_str());
+    let whose = dialect.map_or_else(
+        || "no control that is known here has a".to_owned(),
+        |dialect| format!("{} has no", dialect.name),
+    );
     let other = "; write the codes as the page of the dialect lists them, for example `power_on = [\"G17\", \"G90\"]`";
     let hint = did_you_mean(code, &known, other);
-    Err(format!("`power_on`: {whose} has no G code `{code}`{hint}"))
+    Err(format!("`power_on`: {whose} G code `{code}`{hint}"))
+}
+
+/// What `power_on` puts into effect: plane, distance, unit, feed mode, motion.
+fn sets(action: Action) -> bool {
+    matches!(
+        action,
+        Action::PlaneXy
+            | Action::PlaneZx
+            | Action::PlaneYz
+            | Action::Absolute
+            | Action::Incremental
+            | Action::Inch
+            | Action::Metric
+            | Action::FeedPerMinute
+            | Action::FeedPerRevolution
+            | Action::Rapid
+            | Action::Linear
+    )
 }
 
 #[cfg(test)]

@@ -145,7 +145,7 @@ mod tests {
                 let text = match tables {
                     [] => format!("|{name} = 1"),
                     [table, inner @ ..] => {
-                        let open: String = inner.iter().map(|name| format!("{name} = {{ ")).collect();
+                        let open = inner.iter().fold(String::new(), |open, name| open + name + " = { ");
                         format!("{}\n{open}|{name} = 1", file.keys().title(&[table]))
                     }
                 };

@@ -96,7 +96,8 @@ fn a_line_that_is_right_is_shown() {
         ),
         (
             "port_to = [5]\n",
-            "an entry of `port_to` must be a text in quotes (Dialects of other controls: the rule `porting` reports what would change its meaning there)",
+            "an entry of `port_to` must be a text in quotes (Dialects of other controls: the rule `porting` reports what would change its meaning there): \
+             `port_to = [\"haas-ngc\"]`",
         ),
         (
             "[format]\ncase = 5\n",

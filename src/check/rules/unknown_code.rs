@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_misspelt_name_is_near_a_known_one() {
-        let text = "G71 G0 X0\nTRAORY\n;^^^^^ not-modelled: not modelled: TRAORY; did you mean `TRAORI`?\nM30\n";
+        let text = "G71 G0 X0\nTRAORY\n;^^^^^ not-modelled: `TRAORY` is no code of sinumerik-840d, and no program TRAORY.SPF or .MPF was found; did you mean `TRAORI`?\nM30\n";
         assert_drawn("gcode sinumerik-840d", text);
     }
 }

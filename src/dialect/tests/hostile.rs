@@ -66,9 +66,9 @@ fn unknown_keys_and_values() {
         "unknown key",
         "arc-tolerance-relative",
     );
-    refused_with("[lex]\nformat = \"iso\"\n", "missing field", "");
-    refused_with("[codes]\nG0 = { action = \"rapid\" }\n", "missing field `doc`", "");
-    refused_with("[codes]\nG0 = 5\n", "invalid type", "5");
+    refused_with("[lex]\nformat = \"iso\"\n", "[lex] lacks `paren-comment`", "");
+    refused_with("[codes]\nG0 = { action = \"rapid\" }\n", "[codes.G0] lacks `doc`", "");
+    refused_with("[codes]\nG0 = 5\n", "must be a table", "5");
 }
 
 #[test]

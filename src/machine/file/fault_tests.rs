@@ -139,7 +139,7 @@ fn every_fault_is_named_and_located() {
 #[test]
 fn the_schema_comes_first() {
     let missing = load("bad", "axis = []").expect_err("no schema");
-    assert!(missing.message.contains("missing field `schema`"), "{missing}");
+    assert!(missing.message.contains("the file lacks `schema`"), "{missing}");
     let text = "schema = \"ncmachine/2\"\naxis=[]";
     let other = load("bad", text).expect_err("another schema");
     assert_eq!(&text[other.span.clone().expect("a place")], "\"ncmachine/2\"");

@@ -26,7 +26,7 @@ pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
-    ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, Nose, OuterCorner, RollPitchYaw, RoughingEscape,
-    Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, Nose, OuterCorner, RollPitchYaw, RotaryTurn,
+    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

@@ -35,6 +35,7 @@ mod one_part;
 mod orientation;
 mod own_codes;
 mod own_posts;
+mod plane_axial;
 mod planes_agree;
 mod properties;
 mod repeated;

@@ -168,6 +168,16 @@ pub struct RotaryTurn {
     pub letter: usize,
     /// Unit vector: a word of +1 deg turns the tool in the workpiece by 1 deg about it, right-handed.
     pub direction: [f64; 3],
+    /// It turns the workpiece, not the tool.
+    pub on_table: bool,
+}
+
+impl RotaryTurn {
+    /// Which of X, Y and Z it turns about, and 1 or -1 for its sense; `None` where it is not parallel to one of them.
+    pub fn along(&self) -> Option<(usize, f64)> {
+        let along = (0..3).find(|along| (self.direction[*along].abs() - 1.0).abs() < 1e-12)?;
+        Some((along, self.direction[along].signum()))
+    }
 }
 
 /// Parameters of the control that programs depend on; what is not declared is unknown.
@@ -219,6 +229,8 @@ pub struct ControlData {
     /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the
     /// machine says; `None`: Z by 1 mm. LinuxCNC always takes it along Z.
     pub length_along: Option<[f64; 3]>,
+    /// X words of the machine are diameters.
+    pub x_diameter: bool,
     /// The rotary axes of the machine, workpiece side first; `None`: no machine is known, or its home is not that of the formulas (a tool
     /// axis other than Z, a rotary axis that is held in place).
     pub rotary_turns: Option<Vec<RotaryTurn>>,

@@ -100,8 +100,6 @@ impl Klartext<'_> {
 
 /// The turn of one axis, exact for quarter turns; `None` where it is not parallel to X, Y or Z.
 fn turned(axis: &RotaryTurn, degrees: f64) -> Option<Mat3> {
-    let direction = Vec3::from(axis.direction);
-    let along = (0..3).find(|along| (direction[*along].abs() - 1.0).abs() < 1e-12)?;
-    let turns = [(along, degrees * direction[along].signum())];
-    Some(Tilted::new(Vec3::zeros(), &turns).turn)
+    let (along, sense) = axis.along()?;
+    Some(Tilted::new(Vec3::zeros(), &[(along, degrees * sense)]).turn)
 }

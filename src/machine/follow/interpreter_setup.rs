@@ -1,6 +1,6 @@
 //! The data of a machine for the interpreter of a program.
 use crate::follow::words::Words;
-use crate::{AxisKind, Machine};
+use crate::{AxisKind, Machine, Side};
 use trunnion_geometry::Vec3;
 use trunnion_interp::{ControlData, RotaryTurn};
 
@@ -14,6 +14,12 @@ impl Machine {
         control.axes_declared = machine.is_some();
         control.length_along = machine.and_then(Self::length_along);
         control.rotary_turns = machine.and_then(Self::rotary_turns);
+        control.x_diameter = machine.is_some_and(|machine| {
+            machine
+                .axes
+                .iter()
+                .any(|axis| axis.letter == b'X' && axis.extra.diameter)
+        });
         control.absent_axis = machine.and_then(Self::absent_axis);
         control.has_rotary =
             machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.kind == AxisKind::Rotary));
@@ -46,6 +52,7 @@ impl Machine {
             Some(RotaryTurn {
                 letter: usize::from(letter.0),
                 direction: (rotary.direction * rotary.sign).into(),
+                on_table: axis.side == Side::Table,
             })
         };
         (!held && upright).then(|| self.constants.rotary().iter().map(turn).collect())?

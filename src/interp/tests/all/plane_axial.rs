@@ -26,6 +26,7 @@ fn machine(chain: &str) -> Setup {
         RotaryTurn {
             letter: along + 3,
             direction,
+            on_table: true,
         }
     });
     setup.control.rotary_turns = Some(turns.collect());
@@ -124,7 +125,11 @@ fn it_moves_as_the_other_forms_do() {
             panic!("{way}: {turns:?} {told:?}")
         };
         assert_eq!((found, guided), (swivel, tip), "{way}");
-        assert_eq!((at(&end, 3), at(&end, 4), at(&end, 5)), (Some(-45.0), None, Some(30.0)), "{way}");
+        assert_eq!(
+            (at(&end, 3), at(&end, 4), at(&end, 5)),
+            (Some(-45.0), None, Some(30.0)),
+            "{way}"
+        );
     }
     let (_, _, turns) = run(&setup, "PLANE AXIAL A-45 C+30 STAY");
     assert!(turns.is_empty(), "{turns:?}");
@@ -134,10 +139,19 @@ fn it_moves_as_the_other_forms_do() {
         .motions
         .iter()
         .find(|motion| motion.end.get(3).is_some())
-        .unwrap_or_else(|| panic!("{:?}", log.faults.iter().map(|fault| fault_line(&text, fault)).collect::<Vec<_>>()));
+        .unwrap_or_else(|| {
+            panic!(
+                "{:?}",
+                log.faults
+                    .iter()
+                    .map(|fault| fault_line(&text, fault))
+                    .collect::<Vec<_>>()
+            )
+        });
     assert_eq!((at(&there.end, 3), at(&there.end, 5)), (Some(-45.0), Some(30.0)));
     // another plane changes Q120: a value of before is not kept
-    let other = "PLANE AXIAL A-45 C+30 STAY\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nQ1 = Q120\nPLANE RESET STAY\nL A+Q1 FMAX";
+    let other =
+        "PLANE AXIAL A-45 C+30 STAY\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nQ1 = Q120\nPLANE RESET STAY\nL A+Q1 FMAX";
     let (_, log) = run_bytes("heidenhain-klartext", program(other).as_bytes(), &setup);
     assert!(log.motions.iter().all(|motion| motion.end.get(3).is_none()));
 }
@@ -154,7 +168,11 @@ fn what_does_not_follow_is_unknown_by_name() {
     let slant = core::f64::consts::FRAC_1_SQRT_2;
     nutating.control.rotary_turns.as_mut().expect("axes")[1].direction = [0.0, slant, slant];
     let cases = [
-        (Setup::default(), "A-45 C+30", "PLANE AXIAL: the plane follows from the rotary axes of the machine"),
+        (
+            Setup::default(),
+            "A-45 C+30",
+            "PLANE AXIAL: the plane follows from the rotary axes of the machine",
+        ),
         (machine(""), "A-45", "no rotary axis A"),
         (machine("C A"), "A-45", "C has no position in the block"),
         (machine("C A"), "A-45 B+10 C+30", "no rotary axis B"),

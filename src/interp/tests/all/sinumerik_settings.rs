@@ -1,0 +1,60 @@
+//! CYCLE832 in both forms, and DIAMOF on a machine whose X words are diameters.
+use crate::support::{fault_line, run_bytes};
+use trunnion_interp::Setup;
+
+/// Whether each line is one of the tip, its end if known, and what was reported.
+fn run(text: &str, setup: &Setup) -> (Vec<(bool, bool)>, Vec<String>) {
+    let (program, log) = run_bytes("sinumerik-840d", text.as_bytes(), setup);
+    let told = log.faults.iter().map(|fault| fault_line(&program, fault));
+    (
+        log.motions
+            .iter()
+            .map(|motion| (motion.tcp, motion.end.xyz().is_some()))
+            .collect(),
+        told.filter(|fault| fault.contains("NotModelled")).collect(),
+    )
+}
+
+#[test]
+fn the_older_form_of_cycle832_switches_the_transformation() {
+    let setup = Setup::default();
+    for (before, call, tip) in [
+        // new: 0 to 4, and plus 10
+        ("", "CYCLE832(0.01,1,1)", false),
+        ("TRAORI", "CYCLE832(0.01,12,0.5)", true),
+        ("TRAORI", "CYCLE832(0.01,_ORI_FINISH,0.5)", true),
+        ("TRAORI", "CYCLE832()", true),
+        ("TRAORI", "CYCLE832(0.01)", true),
+        // old: the third digit from the right
+        ("", "CYCLE832(0.01,112101)", true),
+        ("TRAORI", "CYCLE832(0.01,112101)", true),
+        ("TRAORI", "CYCLE832(0.01,112001)", false),
+        ("", "CYCLE832(0.01,2001)", false),
+        ("R1=112101", "CYCLE832(0.01,R1)", true),
+    ] {
+        let text = format!("{before}\n{call}\nG1 X1 Y2 Z3 F100\n");
+        let (found, told) = run(&text, &setup);
+        assert_eq!((found, told), (vec![(tip, true)], vec![]), "{text}");
+    }
+    for mode in ["112201", "112901", "R99"] {
+        let text = format!("CYCLE832(0.01,{mode})\nG1 X1 Y2 Z3 F100\nTRAFOOF\nG1 X1 Y2 Z3\n");
+        let (found, told) = run(&text, &setup);
+        let ends: Vec<bool> = found.iter().map(|(_, known)| *known).collect();
+        assert_eq!(ends, [false, true], "{text}: {told:?}");
+        assert!(
+            told.iter().any(|fault| fault.contains("which transformation")),
+            "{told:?}"
+        );
+    }
+}
+
+#[test]
+fn a_radius_on_a_machine_of_diameters_is_unknown_by_name() {
+    let mut setup = Setup::default();
+    let text = "DIAMOF\nG1 X10 Y2 Z3 F100\n";
+    assert_eq!(run(text, &setup), (vec![(false, true)], vec![]));
+    setup.control.x_diameter = true;
+    let (found, told) = run(text, &setup);
+    assert_eq!(found, [(false, false)]);
+    assert!(told.iter().any(|fault| fault.contains("DIAMOF")), "{told:?}");
+}

@@ -46,6 +46,23 @@ impl Iso<'_> {
         Some(self.core.state.tool.data().filter(|_| first)?.diameter_mm? / 2.0)
     }
 
+    /// $P_UIFR: the shifts of the settable frames that are known, in program units.
+    fn stored_shifts(&mut self, unit: f64) -> Vec<(String, f64)> {
+        let mut shifts = Vec::new();
+        for number in 1..=99u32 {
+            let Some(values) = self.offset_values(&offset_name(number)) else {
+                continue;
+            };
+            for axis in (0..9).filter(|axis| values.known & (1 << axis) != 0) {
+                let linear = crate::core::LINEAR & (1 << axis) != 0;
+                let scale = if linear { unit } else { 1.0 };
+                let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
+                shifts.push((format!("$p_uifr[{number},{letter},tr]"), values.values[axis] / scale));
+            }
+        }
+        shifts
+    }
+
     /// System variables with a value that follows from the program; all others are unknown by name.
     fn system_values(&mut self) -> BTreeMap<Box<str>, f64> {
         let mut known: BTreeMap<Box<str>, f64> = BTreeMap::new();
@@ -83,24 +100,8 @@ impl Iso<'_> {
             let angle = angles.and_then(|angles| angles.get(axis).copied());
             put(format!("$p_pframe[{letter},rt]"), angle);
         }
-        for number in 1..=99u32 {
-            let Some(values) = self.offset_values(&offset_name(number)) else {
-                continue;
-            };
-            for axis in 0..9 {
-                let scale = if crate::core::LINEAR & (1 << axis) != 0 {
-                    unit
-                } else {
-                    1.0
-                };
-                let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
-                let value = values.values[axis] / scale;
-                let is_known = values.known & (1 << axis) != 0;
-                put(
-                    format!("$p_uifr[{number},{letter},tr]"),
-                    Some(value).filter(|_| is_known),
-                );
-            }
+        for (name, value) in self.stored_shifts(unit) {
+            put(name, Some(value));
         }
         let feed = self
             .core

@@ -155,7 +155,7 @@ fn the_length_in_force() {
             Some(x),
             "{name}"
         );
-        assert_eq!(of(&format!("T1M6\nG0X1.Y2.Z3.\nG43.4H1Z3.\nX#4008"), &setup), None);
+        assert_eq!(of("T1M6\nG0X1.Y2.Z3.\nG43.4H1Z3.\nX#4008", &setup), None);
     }
     // the zero point is not declared
     setup.work_offsets.clear();

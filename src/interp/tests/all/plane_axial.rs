@@ -41,8 +41,11 @@ fn program(plane: &str) -> String {
     text + "L M30\nEND PGM P MM\n"
 }
 
-/// Ends of the lines, and what was reported.
-fn run(setup: &Setup, plane: &str) -> (Vec<Option<Vec3>>, Vec<String>, Vec<(Swivel, bool, Position)>) {
+/// What the linear axes do in a turn, whether the tip is guided, and where it ends.
+type Turned = (Swivel, bool, Position);
+
+/// Ends of the lines, what was reported, and the turns.
+fn run(setup: &Setup, plane: &str) -> (Vec<Option<Vec3>>, Vec<String>, Vec<Turned>) {
     let (text, log) = run_bytes("heidenhain-klartext", program(plane).as_bytes(), setup);
     let cuts = log.motions.iter().filter(|motion| motion.is_feed());
     let turns = log.motions.iter().filter(|motion| motion.tilt.swivel != Swivel::No);

@@ -1,4 +1,4 @@
-//! CYCLE832 in both forms, and DIAMOF on a machine whose X words are diameters.
+//! CYCLE832 in both forms, DIAMOF on a machine whose X words are diameters, positions of the machine as values.
 use crate::support::{fault_line, run_bytes};
 use trunnion_interp::Setup;
 
@@ -57,4 +57,46 @@ fn a_radius_on_a_machine_of_diameters_is_unknown_by_name() {
     let (found, told) = run(text, &setup);
     assert_eq!(found, [(false, false)]);
     assert!(told.iter().any(|fault| fault.contains("DIAMOF")), "{told:?}");
+}
+
+/// $AA_IM is known where the zero point and the tool's length are declared, $P_TOOLR where the tool is.
+#[test]
+fn positions_of_the_machine_and_the_radius_of_the_tool() {
+    let mut setup = trunnion_interp::Setup::default();
+    let mut values = [0.0; 9];
+    (values[0], values[2], values[5]) = (100.0, -50.0, 7.0);
+    setup.work_offsets.push(trunnion_interp::WorkOffset {
+        name: "G54".to_owned(),
+        values,
+    });
+    setup.tools.push(trunnion_interp::Tool {
+        number: 1,
+        shape: None,
+        diameter_mm: Some(12.0),
+        length_mm: Some(80.0),
+        holder_mm: None,
+    });
+    let ends = |text: &str, setup: &trunnion_interp::Setup| {
+        let log = crate::support::run_bytes("sinumerik-840d", text.as_bytes(), setup).1;
+        log.motions.last().expect("a motion").end
+    };
+    let head = "G54 G90 G71 T1 D1\nM6\nG1 X1 Y2 Z3 C20 F100\n";
+    for (name, x) in [
+        ("$AA_IM[X]", Some(101.0)),
+        ("$AA_IM[Y]", Some(2.0)),
+        // the length of 80 mm lies along Z
+        ("$AA_IM[Z]", Some(33.0)),
+        ("$AA_IM[C]", Some(27.0)),
+        ("$P_TOOLR", Some(6.0)),
+    ] {
+        assert_eq!(ends(&format!("{head}X={name}"), &setup).get(0), x, "{name}");
+        let undeclared = ends(&format!("{head}X={name}"), &trunnion_interp::Setup::default());
+        assert_eq!(undeclared.get(0), None, "{name}");
+        let other = if name == "$P_TOOLR" { "D2" } else { "TRAORI" };
+        assert_eq!(
+            ends(&format!("{head}{other}\nX={name}"), &setup).get(0),
+            None,
+            "{name} {other}"
+        );
+    }
 }

@@ -46,12 +46,14 @@ impl<'d> Iso<'d> {
         self.tilt_to(Some(turn), report);
     }
 
-    /// The directions of the machine on a table that has turned; `None` where an axis, its position or its zero is not known, or a head turns.
+    /// The directions of the machine on a table that has turned; `None` where an axis, its position or a zero is not known, or a head turns.
     fn table_turned(&self) -> Option<Tilted> {
         let state = &self.core.state;
         let axes = self.core.setup.control.rotary_turns.as_deref()?;
         let zero = state.zero.values();
-        if state.zero.is_lost() || axes.is_empty() {
+        // with a zero in the middle of the table G254 changes nothing, so one that is not declared is not taken for zero
+        let declared = state.zero.undeclared() & super::XYZ == 0;
+        if state.zero.is_lost() || axes.is_empty() || !declared {
             return None;
         }
         let turns: Option<Vec<(usize, f64)>> = axes

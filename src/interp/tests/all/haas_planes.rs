@@ -1,7 +1,7 @@
 //! G268 and G253 of a Haas against PLANE SPATIAL and G68.2 of the same matrix; G254 against the turns of the table.
 use crate::support::{fault_line, run_bytes};
 use trunnion_geometry::Vec3;
-use trunnion_interp::{RotaryTurn, Setup, Swivel};
+use trunnion_interp::{RotaryTurn, Setup, Swivel, WorkOffset};
 
 /// A trunnion table C on A, and the same machine with A in the head.
 fn table(a_on_table: bool) -> Setup {
@@ -15,6 +15,10 @@ fn table(a_on_table: bool) -> Setup {
             on_table,
         }
     };
+    setup.work_offsets.push(WorkOffset {
+        name: "G54".to_owned(),
+        values: [0.0; 9],
+    });
     setup.control.rotary_turns = Some(vec![axis(5, 2, true), axis(3, 0, a_on_table)]);
     setup
 }
@@ -152,8 +156,11 @@ fn a_dynamic_offset_keeps_the_directions_of_the_machine() {
 #[test]
 fn a_dynamic_offset_that_does_not_follow_is_unknown_until_it_ends() {
     let cuts = "G1 X4. Y5. Z6. F500.\nX7. Y5. Z6.\n";
+    let mut undeclared = table(true);
+    undeclared.work_offsets.clear();
     let cases = [
         (Setup::default(), "G0 A10. C20.\nG254"),
+        (undeclared, "G0 A10. C20.\nG254"),
         (table(false), "G0 A10. C20.\nG254"),
         (table(true), "G0 A10.\nG254"),
         (table(true), "G0 A10. C20.\nG234 H1\nG254"),

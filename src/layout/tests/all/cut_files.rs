@@ -100,7 +100,8 @@ fn cut_and_changed_programs_of_every_dialect_keep_their_bytes() {
         };
         assert!(!own.is_empty(), "{name}");
         for copy in 0..COPIES {
-            let text = changed(&mut random, own[random.below(own.len())]);
+            let source = own[random.below(own.len())];
+            let text = changed(&mut random, source);
             let shown = || format!("{name} {copy}: {:?}", String::from_utf8_lossy(&text));
             let read = program(&text, dialect);
             let mut at = 0;

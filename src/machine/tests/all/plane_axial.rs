@@ -43,6 +43,7 @@ const CASES: [(&str, &str, bool); 8] = [
 fn lines_of_the_plane_move_what_the_machine_moves() {
     for (name, words, table) in CASES {
         let machine = builtin(name).expect("built in");
+        let home: Vec<String> = words.split(' ').map(|word| format!("{}+0", &word[..1])).collect();
         for way in ["TURN FMAX", "MOVE FMAX", "STAY"] {
             let turn = if way == "STAY" {
                 format!("L {words} FMAX\n")
@@ -51,10 +52,7 @@ fn lines_of_the_plane_move_what_the_machine_moves() {
             };
             let text = format!(
                 "BEGIN PGM P MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+200 {} R0 FMAX M3\nPLANE AXIAL {words} {way}\n{turn}L X+0 Y+0 Z+50 FMAX\nL X+10 F500\nL Y+10 F500\nL Z+60 F500\nM30\nEND PGM P MM\n",
-                words
-                    .split(' ')
-                    .map(|word| format!("{}+0 ", &word[..1]))
-                    .collect::<String>(),
+                home.join(" "),
             );
             let found = legs(machine, &text);
             let said = format!("{name} {words} {way}: {:?}", found.2);

@@ -122,6 +122,9 @@ impl<'d> Iso<'d> {
         if self.core.dialect.quirks.offset_compensation && self.core.state.compensation == 0 {
             self.cutter_number_ahead(words);
         }
+        if let Some(at) = self.memory.frames.dynamic {
+            self.dynamic_offset_holds(&at, words, report);
+        }
         let lost = self.core.unknown.any() || self.memory.frames.pending.is_some();
         self.core.state.zero.lose(lost);
         block
@@ -178,6 +181,7 @@ impl<'d> Iso<'d> {
                 self.memory.own.contour.euler = found.code.id == "ORIEULER";
             }
             Action::ProgramStop => block.stops_program = Some(found.code.id != "M0"),
+            Action::PathMode if found.with_arguments && found.code.id == "CYCLE832" => self.high_speed(found, report),
             Action::NoMotion | Action::PathMode | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
@@ -211,10 +215,8 @@ impl<'d> Iso<'d> {
             Action::WorkOffset => self.work_offset(found, words, report),
             Action::WorkSystem | Action::WorkSystemOnce => self.work_system(found, words, block, report),
             Action::WorkOffsetNone => self.no_work_offset(&found.code.id),
-            Action::FrameReset => {
-                let ended = self.core.unknown.end(found.code);
-                self.core.forget_if(ended);
-            }
+            Action::FrameReset => self.frame_reset(found, words, block, report),
+            Action::FrameChange if found.code.id == "G254" => self.dynamic_offset(found, words, block, report),
             Action::FrameChange => self.frame_change(found, words, block, report),
             Action::FrameLost => self.frame_lost(found, words, block, report),
             Action::CannedCycle => {

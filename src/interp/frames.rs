@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod agree_tests;
 mod data_entry;
+mod feature;
 mod linear;
 mod points;
 mod polar;
@@ -74,6 +75,8 @@ pub(crate) struct Frames {
     pub(crate) intermediate: Option<Position>,
     /// Reference points that the program has stored, machine coordinates.
     pub(crate) stored_reference: [Option<Position>; 2],
+    /// Where the axes stood at G254.
+    pub(crate) dynamic: Option<Position>,
     /// The missing reference points were reported.
     pub(crate) reference_said: bool,
 }
@@ -189,7 +192,10 @@ impl<'d> Iso<'d> {
             Action::PositionPreset => self.position_preset(found, words, block),
             Action::RotationOn => self.rotation_on(found, words, block, report),
             Action::RotationOff => {
-                self.end_tilt(report);
+                // the dynamic work offset of a Haas ends with G255 only
+                if self.memory.frames.dynamic.is_none() {
+                    self.end_tilt(report);
+                }
                 self.rotation_off(found);
             }
             Action::TiltedPlane => self.tilted_plane(found, words, block, report),

@@ -4,6 +4,7 @@
 //! departure. What they leave open is unknown by name.
 mod approach;
 mod arcs;
+mod axial;
 mod calls;
 mod corner;
 mod datum;

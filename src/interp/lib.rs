@@ -70,7 +70,7 @@ pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
     FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library,
     Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation, OuterCorner, Placed, Position,
-    Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes,
-    TcpMistake, Tilt, Tool, ToolShape, Undeclared, UnknownName, Value, WorkOffset, is_left, same_number,
+    Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RotaryTurn, RoughingEscape, Searched, Setup, Sink, Spin, Swivel,
+    TcpCodes, TcpMistake, Tilt, Tool, ToolShape, Undeclared, UnknownName, Value, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

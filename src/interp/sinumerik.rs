@@ -6,6 +6,7 @@
 mod call;
 mod curve;
 mod frame_value;
+mod high_speed;
 mod index;
 mod names;
 mod path;

@@ -61,6 +61,26 @@ impl<'d> Iso<'d> {
         self.core.dialect.g(0)?.group.as_deref()
     }
 
+    /// A code that ends a frame of its group.
+    pub(crate) fn frame_reset(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let group = found.code.group.as_deref();
+        if group == Some("diameter") && self.core.setup.control.x_diameter {
+            // DIAMOF on a machine that reads X as a diameter
+            return self.unmodelled_code(found, words, block, report);
+        }
+        if group == Some("dynamic-offset") && self.memory.frames.dynamic.take().is_some() {
+            self.end_tilt(report);
+        }
+        let ended = self.core.unknown.end(found.code);
+        self.core.forget_if(ended);
+    }
+
     pub(crate) fn frame_change(
         &mut self,
         found: &Found<'d>,

@@ -27,6 +27,6 @@ pub use motion::{
 };
 pub use setup::{
     ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner, RollPitchYaw,
-    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    RotaryTurn, RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

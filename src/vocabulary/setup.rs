@@ -161,6 +161,25 @@ pub enum FrameAngles {
     Euler,
 }
 
+/// How a rotary axis of the machine turns the tool against the workpiece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotaryTurn {
+    /// Index of its letter in [`crate::AXIS_LETTERS`].
+    pub letter: usize,
+    /// Unit vector: a word of +1 deg turns the tool in the workpiece by 1 deg about it, right-handed.
+    pub direction: [f64; 3],
+    /// It turns the workpiece, not the tool.
+    pub on_table: bool,
+}
+
+impl RotaryTurn {
+    /// Which of X, Y and Z it turns about, and 1 or -1 for its sense; `None` where it is not parallel to one of them.
+    pub fn along(&self) -> Option<(usize, f64)> {
+        let along = (0..3).find(|along| (self.direction[*along].abs() - 1.0).abs() < 1e-12)?;
+        Some((along, self.direction[along].signum()))
+    }
+}
+
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
@@ -210,6 +229,11 @@ pub struct ControlData {
     /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the
     /// machine says; `None`: Z by 1 mm. LinuxCNC always takes it along Z.
     pub length_along: Option<[f64; 3]>,
+    /// X words of the machine are diameters.
+    pub x_diameter: bool,
+    /// The rotary axes of the machine, workpiece side first; `None`: no machine is known, or its home is not that of the formulas (a tool
+    /// axis other than Z, a rotary axis that is held in place).
+    pub rotary_turns: Option<Vec<RotaryTurn>>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
     pub reference_points: Vec<crate::Position>,
     /// Where the axes are after a tool change (M6), in machine coordinates, mm and degrees; those without a value stay where they are.

@@ -54,7 +54,7 @@ record! {
         tool_change = 20, power_on = 21, spline_arcs_mm = 22, frame_angles = 23,
     } without {
         // of the machine, which is encoded as a whole
-        has_rotary, axes_declared,
+        has_rotary, axes_declared, rotary_turns, x_diameter,
     }
 }
 

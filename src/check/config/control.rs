@@ -167,6 +167,8 @@ impl FileControl {
             axes_declared: false,
             has_rotary: false,
             length_along: None,
+            x_diameter: false,
+            rotary_turns: None,
             reference_points,
             tool_change: None,
             power_on: self

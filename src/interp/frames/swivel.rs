@@ -64,11 +64,17 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let adds = found.code.id == "G68.4";
-        if let (false, Some(kind @ (2 | 3))) = (adds, words.letter(b'P').index()) {
+        let is_feature = found.code.id == "G268";
+        if let (false, Some(kind @ (2 | 3))) = (adds || is_feature, words.letter(b'P').index()) {
             self.plane_part((kind == 3, found), words, block, report);
             return;
         }
-        let turns = self.plane_turns(words, report);
+        let turns = if is_feature {
+            self.feature_turns(words, report)
+                .filter(|_| self.memory.frames.dynamic.is_none() && !self.core.state.tool_axis.tcp())
+        } else {
+            self.plane_turns(words, report)
+        };
         let clear = words.axes.unread == 0
             && !self.core.state.coordinates.incremental()
             && self.memory.frames.shape.is_identity();
@@ -89,6 +95,20 @@ impl<'d> Iso<'d> {
 
     /// Axis and degrees of the turns that I J K give.
     fn plane_turns(&self, words: &Words, report: &mut Report<'_>) -> Option<[(usize, f64); 3]> {
+        let [i, j, k] = self.plane_angles(words, report)?;
+        match words.letter(b'P') {
+            WordValue::Nothing => {}
+            said => match said.index()? {
+                0 => {}
+                1 => return self.roll_pitch_yaw([i, j, k], words.letter(b'Q')),
+                _ => return None,
+            },
+        }
+        (!words.letter(b'Q').is_given()).then_some([(2, i), (0, j), (2, k)])
+    }
+
+    /// I J K in degrees; R is not followed.
+    pub(super) fn plane_angles(&self, words: &Words, report: &mut Report<'_>) -> Option<[f64; 3]> {
         let implicit = self.core.setup.control.implicit_decimals;
         let angle = |letter| match words.letter(letter) {
             WordValue::Nothing => Some(0.0),
@@ -104,18 +124,7 @@ impl<'d> Iso<'d> {
         if let (None, Some(whole)) = (implicit, said.find(|number| !number.has_point && number.value != 0.0)) {
             report.fault(whole.range, FaultKind::AmbiguousDecimal);
         }
-        if words.radius.is_given() {
-            return None;
-        }
-        match words.letter(b'P') {
-            WordValue::Nothing => {}
-            said => match said.index()? {
-                0 => {}
-                1 => return self.roll_pitch_yaw([i, j, k], words.letter(b'Q')),
-                _ => return None,
-            },
-        }
-        (!words.letter(b'Q').is_given()).then_some([(2, i), (0, j), (2, k)])
+        (!words.radius.is_given()).then_some([i, j, k])
     }
 
     /// G68.2 P1: turns about X, Y, Z by I, J, K in the order that Q gives (Q123: first X).
@@ -158,13 +167,18 @@ impl<'d> Iso<'d> {
             self.unmodelled_code(found, words, block, report);
             return;
         };
-        if self.memory.frames.tilt.is_none() || self.core.state.tool_axis.tcp() {
+        // G254 is no plane onto which the tool turns
+        let turned_table = self.memory.frames.dynamic.is_some();
+        if self.memory.frames.tilt.is_none() || self.core.state.tool_axis.tcp() || turned_table {
             self.unmodelled_code(found, words, block, report);
             return;
         }
         block.takes_coordinates = true;
         let swivel = if found.code.action == Action::TiltedPlaneTurnTip {
             Swivel::TipStays
+        } else if found.code.id == "G253" {
+            // no source says whether the linear axes stay
+            Swivel::AxesLost
         } else {
             Swivel::AxesStay
         };

@@ -4,7 +4,7 @@
 //! the normal. POINTS: x from the first point to the second, the third on the side of y; the datum stays. Sources: TNC guide, PLANE SPATIAL;
 //! TNC 640 DIN/ISO 34059x p. 420 and 424. RELATIV: one angle, about an axis of the plane that is active (iTNC 530 340 422 user's manual, p. 456:
 //! it acts incrementally; TNC7 81762x-17: it is a transformation in the system of the working plane). Where the swivel leaves a rotary axis free,
-//! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED and AXIAL are not followed.
+//! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED is not followed; AXIAL is in `axial`.
 use super::Klartext;
 use super::datum::PLANE;
 use super::values::Value;
@@ -62,9 +62,12 @@ impl Klartext<'_> {
         if let Some(what) = free {
             self.not_modelled_once(what, report);
         }
+        self.set_angles([None; 3]);
         let name = String::from_utf8_lossy(form.name()).into_owned();
-        if name == "RESET" {
-            return self.reset_plane(swivel, report);
+        match name.as_str() {
+            "RESET" => return self.reset_plane(swivel, report),
+            "AXIAL" => return self.plane_by_axes(&numbers, swivel, report),
+            _ => {}
         }
         let number = |wanted: &str| numbers.iter().find(|(found, _)| found == wanted).map(|found| found.1);
         let turn = match name.as_str() {
@@ -84,9 +87,8 @@ impl Klartext<'_> {
         };
         let Some(turn) = turn else {
             Self::not_modelled(format!("PLANE {name}: its values, or the form itself"), report);
-            self.tilt_to(None);
             self.memory.angles_wait = None;
-            return self.lose(PLANE);
+            return self.unknown_plane();
         };
         self.set_plane(turn, swivel, posture, report);
         if turns_table && swivel.is_some() && turn[(2, 2)] == 1.0 {
@@ -115,6 +117,11 @@ impl Klartext<'_> {
         self.unknown_motion(report);
     }
 
+    pub(super) fn unknown_plane(&mut self) {
+        self.tilt_to(None);
+        self.lose(PLANE);
+    }
+
     fn reset_plane(&mut self, swivel: Option<Swivel>, report: &mut Report<'_>) {
         self.found(PLANE);
         self.tilt_to(None);
@@ -128,17 +135,25 @@ impl Klartext<'_> {
     /// machine's directions after it. With MOVE the tip stays on the part, with TURN the linear axes stay.
     fn turn_back(&mut self, swivel: Swivel, report: &mut Report<'_>) {
         let zero = self.core.state.zero.values();
-        self.core.forget_linear();
-        let start = self.core.state.position;
-        let mut end = start;
         if self.core.state.zero.is_lost() || zero[3..6].iter().any(|shift| *shift != 0.0) {
             let what = "PLANE RESET where the zero of a rotary axis is shifted: to which of both zeros it turns";
             self.not_modelled_once(what, report);
+            self.core.forget_linear();
             self.core.state.position.known &= !ROTARY;
             return self.unknown_motion(report);
         }
-        for axis in 3..6 {
-            end.set(axis, 0.0);
+        self.turn_axes(swivel, [Some(0.0); 3], report);
+    }
+
+    /// Turns A, B and C to positions.
+    pub(super) fn turn_axes(&mut self, swivel: Swivel, stands: [Option<f64>; 3], report: &mut Report<'_>) {
+        self.core.forget_linear();
+        let start = self.core.state.position;
+        let mut end = start;
+        for (axis, stand) in (3..6).zip(stands) {
+            if let Some(stand) = stand {
+                end.set(axis, stand);
+            }
         }
         self.core.state.position = end;
         self.core.state.orientation = Orientation::Words;
@@ -150,7 +165,7 @@ impl Klartext<'_> {
         self.finish_motion(&super::Made { motion, tilt: None });
     }
 
-    fn set_plane(&mut self, turn: Mat3, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
+    pub(super) fn set_plane(&mut self, turn: Mat3, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
         self.found(PLANE);
         if !self.memory.frames.shape.is_identity() {
             Self::not_modelled("a tilted plane in a turned, mirrored or scaled system", report);
@@ -245,6 +260,7 @@ impl Klartext<'_> {
         if line != 1 {
             return;
         }
+        self.set_angles([None; 3]);
         let found = self.path_words(words, report);
         let zero = (3..6).all(|axis| found.given & (1 << axis) == 0 || found.values[axis] == Some(0.0));
         self.found(PLANE);

@@ -1,12 +1,12 @@
 //! System variables: which of #1000 and above a run knows, and what the others are.
 //!
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
-//! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
+//! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5081 ff. that length, #5221 to #5324 work offsets.
 use super::alarms::is_fanuc;
 use crate::frames::Frames;
 use crate::iso::Iso;
 use crate::memory::Memory;
-use crate::{FeedMode, ModalState, Setup};
+use crate::{FeedMode, LengthOf, ModalState, Setup};
 use trunnion_dialect::{Action, Dialect, Plane};
 
 /// What a variable of the control is, for messages about why its value is unknown.
@@ -67,6 +67,7 @@ impl Known<'_> {
             5001..=5003 => self.end(number as usize - 5001).unwrap_or(unknown),
             5021..=5023 => self.machine(number as usize - 5021).unwrap_or(unknown),
             5041..=5043 => self.with_length(number as usize - 5041).unwrap_or(unknown),
+            5081..=5083 if self.fanuc => self.length_in_force(number as usize - 5081).unwrap_or(unknown),
             5201..=5323 => self.offset(number).unwrap_or(unknown),
             7001..=7960 if self.fanuc => self.offset(number).unwrap_or(unknown),
             _ => unknown,
@@ -111,6 +112,11 @@ impl Known<'_> {
             7 => match state.compensation {
                 0 => 40.0,
                 side => f64::from(side),
+            },
+            8 if self.fanuc && !state.tool_axis.tcp() => match (state.length.mm(), state.length.of()) {
+                (None, LengthOf::Nothing) => 49.0,
+                (Some(_), LengthOf::Tool(_)) => 43.0,
+                _ => return None,
             },
             9 if self.fanuc => match state.motion? {
                 Action::ChipBreakCycle => 73.0,
@@ -167,6 +173,9 @@ impl Known<'_> {
     /// The same in machine coordinates.
     fn machine(&self, axis: usize) -> Option<f64> {
         let length = self.length(axis)?;
+        if self.state.zero.undeclared() & (1 << axis) != 0 {
+            return None;
+        }
         Some(
             (self.state.position.get(axis)? + self.state.zero.values()[axis] + length)
                 / self.state.coordinates.unit_mm(),
@@ -175,11 +184,23 @@ impl Known<'_> {
 
     fn length(&self, axis: usize) -> Option<f64> {
         let shifted = self.frames.active || self.state.zero.is_lost() || self.state.compensation != 0;
-        if self.state.tool_axis.tcp() || shifted {
+        if self.state.tool_axis.tcp() || shifted || self.state.length.is_undeclared() {
             return None;
         }
         let along = self.setup.length_along().get(axis).copied().unwrap_or(0.0);
         Some(self.state.length.mm().unwrap_or(0.0) * along)
+    }
+
+    /// Length offset in force, program units.
+    fn length_in_force(&self, axis: usize) -> Option<f64> {
+        let length = &self.state.length;
+        let mm = match (length.mm(), length.of()) {
+            (None, LengthOf::Nothing) => 0.0,
+            (Some(mm), _) if !length.is_undeclared() => mm,
+            _ => return None,
+        };
+        let along = self.setup.length_along().get(axis).copied()?;
+        (!self.state.tool_axis.tcp()).then(|| mm * along / self.state.coordinates.unit_mm())
     }
 
     /// Known where the setup declares the offset, or the program has written it.

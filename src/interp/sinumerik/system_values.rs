@@ -1,6 +1,6 @@
 //! System variables of a Sinumerik with a value that follows from the program: `$P_EP[X]`, `$P_F`, `$P_GG[6]`.
 //!
-//! Sources: SINUMERIK lists of system variables; $P_EP, $P_F, $P_S, $P_TOOL, $P_TOOLNO, $P_GG, $P_MC, $P_UIFR, $P_PFRAME, $AA_IW.
+//! Sources: SINUMERIK lists of system variables; $AA_IM, $P_TOOLR, $P_EP, $P_F, $P_S, $P_TOOL, $P_TOOLNO, $P_GG, $P_MC, $P_UIFR, $P_PFRAME, $AA_IW.
 use super::frame_value::offset_name;
 use crate::iso::Iso;
 use std::collections::BTreeMap;
@@ -29,6 +29,40 @@ impl Iso<'_> {
         (is_rpy && crate::frames::is_rigid(&turn)).then(|| crate::frames::angles_of(&turn))
     }
 
+    /// Where an axis stands on the machine, mm or degrees, while words are its positions and zero point and tool length are declared.
+    fn on_machine(&self, axis: usize) -> Option<f64> {
+        let state = &self.core.state;
+        let led = state.tool_axis.tcp() || self.memory.frames.active || self.memory.frames.tilt.is_some();
+        let known = !led && !state.length.is_undeclared() && state.zero.undeclared() & (1 << axis) == 0;
+        let along = self.core.setup.length_along().get(axis).copied().unwrap_or(0.0);
+        let length = state.length.mm().unwrap_or(0.0) * along;
+        let here = state.position.get(axis).filter(|_| known)?;
+        Some(here + state.zero.values()[axis] + length)
+    }
+
+    /// The radius of the active tool, mm: of its edge 1, as it is declared.
+    fn tool_radius(&self) -> Option<f64> {
+        let first = self.memory.edge == Some(1);
+        Some(self.core.state.tool.data().filter(|_| first)?.diameter_mm? / 2.0)
+    }
+
+    /// $P_UIFR: the shifts of the settable frames that are known, in program units.
+    fn stored_shifts(&mut self, unit: f64) -> Vec<(String, f64)> {
+        let mut shifts = Vec::new();
+        for number in 1..=99u32 {
+            let Some(values) = self.offset_values(&offset_name(number)) else {
+                continue;
+            };
+            for axis in (0..9).filter(|axis| values.known & (1 << axis) != 0) {
+                let linear = crate::core::LINEAR & (1 << axis) != 0;
+                let scale = if linear { unit } else { 1.0 };
+                let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
+                shifts.push((format!("$p_uifr[{number},{letter},tr]"), values.values[axis] / scale));
+            }
+        }
+        shifts
+    }
+
     /// System variables with a value that follows from the program; all others are unknown by name.
     fn system_values(&mut self) -> BTreeMap<Box<str>, f64> {
         let mut known: BTreeMap<Box<str>, f64> = BTreeMap::new();
@@ -52,6 +86,8 @@ impl Iso<'_> {
             let value = here.get(axis).filter(|_| plain).map(|value| value / scale);
             put(format!("$p_ep[{letter}]"), value);
             put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
+            let machine = self.on_machine(axis).filter(|_| plain && cutting_on_path);
+            put(format!("$aa_im[{letter}]"), machine.map(|value| value / scale));
             let shift = frame
                 .shift()
                 .get(axis)
@@ -64,24 +100,8 @@ impl Iso<'_> {
             let angle = angles.and_then(|angles| angles.get(axis).copied());
             put(format!("$p_pframe[{letter},rt]"), angle);
         }
-        for number in 1..=99u32 {
-            let Some(values) = self.offset_values(&offset_name(number)) else {
-                continue;
-            };
-            for axis in 0..9 {
-                let scale = if crate::core::LINEAR & (1 << axis) != 0 {
-                    unit
-                } else {
-                    1.0
-                };
-                let letter = char::from(crate::AXIS_LETTERS[axis].to_ascii_lowercase());
-                let value = values.values[axis] / scale;
-                let is_known = values.known & (1 << axis) != 0;
-                put(
-                    format!("$p_uifr[{number},{letter},tr]"),
-                    Some(value).filter(|_| is_known),
-                );
-            }
+        for (name, value) in self.stored_shifts(unit) {
+            put(name, Some(value));
         }
         let feed = self
             .core
@@ -98,6 +118,7 @@ impl Iso<'_> {
                 .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
         );
         put("$p_toolno".to_owned(), self.core.state.tool.number().map(f64::from));
+        put("$p_toolr".to_owned(), self.tool_radius().map(|radius| radius / unit));
         put("$p_tool".to_owned(), self.memory.edge.map(f64::from));
         put(
             "$p_gg[6]".to_owned(),

@@ -1,7 +1,8 @@
 //! The data of a machine for the interpreter of a program.
 use crate::follow::words::Words;
-use crate::{AxisKind, Machine};
-use trunnion_interp::ControlData;
+use crate::{AxisKind, Machine, Side};
+use trunnion_geometry::Vec3;
+use trunnion_interp::{ControlData, RotaryTurn};
 
 impl Machine {
     /// Copies the declarations of the machine into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
@@ -12,6 +13,13 @@ impl Machine {
         control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
         control.axes_declared = machine.is_some();
         control.length_along = machine.and_then(Self::length_along);
+        control.rotary_turns = machine.and_then(Self::rotary_turns);
+        control.x_diameter = machine.is_some_and(|machine| {
+            machine
+                .axes
+                .iter()
+                .any(|axis| axis.letter == b'X' && axis.extra.diameter)
+        });
         control.absent_axis = machine.and_then(Self::absent_axis);
         control.has_rotary =
             machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.kind == AxisKind::Rotary));
@@ -32,6 +40,22 @@ impl Machine {
     fn further_axes(&self) -> Vec<u8> {
         let letters = self.axes.iter().map(|axis| axis.letter);
         letters.filter(|letter| !b"XYZABC".contains(letter)).collect()
+    }
+
+    /// Its rotary axes for planes that are given by their positions. `None` where the tool does not point along Z at home, or a rotary axis is held.
+    fn rotary_turns(&self) -> Option<Vec<RotaryTurn>> {
+        let held = self.held().any(|(joint, _)| self.axes[joint].kind == AxisKind::Rotary);
+        let upright = self.tool_axis == Vec3::z();
+        let turn = |rotary: &crate::RotaryAxis| {
+            let axis = &self.axes[rotary.joint];
+            let letter = trunnion_interp::AxisLetter::new(axis.letter)?;
+            Some(RotaryTurn {
+                letter: usize::from(letter.0),
+                direction: (rotary.direction * rotary.sign).into(),
+                on_table: axis.side == Side::Table,
+            })
+        };
+        (!held && upright).then(|| self.constants.rotary().iter().map(turn).collect())?
     }
 
     /// By how much 1 mm of tool length shifts the words of X, Y and Z (diameters by 2 mm) while they are joints: the tool axis at home.

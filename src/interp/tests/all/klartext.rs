@@ -99,20 +99,28 @@ fn approaches_and_departures_in_all_forms() {
         ["R X0 Y-10 Z5", "A(10 -10 5; -90) X10 Y0 Z5 F100"]
     );
     // the tangent from (-10, 40) to the circle about (10, 10), counter-clockwise: it is the line x = 0 for PS (0, 40)
-    let text =
-        program("L X+0 Y+40 Z+5 R0 FMAX\nAPPR LCT X+10 Y+0 Z-3 R10 RL F100\nL X+30\nDEP LCT X+40 Y+40 Z+9 R10\n");
-    assert_eq!(
-        lines(NAME, &text)[1..],
-        [
-            "L X0 Y10 Z5 F100",
-            "L X0 Y10 Z-3 F100",
-            "A(10 10 -3; 90) X10 Y0 Z-3 F100",
-            "L X30 Y0 Z-3 F100",
-            "A(30 10 -3; 90) X40 Y10 Z-3 F100",
-            "L X40 Y40 Z-3 F100",
-            "L X40 Y40 Z9 F100",
-        ]
-    );
+    for [appr, dep] in [
+        ["APPR LCT X+10 Y+0", "DEP LCT X+40 Y+40"],
+        // the same places from the pole
+        ["APPR PLCT PR+20 PA+90", "DEP PLCT PR+67.082039325 PA+63.434948823"],
+    ] {
+        let text = program(&format!(
+            "CC X+10 Y-20\nL X+0 Y+40 Z+5 R0 FMAX\n{appr} Z-3 R10 RL F100\nL X+30\n{dep} Z+9 R10\n"
+        ));
+        assert_eq!(
+            lines(NAME, &text)[1..],
+            [
+                "L X0 Y10 Z5 F100",
+                "L X0 Y10 Z-3 F100",
+                "A(10 10 -3; 90) X10 Y0 Z-3 F100",
+                "L X30 Y0 Z-3 F100",
+                "A(30 10 -3; 90) X40 Y10 Z-3 F100",
+                "L X40 Y40 Z-3 F100",
+                "L X40 Y40 Z9 F100",
+            ],
+            "{appr}"
+        );
+    }
     // the tool radius enters, and in which way no source says
     for (appr, dep) in [
         ("APPR LN X+10 Y+0 LEN15 RL", "DEP LT LEN12"),

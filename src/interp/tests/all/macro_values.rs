@@ -109,6 +109,60 @@ fn the_control_tells_what_is_in_force_and_where_it_is() {
     );
 }
 
+/// #4008 and #5081 to #5083: which length is in force. What it makes of #5021 and #5041 is known where it is declared.
+#[test]
+fn the_length_in_force() {
+    let mut setup = Setup {
+        work_offsets: vec![WorkOffset {
+            name: "G54".to_owned(),
+            values: [100.0, 0.0, -50.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        }],
+        ..Setup::default()
+    };
+    let of = |text: &str, setup: &Setup| {
+        let source = format!("G54G90G21G0X1.Y2.Z3.\n{text}\nM30\n");
+        let log = run_bytes(FANUC, source.as_bytes(), setup).1;
+        log.motions.last().expect("a motion").end.get(0)
+    };
+    assert_eq!(of("G49\nX#4008", &setup), Some(49.0));
+    assert_eq!(of("G49\nX[#5083+7.]", &setup), Some(7.0));
+    assert_eq!(of("G49\nX#5023", &setup), Some(-47.0));
+    // nothing declares the length
+    assert_eq!(of("T1M6\nG43H1Z3.\nX#4008", &setup), Some(43.0));
+    for name in ["#5083", "#5023", "#5043"] {
+        assert_eq!(
+            of(&format!("T1M6\nG0X1.Y2.Z3.\nG43H1Z3.\nX{name}"), &setup),
+            None,
+            "{name}"
+        );
+    }
+    setup.tools.push(trunnion_interp::Tool {
+        number: 1,
+        shape: None,
+        diameter_mm: None,
+        length_mm: Some(80.0),
+        holder_mm: None,
+    });
+    for (name, x) in [
+        ("#5083", 80.0),
+        ("#5081", 0.0),
+        ("#5023", 33.0),
+        ("#5043", 83.0),
+        ("#5003", 3.0),
+    ] {
+        assert_eq!(
+            of(&format!("T1M6\nG0X1.Y2.Z3.\nG43H1Z3.\nX{name}"), &setup),
+            Some(x),
+            "{name}"
+        );
+        assert_eq!(of("T1M6\nG0X1.Y2.Z3.\nG43.4H1Z3.\nX#4008", &setup), None);
+    }
+    // the zero point is not declared
+    setup.work_offsets.clear();
+    assert_eq!(of("G49\nX#5021", &setup), None);
+    assert_eq!(of("G49\nX[#5041+1.]", &setup), Some(2.0));
+}
+
 /// #7001 and up: 20 numbers for each additional offset; #4010, #4009, #4111.
 #[test]
 fn additional_offsets_and_more_of_what_is_in_force() {

@@ -1,7 +1,7 @@
 //! One plane in every form of every control, on random matrices: what each program makes of four points.
 //!
 //! CYCLE800 in its six orders, ROT, AROT and CROT, PLANE SPATIAL, EULER, VECTOR, POINTS and RELATIV, G68.2 P0 to P3 and G68.4. What the sources leave open stays
-//! unknown: PLANE PROJECTED and AXIAL, G68.2 P4, G68.3.
+//! unknown: PLANE PROJECTED, G68.2 P4, G68.3. PLANE AXIAL needs a machine: `plane_axial`.
 use crate::support::{faults, run_bytes};
 use trunnion_geometry::math::{asin, atan2, cos, hypot, sin};
 use trunnion_geometry::{Mat3, Vec3};

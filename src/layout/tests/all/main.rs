@@ -1,4 +1,5 @@
 //! The layout: what it does to each form, and that it changes nothing else on any text.
+mod cut_files;
 mod forms;
 mod random;
 mod real_files;

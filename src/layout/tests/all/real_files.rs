@@ -9,7 +9,7 @@ use trunnion_dialect::detect;
 use trunnion_interp::Setup;
 use trunnion_layout::{Case, Layout, Spacing, Style, Zeros, layout};
 
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+pub(crate) fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.sort();
@@ -23,7 +23,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 /// Whether a file may be a program: no tables, machine files or point lists.
-fn is_program(path: &Path) -> bool {
+pub(crate) fn is_program(path: &Path) -> bool {
     let name = path
         .file_name()
         .unwrap_or_default()

@@ -11,6 +11,7 @@ mod led;
 mod obstacles;
 mod on_circle;
 mod orientation;
+mod plane_axial;
 mod programs;
 mod random;
 mod review;

@@ -1,5 +1,5 @@
 //! Tokens and blocks cover every text, and problems lie inside it.
-use crate::show::{APT, CORE, FANUC, NGC, SINUMERIK};
+use crate::show::{APT, CORE, FANUC, KLARTEXT, NGC, OSP, SINUMERIK};
 use proptest::prelude::*;
 use trunnion_syntax::{BlockId, Item, Program, TextRange, TokenKind, parse};
 
@@ -95,7 +95,7 @@ fn ranges(item: Item) -> (TextRange, [Option<TextRange>; 2]) {
 
 /// Checks one text under all options.
 pub(crate) fn check_all(source: &[u8]) {
-    for options in [CORE, SINUMERIK, FANUC, NGC, APT] {
+    for options in [CORE, SINUMERIK, FANUC, NGC, APT, KLARTEXT, OSP] {
         check(&parse(source.to_vec(), options));
     }
 }
@@ -107,6 +107,7 @@ pub(crate) fn pieces() -> impl Strategy<Value = Vec<u8>> {
             "G1", "X1.5", "Y-.5", " ", "\n", "\r\n", "\r", "(", ")", "[", "]", "#", "#<a>", "=", "+", "-", "*", "/", "%", ":",
             ";", "/*", "*/", "$", "$$", "$$->", "\"", "'", ",", ".", "1", "2.", "R1", "IF", "GOTO", "DEF", "CYCLE800", "AND",
             "SIN", "DC", "GOTO/", "PARTNO", "N10", "o<x>", "X", "<", ">", "\t", "\u{feff}", "ä", "EX", "@", "_A", "DO", "!",
+            "~\n", "~", "BEGIN PGM", "L ", "CYCL DEF 200", "Q1", "QS2", "FN 0:", "X+1,5", "* -", "LBL ", "||", "\n$ Y1", "$A.MIN%", "NLAP1 ",
         ]).prop_map(|text| text.as_bytes().to_vec()),
         1 => proptest::collection::vec(any::<u8>(), 1..3),
     ];

@@ -31,6 +31,18 @@ pub(crate) const APT: LexOptions = LexOptions {
     ..CORE
 };
 
+/// Logical blocks of a HEIDENHAIN.
+pub(crate) const KLARTEXT: LexOptions = LexOptions {
+    format: Format::Klartext,
+    slash_star_comment: false,
+    ..SINUMERIK
+};
+/// Words of an Okuma.
+pub(crate) const OSP: LexOptions = LexOptions {
+    format: Format::Osp,
+    ..FANUC
+};
+
 /// Parses a text.
 pub(crate) fn program(source: &str, options: LexOptions) -> Program {
     parse(source.as_bytes().to_vec(), options)

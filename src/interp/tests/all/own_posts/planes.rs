@@ -176,7 +176,7 @@ fn each_plane_in_every_form_has_its_matrix() {
     }
 }
 
-/// Positions of rotary axes say nothing about X and Y of the plane without the machine, and no source says how.
+/// Positions of rotary axes say nothing about the plane without the machine.
 #[test]
 fn a_plane_by_its_axes_is_unknown_by_name() {
     for how in HOW {

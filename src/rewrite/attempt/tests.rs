@@ -39,6 +39,7 @@ fn refusal(propose: fn(&Program, &Settings<'_>, &Options) -> Proposed) -> String
         name: "every-c",
         docs: "",
         cures: &[],
+        writes: None,
         proposes: propose,
     };
     let outcome = attempt(&rewrite, &program, &settings, &Options::default()).outcome();
@@ -73,6 +74,7 @@ fn a_place_that_cannot_be_proved_is_left_out() {
         name: "short-ways",
         docs: "",
         cures: &[],
+        writes: None,
         proposes: |program, _, _| {
             let mut proposal = every_c(program, |c| {
                 if c == 365.0 {

@@ -102,6 +102,9 @@ impl TomlPlace {
             }
             next += 1;
         }
+        if open.is_empty() && before.ends_with('\n') {
+            key = None;
+        }
         for one in open {
             match one {
                 Open::List => place.lists += 1,
@@ -186,6 +189,9 @@ mod tests {
             assert_eq!(place.table.join("/"), table, "{text}");
             assert_eq!((place.key.as_deref(), place.lists), (Some(key), lists), "{text}");
         }
+        // a line begins: the value before it is over
+        let text = "[control]\nunits = \"mm\"\n";
+        assert_eq!(TomlPlace::of(text, text.len()).key, None);
         for (text, table) in [("[a]\n[|b]", ""), ("[a]\n[[b.|c]]\nd = 1", "b"), ("[a]\n|b = 1", "a")] {
             let at = text.find('|').expect("a mark");
             assert_eq!(

@@ -157,7 +157,7 @@ fn where_there_is_no_corner_it_says_why() {
         ("3", "no motion with a known path before it"),
         ("6", "follows a dwell (line 5)"),
         ("1", "no motion with a known path starts in this line"),
-        ("99", "no motion with a known path starts in this line"),
+        ("99", "has the lines 1 to"),
     ] {
         let output = servo(str(&file), line, &[]);
         assert_eq!(status(&output), 2);

@@ -27,7 +27,7 @@ fn vectors() {
             "L X0 Y0 Z0 F100 tcp <0 0.6 0.8>",
             "L X1 Y0 Z0 F100 tcp <0 0.6 0.8>",
             "L X2 Y0 Z0 F100 tcp <0 0.6 0.8>",
-            "L X3 Y0 Z0 F100 tcp <0 0 1>",
+            "L X3 Y0 Z0 F100 tcp",
             "L X4 Y0 Z0 F100 tcp <1 0 0>",
             "L X5 Y0 Z0 F100 tcp",
             "L X6 Y0 Z0 F100 tcp",
@@ -38,6 +38,7 @@ fn vectors() {
         [
             "4: 1,0,0: AptVectorMissing",
             "7: 3,0,0,0,0,2: VectorNotUnit { norm: 2.0 }",
+            "7: 3,0,0,0,0,2: NotModelled { what: \"a tool axis after MULTAX/OFF: whether the postprocessor follows it\" }",
             "10: 5,0,0,0,0,0: VectorNotUnit { norm: 0.0 }",
         ]
     );

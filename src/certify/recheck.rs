@@ -146,12 +146,10 @@ fn prove(
         && let Some(unrelated) = unrelated(setup, &unset)
     {
         // only that they differ counts: with stand-ins a pose may be out of reach
-        match prove_run(texts, dialects, machine, (&unrelated, after_library), claim) {
-            Err(Outcome::Refuted(found)) => {
-                let place = found.line.map_or_else(String::new, |line| format!("line {line}: "));
-                return Err(Outcome::unknown_at(found.line, place + &only_by_chance(&unset)));
-            }
-            Ok(_) | Err(_) => {}
+        let again = prove_run(texts, dialects, machine, (&unrelated, after_library), claim);
+        if let Err(Outcome::Refuted(found)) = again {
+            let place = found.line.map_or_else(String::new, |line| format!("line {line}: "));
+            return Err(Outcome::unknown_at(found.line, place + &only_by_chance(&unset)));
         }
     }
     if texts[0] == texts[1] || setup.control.block_delete.is_some() {

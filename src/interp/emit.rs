@@ -11,7 +11,6 @@ use crate::words::{Places, WordValue, Words};
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::{Arc, Turning};
-use trunnion_syntax::TextRange;
 
 /// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
 const STANDS_MM: f64 = 1e-9;
@@ -66,17 +65,7 @@ impl Iso<'_> {
             self.to_machine(&mut position, -1.0);
             self.core.state.position = position;
         }
-        let feed = if self.core.state.motion == Some(Action::Thread) {
-            self.lead(words, report)
-        } else if self.core.state.motion == Some(Action::VariableThread) {
-            let what = "a thread of variable lead: its feed".to_owned();
-            report.fault(TextRange::default(), FaultKind::NotModelled { what });
-            self.feed_of(kind, words, report);
-            Feed::Unknown
-        } else {
-            let feed = self.feed_of(kind, words, report);
-            self.turning_feed(kind, feed, words, [&start, &end])
-        };
+        let feed = self.feed_along(kind, words, [&start, &end], report);
         if block.machine_coordinates {
             self.machine_words(words, &mut kind, &mut end, report);
         }
@@ -336,7 +325,13 @@ impl Iso<'_> {
 
     /// F is in degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
     /// not move. A full circle names none of them and still moves.
-    fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
+    pub(crate) fn turning_feed(
+        &self,
+        kind: MotionKind,
+        feed: Feed,
+        words: &Words,
+        [start, end]: [&Position; 2],
+    ) -> Feed {
         let named = words.axes.given | words.axes.unread;
         let inch = self.core.state.feed.unit_mm();
         let stands = |axis: usize| matches!((start.get(axis), end.get(axis)), (Some(from), Some(to)) if (from - to).abs() < STANDS_MM);

@@ -6,8 +6,9 @@ use super::Stored;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{FaultKind, Feed, MotionKind};
+use crate::{FaultKind, Feed, MotionKind, Position};
 use trunnion_dialect::Action;
+use trunnion_syntax::TextRange;
 
 const X: usize = 0;
 const Z: usize = 2;
@@ -135,6 +136,30 @@ impl Iso<'_> {
             "the shape of its pull-out (parameter 5131), and the return after it",
             report,
         );
+    }
+
+    /// The feed of a motion, which a thread takes from its lead.
+    pub(crate) fn feed_along(
+        &mut self,
+        kind: MotionKind,
+        words: &Words,
+        ends: [&Position; 2],
+        report: &mut Report<'_>,
+    ) -> Feed {
+        match self.core.state.motion {
+            Some(Action::Thread) => self.lead(words, report),
+            Some(Action::VariableThread) => {
+                // the lead changes along the path
+                let what = "a thread of variable lead: its feed".to_owned();
+                report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                self.feed_of(kind, words, report);
+                Feed::Unknown
+            }
+            _ => {
+                let feed = self.feed_of(kind, words, report);
+                self.turning_feed(kind, feed, words, ends)
+            }
+        }
     }
 
     /// The lead of a thread: F of the block or the one before, mm per turn.

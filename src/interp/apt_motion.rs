@@ -178,7 +178,8 @@ impl Apt<'_> {
         let set = self.kept.axis.take();
         if let Some(vector) = vector {
             let now = self.core.unit_vector(vector, true, range, report);
-            if self.kept.axis_fixed && !self.is_held(now) {
+            let is_vector = matches!(now, Orientation::Vector(..));
+            if self.kept.axis_fixed && is_vector && !self.is_held(now) {
                 let what = "a tool axis after MULTAX/OFF: whether the postprocessor follows it".to_owned();
                 report.fault(range, FaultKind::NotModelled { what });
                 return Orientation::Words;

@@ -140,18 +140,7 @@ fn prove(
     (setup, after_library): (&Setup, &Library),
     claim: &Claim,
 ) -> Result<Certificate, Outcome> {
-    let (mut proved, unset) = prove_run(texts, dialects, machine, (setup, after_library), claim)?;
-    if texts[0] != texts[1]
-        && matches!(claim, Claim::SameToolPath { .. } | Claim::SamePath { .. })
-        && let Some(unrelated) = unrelated(setup, &unset)
-    {
-        // only that they differ counts: with stand-ins a pose may be out of reach
-        let again = prove_run(texts, dialects, machine, (&unrelated, after_library), claim);
-        if let Err(Outcome::Refuted(found)) = again {
-            let place = found.line.map_or_else(String::new, |line| format!("line {line}: "));
-            return Err(Outcome::unknown_at(found.line, place + &only_by_chance(&unset)));
-        }
-    }
+    let mut proved = prove_for_all(texts, dialects, machine, (setup, after_library), claim)?;
     if texts[0] == texts[1] || setup.control.block_delete.is_some() {
         return Ok(proved);
     }
@@ -163,13 +152,36 @@ fn prove(
     switch::at_most_one(&switches)?;
     let mut skipping = setup.clone();
     skipping.control.block_delete = Some(true);
-    let (other, _) =
-        prove_run(texts, dialects, machine, (&skipping, after_library), claim).map_err(switch::where_skipped)?;
+    let other =
+        prove_for_all(texts, dialects, machine, (&skipping, after_library), claim).map_err(switch::where_skipped)?;
     proved.worst.join(&other.worst);
     Ok(proved.sealed())
 }
 
-/// The proof for one state of the switch for block delete, and what nobody declares.
+/// The proof for one state of the switch for block delete. Two programs are the same only with any values of what nobody declares.
+fn prove_for_all(
+    texts: [&[u8]; 2],
+    dialects: [&Dialect; 2],
+    machine: &Machine,
+    (setup, after_library): (&Setup, &Library),
+    claim: &Claim,
+) -> Result<Certificate, Outcome> {
+    let (proved, unset) = prove_run(texts, dialects, machine, (setup, after_library), claim)?;
+    if texts[0] != texts[1]
+        && matches!(claim, Claim::SameToolPath { .. } | Claim::SamePath { .. })
+        && let Some(unrelated) = unrelated(setup, &unset)
+    {
+        // only that they differ counts: with stand-ins a pose may be out of reach
+        let again = prove_run(texts, dialects, machine, (&unrelated, after_library), claim);
+        if let Err(Outcome::Refuted(found)) = again {
+            let place = found.line.map_or_else(String::new, |line| format!("line {line}: "));
+            return Err(Outcome::unknown_at(found.line, place + &only_by_chance(&unset)));
+        }
+    }
+    Ok(proved)
+}
+
+/// The proof with the values that the setup declares, all others at 0, and what was not declared.
 fn prove_run(
     [before, after]: [&[u8]; 2],
     [dialect, other]: [&Dialect; 2],

@@ -2,6 +2,9 @@
 use crate::{Steps, offset_name};
 use trunnion_interp::{FaultKind, Setup, Tool, WorkOffset};
 
+/// Stand-ins of rotary axes are small, so that no axis leaves its travel because of them: 0.07 to 1.07 deg, where linear axes have 7 to 107 mm.
+const DEG_PER_MM: f64 = 0.01;
+
 /// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name.
 pub fn undeclared(steps: &mut Steps<'_>) -> Vec<FaultKind> {
     let kinds = steps.take_faults().into_iter().map(|fault| fault.kind);
@@ -69,7 +72,7 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
                     .iter()
                     .find(|known| offset_name(&known.name) == offset_name(name));
                 let values = known.map_or_else(
-                    || core::array::from_fn(|axis| if (3..6).contains(&axis) { 0.0 } else { next() }),
+                    || core::array::from_fn(|axis| next() * if (3..6).contains(&axis) { DEG_PER_MM } else { 1.0 }),
                     |known| known.values,
                 );
                 let name = name.clone();

@@ -136,13 +136,7 @@ fn the_length_in_force() {
             "{name}"
         );
     }
-    setup.tools.push(trunnion_interp::Tool {
-        number: 1,
-        shape: None,
-        diameter_mm: None,
-        length_mm: Some(80.0),
-        holder_mm: None,
-    });
+    setup.tools.push(crate::tools::tool(1, None, None, Some(80.0)));
     for (name, x) in [
         ("#5083", 80.0),
         ("#5081", 0.0),

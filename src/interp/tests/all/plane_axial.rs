@@ -1,19 +1,11 @@
 //! PLANE AXIAL: its matrix on random positions of many chains, against the product of the turns and against PLANE SPATIAL of the same matrix.
+use crate::planes_agree::about;
 use crate::support::{fault_line, run_bytes};
-use trunnion_geometry::math::{asin, atan2, cos, sin};
+use trunnion_geometry::math::{asin, atan2};
 use trunnion_geometry::{Mat3, Vec3};
 use trunnion_interp::{Position, RotaryTurn, Setup, Swivel, WorkOffset};
 
 const PLACES: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0], [3.0, -4.0, 25.0]];
-
-/// Right-handed about X, Y or Z.
-fn about(axis: usize, degrees: f64) -> Mat3 {
-    let (sin, cos) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
-    let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut turn = Mat3::identity();
-    (turn[(a, a)], turn[(b, b)], turn[(a, b)], turn[(b, a)]) = (cos, cos, -sin, sin);
-    turn
-}
 
 /// A machine by its rotary axes, workpiece side first; a minus turns the other way.
 fn machine(chain: &str) -> Setup {

@@ -25,7 +25,7 @@ impl Angles {
 }
 
 /// Right-handed about X, Y or Z: written once more here, so that the program's own turns are not compared with themselves.
-fn about(axis: usize, degrees: f64) -> Mat3 {
+pub(crate) fn about(axis: usize, degrees: f64) -> Mat3 {
     let (sin, cos) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
     let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut turn = Mat3::identity();

@@ -2,7 +2,7 @@
 use crate::support::{faults, line, run_bytes, run_text};
 use trunnion_interp::{LengthUnit, Position, Setup, Tool, ToolShape};
 
-fn tool(number: u32, shape: Option<ToolShape>, diameter_mm: Option<f64>, length_mm: Option<f64>) -> Tool {
+pub(crate) fn tool(number: u32, shape: Option<ToolShape>, diameter_mm: Option<f64>, length_mm: Option<f64>) -> Tool {
     Tool {
         number,
         shape,

@@ -1,20 +1,11 @@
 //! Planes of the shared 3+2 programs, written in every form of PLANE that has a source, with STAY, MOVE and TURN. The matrix of a plane is worked out here,
 //! from the words of CYCLE800, and compared with the ends of lines in it.
 use super::{plain, run_posted};
+use crate::planes_agree::about;
 use crate::support::{faults, shared};
-use trunnion_geometry::math::sin_cos;
 use trunnion_geometry::{Mat3, Vec3};
 
 const NAME: &str = "heidenhain-klartext";
-
-/// The turn about one axis, degrees.
-fn about(axis: usize, degrees: f64) -> Mat3 {
-    let (sin, cos) = sin_cos(degrees.to_radians());
-    let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut turn = Mat3::identity();
-    (turn[(a, a)], turn[(b, b)], turn[(a, b)], turn[(b, a)]) = (cos, cos, -sin, sin);
-    turn
-}
 
 /// A, B and C in space of the planes in a program: CYCLE800 in mode 27 turns about Z, the new Y, the new X.
 fn angles(text: &str) -> Vec<[f64; 3]> {

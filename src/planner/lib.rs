@@ -14,6 +14,7 @@ mod piece;
 mod pieces;
 mod planner;
 mod run;
+mod sampled;
 mod timed;
 
 pub use clock::{Listener, Modes, time};

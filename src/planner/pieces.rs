@@ -1,5 +1,6 @@
 //! From a leg of the machine to pieces of path with constant limits.
 use crate::corner::{Passage, Side};
+use crate::sampled::sampled;
 use crate::{Bounds, Limit, Piece};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{arc::Arc, deg};
@@ -74,14 +75,8 @@ pub(crate) enum Taken {
     Unknown,
 }
 
-/// Turn of the rotary axes per piece, rad.
-const TURN: f64 = 0.035;
-/// Most pieces of one leg.
-const MOST: f64 = 24.0;
-/// What a rate between two samples may exceed them by.
-const BETWEEN: f64 = 1.02;
 /// The share of the acceleration that bends take: the rest is left along the path. On a circle both are at right angles.
-const BEND: f64 = 0.5;
+pub(crate) const BEND: f64 = 0.5;
 const ROUND: f64 = 0.866_025_403_784_438_6;
 
 /// Adds the pieces of a leg.
@@ -213,7 +208,7 @@ fn feed(leg: &Leg, length: f64) -> Option<f64> {
 /// Adds a piece: its length, the highest rates of the joints per mm, their highest second derivatives per mm^2, and the share that bends take.
 /// `None` where a rapid has no limit, or something is not a number.
 #[expect(clippy::too_many_lines, reason = "one limit after the other")]
-fn push(
+pub(crate) fn push(
     machine: &Machine,
     course: &mut Course,
     motion: u32,
@@ -363,38 +358,4 @@ fn round(
         bends[joint] = if across > 1e-9 { bend * across } else { 0.0 };
     }
     push(machine, course, motion, (course.length, &rates, &bends, ROUND), pieces)
-}
-
-/// A leg on which the rates of the joints change.
-fn sampled(machine: &Machine, leg: &Leg, motion: u32, course: &mut Course, pieces: &mut Vec<Piece>) -> Option<()> {
-    let path = BlockPath::new(machine, leg)?;
-    let turn = leg.rotary_change[0].max(leg.rotary_change[1]);
-    let swept = match &leg.motion.kind {
-        MotionKind::Arc(Some(arc)) => arc.sweep.abs() * 0.25,
-        _ => 0.0,
-    };
-    let count = (turn / TURN).max(swept / TURN).ceil().clamp(1.0, MOST);
-    let length = course.length;
-    let at = |t: f64| path.rates(t).map(|rate| rate / length);
-    let mut before = at(0.0);
-    course.tangents[0] = before;
-    for index in 0..count as u32 {
-        let from = f64::from(index) / count;
-        let (middle, after) = (at(from + 0.5 / count), at(from + 1.0 / count));
-        let (mut rates, mut bends): (Joints, Joints) = ([0.0; _], [0.0; _]);
-        let samples = before.iter().zip(&middle).zip(&after);
-        for ((rate, bend), ((a, m), b)) in rates.iter_mut().zip(&mut bends).zip(samples) {
-            let change = (m - a).abs().max((b - m).abs());
-            *rate = a.abs().max(m.abs()).max(b.abs()) + (BETWEEN - 1.0) * change;
-            *bend = if change > 1e-9 * *rate {
-                BETWEEN * change * 2.0 * count / length
-            } else {
-                0.0
-            };
-        }
-        push(machine, course, motion, (length / count, &rates, &bends, BEND), pieces)?;
-        before = after;
-    }
-    course.tangents[1] = before;
-    Some(())
 }

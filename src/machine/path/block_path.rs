@@ -66,7 +66,7 @@ impl<'a> BlockPath<'a> {
                 rates[rotary.joint] = rotary.sign * turn;
             }
         }
-        let solved = course.moment(t).rates;
+        let solved = course.solved_rates(t);
         for (&index, rate) in constants.solved.iter().zip(solved.iter()) {
             rates[constants.linear[index].joint] = *rate;
         }

@@ -19,7 +19,7 @@ impl JointPath<'_> {
         let (fastest, _, bend) = self.track.bounds();
         if !self.tip {
             return match self.track {
-                Track::Line(_) => (self.joint_moment(0.0).rates.abs(), Vec3::zeros()),
+                Track::Line(_) => (self.without_tip(0.0)[1].abs(), Vec3::zeros()),
                 Track::Arc(_) => {
                     let straight = (self.solved(&self.end.joints) - self.solved(&self.start.joints)).abs();
                     (straight.map(|rate| rate.max(fastest)), Vec3::repeat(bend))

@@ -54,15 +54,6 @@ impl Track {
     }
 }
 
-/// Joints and rates at one moment.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Moment {
-    /// The three solved linear joints, in the order of `Constants::solved`, mm.
-    pub(crate) solved: Vec3,
-    /// Their rates, mm per block.
-    pub(crate) rates: Vec3,
-}
-
 /// One block between two known stances.
 pub(crate) struct JointPath<'a> {
     pub(crate) machine: &'a Machine,
@@ -192,7 +183,7 @@ impl<'a> JointPath<'a> {
                     joints[rotary.joint] = value;
                 }
             }
-            let solved = self.moment(t).solved;
+            let solved = self.solved_at(t);
             for (&index, value) in self.constants().solved.iter().zip(solved.iter()) {
                 joints[self.constants().linear[index].joint] = *value;
             }
@@ -209,73 +200,113 @@ impl<'a> JointPath<'a> {
         Vec3::new(a, b, c)
     }
 
-    /// Linear joints and their rates at t. Without TCP the joints follow the track, with TCP they are solved from the tip:
-    /// J q = P - p0, J q' = P' - p0' - J' q (docs/kinematics.md#linear-axes-for-a-given-tip, differentiated).
-    pub(crate) fn moment(&self, t: f64) -> Moment {
+    /// The three solved linear joints at t, in the order of `Constants::solved`, mm. Without TCP the joints follow the track, with TCP they are
+    /// solved from the tip: J q = P - p0 (docs/kinematics.md#linear-axes-for-a-given-tip).
+    pub(crate) fn solved_at(&self, t: f64) -> Vec3 {
         if !self.tip {
-            return self.joint_moment(t);
+            return self.without_tip(t)[0];
+        }
+        if t <= 0.0 {
+            return self.solved(&self.start.joints);
+        }
+        if t >= 1.0 {
+            return self.solved(&self.end.joints);
+        }
+        self.solved_under(t, &self.turns(t))
+    }
+
+    /// The same inside the block with tool centre point control, under these turns.
+    fn solved_under(&self, t: f64, turns: &[Turn; 2]) -> Vec3 {
+        let constants = self.constants();
+        let (start, end) = self.idle_shifts();
+        let count = constants.rotary_count;
+        // p0: the tool point with the solved joints at zero
+        let mut point = self.tool + start[count] + (end[count] - start[count]) * t;
+        for index in (0..count).rev() {
+            let centre = constants.rotary[index].point;
+            point = turns[index].apply(&(point - centre)) + centre + start[index] + (end[index] - start[index]) * t;
+        }
+        let (way, _) = self.track.at(t);
+        let tip = self.start.point_with(self.tool_length) + way;
+        self.joints_for(turns, tip - point)
+    }
+
+    /// The values of the solved joints that move the tip by `way`, mm, under these turns: J q = way. What turns all three is taken off both sides.
+    fn joints_for(&self, turns: &[Turn; 2], mut way: Vec3) -> Vec3 {
+        let constants = self.constants();
+        let linear = constants.solved.map(|solved| &constants.linear[solved]);
+        let shared = linear.iter().map(|linear| linear.segment).min().unwrap_or(0);
+        for turn in &turns[..shared] {
+            way = turn.undo(&way);
+        }
+        let columns = linear.map(|linear| {
+            let turned = |column, index: usize| turns[index].apply(&column);
+            (shared..linear.segment).rev().fold(linear.motion, turned)
+        });
+        solve(&columns, &way)
+    }
+
+    /// Rates of the three solved joints at t, mm per block: what the tip has to move beside what the other axes move it,
+    /// J q' = P' - (p0' + J' q) (docs/kinematics.md#linear-axes-for-a-given-tip, differentiated). The bracket is the rate of the tip while the solved
+    /// joints stand.
+    pub(crate) fn solved_rates(&self, t: f64) -> Vec3 {
+        if !self.tip {
+            return self.without_tip(t)[1];
         }
         let constants = self.constants();
         let turns = self.turns(t);
         let spins = self.rates(t, &turns);
-        let spin = |index: usize, v: &Vec3| turns[index].axis.cross(v) * spins[index];
-        let (start, end) = self.idle_shifts();
+        let solved = if t <= 0.0 {
+            self.solved(&self.start.joints)
+        } else if t >= 1.0 {
+            self.solved(&self.end.joints)
+        } else {
+            self.solved_under(t, &turns)
+        };
+        let (mut shifts, end) = self.idle_shifts();
+        let mut rates = [Vec3::zeros(); 3];
+        for ((shift, rate), end) in shifts.iter_mut().zip(&mut rates).zip(&end) {
+            *rate = end - *shift;
+            *shift += *rate * t;
+        }
+        for (&index, value) in constants.solved.iter().zip(solved.iter()) {
+            let linear = &constants.linear[index];
+            shifts[linear.segment] += linear.motion * *value;
+        }
         let count = constants.rotary_count;
-        // p0: the tool point with the solved joints at zero, and its rate
-        let (mut point, mut rate) = (self.tool + start[count], end[count] - start[count]);
-        point += rate * t;
+        let (mut point, mut rate) = (self.tool + shifts[count], rates[count]);
         for index in (0..count).rev() {
             let centre = constants.rotary[index].point;
             let arm = turns[index].apply(&(point - centre));
-            let idle = end[index] - start[index];
-            rate = turns[index].apply(&rate) + spin(index, &arm) + idle;
-            point = arm + centre + start[index] + idle * t;
+            rate = turns[index].apply(&rate) + turns[index].axis.cross(&arm) * spins[index] + rates[index];
+            point = arm + centre + shifts[index];
         }
-        let (mut columns, mut column_rates) = ([Vec3::zeros(); 3], [Vec3::zeros(); 3]);
-        for (slot, &solved) in constants.solved.iter().enumerate() {
-            let linear = &constants.linear[solved];
-            let (mut column, mut column_rate) = (linear.motion, Vec3::zeros());
-            for index in (0..linear.segment).rev() {
-                column = turns[index].apply(&column);
-                column_rate = turns[index].apply(&column_rate) + spin(index, &column);
-            }
-            columns[slot] = column;
-            column_rates[slot] = column_rate;
-        }
-        let (way, tip_rate) = self.track.at(t);
-        let tip = self.start.point_with(self.tool_length) + way;
-        let solved = solve(&columns, &(tip - point));
-        let drift = column_rates[0] * solved.x + column_rates[1] * solved.y + column_rates[2] * solved.z;
-        Moment {
-            solved,
-            rates: solve(&columns, &(tip_rate - rate - drift)),
-        }
+        let (_, tip_rate) = self.track.at(t);
+        self.joints_for(&turns, tip_rate - rate)
     }
 
-    /// Without TCP: X Y Z words run along the track, other joints linearly.
-    pub(crate) fn joint_moment(&self, t: f64) -> Moment {
+    /// Without TCP, the solved joints and their rates: X Y Z words run along the track, other joints linearly.
+    pub(crate) fn without_tip(&self, t: f64) -> [Vec3; 2] {
         let (from, to) = (self.solved(&self.start.joints), self.solved(&self.end.joints));
-        let mut moment = Moment {
-            solved: from + (to - from) * t,
-            rates: to - from,
-        };
+        let (mut solved, mut rates) = (from + (to - from) * t, to - from);
         if let Track::Arc(_) = self.track {
             let (way, rate) = self.track.at(t);
             for letter in 0..3 {
                 let Some(joint) = self.machine.joint_of_letter[letter] else {
                     continue;
                 };
-                let solved = self.constants().solved;
-                let slot = solved
+                let constants = self.constants();
+                let slot = constants
+                    .solved
                     .iter()
-                    .position(|&i| self.constants().linear[i].joint == usize::from(joint));
+                    .position(|&i| constants.linear[i].joint == usize::from(joint));
                 if let Some(slot) = slot {
-                    moment.solved[slot] = from[slot] + way[letter];
-                    moment.rates[slot] = rate[letter];
+                    solved[slot] = from[slot] + way[letter];
+                    rates[slot] = rate[letter];
                 }
             }
         }
-        moment
+        [solved, rates]
     }
 }
 

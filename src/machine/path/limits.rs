@@ -151,7 +151,7 @@ fn inside(course: &JointPath<'_>, if_together: bool, out: &mut Vec<Excess>) {
         judge(
             course,
             constants.linear[index].joint,
-            |t| course.moment(t).solved[slot],
+            |t| course.solved_at(t)[slot],
             over,
             (if_together, out),
         );

@@ -252,7 +252,7 @@ impl<'c, 'm> Changing<'c, 'm> {
 
     /// Worst share at a moment.
     fn at(&self, t: f64) -> (f64, usize) {
-        let [x, y, z] = self.course.moment(t).rates.into();
+        let [x, y, z] = self.course.solved_rates(t).into();
         let [first, second] = if self.count > 3 {
             self.course.rates(t, &self.course.turns(t))
         } else {

@@ -114,7 +114,7 @@ fn lengths(course: &JointPath<'_>, pieces: u32, bend: Option<f64>) -> LinearTrav
         let next = if piece + 1 == pieces {
             course.solved(&course.end.joints)
         } else {
-            course.moment(to).solved
+            course.solved_at(to)
         };
         let chord2 = (next - last).norm_squared() + idle;
         let bend = bend.unwrap_or_else(|| course.bends(from, to).1.norm()) * h * h;
@@ -145,7 +145,7 @@ pub fn excursions(machine: &Machine, leg: &Leg, least_mm: f64) -> Vec<Excursion>
                 } else if t >= 1.0 {
                     ends[1]
                 } else {
-                    course.moment(t).solved[slot]
+                    course.solved_at(t)[slot]
                 };
                 sign * value - nearer
             };

@@ -3,6 +3,7 @@ use crate::{ChainId, Chains, Frame, Ran};
 use std::collections::HashMap;
 use std::sync::Arc;
 use trunnion_syntax::{BlockId, TextRange};
+use trunnion_vocabulary::Work;
 
 /// Where the run is.
 #[derive(Clone, Copy, Debug, Default)]
@@ -102,6 +103,8 @@ pub struct Course<L> {
     ran: Ran,
     chains: Arc<Chains>,
     executed: u64,
+    /// Bytes of the blocks that were executed.
+    bytes: u64,
     /// The opening block to which the end of a loop has just gone back.
     again: Option<u32>,
     /// How often each loop, by file and opening block, began again since it was entered.
@@ -117,6 +120,7 @@ impl<L> Default for Course<L> {
             ran: Ran::default(),
             chains: Arc::default(),
             executed: 0,
+            bytes: 0,
             again: None,
             turns: HashMap::new(),
             endless: None,
@@ -163,10 +167,11 @@ impl<L> Course<L> {
         }
     }
 
-    /// Counts a block that is about to run, and says whether it may: at most `limit` do.
-    pub fn count(&mut self, limit: u64) -> BlockBudget {
+    /// Counts a block of `bytes` bytes that is about to run, and says whether it may.
+    pub fn count(&mut self, bytes: u64, most: Work) -> BlockBudget {
         self.executed += 1;
-        if self.executed <= limit && self.endless.is_none() {
+        self.bytes += bytes;
+        if self.executed <= most.blocks && self.bytes <= most.bytes && self.endless.is_none() {
             return BlockBudget::Left;
         }
         #[expect(

@@ -1,11 +1,8 @@
 //! The proof that two texts do exactly the same: `trunnion_same` decides, and it does not know how the second text was made.
 use trunnion_dialect::Dialect;
-use trunnion_interp::Setup;
+use trunnion_interp::{Limits, Setup};
 use trunnion_same::{Claim, Difference, Exact, Input, Near, Steps, Verdict, compare};
 use trunnion_syntax::Program;
-
-/// Blocks that a proof runs beyond those that the program has, so that loops are followed and do not take forever.
-const MOST_REPEATED: u64 = 1_000_000;
 
 /// The first difference between two runs; `None` where there is none. `renumbered`: block numbers, and texts that name them, may differ.
 pub fn first_difference(
@@ -16,10 +13,13 @@ pub fn first_difference(
     renumbered: bool,
 ) -> Option<Difference> {
     let mut setup = setup.clone();
-    let repeated = setup.limits.blocks.min(MOST_REPEATED).max(setup.limits.steps);
-    let most_blocks = repeated.saturating_add(before.block_count() as u64);
+    let steps = setup.limits.steps;
+    // both runs stop after the same block, however long its text has become: as if all blocks were as long as the longest
+    let longest = before.blocks().map(|block| block.range().as_usize().len() as u64).max();
+    let share = longest.unwrap_or(0).div_ceil(Limits::BYTES_PER_BLOCK).max(1);
+    let most_blocks = (steps / share).saturating_add(before.block_count() as u64);
     // this proof has its own bound, which includes the blocks of the text; actions other than motions have the same
-    setup.limits.blocks = most_blocks.saturating_mul(2);
+    setup.limits.blocks = steps.saturating_add(before.block_count() as u64).saturating_mul(4);
     setup.limits.steps = setup.limits.blocks;
     let input = |program| Input {
         program,

@@ -18,7 +18,7 @@ pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, is_left, same_number};
 pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake, UnknownName};
-pub use library::{Files, Limits, Loaded, Searched};
+pub use library::{Files, Limits, Loaded, Searched, Work};
 pub use modal::{
     Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
 };

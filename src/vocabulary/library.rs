@@ -53,7 +53,8 @@ impl core::fmt::Debug for Searched {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Executed lines, and motions of cycles, of a run that keeps nothing (`check`). The blocks that the program itself has are
-    /// not counted: a program without loops and calls is followed to its end.
+    /// not counted: a program without loops and calls is followed to its end. Blocks of more than [`Limits::BYTES_PER_BLOCK`] bytes on average
+    /// count for more, except on LinuxCNC, whose lines are short.
     pub blocks: u64,
     /// The same for a run in which every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `stats`,
     /// `plot`, `surface`, the language server): a step takes ten times as long there.
@@ -65,10 +66,19 @@ pub struct Limits {
     pub depth: u32,
 }
 
+/// What a run may execute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Blocks.
+    pub blocks: u64,
+    /// Their bytes together.
+    pub bytes: u64,
+}
+
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            blocks: 4_000_000,
+            blocks: 3_000_000,
             steps: 500_000,
             held: 150_000,
             depth: 100,
@@ -79,6 +89,16 @@ impl Default for Limits {
 impl Limits {
     /// The number of levels of calls of LinuxCNC, including the main program.
     pub const LINUXCNC_DEPTH: u32 = 10;
+    /// Blocks of loops and calls may have this many bytes on average. Longer ones take longer, so fewer of them run.
+    pub const BYTES_PER_BLOCK: u64 = 24;
+
+    /// What a run of a program of so many blocks and bytes may execute: its own text, and the bound beside it.
+    pub const fn work(&self, blocks: u64, bytes: u64) -> Work {
+        Work {
+            blocks: self.blocks.saturating_add(blocks),
+            bytes: self.blocks.saturating_mul(Self::BYTES_PER_BLOCK).saturating_add(bytes),
+        }
+    }
 
     /// For a run whose motions are held.
     #[must_use]

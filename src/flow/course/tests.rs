@@ -2,6 +2,12 @@
 use super::{BlockBudget, Course, Ends, PendingCall};
 use crate::{ChainId, Frame};
 use trunnion_syntax::TextRange;
+use trunnion_vocabulary::Work;
+
+const MOST: Work = Work {
+    blocks: 100,
+    bytes: 100,
+};
 
 fn frame() -> Frame {
     Frame {
@@ -33,7 +39,7 @@ fn a_loop_without_a_change_is_endless() {
     assert!(course.is_again(2));
     course.open_loop(2);
     course.close_loop(9, 2, 6);
-    assert_eq!(course.count(100), BlockBudget::Left, "something has changed");
+    assert_eq!(course.count(1, MOST), BlockBudget::Left, "something has changed");
     course.open_loop(2);
     course.close_loop(9, 2, 6);
     let out = BlockBudget::Out {
@@ -41,7 +47,7 @@ fn a_loop_without_a_change_is_endless() {
         proved: true,
         blocks: 1,
     };
-    assert_eq!(course.count(100), out);
+    assert_eq!(course.count(1, MOST), out);
 }
 
 #[test]
@@ -51,13 +57,26 @@ fn the_bound_names_the_loop_that_ran_most() {
         course.jump_back(9, 2, changes);
     }
     course.jump_back(9, 7, 0);
-    assert_eq!(course.count(1), BlockBudget::Left);
+    assert_eq!(course.count(1, Work { blocks: 1, ..MOST }), BlockBudget::Left);
     let out = BlockBudget::Out {
         most: Some((0, 2)),
         proved: false,
         blocks: 1,
     };
-    assert_eq!(course.count(1), out);
+    assert_eq!(course.count(1, Work { blocks: 1, ..MOST }), out);
+}
+
+#[test]
+fn long_blocks_use_up_the_bound_on_bytes() {
+    let mut course = Course::<()>::default();
+    assert_eq!(course.count(60, MOST), BlockBudget::Left);
+    assert_eq!(course.count(40, MOST), BlockBudget::Left);
+    let out = BlockBudget::Out {
+        most: None,
+        proved: false,
+        blocks: 2,
+    };
+    assert_eq!(course.count(1, MOST), out);
 }
 
 #[test]

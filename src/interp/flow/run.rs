@@ -34,20 +34,25 @@ impl Iso<'_> {
     #[inline(never)]
     pub(crate) fn advance_deep(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let next = self.flow.next;
-        let limit = self.core.setup.limits.blocks.saturating_add(main.block_count() as u64);
         let trail = self.flow.trail.as_mut()?;
         let place = trail.course.place();
         let called = trail.called();
         let block = if called.is_none() { BlockId(next) } else { place.main };
-        let fuel = trail.course.count(limit);
-        if fuel != BlockBudget::Left {
-            self.out_of_fuel(fuel, main, sink);
-            return Some(block);
-        }
         let running = Running {
             main,
             called: called.as_deref(),
         };
+        let bytes = running.program().block(BlockId(next)).range().as_usize().len() as u64;
+        let most = self
+            .core
+            .setup
+            .limits
+            .work(main.block_count() as u64, main.source().len() as u64);
+        let fuel = trail.course.count(bytes, most);
+        if fuel != BlockBudget::Left {
+            self.out_of_fuel(fuel, main, sink);
+            return Some(block);
+        }
         self.flow.next = next + 1;
         let content = self.core.last_content;
         let mut through = Through {

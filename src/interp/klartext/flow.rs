@@ -68,8 +68,14 @@ impl Klartext<'_> {
         let place = self.flow.course.place();
         let called = self.flow.library.file(place.file);
         let block = if called.is_none() { BlockId(next) } else { place.main };
-        let limit = self.core.setup.limits.blocks.saturating_add(main.block_count() as u64);
-        let budget = self.flow.course.count(limit);
+        let program = called.as_deref().map_or(main, |called: &Called| &called.program);
+        let bytes = program.block(BlockId(next)).range().as_usize().len() as u64;
+        let most = self
+            .core
+            .setup
+            .limits
+            .work(main.block_count() as u64, main.source().len() as u64);
+        let budget = self.flow.course.count(bytes, most);
         if let BlockBudget::Out { most, proved, blocks } = budget {
             let at = match most {
                 Some((0, block)) => BlockId(block),
@@ -87,7 +93,6 @@ impl Klartext<'_> {
             return Some(block);
         }
         self.flow.next = next + 1;
-        let program = called.as_deref().map_or(main, |called: &Called| &called.program);
         let content = self.core.last_content;
         let chain = self.core.chain;
         if let Some(called) = called.as_deref() {

@@ -1,9 +1,9 @@
 //! System variables of a Sinumerik with a value that follows from the program: `$P_EP[X]`, `$P_F`, `$P_GG[6]`.
 //!
 //! Sources: SINUMERIK lists of system variables; $AA_IM, $P_TOOLR, $P_EP, $P_F, $P_S, $P_TOOL, $P_TOOLNO, $P_GG, $P_MC, $P_UIFR, $P_PFRAME, $AA_IW.
-use super::frame_value::offset_name;
 use crate::iso::Iso;
 use std::collections::BTreeMap;
+use std::fmt::Arguments;
 use trunnion_syntax::Block;
 
 impl Iso<'_> {
@@ -49,8 +49,8 @@ impl Iso<'_> {
     /// $P_UIFR: the shifts of the settable frames that are known, in program units.
     fn stored_shifts(&mut self, unit: f64) -> Vec<(String, f64)> {
         let mut shifts = Vec::new();
-        for number in 1..=99u32 {
-            let Some(values) = self.offset_values(&offset_name(number)) else {
+        for (number, name) in self.memory.frames.offset_names(&self.core.setup) {
+            let Some(values) = self.offset_values(name) else {
                 continue;
             };
             for axis in (0..9).filter(|axis| values.known & (1 << axis) != 0) {
@@ -66,9 +66,9 @@ impl Iso<'_> {
     /// System variables with a value that follows from the program; all others are unknown by name.
     fn system_values(&mut self) -> BTreeMap<Box<str>, f64> {
         let mut known: BTreeMap<Box<str>, f64> = BTreeMap::new();
-        let mut put = |name: String, value: Option<f64>| {
+        let mut put = |name: Arguments<'_>, value: Option<f64>| {
             if let Some(value) = value {
-                known.insert(name.into(), value);
+                known.insert(name.to_string().into(), value);
             }
         };
         let position = self.core.state.position;
@@ -84,24 +84,24 @@ impl Iso<'_> {
             let scale = if linear { unit } else { 1.0 };
             let letter = char::from(letter.to_ascii_lowercase());
             let value = here.get(axis).filter(|_| plain).map(|value| value / scale);
-            put(format!("$p_ep[{letter}]"), value);
-            put(format!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
+            put(format_args!("$p_ep[{letter}]"), value);
+            put(format_args!("$aa_iw[{letter}]"), value.filter(|_| cutting_on_path));
             let machine = self.on_machine(axis).filter(|_| plain && cutting_on_path);
-            put(format!("$aa_im[{letter}]"), machine.map(|value| value / scale));
+            put(format_args!("$aa_im[{letter}]"), machine.map(|value| value / scale));
             let shift = frame
                 .shift()
                 .get(axis)
                 .copied()
                 .unwrap_or(self.memory.frames.local[axis]);
             put(
-                format!("$p_pframe[{letter},tr]"),
+                format_args!("$p_pframe[{letter},tr]"),
                 Some(shift / scale).filter(|_| plain && self.memory.frames.shape.linear.is_none()),
             );
             let angle = angles.and_then(|angles| angles.get(axis).copied());
-            put(format!("$p_pframe[{letter},rt]"), angle);
+            put(format_args!("$p_pframe[{letter},rt]"), angle);
         }
         for (name, value) in self.stored_shifts(unit) {
-            put(name, Some(value));
+            put(format_args!("{name}"), Some(value));
         }
         let feed = self
             .core
@@ -109,28 +109,28 @@ impl Iso<'_> {
             .feed
             .value()
             .map(|feed| feed / self.core.state.feed.unit_mm());
-        put("$p_f".to_owned(), feed);
+        put(format_args!("$p_f"), feed);
         let spindle = &self.core.state.spindle;
         put(
-            "$p_s".to_owned(),
+            format_args!("$p_s"),
             spindle
                 .rpm()
                 .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
         );
-        put("$p_toolno".to_owned(), self.core.state.tool.number().map(f64::from));
-        put("$p_toolr".to_owned(), self.tool_radius().map(|radius| radius / unit));
-        put("$p_tool".to_owned(), self.memory.edge.map(f64::from));
+        put(format_args!("$p_toolno"), self.core.state.tool.number().map(f64::from));
+        put(format_args!("$p_toolr"), self.tool_radius().map(|radius| radius / unit));
+        put(format_args!("$p_tool"), self.memory.edge.map(f64::from));
         put(
-            "$p_gg[6]".to_owned(),
+            format_args!("$p_gg[6]"),
             Some(plane_code(self.core.state.coordinates.plane())),
         );
         put(
-            "$p_mc".to_owned(),
+            format_args!("$p_mc"),
             Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
         );
         for name in ["$p_sim", "$p_istest", "$p_search", "$p_dryrun"] {
             // in a run that cuts the part
-            put(name.to_owned(), Some(0.0));
+            put(format_args!("{name}"), Some(0.0));
         }
         known
     }

@@ -73,8 +73,11 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     // clamps are closed and opened again for the target machine
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
-    let job = job(&reading, source.dialect, options, rewritten, setting.post)
+    let mut job = job(&reading, source.dialect, options, rewritten, setting.post)
         .and_then(|job| drops_something(&reading, job, options))?;
+    for fault in &reading.unused {
+        job.leave_out(&reading.program.text(fault.range), fault.block);
+    }
     let (tolerance_mm, axis_deg) = setting.tolerances(machine, options)?;
     let work_offset = options.work_offset(setting.post);
     let planner = Planner {
@@ -222,7 +225,7 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
         options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(&text))
     };
     let feed_only = |fault: &&Fault| matches!(fault.kind, FaultKind::MissingFeed { .. });
-    let mut faults: Vec<&Fault> = reading.grave().filter(|fault| !dropped(fault)).collect();
+    let mut faults: Vec<&Fault> = reading.faults.iter().filter(|fault| !dropped(fault)).collect();
     // a missing feed is reported where the cut is planned
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
@@ -234,7 +237,7 @@ fn drops_something(reading: &Reading, job: Job, options: &Options) -> Result<Job
     let unused = options.drop.iter().find(|name| {
         let left_out = job.left_out.iter().any(|(what, _)| what.eq_ignore_ascii_case(name));
         let fault = |fault: &Fault| reading.program.text(fault.range).eq_ignore_ascii_case(name);
-        !left_out && !reading.grave().any(fault)
+        !left_out && !reading.faults.iter().any(fault)
     });
     let Some(name) = unused else { return Ok(job) };
     Err(Refused::new(format!(

@@ -213,6 +213,11 @@ impl<'a> Setting<'a> {
         options: &Options,
     ) -> Result<(f64, Option<f64>), Refused> {
         let judged = source.is_some() && self.post.is_some() && self.mode.machine().is_some();
+        if options.tolerance_deg.is_some() && !judged {
+            let message = "a tolerance of the tool axis holds only where the rotary joints of a known machine are written: CL data and tool vectors say \
+                           nothing of the axis between two points. Leave it out, or put points in between before, with `fix --rewrite insert-points`";
+            return Err(Refused::new(message));
+        }
         let degrees = judged.then(|| options.tolerance_deg.unwrap_or(TOLERANCE_DEG));
         let mm = options.tolerance_mm.unwrap_or_else(|| self.tolerance());
         let good = |value: f64| value.is_finite() && value > 0.0;

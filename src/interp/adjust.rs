@@ -126,14 +126,37 @@ impl Iso<'_> {
         scale(&mut words.feed, feed);
     }
 
-    /// Reports F without a decimal point, which a setting of the control reads as written or as least increments.
+    /// Reports F without a decimal point where a setting of the control reads it as written or as least increments. On a Haas that is every F. On a
+    /// Fanuc F in mm/min is whole mm/min either way; in inch, per turn, as a lead and in inverse time it is not (FANUC B-64490EN, parameters
+    /// 1404, 1405 and 3401; B-62764EN, inverse time feed).
     pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
         let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
-        let Some(feed) = feed.filter(|_| self.core.state.feed.mode() != FeedMode::InverseTime) else {
+        let Some(feed) = feed.filter(|_| !dwell_reads(codes, "F")) else {
             return;
         };
-        if !dwell_reads(codes, "F") {
+        let (mode, metric) = (
+            self.core.state.feed.mode(),
+            self.core.state.coordinates.unit_mm() == 1.0,
+        );
+        let of_setting = self.core.dialect.quirks.whole_numbers.feeds_ambiguous();
+        let thread = |action| matches!(action, Action::Thread | Action::VariableThread);
+        let leads = codes.iter().any(|found| thread(found.code.action)) || self.core.state.motion.is_some_and(thread);
+        let open = match mode {
+            _ if of_setting => mode != FeedMode::InverseTime,
+            _ if self.core.setup.control.implicit_decimals.is_some() => false,
+            FeedMode::PerMinute => !metric || leads,
+            FeedMode::PerRevolution | FeedMode::InverseTime => true,
+        };
+        if open {
             report.fault(feed.range, FaultKind::AmbiguousDecimal);
         }
+    }
+
+    /// Whether a parameter decides how long a dwell is that an axis word without a decimal point gives: seconds or least increments
+    /// (FANUC B-64490EN, parameter 3401, bit 0).
+    pub(crate) fn is_whole_dwell(&self, words: &Words, axis: usize) -> bool {
+        let open = self.core.setup.control.implicit_decimals.is_none();
+        let whole = words.axes.point & (1 << axis) == 0 && words.axes.values[axis] != 0.0;
+        open && whole && self.core.dialect.quirks.whole_numbers.lengths_ambiguous()
     }
 }

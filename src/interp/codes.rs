@@ -105,7 +105,7 @@ impl<'d> Iso<'d> {
             rest = after;
         }
         self.feed_word(codes, words);
-        if self.core.dialect.quirks.whole_numbers.feeds_ambiguous() {
+        if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_feed(codes, words, report);
         }
         self.speed_word(codes, words);
@@ -124,6 +124,9 @@ impl<'d> Iso<'d> {
         }
         if let Some(at) = self.memory.frames.dynamic {
             self.dynamic_offset_holds(&at, words, report);
+        }
+        if words.axes.any() {
+            crate::unmodelled::data_codes(codes, words, &mut block, report);
         }
         let lost = self.core.unknown.any() || self.memory.frames.pending.is_some();
         self.core.state.zero.lose(lost);

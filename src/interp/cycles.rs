@@ -59,6 +59,17 @@ pub(crate) struct Cycle {
 }
 
 impl Cycle {
+    /// Whether its code reads a letter.
+    fn reads_letter(&self, letter: u8) -> bool {
+        self.letters & (1 << (letter - b'A')) != 0
+    }
+    /// The dwell at the bottom, seconds: P stays from cycle to cycle, and a cycle that does not read it does not wait.
+    fn dwell(&self) -> Option<f64> {
+        self.hole.dwell.filter(|_| self.reads_letter(b'P'))
+    }
+}
+
+impl Cycle {
     /// What is kept for the blocks that follow; empty where that is nothing.
     pub(crate) fn data(&self, motion: Option<Action>) -> Vec<Argument> {
         let mut numbers: Vec<f64> = Vec::new();

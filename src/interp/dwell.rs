@@ -5,9 +5,13 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, Motion, MotionKind};
 use trunnion_dialect::Action;
+use trunnion_syntax::TextRange;
 
 impl Iso<'_> {
-    pub(crate) fn dwell(&self, codes: &[Found<'_>], words: &Words, report: &Report<'_>) -> Motion {
+    pub(crate) fn dwell(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) -> Motion {
+        if let Some(range) = self.whole_dwell(codes, words) {
+            report.fault(range, FaultKind::AmbiguousDecimal);
+        }
         let seconds = self.dwell_seconds(codes, words).filter(|seconds| *seconds >= 0.0);
         let position = self.core.state.position;
         let feed = Feed::Unknown;
@@ -70,10 +74,25 @@ impl Iso<'_> {
             let rpm = self.core.state.spindle.rpm().filter(|&rpm| rpm > 0.0)?;
             return Some(turns.value / rpm * 60.0);
         }
-        let axis = [(0, "X"), (6, "U")]
-            .into_iter()
-            .find(|&(axis, word)| reads(word) && words.axes.get(axis).is_some());
-        let (axis, _) = axis?;
+        let axis = Self::dwell_axis(code, words).filter(|axis| !self.is_whole_dwell(words, *axis))?;
         Some(words.axes.values[axis] * in_ms(words.axes.point & (1 << axis) != 0))
+    }
+    /// The axis whose word is the time.
+    fn dwell_axis(code: &trunnion_dialect::Code, words: &Words) -> Option<usize> {
+        let reads = |word: &str| code.words.iter().any(|known| known == word);
+        let mut axes = [(0, "X"), (6, "U")].into_iter();
+        Some(
+            axes.find(|&(axis, word)| reads(word) && words.axes.get(axis).is_some())?
+                .0,
+        )
+    }
+
+    /// The time of a dwell that a parameter decides, where the block gives no other.
+    fn whole_dwell(&self, codes: &[Found<'_>], words: &Words) -> Option<TextRange> {
+        let code = codes.iter().find(|found| found.code.action == Action::Dwell)?.code;
+        let reads = |word: &str| code.words.iter().any(|known| known == word);
+        let other = words.p.is_given() && reads("P") || words.feed.is_given() && reads("F");
+        let axis = Self::dwell_axis(code, words).filter(|_| !other)?;
+        words.first.filter(|_| self.is_whole_dwell(words, axis))
     }
 }

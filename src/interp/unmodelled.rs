@@ -148,3 +148,33 @@ impl<'d> Iso<'d> {
         self.core.forget_position();
     }
 }
+
+/// Axis words that are data of a code which moves nothing: limits of a protected area, the axes of a smoothing, largest increments. Where a motion
+/// code stands beside it, what the control does is not documented.
+pub(crate) fn data_codes(codes: &[Found<'_>], words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+    let axes_of = |found: &Found<'_>| {
+        let listed = |letter: char| {
+            found
+                .code
+                .words
+                .iter()
+                .any(|word| word.starts_with(letter) && word.len() == 1)
+        };
+        let bits = crate::AXIS_LETTERS.iter().enumerate();
+        bits.fold(0_u16, |all, (axis, letter)| {
+            all | u16::from(listed(char::from(*letter))) << axis
+        })
+    };
+    let given = words.axes.given | words.axes.unread;
+    let reads = |found: &&Found<'_>| {
+        let still = matches!(found.code.action, Action::NoMotion | Action::PathMode);
+        still && found.code.kind == CodeKind::G && axes_of(found) & given != 0
+    };
+    if let Some(found) = codes.iter().find(reads) {
+        block.takes_coordinates = true;
+        if block.motion.is_some() || given & !axes_of(found) != 0 {
+            not_modelled(found, report);
+            block.not_modelled = true;
+        }
+    }
+}

@@ -53,7 +53,7 @@ pub fn converted_on(
     claim: &ConversionClaim,
     terms: &Terms<'_>,
 ) -> Result<ConversionProof, Outcome> {
-    if let Some(fault) = after.0.grave().next() {
+    if let Some(fault) = after.0.faults.first() {
         let line = line(&after.0.program, fault.block);
         let text = fault_text(&after.0.program, fault);
         return Err(Outcome::unknown(format!(

@@ -106,6 +106,8 @@ pub struct Reading {
     pub given_up: Option<BlockId>,
     /// Faults that make it unknown what the program does.
     pub faults: Vec<Fault>,
+    /// Words that nothing reads, the first thousand.
+    pub unused: Vec<Fault>,
     /// The first block that continues in another file.
     pub elsewhere: Option<BlockId>,
     /// What the blocks request apart from their motions, in the order they ran.
@@ -133,6 +135,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         motions: Vec::new(),
         blocks: Vec::new(),
         faults: Vec::new(),
+        unused: Vec::new(),
         chains: BTreeSet::new(),
         elsewhere: None,
         setup: run.setup,
@@ -157,6 +160,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         mut motions,
         mut blocks,
         faults,
+        unused,
         elsewhere,
         given_up,
         ..
@@ -180,6 +184,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         blocks,
         given_up,
         faults,
+        unused,
         elsewhere,
         tells_lengths: tells_lengths(run.dialect),
         changes_tools: is_apt || run.dialect.quirks.tool_word.changes() || run.dialect.m(60).is_some(),
@@ -205,6 +210,7 @@ struct Collector<'m> {
     motions: Vec<Posed>,
     blocks: Vec<Ran>,
     faults: Vec<Fault>,
+    unused: Vec<Fault>,
     /// Chains of calls that were looked at.
     chains: BTreeSet<ChainId>,
     elsewhere: Option<BlockId>,
@@ -278,6 +284,9 @@ impl Sink for Collector<'_> {
 
     fn fault(&mut self, fault: Fault) {
         if !is_grave(&fault.kind) {
+            if fault.kind == FaultKind::UnusedWord && self.unused.len() < 1000 {
+                self.unused.push(fault);
+            }
             return;
         }
         if self.faults.len() as u64 >= self.setup.limits.held {
@@ -383,12 +392,5 @@ pub(crate) fn is_grave(kind: &FaultKind) -> bool {
         FaultKind::VectorNotUnit { norm } => (norm - 1.0).abs() > 1e-2,
         FaultKind::Rejected { refusal, .. } => *refusal != Refusal::ProgramEnd,
         _ => true,
-    }
-}
-
-impl Reading {
-    /// Faults that make it unknown what the program does.
-    pub fn grave(&self) -> impl Iterator<Item = &Fault> {
-        self.faults.iter()
     }
 }

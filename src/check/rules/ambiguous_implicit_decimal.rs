@@ -20,7 +20,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for coordinates, arc centres, radii and, on a Haas, feeds that are written as numbers other than zero.
+//! Sound for coordinates, arc centres, radii and feeds that are written as numbers other than zero. On a Fanuc a whole feed in mm/min is the same
+//! either way; in inch, per turn, as the lead of a thread and in inverse time it is not, nor is a dwell `G4 X1`, whose time is unknown.
 //! Coordinates are reported once in the program, and feeds once, with the number of blocks; each block counts once, by its first such word.
 //!
 //! # Sources

@@ -120,6 +120,17 @@ impl Iso<'_> {
         asks
     }
 
+    /// Q in a tapping cycle of a Fanuc, also one that G83 before it left: it pecks. Whether the tap goes back by a distance or to R between its
+    /// steps is a parameter (FANUC B-64490EN, parameter 5200, bit 5), so the way down is not followed.
+    pub(super) fn asks_pecks(&self, words: &Words, report: &mut Report<'_>) {
+        let cycle = &self.memory.cycle;
+        let taps = matches!(self.core.state.motion, Some(Action::TapCycle | Action::TapLeftCycle));
+        if taps && cycle.reads_letter(b'Q') && cycle.hole.q.is_some_and(|q| q != 0.0) {
+            let what = format!("{}: how far the tap goes back between the steps of Q", cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
+    }
+
     /// A word that is a length without being a coordinate, mm: Q, I, J, K of a cycle.
     pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;

@@ -148,6 +148,7 @@ impl Iso<'_> {
             self.refuse(words, Refusal::CannedCycle, message, Some("peck-missing"), report);
             return None;
         }
+        self.asks_pecks(words, report);
         Some(Plan {
             axis,
             r,
@@ -229,7 +230,7 @@ impl Iso<'_> {
 
     /// One hole, from the present position above it.
     fn hole(&mut self, plan: &Plan, report: &mut Report<'_>) {
-        let dwell = self.memory.cycle.hole.dwell;
+        let dwell = self.memory.cycle.dwell();
         let feed_out = |interpreter: &mut Self, plan: &Plan, report: &Report<'_>| {
             interpreter.down(plan, MotionKind::Linear, plan.r, report);
             interpreter.down(plan, MotionKind::Rapid, plan.back, report);
@@ -358,7 +359,7 @@ impl Iso<'_> {
     /// G87: shifted and stopped to R below, back to the axis of the hole, feed up, shifted and stopped to the initial level.
     fn back_bore(&mut self, plan: &Plan, report: &mut Report<'_>) {
         let aside = self.aside(report);
-        let dwell = self.memory.cycle.hole.dwell;
+        let dwell = self.memory.cycle.dwell();
         self.with_spindle_off(|interpreter| {
             interpreter.shift(aside, 1.0, report);
             interpreter.down(plan, MotionKind::Rapid, plan.r, report);

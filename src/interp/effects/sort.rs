@@ -108,6 +108,8 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         }
         Action::NoMotion | Action::PathMode | Action::DiameterSwitch => match code.group.as_deref() {
             None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
+            // the limits that it writes stay
+            Some("stroke-check") if words.axes.any() => Sort::Before,
             Some(_) => Sort::Group,
         },
         _ => Sort::Held,

@@ -14,6 +14,7 @@ mod corners;
 mod cycles;
 mod cycles_given_up;
 mod cycles_steps;
+mod data_words;
 mod directives;
 mod drawing;
 mod faults;

@@ -95,7 +95,8 @@ fn dwells() {
     assert_eq!(lines("linuxcnc", "G4 P1.5\n"), ["D1.5 -"]);
     assert_eq!(
         lines("fanuc-30i", "G4 P500\nG4 X2.5\nG4 X2500\n"),
-        ["D0.5 -", "D2.5 -", "D2.5 -"]
+        ["D0.5 -", "D2.5 -", "D? -"],
+        "2500 s or 2.5 s, as a parameter says"
     );
     assert_eq!(
         lines("sinumerik-840d", "G4 F0.5\nS60 M3\nG4 S30\n"),

@@ -33,6 +33,8 @@ pub enum Sort {
     Event,
     /// The program's end.
     End,
+    /// A spindle starts or stops where the machine has left it in a state that is not known: it may be in that state already.
+    Switch,
     /// Words whose effect is not modelled.
     Unmodelled,
 }
@@ -103,6 +105,8 @@ pub(crate) enum Waits {
     Restated(String, Vec<Argument>),
     /// Such a thing ran.
     Lost,
+    /// Data that offsets are read from may have been written: see [`Process::forget_read`].
+    Written,
 }
 
 impl Waiting {

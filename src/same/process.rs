@@ -17,6 +17,9 @@ pub struct Process {
     restated: BTreeMap<String, Vec<Argument>>,
 }
 
+/// Ends the group of a word that reads data of the control, such as H: see [`Process::forget_read`].
+pub(crate) const READ_AGAIN: &str = ", read again";
+
 /// The text on the screen: it matters if the program stops with it.
 const MESSAGE: &str = "message";
 
@@ -76,6 +79,13 @@ impl Process {
     pub(crate) fn lose_restated(this: &mut Arc<Self>) {
         if !this.restated.is_empty() {
             Arc::make_mut(this).restated.clear();
+        }
+    }
+
+    /// Data that offsets are read from may have been written: what read them before does not hold the new values.
+    pub(crate) fn forget_read(this: &mut Arc<Self>) {
+        if this.restated.keys().any(|group| group.ends_with(READ_AGAIN)) {
+            Arc::make_mut(this).restated.retain(|group, _| !group.ends_with(READ_AGAIN));
         }
     }
 
@@ -181,8 +191,12 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     let mut groups = groups.filter(|group| was.restated.get(*group) != is.restated.get(*group));
     let group = groups.next().filter(|_| !shared)?;
     let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
+    let key = match group.strip_suffix(READ_AGAIN) {
+        Some(group) => format!("{group} after offsets may have been written (whether one in effect follows at once is unknown)"),
+        None => format!("{group} after a called program that could not be read"),
+    };
     Some(Unlike {
-        key: format!("{group} after a called program that could not be read"),
+        key,
         from: said(was),
         to: said(is),
         is_unknown: true,

@@ -347,6 +347,10 @@ impl<'a> Steps<'a> {
                     Process::lose_restated(&mut run.process);
                     continue;
                 }
+                Waits::Written => {
+                    Process::forget_read(&mut run.process);
+                    continue;
+                }
             };
             self.since.disturbed |= reach != Reach::Itself;
             // a setting that stays as it is, such as the feed that a block repeats, is none
@@ -356,10 +360,11 @@ impl<'a> Steps<'a> {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows
                     let happens = key.starts_with("spindle") && !key.ends_with("words") && !is_left(&to);
+                    let left = is_left(run.process.get(&key));
                     if !Process::set(&mut run.process, key, &to) || !happens {
                         continue;
                     }
-                    (Sort::Event, to)
+                    (if left { Sort::Switch } else { Sort::Event }, to)
                 }
                 Effect::Store(argument) => {
                     run.stores.insert(argument.name.into_owned(), argument.value);

@@ -45,6 +45,7 @@ pub(crate) enum Level {
 pub(crate) struct Flow {
     pub(crate) course: Course<Level>,
     next: u32,
+    begun: bool,
     finished: bool,
     library: Library,
     labels: HashMap<u16, Arc<Index<()>>>,
@@ -57,6 +58,11 @@ pub(crate) struct Flow {
     reported: crate::flow::reported::ReportedFaults,
 }
 
+/// Whether nothing has run yet.
+fn next_is_first(flow: &mut Flow) -> bool {
+    !std::mem::replace(&mut flow.begun, true)
+}
+
 impl Klartext<'_> {
     /// Runs the next block in the control's order.
     pub(crate) fn run_next(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
@@ -64,6 +70,10 @@ impl Klartext<'_> {
             return None;
         }
         self.core.declare(main);
+        if next_is_first(&mut self.flow) && self.core.effects.wanted() {
+            self.head_effects(main);
+            self.core.emit_effects(sink);
+        }
         let next = self.flow.next;
         let place = self.flow.course.place();
         let called = self.flow.library.file(place.file);

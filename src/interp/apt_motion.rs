@@ -181,8 +181,8 @@ impl Apt<'_> {
             let is_vector = matches!(now, Orientation::Vector(..));
             if is_vector && self.core.effects.wanted() && !self.is_held(now) {
                 // whether a postprocessor follows it where MULTAX/ON was not programmed is not known
-                let on = self.core.state.tool_axis.multax();
-                let to: Vec<Argument> = on.then(|| Argument::code("ON")).into_iter().collect();
+                let off = !self.core.state.tool_axis.multax();
+                let to: Vec<Argument> = off.then(|| Argument::code("OFF")).into_iter().collect();
                 let block = self.core.main_block(report.block);
                 self.core.effects.add(block, Effect::set("MULTAX", to));
             }

@@ -59,7 +59,10 @@ impl Steps<'_> {
                     self.interpreter.add_values(words);
                     self.run.actions.add_variables(words.len() - written);
                 }
-                Waits::Effect(Effect::Store(_) | Effect::End(_), _) | Waits::Restated(..) | Waits::Lost | Waits::Written => {}
+                Waits::Effect(Effect::Store(_) | Effect::End(_), _)
+                | Waits::Restated(..)
+                | Waits::Lost
+                | Waits::Written => {}
             }
         }
         self.note_written(new);

@@ -85,7 +85,9 @@ impl Process {
     /// Data that offsets are read from may have been written: what read them before does not hold the new values.
     pub(crate) fn forget_read(this: &mut Arc<Self>) {
         if this.restated.keys().any(|group| group.ends_with(READ_AGAIN)) {
-            Arc::make_mut(this).restated.retain(|group, _| !group.ends_with(READ_AGAIN));
+            Arc::make_mut(this)
+                .restated
+                .retain(|group, _| !group.ends_with(READ_AGAIN));
         }
     }
 
@@ -192,7 +194,9 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     let group = groups.next().filter(|_| !shared)?;
     let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
     let key = match group.strip_suffix(READ_AGAIN) {
-        Some(group) => format!("{group} after offsets may have been written (whether one in effect follows at once is unknown)"),
+        Some(group) => {
+            format!("{group} after offsets may have been written (whether one in effect follows at once is unknown)")
+        }
         None => format!("{group} after a called program that could not be read"),
     };
     Some(Unlike {

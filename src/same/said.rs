@@ -131,7 +131,9 @@ impl Steps<'_> {
         if mm != 0.0 && !text.contains('.') {
             return None;
         }
-        Some(format!("{}{mm:.9}", char::from(AXIS_LETTERS[usize::from(axis.0)])))
+        // inches have more digits than a word
+        let mm = (mm * 1e9).round() / 1e9 + 0.0;
+        Some(format!("{}{mm}", char::from(AXIS_LETTERS[usize::from(axis.0)])))
     }
 
     fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {

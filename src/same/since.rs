@@ -91,7 +91,10 @@ pub(crate) fn sets_from_here(words: &[Argument]) -> bool {
 /// Whether an effect may write data of the control that offsets are read from: G10, a system variable, or words whose effect is not modelled.
 pub(crate) fn writes_data(effect: &Effect) -> bool {
     let is_data = |word: &Argument| {
-        let is_number = word.name.strip_prefix('#').and_then(|digits| digits.parse::<u32>().ok());
+        let is_number = word
+            .name
+            .strip_prefix('#')
+            .and_then(|digits| digits.parse::<u32>().ok());
         word.name.starts_with("G10") || word.name.starts_with('$') || is_number.is_some_and(|number| number >= 1000)
     };
     match effect {

@@ -1,12 +1,11 @@
 //! What two motions that belong together have in common apart from their path: kind, spindle, zero point, tool and its length.
-use super::proof::{Proof, above};
 use super::folded::SHIFT;
+use super::proof::{Proof, above};
 use super::{Posed, Reading, ZeroNames};
 use crate::Outcome;
 use std::sync::Arc;
 use trunnion_interp::{LengthOf, MotionKind};
 use trunnion_syntax::Format;
-
 
 /// Tool lengths that differ by less are the same, mm.
 const LENGTH_MM: f64 = 1e-6;

@@ -39,10 +39,12 @@ fn check(_: &facts::UnsaidUnits<'_>, out: &mut Reporter<'_>) {
     }
     if out.dialect().lex.format == trunnion_syntax::Format::Klartext {
         // the head of a program names the unit
-        out.report_block("no BEGIN PGM with MM or INCH: whether the control runs such a text, and in which unit, is not known")
-            .unknown()
-            .note("the lengths are taken as mm here")
-            .help("write BEGIN PGM NAME MM before the first block, and END PGM NAME MM after the last one");
+        out.report_block(
+            "no BEGIN PGM with MM or INCH: whether the control runs such a text, and in which unit, is not known",
+        )
+        .unknown()
+        .note("the lengths are taken as mm here")
+        .help("write BEGIN PGM NAME MM before the first block, and END PGM NAME MM after the last one");
         return;
     }
     let codes = |own: Action| {

@@ -76,7 +76,10 @@ impl<'d> Iso<'d> {
             _ => false,
         };
         if changes {
-            let why = format!("{} while it is active, which leaves open what becomes of the offset", found.code.id);
+            let why = format!(
+                "{} while it is active, which leaves open what becomes of the offset",
+                found.code.id
+            );
             self.lose(&why, report);
         }
     }

@@ -51,13 +51,13 @@ impl Iso<'_> {
         let before = self.core.state.spindle;
         let left = action == Action::TapLeftCycle;
         if taps && before.on() == Some(true) && self.memory.cycle.counter_clockwise == Some(!left) {
-            let (hand, way) = if left {
-                ("left-hand", "clockwise (M3)")
+            let (hand, code) = if left {
+                ("left-hand", "M3")
             } else {
-                ("right-hand", "counter-clockwise (M4)")
+                ("right-hand", "M4")
             };
             let id = &self.memory.cycle.id;
-            let what = format!("{id}, a {hand} tap, with the spindle turning {way}: whether the cycle turns it round first");
+            let what = format!("{id}, a {hand} tap, after {code}: which way the spindle turns on the way in");
             report.fault(report.whole(), FaultKind::NotModelled { what });
         }
         if !taps || !self.core.dialect.quirks.macro_b() {

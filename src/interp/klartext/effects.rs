@@ -208,7 +208,10 @@ impl Klartext<'_> {
                 b"R" => "R",
                 _ => continue,
             };
-            data.push(said(name, self.memory.parameters.of(word.value).map(|value| value * unit)));
+            data.push(said(
+                name,
+                self.memory.parameters.of(word.value).map(|value| value * unit),
+            ));
         }
         if data.is_empty() {
             self.core.effects.add(block, Effect::set("tool prepared", [tool]));
@@ -216,7 +219,9 @@ impl Klartext<'_> {
         }
         data.sort_by(|a, b| a.name.cmp(&b.name));
         let words = [Argument::code("TOOL DEF"), tool].into_iter().chain(data);
-        self.core.effects.add_with(block, Effect::Event(words.collect()), Reach::Itself);
+        self.core
+            .effects
+            .add_with(block, Effect::Event(words.collect()), Reach::Itself);
     }
 
     /// Whether more than the motions of holes and the frames hold is in the block.

@@ -101,11 +101,11 @@ pub(crate) struct Waiting {
 /// See [`Waiting`].
 pub(crate) enum Waits {
     Effect(Effect, Reach),
-    /// A word of a group was programmed after something ran that may have changed everything: see [`Process::restate`].
+    /// A word of a group was programmed after something ran that may have changed everything: see [`Process::note`].
     Restated(String, Vec<Argument>),
     /// Such a thing ran.
     Lost,
-    /// Data that offsets are read from may have been written: see [`Process::forget_read`].
+    /// Data that offsets are read from may have been written: see [`Process::note`].
     Written,
 }
 

@@ -339,16 +339,8 @@ impl<'a> Steps<'a> {
             } = next;
             let (effect, reach) = match what {
                 Waits::Effect(effect, reach) => (effect, reach),
-                Waits::Restated(group, to) => {
-                    Process::restate(&mut run.process, group, to);
-                    continue;
-                }
-                Waits::Lost => {
-                    Process::lose_restated(&mut run.process);
-                    continue;
-                }
-                Waits::Written => {
-                    Process::forget_read(&mut run.process);
+                Waits::Restated(..) | Waits::Lost | Waits::Written => {
+                    Process::note(&mut run.process, what);
                     continue;
                 }
             };

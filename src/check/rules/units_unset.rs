@@ -97,4 +97,19 @@ mod tests {
             assert_eq!(found(without), 1, "{dialect}");
         }
     }
+
+    #[test]
+    fn klartext_without_its_head_is_unknown() {
+        let statuses = |program: &str| {
+            let dialect = trunnion_dialect::builtin("heidenhain-klartext").expect("built in");
+            let settings = crate::Settings::new(dialect, None, trunnion_interp::Setup::default());
+            let program = trunnion_syntax::parse(program.as_bytes().to_vec(), dialect.lex);
+            let report = crate::check(&program, &settings);
+            let own = report.diagnostics.iter().filter(|found| found.rule == "units-unset");
+            own.map(|found| found.status).collect::<Vec<_>>()
+        };
+        let body = "TOOL CALL 1 Z S1000\nL X+10 Y+0 Z+50 R0 FMAX M3\nM30\nEND PGM A MM\n";
+        assert_eq!(statuses(body), [crate::Status::Unknown]);
+        assert_eq!(statuses(&format!("BEGIN PGM A MM\n{body}")), []);
+    }
 }

@@ -58,22 +58,22 @@ pub(crate) struct Flow {
     reported: crate::flow::reported::ReportedFaults,
 }
 
-/// Whether nothing has run yet.
-fn next_is_first(flow: &mut Flow) -> bool {
-    !std::mem::replace(&mut flow.begun, true)
-}
-
 impl Klartext<'_> {
+    /// What the program says as a whole, before its first block.
+    fn begin_once(&mut self, main: &Program, sink: &mut impl Sink) {
+        if !std::mem::replace(&mut self.flow.begun, true) && self.core.effects.wanted() {
+            self.head_effects(main);
+            self.core.emit_effects(sink);
+        }
+    }
+
     /// Runs the next block in the control's order.
     pub(crate) fn run_next(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         if self.flow.finished || main.block_count() == 0 {
             return None;
         }
         self.core.declare(main);
-        if next_is_first(&mut self.flow) && self.core.effects.wanted() {
-            self.head_effects(main);
-            self.core.emit_effects(sink);
-        }
+        self.begin_once(main, sink);
         let next = self.flow.next;
         let place = self.flow.course.place();
         let called = self.flow.library.file(place.file);

@@ -199,16 +199,6 @@ pub(super) const STATE: &[Item] = &[
         [2, 2],
     ),
     (
-        "a program without BEGIN PGM",
-        ["heidenhain-klartext", ""],
-        [
-            "TOOL CALL 1 Z S1000\n",
-            "L X+0 Y+0 Z+50 R0 FMAX M3\nL X+10 F100\nM30\nEND PGM A MM\n",
-        ],
-        &["2 unknown units-unset"],
-        [2, 2],
-    ),
-    (
         "a spline that no G5.3 ends",
         ["linuxcnc", ""],
         [

@@ -334,6 +334,12 @@ fn prove(
             Outcome::Unknown(gap) => gap.to_string(),
             Outcome::Proved(_) => String::new(),
         };
+        if diameters(source.dialect, source.machine) || diameters(setting.dialect, setting.machine) {
+            return Refused::new(format!(
+                "this is a program for a lathe, or one for a machine whose X counts diameters. No post writes such programs (diameters, T with its offset, \
+                 feed per revolution): change it by hand for the other control and compare both with `trunnion diff`. What the conversion found: {why}"
+            ));
+        }
         Refused::new(format!("the conversion could not be proved and was not written: {why}"))
     })?;
     let turned = control_swaps(&after, &parts, machine, setting.vectors);
@@ -346,6 +352,11 @@ fn prove(
         parts,
     };
     Ok((proof, turned, travel, told))
+}
+
+/// Whether X of a program counts diameters.
+fn diameters(dialect: &Dialect, machine: Option<&Machine>) -> bool {
+    dialect.quirks.diameter || machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.extra.diameter))
 }
 
 /// Original motions in whose cut a control that reads vectors turns to the other posture, as rule branch-swap measures it, or in which

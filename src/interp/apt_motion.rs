@@ -4,7 +4,7 @@ use crate::apt::{Args, Circle};
 use crate::arc::mismatch;
 use crate::core::ROTARY;
 use crate::core::Report;
-use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
+use crate::{Argument, Effect, FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
@@ -179,6 +179,13 @@ impl Apt<'_> {
         if let Some(vector) = vector {
             let now = self.core.unit_vector(vector, true, range, report);
             let is_vector = matches!(now, Orientation::Vector(..));
+            if is_vector && self.core.effects.wanted() && !self.is_held(now) {
+                // whether a postprocessor follows it where MULTAX/ON was not programmed is not known
+                let off = !self.core.state.tool_axis.multax();
+                let to: Vec<Argument> = off.then(|| Argument::code("OFF")).into_iter().collect();
+                let block = self.core.main_block(report.block);
+                self.core.effects.add(block, Effect::set("MULTAX", to));
+            }
             if self.kept.axis_fixed && is_vector && !self.is_held(now) {
                 let what = "a tool axis after MULTAX/OFF: whether the postprocessor follows it".to_owned();
                 report.fault(range, FaultKind::NotModelled { what });

@@ -170,7 +170,11 @@ impl<'d> Iso<'d> {
                 state.spindle.set_surface_speed(true);
             }
             Action::ConstantSpindleSpeed => state.spindle.set_surface_speed(false),
-            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.switch(true),
+            Action::SpindleClockwise | Action::SpindleCounterClockwise => {
+                state.spindle.switch(true);
+                let counter_clockwise = found.code.action == Action::SpindleCounterClockwise;
+                self.memory.cycle.counter_clockwise = Some(counter_clockwise);
+            }
             Action::SpindleStop => block.stops_spindle = true,
             Action::ToolChange => self.change_tool(words, report),
             Action::MachineCoordinates => block.machine_coordinates = true,
@@ -191,6 +195,7 @@ impl<'d> Iso<'d> {
     }
 
     fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        self.zero_in_compensation(found, words, report);
         match found.code.action {
             Action::CompensationOff => self.core.state.compensation = 0,
             Action::CompensationLeft => self.compensation(41, found, words, report),

@@ -34,6 +34,8 @@ use trunnion_dialect::{Action, Code};
 pub(crate) struct Cycle {
     /// The code as it is written, for messages.
     pub(crate) id: String,
+    /// The direction that M3 or M4 programmed last.
+    pub(crate) counter_clockwise: Option<bool>,
     /// Letters that the code reads (A is bit 0).
     pub(crate) letters: u32,
     /// Whether K or L counts the repeats.

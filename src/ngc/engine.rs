@@ -118,6 +118,14 @@ impl Engine {
     pub fn path(&self, file: FileId) -> &str {
         self.files.get(file.0 as usize).map_or("", |source| &source.path)
     }
+    /// Control points of a spline (G5.2) that was left without G5.3: another motion came, or the program ended.
+    pub fn left_spline(&self, ended: bool) -> &[[f64; 3]] {
+        if ended || self.state.motion != 52 {
+            self.spline.points()
+        } else {
+            &[]
+        }
+    }
     /// The value of a parameter as it is written, `#1` or `#<name>`, between two lines; NaN where it is unknown, `None` where there is none.
     pub fn variable(&self, text: &str) -> Option<f64> {
         let name = text.trim().strip_prefix('#')?;

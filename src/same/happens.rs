@@ -33,6 +33,11 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
             return Ok(());
         }
         let what = format!("one does `{}`, the other `{}`", shown(words), shown(other_words));
+        if (*sort == Sort::Switch) != (*other_sort == Sort::Switch) {
+            return Err(Verdict::Unknown(place(format!(
+                "{what}: the machine left the spindle in a state that is not known"
+            ))));
+        }
         return Err(if *sort == Sort::Unmodelled || *other_sort == Sort::Unmodelled {
             Verdict::Unknown(place(format!(
                 "{what}: their effect is not modelled, and the words differ"

@@ -51,6 +51,10 @@ impl Initial {
         if fanuc && limits {
             initial.set("stroke-check", "G22");
         }
+        // a postprocessor may turn the tool or not where MULTAX/ON was not programmed
+        initial.groups.insert("MULTAX".to_owned());
+        // LinuxCNC keeps the shift of G92 from one program to the next (user manual, G92)
+        initial.groups.insert("G92 of the program before".to_owned());
         if dialect.quirks.rs274() {
             initial.set("feed override", "on");
             initial.set("speed override", "on");

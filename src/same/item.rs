@@ -33,6 +33,8 @@ pub enum Sort {
     Event,
     /// The program's end.
     End,
+    /// A spindle starts or stops where the machine has left it in a state that is not known: it may be in that state already.
+    Switch,
     /// Words whose effect is not modelled.
     Unmodelled,
 }
@@ -99,10 +101,12 @@ pub(crate) struct Waiting {
 /// See [`Waiting`].
 pub(crate) enum Waits {
     Effect(Effect, Reach),
-    /// A word of a group was programmed after something ran that may have changed everything: see [`Process::restate`].
+    /// A word of a group was programmed after something ran that may have changed everything: see [`Process::note`].
     Restated(String, Vec<Argument>),
     /// Such a thing ran.
     Lost,
+    /// Data that offsets are read from may have been written: see [`Process::note`].
+    Written,
 }
 
 impl Waiting {

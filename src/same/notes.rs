@@ -1,7 +1,7 @@
 //! What is recorded at a block apart from its effects: what something unmodelled could read, and words that restate what may be lost.
-use crate::item::{Around, Waits};
-use crate::process::Process;
-use crate::since::{keeps_place, only_steers, writes_control};
+use crate::item::{Around, Waiting, Waits};
+use crate::process::{Process, READ_AGAIN};
+use crate::since::{keeps_place, only_steers, reads_data, writes_control, writes_data};
 use crate::steps::Steps;
 use std::sync::Arc;
 use trunnion_dialect::Role;
@@ -59,12 +59,29 @@ impl Steps<'_> {
                     self.interpreter.add_values(words);
                     self.run.actions.add_variables(words.len() - written);
                 }
-                Waits::Effect(Effect::Store(_) | Effect::End(_), _) | Waits::Restated(..) | Waits::Lost => {}
+                Waits::Effect(Effect::Store(_) | Effect::End(_), _)
+                | Waits::Restated(..)
+                | Waits::Lost
+                | Waits::Written => {}
             }
         }
+        self.note_written(new);
         if lost || own {
             self.since.lost = true;
             self.run.wait(self.run.count + 1, BlockId(0), Waits::Lost);
+        }
+    }
+
+    /// Data that offsets are read from may have been written in this block. LinuxCNC's and grbl's own rules are modelled: there nothing is open.
+    fn note_written(&mut self, new: usize) {
+        let quirks = &self.input.dialect.quirks;
+        if quirks.rs274() || self.input.program.options().format != Format::Iso && !quirks.user_names() {
+            return;
+        }
+        let writes = |waiting: &Waiting| matches!(&waiting.what, Waits::Effect(effect, _) if writes_data(effect));
+        if self.run.waiting.range(new..).any(writes) {
+            self.since.written = true;
+            self.run.wait(self.run.count + 1, BlockId(0), Waits::Written);
         }
     }
 
@@ -75,7 +92,7 @@ impl Steps<'_> {
             return;
         }
         // a block of a loop is read once, as long as what it restates does not count
-        if lost || !self.since.lost {
+        if lost || !(self.since.lost || self.since.written) {
             let known = self.disturbs[block.0 as usize];
             let disturbs = known.unwrap_or_else(|| {
                 let before = std::mem::take(&mut self.since.disturbed);
@@ -97,8 +114,9 @@ impl Steps<'_> {
         if only_steers(&program.text(view.range())) {
             return;
         }
+        let all = self.since.lost;
         for item in view.items() {
-            let (key, to) = match item {
+            let (key, to, reads) = match item {
                 AnyItem::Word(word) => {
                     let Address::Letter(letter) = word.address else {
                         self.since.disturbed |= writes_control(&program.text(word.range));
@@ -119,11 +137,14 @@ impl Steps<'_> {
                         self.since.disturbed |= code.is_none_or(|code| !keeps_place(code, dialect));
                         let Some(code) = code else { continue };
                         let key = code.group.clone().unwrap_or_else(|| code.id.clone());
-                        (key, code.id.clone())
+                        (key, code.id.clone(), reads_data(code))
                     } else if matches!(letter, b'F' | b'S' | b'T' | b'D' | b'H') {
                         self.since.disturbed |= matches!(letter, b'D' | b'H');
                         let text = program.text(word.value_range).into_owned();
-                        (char::from(letter).to_string(), text)
+                        // T of a turret brings its offsets, D of a Sinumerik those of the edge
+                        let turret = dialect.quirks.tool_word.changes();
+                        let reads = matches!(letter, b'D' | b'H') || letter == b'T' && turret;
+                        (char::from(letter).to_string(), text, reads)
                     } else {
                         continue;
                     }
@@ -133,7 +154,7 @@ impl Steps<'_> {
                     self.since.disturbed |= code.is_none_or(|code| !keeps_place(code, dialect));
                     let Some(code) = code else { continue };
                     let key = code.group.clone().unwrap_or_else(|| code.id.clone());
-                    (key, code.id.clone())
+                    (key, code.id.clone(), reads_data(code))
                 }
                 AnyItem::Other(range) => {
                     self.since.disturbed |= writes_control(&program.text(range));
@@ -141,8 +162,11 @@ impl Steps<'_> {
                 }
                 _ => continue,
             };
-            if restates {
-                let to = vec![Argument::text("", &trunnion_interp::canonical_text(&to))];
+            if restates && (all || reads) {
+                let to = self.interpreter.resolved_text(&trunnion_interp::canonical_text(&to));
+                let to = vec![Argument::text("", &to)];
+                // what it reads is what was written up to here
+                let key = if reads { format!("{key}{READ_AGAIN}") } else { key };
                 // before the motion of its block
                 self.run.wait(effects, block, Waits::Restated(key, to));
             }

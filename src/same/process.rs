@@ -1,5 +1,6 @@
 //! The state at a moment of a run, apart from the position of the tool.
 use crate::initial::Initial;
+use crate::item::Waits;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,6 +17,9 @@ pub struct Process {
     /// may differ.
     restated: BTreeMap<String, Vec<Argument>>,
 }
+
+/// Ends the group of a word that reads data of the control, such as H: see [`Process::note`].
+pub(crate) const READ_AGAIN: &str = ", read again";
 
 /// The text on the screen: it matters if the program stops with it.
 const MESSAGE: &str = "message";
@@ -65,17 +69,29 @@ impl Process {
         true
     }
 
-    /// A word of a group was programmed again; see [`Self::restated`].
-    pub(crate) fn restate(this: &mut Arc<Self>, group: String, to: Vec<Argument>) {
-        if this.restated.get(&group) != Some(&to) {
-            Arc::make_mut(this).restated.insert(group, to);
-        }
-    }
-
-    /// The whole modal state is unknown from here on.
-    pub(crate) fn lose_restated(this: &mut Arc<Self>) {
-        if !this.restated.is_empty() {
-            Arc::make_mut(this).restated.clear();
+    /// What matters of words that only say again what is in effect; see [`Self::restated`].
+    pub(crate) fn note(this: &mut Arc<Self>, what: Waits) {
+        match what {
+            // a word of a group was programmed again
+            Waits::Restated(group, to) => {
+                if this.restated.get(&group) != Some(&to) {
+                    Arc::make_mut(this).restated.insert(group, to);
+                }
+            }
+            // the whole modal state is unknown from here on
+            Waits::Lost => {
+                if !this.restated.is_empty() {
+                    Arc::make_mut(this).restated.clear();
+                }
+            }
+            // data that offsets are read from may have been written: what read them before does not hold the new values
+            Waits::Written => {
+                if this.restated.keys().any(|group| group.ends_with(READ_AGAIN)) {
+                    let restated = &mut Arc::make_mut(this).restated;
+                    restated.retain(|group, _| !group.ends_with(READ_AGAIN));
+                }
+            }
+            Waits::Effect(..) => {}
         }
     }
 
@@ -181,8 +197,14 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     let mut groups = groups.filter(|group| was.restated.get(*group) != is.restated.get(*group));
     let group = groups.next().filter(|_| !shared)?;
     let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
+    let key = match group.strip_suffix(READ_AGAIN) {
+        Some(group) => {
+            format!("{group} after offsets may have been written (whether one in effect follows at once is unknown)")
+        }
+        None => format!("{group} after a called program that could not be read"),
+    };
     Some(Unlike {
-        key: format!("{group} after a called program that could not be read"),
+        key,
         from: said(was),
         to: said(is),
         is_unknown: true,

@@ -49,6 +49,8 @@ struct Lost {
 #[derive(Default)]
 struct Said {
     words: Vec<String>,
+    /// One of them counts in the unit of the program.
+    in_units: bool,
     /// One of them has no known result.
     counts: bool,
 }
@@ -119,6 +121,21 @@ impl Steps<'_> {
         }
     }
 
+    /// A word along X, Y, Z, U, V or W in mm, so that inches say the same; `None`: it is no plain number, or no such word.
+    fn in_mm(&self, axis: u8, word: &Word) -> Option<String> {
+        let axis = AxisLetter::new(axis).filter(|axis| !(3..6).contains(&axis.0))?;
+        let Value::Number(number) = word.value else { return None };
+        // without a decimal point a parameter of the control may decide what it means
+        let text = self.input.program.text(word.value_range);
+        let mm = number.to_f64() * self.state().coordinates.unit_mm();
+        if mm != 0.0 && !text.contains('.') {
+            return None;
+        }
+        // inches have more digits than a word
+        let mm = (mm * 1e9).round() / 1e9 + 0.0;
+        Some(format!("{}{mm}", char::from(AXIS_LETTERS[usize::from(axis.0)])))
+    }
+
     fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {
         let (program, dialect) = (self.input.program, self.input.dialect);
         let text = || self.text(&program.text(word.range));
@@ -161,7 +178,14 @@ impl Steps<'_> {
                     Some(axis) => lost.axes & (1 << axis.0) != 0,
                     None => lost.linear && !lost.arc,
                 };
-                said.whole(text(), counts);
+                // the increments of a lathe, and the time of a dwell, stay as they are written
+                match self.in_mm(letter, word).filter(|_| axis == letter && !lost.kind) {
+                    Some(plain) => {
+                        said.words.push(plain);
+                        said.counts |= counts;
+                    }
+                    None => said.whole(text(), counts),
+                }
             }
         }
     }
@@ -199,6 +223,7 @@ impl Steps<'_> {
 impl Said {
     /// Adds something; `counts`: its result is not known.
     fn whole(&mut self, text: String, counts: bool) {
+        self.in_units = true;
         self.words.push(text);
         self.counts |= counts;
     }
@@ -218,7 +243,7 @@ impl Said {
         if coordinates.incremental() {
             told.push_str(" (incremental)");
         }
-        if coordinates.unit_mm() != 1.0 {
+        if coordinates.unit_mm() != 1.0 && self.in_units {
             told.push_str(" (inch)");
         }
         told.push(ENDS);

@@ -67,8 +67,15 @@ pub(crate) fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     let what = format!("{what}the original program {}, the changed one {}", name(was), name(is));
     let place = at(was, is, what);
     let from_here = |item: Option<&Item>| matches!(item, Some(Item::Happens { words, .. }) if sets_from_here(words));
+    // only where the other program goes on without it
+    let switch = |item: Option<&Item>| matches!(item, Some(Item::Happens { sort: Sort::Switch, .. }));
+    let may_be_on = switch(was) != switch(is);
     let ends_elsewhere = part(was) != part(is) && (from_here(was) || from_here(is));
-    if !ends_elsewhere && (unmodelled(was) || unmodelled(is)) {
+    if may_be_on {
+        let mut place = place;
+        place.what += "; the machine left the spindle in a state that is not known";
+        Verdict::Unknown(place)
+    } else if !ends_elsewhere && (unmodelled(was) || unmodelled(is)) {
         Verdict::Unknown(place)
     } else {
         Verdict::Differs(place)

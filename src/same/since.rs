@@ -1,7 +1,7 @@
 //! What happened since the last motion, and since something ran that may have changed everything modal.
 use crate::process::Held;
 use trunnion_dialect::{Action, Code, Dialect};
-use trunnion_interp::{Argument, Motion};
+use trunnion_interp::{Argument, Effect, Motion};
 
 /// See the module.
 #[derive(Default)]
@@ -10,6 +10,9 @@ pub(crate) struct Since {
     pub(crate) disturbed: bool,
     /// Something ran that may have changed everything modal: what is restated from then on matters.
     pub(crate) lost: bool,
+    /// Data of the control that offsets are read from (zero points, lengths, radii) may have been written: a code that reads them again matters
+    /// from then on. Whether an offset that is in effect follows at once is a parameter of the control, where it is known at all.
+    pub(crate) written: bool,
     /// Some motion was made in machine coordinates, or with another offset or length than the one after it: an axis may still be where
     /// that motion put it.
     strayed: bool,
@@ -83,6 +86,41 @@ const FROM_HERE: &str = "zero point set from here";
 /// Whether an event is that one.
 pub(crate) fn sets_from_here(words: &[Argument]) -> bool {
     words.first().is_some_and(|word| word.name == FROM_HERE)
+}
+
+/// Whether an effect may write data of the control that offsets are read from: G10, a system variable, or words whose effect is not modelled.
+pub(crate) fn writes_data(effect: &Effect) -> bool {
+    let is_data = |word: &Argument| {
+        let is_number = word
+            .name
+            .strip_prefix('#')
+            .and_then(|digits| digits.parse::<u32>().ok());
+        word.name.starts_with("G10") || word.name.starts_with('$') || is_number.is_some_and(|number| number >= 1000)
+    };
+    match effect {
+        // a code of the machine builder, or a block whose moment is open, writes none by itself
+        Effect::Unmodelled(words) => words.first().is_none_or(|word| {
+            let digits = word.name.strip_prefix('M').unwrap_or("?");
+            !digits.bytes().all(|byte| byte.is_ascii_digit()) && word.name != "T" && !word.name.contains(' ')
+        }),
+        Effect::Event(words) => words.iter().any(is_data),
+        Effect::Store(word) => is_data(word),
+        Effect::Set { .. } | Effect::End(_) => false,
+    }
+}
+
+/// Whether a code reads a zero point, a length or a radius from the data of the control.
+pub(crate) fn reads_data(code: &Code) -> bool {
+    matches!(
+        code.action,
+        Action::WorkOffset
+            | Action::WorkSystem
+            | Action::ToolLengthOn
+            | Action::CompensationLeft
+            | Action::CompensationRight
+            | Action::TcpOn
+            | Action::TcpVectorOn
+    )
 }
 
 /// Whether the text of a statement may write a variable of the control (#1000 and above, `$...`), where offsets may be kept.

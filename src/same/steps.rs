@@ -339,12 +339,8 @@ impl<'a> Steps<'a> {
             } = next;
             let (effect, reach) = match what {
                 Waits::Effect(effect, reach) => (effect, reach),
-                Waits::Restated(group, to) => {
-                    Process::restate(&mut run.process, group, to);
-                    continue;
-                }
-                Waits::Lost => {
-                    Process::lose_restated(&mut run.process);
+                Waits::Restated(..) | Waits::Lost | Waits::Written => {
+                    Process::note(&mut run.process, what);
                     continue;
                 }
             };
@@ -356,10 +352,11 @@ impl<'a> Steps<'a> {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows
                     let happens = key.starts_with("spindle") && !key.ends_with("words") && !is_left(&to);
+                    let left = is_left(run.process.get(&key));
                     if !Process::set(&mut run.process, key, &to) || !happens {
                         continue;
                     }
-                    (Sort::Event, to)
+                    (if left { Sort::Switch } else { Sort::Event }, to)
                 }
                 Effect::Store(argument) => {
                     run.stores.insert(argument.name.into_owned(), argument.value);

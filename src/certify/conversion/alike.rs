@@ -1,13 +1,11 @@
 //! What two motions that belong together have in common apart from their path: kind, spindle, zero point, tool and its length.
+use super::folded::SHIFT;
 use super::proof::{Proof, above};
 use super::{Posed, Reading, ZeroNames};
 use crate::Outcome;
 use std::sync::Arc;
 use trunnion_interp::{LengthOf, MotionKind};
 use trunnion_syntax::Format;
-
-/// Shifts of the zero point that differ by less are the same, mm or deg.
-const SHIFT: f64 = 1e-9;
 
 /// Tool lengths that differ by less are the same, mm.
 const LENGTH_MM: f64 = 1e-6;
@@ -145,8 +143,9 @@ impl Proof<'_> {
             .zip(&shifts(new))
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
-            let why = "the original program shifts the zero point (G52, G92, G10, TRANS), and a conversion writes no shifts: put the shift into the \
-                 coordinates or into a work offset of its own, and convert that program";
+            let why = "the original program shifts the zero point (G52, G92, G10, TRANS) and does not take that back before its end. A conversion writes \
+                 coordinates without shifts, and the zero point would differ after the program: end the shift (G52 X0 Y0 Z0, G92.1, TRANS) and convert \
+                 that program";
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {

@@ -1,5 +1,6 @@
 //! Compares the requests of two programs: each must be between the same motions, in the same order and state.
 use super::ask::{Ask, Asked, Coolant, Own, Why};
+use super::coolants::{AtStop, Coolants, after_stop, after_tool_change};
 use super::{Part, Reading};
 use crate::Outcome;
 use core::fmt;
@@ -15,45 +16,6 @@ pub struct Terms<'a> {
     /// What own codes of the control mean in the program after, as its post says: the text of a request, and the request. `None`: it
     /// belongs to the header or footer of every program.
     pub meanings: &'a [(String, Option<Ask>)],
-}
-
-/// What is switched on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Coolants {
-    flood: bool,
-    mist: bool,
-    thru: bool,
-    air: bool,
-}
-
-impl Coolants {
-    fn set(&mut self, coolant: Coolant) {
-        match coolant {
-            Coolant::Flood => self.flood = true,
-            Coolant::Mist => self.mist = true,
-            Coolant::Thru => self.thru = true,
-            Coolant::Air => self.air = true,
-            Coolant::ThruOff => self.thru = false,
-            Coolant::Off => *self = Self::default(),
-        }
-    }
-}
-
-impl fmt::Display for Coolants {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all = [
-            (self.flood, "flood"),
-            (self.mist, "mist"),
-            (self.thru, "through the spindle"),
-            (self.air, "air"),
-        ];
-        let on: Vec<&str> = all.iter().filter(|(on, _)| *on).map(|(_, name)| *name).collect();
-        f.write_str(&if on.is_empty() {
-            "off".to_owned()
-        } else {
-            on.join(" and ")
-        })
-    }
 }
 
 /// What must come between two motions, in order.
@@ -97,6 +59,11 @@ struct Side<'a> {
     written: bool,
     /// M0 stops the spindle.
     stop_ends_spindle: bool,
+    /// What becomes of the coolant in a tool change, and in a stop.
+    tool_change: AtStop,
+    stop: AtStop,
+    /// Blocks that were looked at for a tool change.
+    blocks: usize,
 }
 
 /// Compares the requests of both programs.
@@ -286,6 +253,9 @@ impl<'a> Side<'a> {
             meanings,
             clamps,
             written,
+            tool_change: after_tool_change(reading),
+            stop: after_stop(reading),
+            blocks: 0,
             stop_ends_spindle: reading.program.options().format == Format::Klartext
                 || trunnion_dialect::builtin(&reading.dialect)
                     .is_some_and(|dialect| dialect.quirks.program_stop_stops_spindle),
@@ -297,9 +267,24 @@ impl<'a> Side<'a> {
         let mut events = Vec::new();
         while let Some(asked) = self.reading.asks.get(self.next).filter(|asked| asked.at <= motion) {
             self.next += 1;
+            self.change_tools(asked.ran + 1);
             self.hear(&asked.ask, asked.ran, &mut events);
         }
+        let done = self.reading.blocks.partition_point(|ran| ran.motions <= motion);
+        self.change_tools(done);
         events
+    }
+
+    /// Tool changes in the blocks before this one.
+    fn change_tools(&mut self, before: usize) {
+        let reading = self.reading;
+        let blocks = &reading.blocks;
+        for at in self.blocks.max(1)..before.min(blocks.len()) {
+            if blocks[at].tool != blocks[at - 1].tool {
+                self.coolants.stopped(self.tool_change);
+            }
+        }
+        self.blocks = self.blocks.max(before);
     }
 
     fn hear(&mut self, ask: &Ask, ran: usize, events: &mut Events) {
@@ -314,6 +299,9 @@ impl<'a> Side<'a> {
                 if !self.changes_tool_by_hand(ran) {
                     events.push((stop, self.reading.blocks[ran].block));
                 }
+                // an optional stop may not come
+                let stop = if *optional { self.stop.perhaps() } else { self.stop };
+                self.coolants.stopped(stop);
             }
             // where the program after has clamps of its own, they are judged by what its axes do
             Ask::Clamp(name) if *self.clamps == AllClampCodes::default() => self.own(name, name, true, ran, events),

@@ -1,5 +1,6 @@
 //! A program run from scratch, with the pose of the tool at both ends of every motion.
 use super::ask::{Asked, asks};
+use super::folded::{SHIFT, folded, shift_of};
 use super::posed::keeps_lengths;
 use super::reason::reason;
 use std::collections::BTreeSet;
@@ -60,7 +61,8 @@ pub struct Posed {
     pub counter_clockwise: Option<bool>,
     /// The spindle turned before a stop, a tool change or a tap that may have ended it.
     pub spindle_left: bool,
-    /// What the active zero point adds to the declared values of the work offset (G52, G92, G10, TRANS), mm and deg.
+    /// What the active zero point adds to the declared values of the work offset (G52, G92, G10, TRANS), mm and deg, and stays there after the end of the
+    /// program; a shift that the program takes back is in the coordinates.
     pub shift: [f64; 9],
     /// Name of the active work offset.
     pub work_offset: Option<Arc<str>>,
@@ -156,6 +158,15 @@ pub fn read(run: &Run<'_>) -> Reading {
             break;
         }
     }
+    let state = interpreter.state();
+    let left = shift_of(&state.zero.values(), state, run.setup, sink.unnamed());
+    if left.iter().all(|left| left.abs() <= SHIFT) {
+        // it is taken back: what it did is in the coordinates
+        for posed in &mut sink.motions {
+            let finite = posed.shift.iter().all(|shift| shift.is_finite());
+            posed.shift = if finite { [0.0; 9] } else { posed.shift };
+        }
+    }
     let Collector {
         mut motions,
         mut blocks,
@@ -225,20 +236,14 @@ impl Sink for Collector<'_> {
             return;
         }
         let length = self.length_of(motion, state);
-        let added = shift(
-            motion,
-            state,
-            self.setup,
-            if self.is_apt { "G54" } else { UNNAMED_ZERO },
-        );
+        let added = shift_of(&motion.zero, state, self.setup, self.unnamed());
+        let own = folded(motion, &added);
         let posed = if let (Some(follower), Some(machine)) = (&mut self.follower, self.machine) {
             let leg = follower.follow(motion);
-            // machine coordinates know nothing of what the program adds to the zero point
-            let added = if motion.machine_coordinates { added } else { [0.0; 9] };
             let pose = |joints| {
                 let mut pose = forward(machine, joints, length);
-                for (axis, added) in added.iter().enumerate().take(3) {
-                    pose.tip[axis] -= motion.zero[axis] - added;
+                for (axis, zero) in own.zero.iter().enumerate().take(3) {
+                    pose.tip[axis] -= zero;
                 }
                 pose
             };
@@ -256,7 +261,7 @@ impl Sink for Collector<'_> {
             };
             (start, end, Some(Box::new(leg)))
         } else {
-            let (start, end) = self.plain(motion);
+            let (start, end) = self.plain(&own);
             self.last = end.as_ref().ok().copied();
             (start, end, None)
         };
@@ -268,7 +273,7 @@ impl Sink for Collector<'_> {
             _ => true,
         };
         self.motions.push(Posed {
-            motion: *motion,
+            motion: own,
             start: posed.0,
             end: posed.1,
             leg: posed.2,
@@ -323,6 +328,11 @@ impl Sink for Collector<'_> {
 }
 
 impl Collector<'_> {
+    /// The work offset where the program names none.
+    fn unnamed(&self) -> &'static str {
+        if self.is_apt { "G54" } else { UNNAMED_ZERO }
+    }
+
     /// The length of the tool for which a pose is given, mm: the one in effect. Where none is, the tool is still as long as it is: as declared, else as
     /// long as its own length that was in effect before; 0 where that is unknown.
     fn length_of(&mut self, motion: &Motion, state: &ModalState) -> f64 {
@@ -370,13 +380,6 @@ impl Collector<'_> {
         };
         (start, end)
     }
-}
-
-/// What the zero point adds to the declared values of the work offset; `unnamed`: the active offset where the program names none.
-fn shift(motion: &Motion, state: &ModalState, setup: &Setup, unnamed: &str) -> [f64; 9] {
-    let name = state.zero.offset().unwrap_or(unnamed);
-    let base = setup.work_offset(name).map_or([0.0; 9], |offset| offset.values);
-    core::array::from_fn(|axis| motion.zero[axis] - base[axis])
 }
 
 /// Why a fault makes it unsafe to say what the program does; `None` where poses do not depend on it.

@@ -67,8 +67,8 @@ fn a_tap_made_of_feed_motions_is_refuted() {
     );
     lost(
         "haas-ngc",
-        "G74 Z-5. R2. F500.\nG80\nM3",
-        "Z2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.\nM3",
+        "M4\nG74 Z-5. R2. F500.\nG80\nM3",
+        "M4\nZ2.\nG1 Z-5. F500.\nZ2.\nG0 Z5.\nM3",
         "is lost",
     );
     lost(

@@ -5,6 +5,7 @@ use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::{WordValue, Words};
+use trunnion_dialect::Action;
 
 impl<'d> Iso<'d> {
     /// G41 (41) or G42 (42).
@@ -57,6 +58,29 @@ impl<'d> Iso<'d> {
                     report.fault(found.range, FaultKind::radius_lacks(&d));
                 }
             }
+        }
+    }
+
+    /// A code that moves or scales the coordinates, or writes a radius, while the tool runs beside the contour: what becomes of the offset vector is in no
+    /// source of this project.
+    pub(crate) fn zero_in_compensation(&mut self, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
+        if self.core.state.compensation == 0 || self.memory.compensation.stage != Stage::On {
+            return;
+        }
+        let changes = match found.code.action {
+            Action::WorkOffset => self.core.state.zero.offset() != Some(found.code.id.as_str()),
+            Action::PositionSet => words.axes.any(),
+            // radius and wear
+            Action::DataEntry => matches!(words.letter(b'L').index(), Some(12 | 13)),
+            Action::LocalShift | Action::PositionPreset | Action::ScalingOn | Action::ScalingOff => true,
+            _ => false,
+        };
+        if changes {
+            let why = format!(
+                "{} while it is active, which leaves open what becomes of the offset",
+                found.code.id
+            );
+            self.lose(&why, report);
         }
     }
 

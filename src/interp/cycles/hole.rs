@@ -241,7 +241,7 @@ impl Iso<'_> {
             return;
         }
         self.down(plan, MotionKind::Rapid, plan.r, report);
-        let tapped = self.tap_begins(action);
+        let tapped = self.tap_begins(action, report);
         match action {
             Action::PeckCycle | Action::ChipBreakCycle => self.steps(plan, action, report),
             _ => self.down(plan, MotionKind::Linear, Some(plan.bottom), report),

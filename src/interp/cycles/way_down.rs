@@ -3,7 +3,7 @@ use super::hole::MOST_MOTIONS;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Effect, Orientation, Refusal};
+use crate::{Effect, FaultKind, Orientation, Refusal};
 use trunnion_dialect::Action;
 use trunnion_vocabulary::Spindle;
 
@@ -46,9 +46,20 @@ impl Iso<'_> {
 
     /// A tap of Fanuc's kind turns the spindle itself where it is rigid, by M29 or by a parameter of the control: it is not known to stand then.
     /// The spindle before it.
-    pub(super) fn tap_begins(&mut self, action: Action) -> Option<Spindle> {
+    pub(super) fn tap_begins(&mut self, action: Action, report: &mut Report<'_>) -> Option<Spindle> {
         let taps = matches!(action, Action::TapCycle | Action::TapLeftCycle);
         let before = self.core.state.spindle;
+        let left = action == Action::TapLeftCycle;
+        if taps && before.on() == Some(true) && self.memory.cycle.counter_clockwise == Some(!left) {
+            let (hand, code) = if left {
+                ("left-hand", "M3")
+            } else {
+                ("right-hand", "M4")
+            };
+            let id = &self.memory.cycle.id;
+            let what = format!("{id}, a {hand} tap, after {code}: which way the spindle turns on the way in");
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+        }
         if !taps || !self.core.dialect.quirks.macro_b() {
             return None;
         }

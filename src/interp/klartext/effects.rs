@@ -3,7 +3,7 @@ use super::Klartext;
 use super::words::{Said, Word, Words};
 use crate::tools::Chosen;
 use crate::{Argument, Effect, MotionKind, Reach};
-use trunnion_syntax::BlockId;
+use trunnion_syntax::{BlockId, Program};
 
 /// First words of blocks that are in the motions and the modal state, or that do nothing.
 const HELD: [&str; 22] = [
@@ -143,6 +143,10 @@ impl Klartext<'_> {
             effects.add(block, Effect::set("tool in use", [tool]));
             effects.add(block, Effect::Event(vec![Argument::code("tool change")]));
         }
+        if kind.is("DEF") {
+            return self.definition_effects(kind.value, words, block);
+        }
+        let effects = &mut self.core.effects;
         let mut deltas = Vec::new();
         for word in words {
             match (word.name(), self.memory.parameters.of(word.value)) {
@@ -161,6 +165,63 @@ impl Klartext<'_> {
         if kind.is("CALL") {
             effects.add(block, Effect::set("tool deltas", deltas));
         }
+    }
+
+    /// The first block of a program is BEGIN PGM and the last one END PGM (HEIDENHAIN TNC 620, Klartext programming 10/2017, p. 154): what the control
+    /// does with a text that has only some of them is not known.
+    #[cold]
+    pub(crate) fn head_effects(&mut self, main: &Program) {
+        let all = || (0..main.block_count() as u32).map(BlockId);
+        let first = all().find_map(|id| main.block(id).sentence());
+        let last = all().rev().find_map(|id| main.block(id).sentence());
+        let is = |sentence: Option<trunnion_syntax::Sentence<'_>>, name: &str| {
+            sentence.is_some_and(|sentence| {
+                let text = sentence.text();
+                let mut words = Words::new(&text);
+                let first = words.next().is_some_and(|word| word.is(name));
+                first && words.next().is_some_and(|word| word.is("PGM"))
+            })
+        };
+        for (is_there, what) in [
+            (is(first, "BEGIN"), "a program without BEGIN PGM"),
+            (is(last, "END"), "a program without END PGM"),
+        ] {
+            if !is_there {
+                let effect = Effect::Unmodelled(vec![Argument::code(what)]);
+                self.core.effects.add_with(BlockId(0), effect, Reach::Itself);
+            }
+        }
+    }
+
+    /// TOOL DEF prepares a tool; with L and R it writes the data of one, which its next call reads.
+    fn definition_effects(&mut self, number: Said<'_>, words: Words<'_>, block: BlockId) {
+        let unit = self.core.state.coordinates.unit_mm();
+        let said = |name: &'static str, value: Option<f64>| match value {
+            Some(value) => Argument::number(name, value),
+            None => Argument::text(name, "unknown"),
+        };
+        let tool = said("T", self.memory.parameters.of(number));
+        let mut data = Vec::new();
+        for word in words {
+            let name = match word.name() {
+                b"L" => "L",
+                b"R" => "R",
+                _ => continue,
+            };
+            data.push(said(
+                name,
+                self.memory.parameters.of(word.value).map(|value| value * unit),
+            ));
+        }
+        if data.is_empty() {
+            self.core.effects.add(block, Effect::set("tool prepared", [tool]));
+            return;
+        }
+        data.sort_by(|a, b| a.name.cmp(&b.name));
+        let words = [Argument::code("TOOL DEF"), tool].into_iter().chain(data);
+        self.core
+            .effects
+            .add_with(block, Effect::Event(words.collect()), Reach::Itself);
     }
 
     /// Whether more than the motions of holes and the frames hold is in the block.

@@ -45,6 +45,7 @@ pub(crate) enum Level {
 pub(crate) struct Flow {
     pub(crate) course: Course<Level>,
     next: u32,
+    begun: bool,
     finished: bool,
     library: Library,
     labels: HashMap<u16, Arc<Index<()>>>,
@@ -58,12 +59,21 @@ pub(crate) struct Flow {
 }
 
 impl Klartext<'_> {
+    /// What the program says as a whole, before its first block.
+    fn begin_once(&mut self, main: &Program, sink: &mut impl Sink) {
+        if !std::mem::replace(&mut self.flow.begun, true) && self.core.effects.wanted() {
+            self.head_effects(main);
+            self.core.emit_effects(sink);
+        }
+    }
+
     /// Runs the next block in the control's order.
     pub(crate) fn run_next(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         if self.flow.finished || main.block_count() == 0 {
             return None;
         }
         self.core.declare(main);
+        self.begin_once(main, sink);
         let next = self.flow.next;
         let place = self.flow.course.place();
         let called = self.flow.library.file(place.file);

@@ -70,6 +70,10 @@ impl PathWords {
     pub(crate) fn moves(&self) -> bool {
         self.given != 0
     }
+    /// How many axes have a coordinate.
+    pub(crate) fn axes_given(&self) -> u32 {
+        self.given.count_ones()
+    }
 }
 
 impl Klartext<'_> {

@@ -58,7 +58,12 @@ impl Klartext<'_> {
             // a block of words alone: M3, X+10 R0 F100
             _ => {
                 words.at = 0;
-                self.path_block(Path::None, &mut words, report);
+                let found = self.path_words(&mut words, report);
+                if found.axes_given() > 1 {
+                    // a block without a path function moves along one axis: whether the control takes several is not documented
+                    Self::not_modelled("several axes in a block without L", report);
+                }
+                self.run_path(Path::None, &found, report);
             }
         }
         if self.core.state.ended {

@@ -20,10 +20,42 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             self.hand_on();
         }
+        if matches!(call, Canon::G92Offset(_)) && !self.calls.g92_known {
+            self.calls.g92_known = self.has_code(at, |tenths| matches!(tenths, 520 | 920..=923));
+            if self.has_code(at, |tenths| matches!(tenths, 921 | 922)) {
+                let block = self.block(at);
+                let effect = Effect::set("G92 of the program before", [Argument::code("cleared")]);
+                self.core.effects.add(block, effect);
+                self.hand_on();
+            }
+        }
         if let Canon::G92Offset(offset) = call
             && Shift::metric(offset, state.units.mm()).map(f64::to_bits) != self.calls.g92.map(f64::to_bits)
         {
             self.core.set_from_here(self.block(at), None);
+            self.hand_on();
+        }
+    }
+
+    /// Whether a line has one of these G codes.
+    fn has_code(&mut self, at: At, is: impl Fn(i64) -> bool) -> bool {
+        self.code_range(at, b'G', is) != trunnion_syntax::TextRange::default()
+    }
+
+    /// Control points of a spline that no G5.3 has ended: there is no curve, and they stay in the control.
+    pub(super) fn open_spline(&mut self, points: &[[f64; 3]], at: At) {
+        let what = "G5.2 without G5.3: the control makes no curve of these control points, and may mix them with those of a later spline";
+        let kind = crate::FaultKind::NotModelled { what: what.to_owned() };
+        self.fault(at, trunnion_syntax::TextRange::default(), kind);
+        if self.core.effects.wanted() {
+            let names = ["X", "Y", "P"];
+            let words = points.iter().flatten().zip(names.into_iter().cycle());
+            let mut effect = vec![Argument::code("G5.2")];
+            effect.extend(words.map(|(value, name)| Argument::number(name, *value)));
+            let block = self.block(at);
+            self.core
+                .effects
+                .add_with(block, Effect::Unmodelled(effect), Reach::Itself);
             self.hand_on();
         }
     }

@@ -207,6 +207,11 @@ impl Ngc<'_> {
         // after the last line nothing runs, and nothing in a program without any content
         let nothing_ran = matches!(step, Step::Ended);
         let block = bridge.block(at);
+        let left = engine.left_spline(nothing_ran);
+        if !left.is_empty() && !bridge.calls.spline_said {
+            bridge.open_spline(left, at);
+        }
+        bridge.calls.spline_said = !left.is_empty();
         let ran = matches!(step, Step::Line);
         let in_main = (at.file == FileId::MAIN).then_some(block);
         bridge.calls.places.ran(at.chain, in_main);

@@ -18,6 +18,13 @@ pub(crate) struct Spline {
     tail: Option<(Pose, [f64; 2])>,
 }
 
+impl Spline {
+    /// The control points so far.
+    pub(crate) fn points(&self) -> &[[f64; 3]] {
+        &self.points
+    }
+}
+
 /// What G5 and G5.1 need. Motion codes of splines do not stay in effect.
 fn check(work: &mut Work<'_>) -> Result<(), Error> {
     let block = work.block;

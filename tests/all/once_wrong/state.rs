@@ -170,4 +170,52 @@ pub(super) const STATE: &[Item] = &[
         &["6 error bad-number"],
         [2, 3],
     ),
+    (
+        "a left-hand tap after M3",
+        ["fanuc-30i", ""],
+        [HEAD, "G74 X10. Y10. Z-10. R2. F100.\nG80\nM30\n"],
+        &["6 unknown not-modelled"],
+        [6, 7],
+    ),
+    (
+        "a right-hand tap after M4",
+        ["haas-ngc", ""],
+        [HEAD, "M4\nG84 X10. Y10. Z-10. R2. F100.\nG80\nM30\n"],
+        &["7 unknown not-modelled"],
+        [6, 7],
+    ),
+    (
+        "a right-hand tap after M3",
+        ["fanuc-30i", ""],
+        [HEAD, "G84 X10. Y10. Z-10. R2. F100.\nG80\nM30\n"],
+        &[],
+        [6, 7],
+    ),
+    (
+        "several axes without L",
+        ["heidenhain-klartext", ""],
+        [KLARTEXT, "X+10 Y+5 F100\nM30\nEND PGM A MM\n"],
+        &["4 unknown not-modelled"],
+        [2, 2],
+    ),
+    (
+        "a spline that no G5.3 ends",
+        ["linuxcnc", ""],
+        [
+            "G21 G17 G90 G94 G54\nM3 S100\nG0 X0 Y0 Z0\nF100\n",
+            "G5.2 X1 Y1 P1\nX2 Y3 P1\nG1 X5\nM2\n",
+        ],
+        &["7 unknown not-modelled"],
+        [2, 2],
+    ),
+    (
+        "another zero point beside a contour",
+        ["fanuc-30i", ""],
+        [
+            "(trunnion: tool 1 flat diameter 10)\n",
+            "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 X0 Y0\nG43 H1 Z50.\nG1 Z0 F100.\nG41 D1 X10. Y0\nX30.\nG55\nX40.\nG40 X60.\nM5\nM30\n",
+        ],
+        &["10 unknown not-modelled"],
+        [6, 7],
+    ),
 ];

@@ -16,5 +16,6 @@ mod proof;
 mod real;
 mod refused;
 mod round;
+mod shifts;
 mod support;
 mod unsafe_gaps;

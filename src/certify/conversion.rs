@@ -12,6 +12,7 @@ mod axis;
 mod certificate;
 mod claim;
 mod effects;
+mod fault_words;
 mod known;
 mod posed;
 mod proof;

@@ -33,6 +33,11 @@ impl<'a> NearCodes<'a> {
     /// The text with the name of the code in place of its first word.
     pub(crate) fn of(&mut self, text: &str) -> Option<String> {
         let name = text.split(['(', ' ']).next().unwrap_or_default();
+        // a sentence about several words is no name
+        let rest = text.get(name.len()..).unwrap_or_default().trim_start();
+        if rest.starts_with(|first: char| first.is_ascii_lowercase()) {
+            return None;
+        }
         if name.len() < 4 || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
             return None;
         }

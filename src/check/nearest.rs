@@ -78,6 +78,7 @@ mod tests {
         for _ in 0..2 {
             assert_eq!(near.of("TRAORY").as_deref(), Some("TRAORI"));
             assert_eq!(near.of("traory(1)").as_deref(), Some("TRAORI(1)"));
+            assert_eq!(near.of("axes in the block of a dwell"), None);
             assert_eq!(near.of("CYCEL81(5)").as_deref(), Some("CYCLE81(5)"));
             // another number is another code, and what has a number of no code resembles none
             assert_eq!(near.of("CYCLE89999"), None);

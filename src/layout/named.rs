@@ -68,7 +68,11 @@ impl Reader<'_, '_> {
         }
         match number {
             Some(number) if digits.end == piece.end => self.refer(digits, number, false),
-            _ => self.unread(piece, number, format!("`{text}` is not understood, and may name a block")),
+            _ => self.unread(
+                piece,
+                number,
+                format!("`{text}` is not understood, and may name a block"),
+            ),
         }
     }
 
@@ -92,7 +96,14 @@ impl Reader<'_, '_> {
             return;
         };
         let range = place(next.from, next.to);
-        let known = |this: &Self| this.found.references.iter().rev().take(64).any(|one| one.digits == range);
+        let known = |this: &Self| {
+            this.found
+                .references
+                .iter()
+                .rev()
+                .take(64)
+                .any(|one| one.digits == range)
+        };
         if let Ok(number) = self.text(range).parse()
             && !known(self)
         {
@@ -107,7 +118,10 @@ impl Reader<'_, '_> {
         };
         let range = place(next.from, next.to);
         let number = self.text(range).parse().ok();
-        let why = format!("RET with {} may lead to a block of the calling program", self.text(range));
+        let why = format!(
+            "RET with {} may lead to a block of the calling program",
+            self.text(range)
+        );
         self.unread(range, number, why);
     }
 
@@ -128,17 +142,28 @@ impl Reader<'_, '_> {
                 None => continue,
             };
             let number = std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok());
-            self.unread(range, number, format!("the text {written} may name a block by its number"));
+            self.unread(
+                range,
+                number,
+                format!("the text {written} may name a block by its number"),
+            );
         }
         // `"N"<<R1`
         let last = pieces.last().is_some_and(|piece| &text[piece.from..piece.to] == b"N");
         let end = range.end as usize;
         let joined = self.program.source().get(end..).is_some_and(|rest| {
-            let rest = rest.iter().position(|byte| *byte != b' ').map_or(&rest[..0], |at| &rest[at..]);
+            let rest = rest
+                .iter()
+                .position(|byte| *byte != b' ')
+                .map_or(&rest[..0], |at| &rest[at..]);
             rest.starts_with(b"<<")
         });
         if last && joined {
-            self.unread(range, None, format!("the text that begins with {written} may name a block by its number"));
+            self.unread(
+                range,
+                None,
+                format!("the text that begins with {written} may name a block by its number"),
+            );
         }
     }
 

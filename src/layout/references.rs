@@ -167,7 +167,7 @@ impl Reader<'_, '_> {
                 );
                 self.obstacle(h.range, why);
             }
-        } else if codes.iter().any(|&code| self.is_not_known(code)) {
+        } else if !turning && codes.iter().any(|&code| self.is_not_known(code)) {
             for word in [word(b'P'), word(b'Q')].into_iter().flatten() {
                 self.may_name(word);
             }
@@ -285,7 +285,6 @@ impl Reader<'_, '_> {
             }
         }
     }
-
 }
 
 /// The block's own number: bytes of its digits, and its value where it is whole.

@@ -85,7 +85,12 @@ pub fn block_references(program: &Program, dialect: &Dialect) -> BlockReferences
     let unread: Vec<Obstacle> = survey.unread().cloned().collect();
     BlockReferences {
         references,
-        obstacles: survey.found.obstacles.into_iter().chain(unread.iter().cloned()).collect(),
+        obstacles: survey
+            .found
+            .obstacles
+            .into_iter()
+            .chain(unread.iter().cloned())
+            .collect(),
         unread,
         calls: survey.found.calls,
     }
@@ -294,7 +299,9 @@ impl Survey {
                 }
                 None => return refuse(format!("block N{number} does not exist in this program")),
                 Some([block]) if is_data(&self.data, block.0) => {
-                    return refuse(format!("N{number} is a number of data between G10 and G11, and no block"));
+                    return refuse(format!(
+                        "N{number} is a number of data between G10 and G11, and no block"
+                    ));
                 }
                 Some([block]) => {
                     if target.replace(*block).is_some_and(|other| other != *block) {

@@ -19,7 +19,7 @@ const LINES: &str = "G0 X0 Y0 Z10\nG1 X10 Y0 Z0 F100\nN20 G1 X10 Y0 Z0 F100\nX20
 fn outcome(rewrite: &str, dialect: &str, text: &str) -> Result<Option<String>, String> {
     let attempt = run(rewrite, text, &settings(dialect), &Options::default());
     let proved = attempt.outcome()?;
-    Ok(proved.map(|proved| String::from_utf8(proved.text).expect("UTF-8")))
+    Ok(proved.map(|proved| String::from_utf8(proved.after).expect("UTF-8")))
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod certificate;
 mod claim;
 mod coolants;
 mod effects;
+mod fault_words;
 mod folded;
 mod known;
 mod posed;

@@ -33,6 +33,11 @@ impl<'a> NearCodes<'a> {
     /// The text with the name of the code in place of its first word.
     pub(crate) fn of(&mut self, text: &str) -> Option<String> {
         let name = text.split(['(', ' ']).next().unwrap_or_default();
+        // a sentence about several words is no name
+        let rest = text.get(name.len()..).unwrap_or_default().trim_start();
+        if rest.starts_with(|first: char| first.is_ascii_lowercase()) {
+            return None;
+        }
         if name.len() < 4 || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
             return None;
         }
@@ -73,6 +78,7 @@ mod tests {
         for _ in 0..2 {
             assert_eq!(near.of("TRAORY").as_deref(), Some("TRAORI"));
             assert_eq!(near.of("traory(1)").as_deref(), Some("TRAORI(1)"));
+            assert_eq!(near.of("axes in the block of a dwell"), None);
             assert_eq!(near.of("CYCEL81(5)").as_deref(), Some("CYCLE81(5)"));
             // another number is another code, and what has a number of no code resembles none
             assert_eq!(near.of("CYCLE89999"), None);

@@ -112,13 +112,38 @@ pub fn edit(
         return Err(Refused::range(program, error.range, message));
     }
     let proposal = match edit {
-        _ if dialect.lex.format == Format::Klartext => klartext::propose(program, dialect, setup, edit, decimals)?,
-        Edit::Unit(unit) => unit::propose(program, dialect, setup, unit, decimals)?,
-        Edit::Positions(positions) => positions::propose(program, dialect, setup, positions)?,
-        Edit::Shape(shape) => shape::propose(program, dialect, setup, shape, decimals)?,
+        _ if dialect.lex.format == Format::Klartext => klartext::propose(program, dialect, setup, edit, decimals),
+        Edit::Unit(unit) => unit::propose(program, dialect, setup, unit, decimals),
+        Edit::Positions(positions) => positions::propose(program, dialect, setup, positions),
+        Edit::Shape(shape) => shape::propose(program, dialect, setup, shape, decimals),
     };
-    prove(program, dialect, setup, proposal)
+    match (proposal, edit) {
+        (Ok(proposal), _) => prove(program, dialect, setup, proposal),
+        (Err(nothing), Edit::Shape(shape)) if nothing.is_nothing => {
+            stays(program, dialect, setup, shape)?;
+            Err(nothing)
+        }
+        (Err(refused), _) => Err(refused),
+    }
 }
+
+/// Proves that a program without words to change is where the edit would put it.
+fn stays(program: &Program, dialect: &Dialect, setup: &Setup, shape: Shape) -> Result<(), Refused> {
+    let mut unit_mm = 1.0;
+    survey::survey(program, dialect, setup, |here| {
+        unit_mm = here.is.coordinates.unit_mm();
+        Ok(())
+    })?;
+    let proposal = Proposal {
+        edits: Vec::new(),
+        change: claim::change(shape, DECIMALS_OF_NOTHING, unit_mm),
+        notes: Vec::new(),
+    };
+    prove(program, dialect, setup, proposal).map(|_| ())
+}
+
+/// Digits of the bound within which such a program stays.
+const DECIMALS_OF_NOTHING: usize = 6;
 
 /// Applies what is proposed, and proves it.
 fn prove(program: &Program, dialect: &Dialect, setup: &Setup, proposal: Proposal) -> Result<Edited, Refused> {

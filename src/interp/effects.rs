@@ -18,7 +18,7 @@ use assignments::{
     comments, declarations, named_effects, named_words, reads_machine_position, system_assignment, unknown_assignment,
 };
 pub(crate) use collected::Effects;
-use lengths::{in_lengths, to_mm};
+use lengths::{in_lengths, may_read_unit, to_mm};
 pub use situation::Situation;
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
@@ -173,7 +173,7 @@ impl Iso<'_> {
                 for argument in &mut event {
                     to_mm(argument, self.core.state.coordinates.unit_mm());
                 }
-            } else if self.core.state.coordinates.unit_mm() != 1.0 {
+            } else if self.core.state.coordinates.unit_mm() != 1.0 && may_read_unit(&alone, &event) {
                 event.push(Argument::number("mm per unit", self.core.state.coordinates.unit_mm()));
             }
             if self.core.state.coordinates.incremental() {

@@ -5,7 +5,9 @@
 mod apt;
 mod attempt;
 mod blanks;
+mod data_entry;
 mod iso;
+mod named;
 mod nesting;
 mod proof;
 mod references;

@@ -1,7 +1,7 @@
 //! Where a program refers to its own block numbers: jumps, returns, local subprograms, contours of turning cycles. What cannot be
 //! read as a number is reported, never guessed.
 use trunnion_dialect::{Action, Dialect};
-use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, TokenKind, Value};
+use trunnion_syntax::{Address, Block, BlockId, Decimal, Format, Item, Program, TextRange, TokenKind, Value};
 
 /// A reference to a block number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,13 +36,39 @@ pub struct Obstacle {
     pub why: String,
 }
 
+/// Turning cycles of a control for milling: P and Q are the first and the last block of the contour.
+const CONTOURS_ON_MILLS: [(u8, i64); 4] = [(b'G', 707), (b'G', 717), (b'G', 727), (b'G', 737)];
+
+/// Codes whose P is the number of a program, in tenths.
+const CALLS: [(u8, i64); 5] = [(b'M', 980), (b'M', 1980), (b'G', 650), (b'G', 660), (b'G', 661)];
+
+/// The number of a code in tenths; -1 where it has more digits.
+fn tenths(number: Decimal) -> i64 {
+    let tenths = number.to_f64() * 10.0;
+    if tenths.fract() == 0.0 && (0.0..1e6).contains(&tenths) {
+        tenths as i64
+    } else {
+        -1
+    }
+}
+
 /// The references to block numbers in a program.
 #[derive(Default)]
 pub(crate) struct Found {
     pub(crate) references: Vec<Reference>,
     pub(crate) obstacles: Vec<Obstacle>,
+    /// Places that may name a block and are not followed.
+    pub(crate) unread: Vec<Unread>,
     /// Programs that are called by number.
     pub(crate) calls: Vec<Call>,
+}
+
+/// A place that may name a block in a way that is not followed.
+pub(crate) struct Unread {
+    /// The number; `None` where it is put together while the program runs.
+    pub(crate) number: Option<i64>,
+    /// The place, and why that is in the way.
+    pub(crate) obstacle: Obstacle,
 }
 
 /// Reads one block.
@@ -58,23 +84,30 @@ pub(crate) fn read(block: &Block<'_>, dialect: &Dialect, found: &mut Found) {
     reader.named();
 }
 
-struct Reader<'r, 'p> {
-    program: &'p Program,
-    dialect: &'r Dialect,
-    block: &'r Block<'p>,
-    found: &'r mut Found,
+pub(crate) struct Reader<'r, 'p> {
+    pub(crate) program: &'p Program,
+    pub(crate) dialect: &'r Dialect,
+    pub(crate) block: &'r Block<'p>,
+    pub(crate) found: &'r mut Found,
 }
 
 impl Reader<'_, '_> {
-    fn text(&self, range: TextRange) -> String {
+    pub(crate) fn text(&self, range: TextRange) -> String {
         self.program.text(range).trim().to_owned()
     }
 
-    fn obstacle(&mut self, range: TextRange, why: String) {
+    pub(crate) fn obstacle(&mut self, range: TextRange, why: String) {
         self.found.obstacles.push(Obstacle { range, why });
     }
 
-    fn refer(&mut self, digits: TextRange, number: i64, of_caller: bool) {
+    pub(crate) fn unread(&mut self, range: TextRange, number: Option<i64>, why: String) {
+        self.found.unread.push(Unread {
+            number,
+            obstacle: Obstacle { range, why },
+        });
+    }
+
+    pub(crate) fn refer(&mut self, digits: TextRange, number: i64, of_caller: bool) {
         self.found.references.push(Reference {
             block: self.block.id(),
             digits,
@@ -83,7 +116,7 @@ impl Reader<'_, '_> {
         });
     }
 
-    /// Jumps of Macro B and words next to M97, M98, M99 and turning cycles.
+    /// Jumps of Macro B, and words next to M96 to M99 and turning cycles.
     fn items(&mut self) {
         let mut codes = Vec::new();
         let mut words = Vec::new();
@@ -91,7 +124,7 @@ impl Reader<'_, '_> {
             match item {
                 Item::Word(word) => match (word.address, word.value) {
                     (Address::Letter(letter @ (b'G' | b'M')), Value::Number(number)) => {
-                        codes.push((letter, number.to_integer().unwrap_or(-1)));
+                        codes.push((letter, tenths(number)));
                     }
                     (Address::Letter(letter), _) => words.push((letter, word)),
                     _ => {}
@@ -112,42 +145,75 @@ impl Reader<'_, '_> {
         }
         let has = |code| codes.contains(&code);
         let turning = codes.iter().any(|&code| self.names_contour(code));
+        let on_path = codes.iter().any(|code| CONTOURS_ON_MILLS.contains(code));
         let word = |letter: u8| words.iter().find(|(own, _)| *own == letter).map(|(_, word)| *word);
-        if has((b'M', 99)) || has((b'M', 97)) {
+        if has((b'M', 990)) || has((b'M', 970)) || self.jumps_on_input(&codes) {
             if let Some(p) = word(b'P') {
-                self.target(p, has((b'M', 99)));
+                self.target(p, has((b'M', 990)));
             }
-        } else if turning && (self.dialect.quirks.diameter || word(b'Z').is_none() && word(b'R').is_none()) {
+        } else if on_path || turning && (self.dialect.quirks.diameter || word(b'Z').is_none() && word(b'R').is_none()) {
             // with Z or R it is a drilling cycle (G73), whose P and Q are a dwell and a depth
             if let (Some(p), Some(q)) = (word(b'P'), word(b'Q')) {
                 self.target(p, false);
                 self.target(q, false);
             }
-        } else if has((b'M', 98)) || has((b'M', 198)) || has((b'G', 65)) || has((b'G', 66)) {
+        } else if CALLS.iter().any(|&code| has(code)) {
             self.call(word(b'P'));
             let names = word(b'H').or_else(|| word(b'Q').filter(|_| self.dialect.quirks.macro_b()));
-            if let (Some(h), true) = (names, has((b'M', 98))) {
+            if let (Some(h), true) = (names, has((b'M', 980))) {
                 let why = format!(
                     "`{}` in a block with M98 may name a block of the called program",
                     self.text(h.range)
                 );
                 self.obstacle(h.range, why);
             }
+        } else if !turning && codes.iter().any(|&code| self.is_not_known(code)) {
+            for word in [word(b'P'), word(b'Q')].into_iter().flatten() {
+                self.may_name(word);
+            }
         }
+    }
+
+    /// M96 P of a Haas jumps to block P while an input is off (Haas mill operator's manual 96-8000, M96).
+    fn jumps_on_input(&self, codes: &[(u8, i64)]) -> bool {
+        let code = codes.contains(&(b'M', 960)).then(|| self.dialect.m(960)).flatten();
+        code.is_some_and(|code| code.action == Action::SubprogramCall)
+    }
+
+    /// Whether it is not known what the words of a code are.
+    fn is_not_known(&self, (letter, tenths): (u8, i64)) -> bool {
+        let Ok(tenths) = u32::try_from(tenths) else { return true };
+        let code = if letter == b'G' {
+            self.dialect.g(tenths)
+        } else {
+            self.dialect.m(tenths)
+        };
+        code.is_none_or(|code| matches!(code.action, Action::NotModelled | Action::SubprogramCall))
+    }
+
+    /// A whole P or Q next to such a code.
+    fn may_name(&mut self, word: trunnion_syntax::Word) {
+        let Value::Number(number) = word.value else { return };
+        let Some(number) = number.to_integer().filter(|number| *number > 0) else {
+            return;
+        };
+        let why = format!(
+            "`{}` is next to a code that is not known here, and may name block N{number}",
+            self.text(word.range)
+        );
+        self.unread(word.range, Some(number), why);
     }
 
     /// Whether P and Q next to the code are blocks of a contour. On a Fanuc lathe the table decides: in system C G72 to G75 are what G70 to G73
     /// are in systems A and B.
-    fn names_contour(&self, (letter, number): (u8, i64)) -> bool {
+    fn names_contour(&self, (letter, tenths): (u8, i64)) -> bool {
         if letter != b'G' {
             return false;
         }
         if !self.dialect.quirks.diameter {
-            return (70..=73).contains(&number);
+            return [700, 710, 720, 730].contains(&tenths);
         }
-        let code = u32::try_from(number)
-            .ok()
-            .and_then(|number| self.dialect.g(number.checked_mul(10)?));
+        let code = u32::try_from(tenths).ok().and_then(|tenths| self.dialect.g(tenths));
         code.is_some_and(|code| {
             matches!(
                 code.action,
@@ -217,46 +283,6 @@ impl Reader<'_, '_> {
                 );
                 self.obstacle(range, why);
             }
-        }
-    }
-
-    /// Sinumerik: every `N100` that is not the block's own number, and jumps whose target is computed.
-    fn named(&mut self) {
-        if self.program.options().paren_comment {
-            return;
-        }
-        let own = own_number(self.block).map_or(u32::MAX, |(range, _)| range.start);
-        let table = self.program.tokens();
-        for id in self.block.tokens().filter(|&id| table.kind(id) == TokenKind::Word) {
-            let range = table.range(id);
-            let text = self.program.bytes(range);
-            if (range.start..range.end).contains(&own) || !text[0].eq_ignore_ascii_case(&b'N') {
-                continue;
-            }
-            let digits = TextRange::new(range.start + 1, range.end);
-            if let Ok(number) = self.text(digits).parse() {
-                self.refer(digits, number, false);
-            }
-        }
-        for item in self.block.items() {
-            if let Item::Call(call) = item {
-                self.named_jump(call);
-            }
-        }
-    }
-
-    fn named_jump(&mut self, call: trunnion_syntax::Call) {
-        let name = self.text(call.name).to_ascii_uppercase();
-        if !matches!(name.as_str(), "GOTOF" | "GOTOB" | "GOTOC") {
-            return;
-        }
-        let text = call.arguments.map(|range| self.text(range)).unwrap_or_default();
-        if text.contains(['"', '$', '<', '[', '(']) {
-            let why = format!(
-                "the target of `{}` is computed: it is not known which block it refers to",
-                self.text(call.range)
-            );
-            self.obstacle(call.range, why);
         }
     }
 }

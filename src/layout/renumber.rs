@@ -1,7 +1,9 @@
 //! New block numbers, with every jump, return and contour that names one changed too. Refused where a target is not known for
 //! certain. Proved by running both texts, and by checking that each reference points to the same block as before.
+use crate::data_entry::{data_entries, is_data};
 use crate::proof::first_difference;
 use crate::references::{Call, Found, Obstacle, Reference, begins_program, own_number, read};
+use core::ops::Range;
 use std::collections::BTreeMap;
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
@@ -62,6 +64,8 @@ pub struct BlockReferences {
     pub references: Vec<BlockReference>,
     /// What keeps block numbers from being changed.
     pub obstacles: Vec<Obstacle>,
+    /// Those of them that may name a block of this file and are not followed: texts, words next to codes that are not known.
+    pub unread: Vec<Obstacle>,
     /// Programs that are called by number.
     pub calls: Vec<Call>,
 }
@@ -78,9 +82,16 @@ pub fn block_references(program: &Program, dialect: &Dialect) -> BlockReferences
         }
     };
     let references = survey.found.references.iter().map(one).collect();
+    let unread: Vec<Obstacle> = survey.unread().cloned().collect();
     BlockReferences {
         references,
-        obstacles: survey.found.obstacles,
+        obstacles: survey
+            .found
+            .obstacles
+            .into_iter()
+            .chain(unread.iter().cloned())
+            .collect(),
+        unread,
         calls: survey.found.calls,
     }
 }
@@ -90,7 +101,7 @@ pub fn block_references(program: &Program, dialect: &Dialect) -> BlockReferences
 struct Part {
     /// Its O number.
     name: i64,
-    /// Blocks that have the number; more than one where it is there twice.
+    /// Blocks that have the number; more than one where it is there twice. Numbers of data are among them: a search for a number stops there.
     blocks: BTreeMap<i64, Vec<BlockId>>,
     /// Programs that it calls.
     calls: Vec<i64>,
@@ -101,6 +112,8 @@ struct Survey {
     parts: Vec<Part>,
     /// The part of each block.
     part_of: Vec<u32>,
+    /// Blocks whose number is data.
+    data: Vec<Range<u32>>,
     found: Found,
 }
 
@@ -113,6 +126,9 @@ pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Nu
     };
     if blocks == 0 {
         return Renumbered::NoNumbers;
+    }
+    if let Some(obstacle) = survey.found.obstacles.first().or_else(|| survey.unread().next()) {
+        return Renumbered::Refused(obstacle.clone());
     }
     let targets = match survey.resolve(program) {
         Ok(targets) => targets,
@@ -180,6 +196,7 @@ fn new_numbers(
     };
     let own: Vec<_> = program
         .blocks()
+        .filter(|block| !is_data(&survey.data, block.id().0))
         .filter_map(|block| Some((block.id(), own_number(&block)?.0)))
         .collect();
     // numbers with leading zeros keep their width
@@ -212,6 +229,7 @@ impl Survey {
                 ..Part::default()
             }],
             part_of: Vec::with_capacity(program.block_count()),
+            data: data_entries(program, dialect),
             found: Found::default(),
         };
         let split = !program.options().blanks_in_numbers;
@@ -238,14 +256,21 @@ impl Survey {
 
     /// The block that each reference points to.
     fn resolve(&self, program: &Program) -> Result<Vec<BlockId>, Obstacle> {
-        if let Some(obstacle) = self.found.obstacles.first() {
-            return Err(obstacle.clone());
-        }
         self.found
             .references
             .iter()
             .map(|reference| self.target(program, reference))
             .collect()
+    }
+
+    /// Places that may name a block of this file and are not followed.
+    fn unread(&self) -> impl Iterator<Item = &Obstacle> {
+        let exists = |number: i64| self.parts.iter().any(|part| part.blocks.contains_key(&number));
+        let any = self.parts.iter().any(|part| !part.blocks.is_empty());
+        let found = self.found.unread.iter();
+        found
+            .filter(move |unread| unread.number.map_or(any, exists))
+            .map(|unread| &unread.obstacle)
     }
 
     fn target(&self, program: &Program, reference: &Reference) -> Result<BlockId, Obstacle> {
@@ -273,6 +298,11 @@ impl Survey {
                     ));
                 }
                 None => return refuse(format!("block N{number} does not exist in this program")),
+                Some([block]) if is_data(&self.data, block.0) => {
+                    return refuse(format!(
+                        "N{number} is a number of data between G10 and G11, and no block"
+                    ));
+                }
                 Some([block]) => {
                     if target.replace(*block).is_some_and(|other| other != *block) {
                         return refuse(format!("several programs call this one and have a block N{number}"));

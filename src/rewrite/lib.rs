@@ -13,6 +13,7 @@ mod fewest;
 mod gains;
 mod lanes;
 mod line_points;
+mod named_blocks;
 mod pieces;
 mod polyline;
 mod posed_words;

@@ -1,4 +1,5 @@
 //! Chains of lines at feed that may be put together, found in the text and in the run.
+use crate::named_blocks::named_blocks;
 use crate::{Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
@@ -210,7 +211,7 @@ enum Text {
     Commented,
     /// No word at all.
     Blank,
-    /// A missing program may return to its number: it stays as it is.
+    /// A jump, or the return of a missing program, may lead to its number: it stays as it is.
     Numbered,
     /// Something else.
     Other,
@@ -245,7 +246,7 @@ impl Text {
     /// Why the block is in no chain.
     fn refuses(self) -> Option<&'static str> {
         match self {
-            Self::Numbered => Some("a program that is missing may return to its number (M99 P)"),
+            Self::Numbered => Some("a jump or a return may lead to its number"),
             Self::Other => Some("its block has other words than a number, G1, X, Y, Z and F"),
             Self::Plain | Self::Commented | Self::Blank => None,
         }
@@ -295,6 +296,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
     run(program, settings.dialect, &settings.setup, &mut collector);
     let seen = collector.all;
     let numbers_count = may_return_to_numbers(program, settings.dialect, &settings.setup).is_some();
+    let named = named_blocks(program, settings);
     let mut found = Chains {
         chains: Vec::new(),
         reasons: Vec::new(),
@@ -315,7 +317,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
             motions += 1;
         }
         let next = seen[at + motions..].iter().find(|seen| !waits(seen));
-        let text = text_of(&block, numbers_count);
+        let text = text_of(&block, numbers_count || named.contains(&block.id()));
         if text.refuses().is_some()
             && let Some(on) = exact_stop(&block)
         {

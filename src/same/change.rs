@@ -4,7 +4,7 @@ use crate::item::Step;
 use crate::process::Process;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{MotionKind, Orientation};
+use trunnion_interp::{Motion, MotionKind, Orientation};
 use trunnion_syntax::Address;
 
 /// What the program after does with the motions of the program before, and how near it must come.
@@ -160,4 +160,14 @@ pub(crate) fn names_rotary(input: &Input<'_>) -> bool {
         Address::Letter(letter) => matches!(letter, b'A'..=b'C'),
         Address::Indexed(..) | Address::Named(_) => true,
     })
+}
+
+/// Whether a motion goes to a place of the machine; LinuxCNC says so in what is in effect.
+pub(crate) fn in_machine_coordinates(step: &Step) -> bool {
+    step.motion.machine_coordinates || !step.process.get("coordinates").is_empty()
+}
+
+/// Whether it is no dwell.
+pub(crate) fn is_motion(motion: &Motion) -> bool {
+    !matches!(motion.kind, MotionKind::Dwell(_))
 }

@@ -1,7 +1,7 @@
 //! Two programs of which the second makes the motions of the first elsewhere: shifted, turned, mirrored, scaled, or written in another unit or with
 //! other words. Each motion of the first is moved exactly, and then both are compared as any two programs are.
 use crate::Claim;
-use crate::change::{Change, names_rotary};
+use crate::change::{Change, in_machine_coordinates, is_motion, names_rotary};
 use crate::compare::{held, next};
 use crate::ending::{at_end, stopped};
 use crate::happens::happens;
@@ -54,6 +54,8 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
         change,
         stands: [Stands::Open; 3],
         names_rotary: names_rotary(before.input()),
+        turns_parts: before.input().dialect.quirks.diameter,
+        y_seen: false,
         keeps_length: change.keeps(before.input().setup.length_along()),
         drills: false,
         last: None,
@@ -101,6 +103,10 @@ struct Walk<'c> {
     stands: [Stands; 3],
     /// The program before names a rotary axis.
     names_rotary: bool,
+    /// It is the program of a lathe.
+    turns_parts: bool,
+    /// Y has moved, or was somewhere else than on the axis of the spindle.
+    y_seen: bool,
     /// A tool length shifts both programs alike.
     keeps_length: bool,
     /// A drilling cycle is active: its steps add up several words.
@@ -147,12 +153,13 @@ impl Walk<'_> {
         let moved = self.change.moved(before);
         held(&moved, after, claim)?;
         self.feeds(was, is)?;
-        if was.machine_coordinates || !is_motion(was) {
+        if in_machine_coordinates(before) || !is_motion(was) {
             self.not_moved(was, is)?;
             self.last = Some(before.clone());
             return if is_motion(was) { rest(was, is) } else { Ok(()) };
         }
         let cut = was.is_feed();
+        self.y_seen |= [was, is].iter().any(|motion| goes(motion, 1));
         for group in self.change.groups() {
             let affected = group.iter().any(|axis| self.change.touches(*axis));
             let started = group.iter().all(|axis| self.stands[*axis] == Stands::Moved);
@@ -168,6 +175,9 @@ impl Walk<'_> {
             }
             let names: Vec<String> = group.iter().map(|axis| letter(*axis).to_string()).collect();
             let names = names.join(" or ");
+            if cut && !started && group == [1] && self.lacks_y(was, is) {
+                continue;
+            }
             if cut && !started {
                 return unknown(&format!("where this cut begins in {names} {UNKNOWN_PLACE}"));
             }
@@ -192,6 +202,13 @@ impl Walk<'_> {
         rest(was, is)?;
         self.last = Some(before.clone());
         self.inside(&moved, after)
+    }
+
+    /// Whether Y is where a turned part has it: on a lathe of two axes, at the axis of the spindle.
+    fn lacks_y(&self, was: &Motion, is: &Motion) -> bool {
+        let positions = [&was.start, &was.end, &is.start, &is.end];
+        let named = |position: &&trunnion_interp::Position| position.known & 2 != 0 && position.values[1] != 0.0;
+        self.turns_parts && !self.y_seen && !positions.iter().any(named) && (was.says_way | is.says_way) & 2 == 0
     }
 
     /// The coordinates of X, Y and Z at the end, those in `bits`.
@@ -354,10 +371,6 @@ impl Walk<'_> {
             self.stands = [Stands::Open; 3];
         }
     }
-}
-
-fn is_motion(motion: &Motion) -> bool {
-    !matches!(motion.kind, MotionKind::Dwell(_))
 }
 
 /// The axes other than X, Y and Z.

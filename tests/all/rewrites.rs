@@ -6,6 +6,7 @@ mod everywhere;
 mod feeds;
 mod fitting;
 mod mutants;
+mod named_blocks;
 mod points;
 mod random;
 mod retracting;

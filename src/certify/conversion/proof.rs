@@ -57,8 +57,8 @@ pub fn converted_on(
         let line = line(&after.0.program, fault.block);
         let text = fault_text(&after.0.program, fault);
         return Err(Outcome::unknown(format!(
-            "line {line} of the converted program is not understood: `{text}` ({:?})",
-            fault.kind
+            "line {line} of the converted program is not understood: `{text}`{}",
+            super::fault_words::why(&fault.kind)
         )));
     }
     let mut proof = Proof {

@@ -25,32 +25,37 @@ pub(super) fn possible(dialect: &Dialect, shape: Shape) -> Result<(), Refused> {
     }
 }
 
+/// What is to be proved of a path that is moved so. `decimals`: digits of rounded words.
+pub(super) fn change(shape: Shape, decimals: usize, unit_mm: f64) -> Change {
+    let exact = matches!(shape, Shape::Shift(_) | Shape::Mirror(_));
+    let end_mm = if exact {
+        1e-6
+    } else {
+        unit_mm * 0.5 * 10f64.powi(-(decimals as i32)) * 1.000_1 + 1e-9
+    };
+    let mut change = Change::nothing(end_mm, 10.0 * end_mm, 1e-9);
+    match shape {
+        Shape::Shift(by) => change.shift = by.map(|by| by * unit_mm),
+        Shape::Scale(factor) => {
+            for axis in 0..3 {
+                change.linear[axis][axis] = factor;
+            }
+        }
+        Shape::Mirror(axis) => change.linear[axis][axis] = -1.0,
+        Shape::Rotate(axis, degrees) => {
+            let (sin, cos) = super::turn::sin_cos(degrees);
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            (change.linear[u][u], change.linear[u][v]) = (cos, -sin);
+            (change.linear[v][u], change.linear[v][v]) = (sin, cos);
+        }
+    }
+    change
+}
+
 impl Work<'_> {
     /// What is to be proved.
     pub(super) fn change(&self, unit_mm: f64) -> Change {
-        let exact = matches!(self.shape, Shape::Shift(_) | Shape::Mirror(_));
-        let end_mm = if exact {
-            1e-6
-        } else {
-            unit_mm * 0.5 * 10f64.powi(-(self.decimals as i32)) * 1.000_1 + 1e-9
-        };
-        let mut change = Change::nothing(end_mm, 10.0 * end_mm, 1e-9);
-        match self.shape {
-            Shape::Shift(by) => change.shift = by.map(|by| by * unit_mm),
-            Shape::Scale(factor) => {
-                for axis in 0..3 {
-                    change.linear[axis][axis] = factor;
-                }
-            }
-            Shape::Mirror(axis) => change.linear[axis][axis] = -1.0,
-            Shape::Rotate(axis, degrees) => {
-                let (sin, cos) = super::turn::sin_cos(degrees);
-                let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-                (change.linear[u][u], change.linear[u][v]) = (cos, -sin);
-                (change.linear[v][u], change.linear[v][v]) = (sin, cos);
-            }
-        }
-        change
+        change(self.shape, self.decimals, unit_mm)
     }
 
     pub(super) fn notes(&self) -> Vec<String> {

@@ -129,7 +129,12 @@ impl<'a, 'd> Said<'a, 'd> {
         };
         let axis = AxisLetter::new(letter).map(|axis| usize::from(axis.0));
         match self.dialect.role(letter) {
-            Some(Role::Axis | Role::Increment | Role::Feed) if self.has(Action::Dwell) => Kind::Plain,
+            Some(Role::Axis | Role::Increment | Role::Feed)
+                if self.has(Action::Dwell) && !self.dialect.quirks.rs274() =>
+            {
+                // in such a block of LinuxCNC the axes move
+                Kind::Plain
+            }
             Some(Role::Axis) => match axis {
                 Some(axis) if (3..6).contains(&axis) => Kind::Rotary,
                 Some(axis) => Kind::Axis(axis),

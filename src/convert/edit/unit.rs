@@ -31,11 +31,19 @@ pub(super) fn propose(
         edits: Edits::default(),
         track: Track::default(),
         said: false,
+        silent: None,
+        lengths: false,
         changed: false,
         feed_stays: feed_stays(program, dialect)?,
     };
     let ran = survey(program, dialect, setup, |here| work.block(&Said::read(here, dialect)))?;
     if !work.changed {
+        if let Some(at) = work.silent {
+            return Err(Refused::range(program, at, work.no_code()));
+        }
+        if !work.lengths {
+            return Err(Refused::nothing("the program has no lengths and no feeds"));
+        }
         let name = name(unit);
         return Err(Refused::nothing(format!("the program is in {name} already")));
     }
@@ -76,6 +84,10 @@ struct Work<'a> {
     track: Track,
     /// The program has named the unit.
     said: bool,
+    /// The first length for which neither the program nor the settings say the unit.
+    silent: Option<TextRange>,
+    /// The program has lengths, or codes that name a unit.
+    lengths: bool,
     changed: bool,
     /// F is in mm in both units.
     feed_stays: bool,
@@ -149,6 +161,10 @@ impl Work<'_> {
         if !lengths && unknown.is_none() {
             return Ok(());
         }
+        self.lengths |= lengths;
+        if lengths && !self.said && !here.is.coordinates.unit_programmed() {
+            self.silent = self.silent.or(first);
+        }
         if factor == 1.0 && here.is.feed.unit_mm() == self.unit.mm() {
             return self.words(said, factor);
         }
@@ -171,7 +187,7 @@ impl Work<'_> {
     fn codes(&mut self, said: &Said<'_, '_>) -> Result<(), Refused> {
         for coded in said.codes.iter().filter(|coded| is_unit(coded.code.action)) {
             let is_inch = coded.code.action != Action::Metric;
-            self.said = true;
+            (self.said, self.lengths) = (true, true);
             if is_inch == (self.unit == LengthUnit::Inch) {
                 continue;
             }
@@ -205,10 +221,7 @@ impl Work<'_> {
         }
         let at = first.unwrap_or(said.here.block.range());
         if !said.here.is.coordinates.unit_programmed() {
-            return said.refuse(
-                at,
-                "no code says in which unit this is: write G20 or G21 (G70 or G71) at the start, or declare `units` in [control] of trunnion.toml",
-            );
+            return said.refuse(at, self.no_code());
         }
         let wanted = |code: &&Code| match self.unit {
             LengthUnit::Inch => code.action == Action::Inch,
@@ -233,6 +246,18 @@ impl Work<'_> {
         };
         self.edits
             .set(self.program, TextRange::new(start, start), &format!("{} ", code.id))
+    }
+
+    /// Why a length without a unit stays.
+    fn no_code(&self) -> String {
+        let codes = self.dialect.codes().iter().filter(|code| is_unit(code.action));
+        let codes: Vec<&str> = codes.map(|code| code.id.as_str()).collect();
+        let write = if codes.is_empty() {
+            String::new()
+        } else {
+            format!("write {} at the start, or ", codes.join(" or "))
+        };
+        format!("no code says in which unit this is: {write}declare `units` in [control] of trunnion.toml")
     }
 
     fn words(&mut self, said: &Said<'_, '_>, factor: f64) -> Result<(), Refused> {

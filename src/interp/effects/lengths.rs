@@ -18,3 +18,9 @@ pub(super) fn to_mm(argument: &mut Argument, unit_mm: f64) {
         *value *= unit_mm;
     }
 }
+
+/// Whether the unit may change what codes do: M29 without numbers does the same in both.
+pub(super) fn may_read_unit(codes: &[&&Found<'_>], event: &[Argument]) -> bool {
+    let plain = codes.iter().all(|found| found.code.action == Action::NoMotion);
+    !plain || event.iter().any(|word| !matches!(word.value, Value::Nothing))
+}

@@ -66,6 +66,8 @@ pub(crate) enum FlowCode {
     CallLocal,
     /// M198: a program of an external memory.
     CallExternal,
+    /// M96 of a Haas: jumps while an input is off.
+    Branch,
     /// M99.
     Return,
     /// G65.

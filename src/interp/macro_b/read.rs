@@ -44,6 +44,7 @@ fn flow_code(dialect: &Dialect, kind: CodeKind, tenths: u32) -> Option<FlowCode>
     match (kind, tenths) {
         (CodeKind::M, 980) => Some(FlowCode::Call),
         (CodeKind::M, 990) => Some(FlowCode::Return),
+        (CodeKind::M, 960) if calls(dialect.m(960)) => Some(FlowCode::Branch),
         (CodeKind::M, 970) if calls(dialect.m(970)) => Some(FlowCode::CallLocal),
         (CodeKind::M, 1980) if calls(dialect.m(1980)) => Some(FlowCode::CallExternal),
         (CodeKind::G, 650) => Some(FlowCode::Macro),

@@ -165,6 +165,12 @@ impl<'d> Iso<'d> {
                 self.macro_per_block_ends();
                 return;
             }
+            FlowCode::Branch => {
+                let what = "the input that M96 reads".to_owned();
+                report.fault(range, FaultKind::NotDecided { what });
+                deep.pending = Some(Transfer::End);
+                return;
+            }
             FlowCode::Return => {
                 let label = words.p.index().map(Key::Number);
                 deep.pending = Some(Transfer::Return(Back { label, range }));

@@ -44,6 +44,7 @@
 use super::Body;
 use crate::chain_words::{Hand, lean};
 use crate::divide::divide;
+use crate::named_blocks::may_name_blocks;
 use crate::pieces::Limits;
 use crate::polyline::chains;
 use crate::{Options, Place, Proposal, Proposed};
@@ -73,6 +74,9 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             "{missing} is missing, and may return to any block number (M99 P): what repeats there may be new"
         )
         .into());
+    }
+    if let Some(why) = may_name_blocks(program, settings) {
+        return Err(why.into());
     }
     let hand = Hand::of(program);
     let (mut places, mut was, mut is, mut bytes) = (Vec::new(), 0, 0, 0);

@@ -51,6 +51,7 @@
 use super::Body;
 use crate::chain_words::{Hand, write};
 use crate::divide::divide;
+use crate::named_blocks::may_name_blocks;
 use crate::pieces::Limits;
 use crate::polyline::{Chain, chains};
 use crate::style::{NumberStyle, of_letters};
@@ -68,6 +69,9 @@ pub(super) const REWRITE: Body = Body {
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     if !program.options().format.has_words() {
         return Err("APT: arcs are not written there".into());
+    }
+    if let Some(why) = may_name_blocks(program, settings) {
+        return Err(why.into());
     }
     let found = chains(program, settings, 2);
     let (hand, (ends, styles)) = (Hand::of(program), styles(program));
@@ -101,7 +105,15 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
             places.push(Place::around(program, edits));
         }
     }
-    let summary = format!("{was} lines become {is} blocks, {arcs} of them arcs ({unrounded} blocks before rounding)");
+    let blocks = if is == 1 { "block" } else { "blocks" };
+    let lines = if was == 1 { "line becomes" } else { "lines become" };
+    let of_arcs = match (arcs, is) {
+        (0, _) => "no arc".to_owned(),
+        (1, 1) => "an arc".to_owned(),
+        (arcs, is) if arcs == is => "all arcs".to_owned(),
+        (arcs, _) => format!("{arcs} of them arcs"),
+    };
+    let summary = format!("{was} {lines} {is} {blocks}, {of_arcs} ({unrounded} before rounding)");
     found.proposal(places, summary, options)
 }
 

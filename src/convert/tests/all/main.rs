@@ -4,6 +4,7 @@ mod approach;
 mod clamps;
 mod code;
 mod edits;
+mod edits_called;
 mod edits_proof;
 mod guide_vane;
 mod holes;

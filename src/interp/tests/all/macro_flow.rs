@@ -321,3 +321,24 @@ fn refusals_are_chosen_by_their_sort() {
         }
     ));
 }
+
+#[test]
+fn a_jump_on_an_input_is_a_branch_that_is_not_known() {
+    let source = "G0X0.\nN7M96P30Q8\nX1.\nN30X2.\nM30\n";
+    let (_, log) = run_bytes("haas-ngc", source.as_bytes(), &Setup::default());
+    let undecided: Vec<_> = log
+        .faults
+        .iter()
+        .filter(|fault| matches!(&fault.kind, FaultKind::NotDecided { what } if what.contains("M96")))
+        .map(|fault| fault.block.0 + 1)
+        .collect();
+    assert_eq!(undecided, [2]);
+    assert_eq!(lines("haas-ngc", source), ["R X0"]);
+    // on a Fanuc the machine builder decides what it is
+    let (_, log) = run_bytes(FANUC, source.as_bytes(), &Setup::default());
+    assert!(
+        !log.faults
+            .iter()
+            .any(|fault| matches!(fault.kind, FaultKind::NotDecided { .. }))
+    );
+}

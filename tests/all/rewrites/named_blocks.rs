@@ -14,7 +14,8 @@ fn settings(dialect: &str) -> Settings<'static> {
     )
 }
 
-const LINES: &str = "G0 X0 Y0 Z10\nG1 X10 Y0 Z0 F100\nN20 G1 X10 Y0 Z0 F100\nX20 Y0 Z0\nX30 Y0 Z0\nG1 X40 Y10 Z0 F200\n";
+const LINES: &str =
+    "G0 X0 Y0 Z10\nG1 X10 Y0 Z0 F100\nN20 G1 X10 Y0 Z0 F100\nX20 Y0 Z0\nX30 Y0 Z0\nG1 X40 Y10 Z0 F200\n";
 
 fn outcome(rewrite: &str, dialect: &str, text: &str) -> Result<Option<String>, String> {
     let attempt = run(rewrite, text, &settings(dialect), &Options::default());
@@ -24,11 +25,18 @@ fn outcome(rewrite: &str, dialect: &str, text: &str) -> Result<Option<String>, S
 
 #[test]
 fn a_text_that_may_name_a_block_refuses_what_deletes_blocks() {
-    for jump in ["EXECSTRING(\"GOTOB N20\")", "CYCLE95(\"N20:N40\",1)", "CYCLE62(\"\",2,\"N20\",\"N40\")"] {
+    for jump in [
+        "EXECSTRING(\"GOTOB N20\")",
+        "CYCLE95(\"N20:N40\",1)",
+        "CYCLE62(\"\",2,\"N20\",\"N40\")",
+    ] {
         let text = format!("G71 G17 G90 G94 G54\nS1000 M3\n{LINES}{jump}\nG0 Z10\nM30\n");
         for rewrite in ["drop-redundant", "fit-arcs", "renumber"] {
             let why = outcome(rewrite, "sinumerik-840d", &text).expect_err(rewrite);
-            assert!(why.contains("line 9") && why.contains("may name a block"), "{rewrite}: {why}");
+            assert!(
+                why.contains("line 9") && why.contains("may name a block"),
+                "{rewrite}: {why}"
+            );
         }
     }
     // a message is no jump

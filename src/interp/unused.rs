@@ -133,6 +133,9 @@ impl Iso<'_> {
         if words.flow {
             read |= bit(b'P') | bit(b'L');
         }
+        if words.reads_input {
+            read |= bit(b'Q');
+        }
         if self.core.state.tool_axis.vectors() {
             read |= CENTRE;
         }

@@ -194,6 +194,8 @@ pub(crate) struct Words {
     pub(crate) program_name: Option<TextRange>,
     /// The block contains a macro statement, a call or a return.
     pub(crate) flow: bool,
+    /// The block jumps by an input, whose number is Q.
+    pub(crate) reads_input: bool,
 }
 
 impl Words {

@@ -80,11 +80,8 @@ impl Klartext<'_> {
         let block = if called.is_none() { BlockId(next) } else { place.main };
         let program = called.as_deref().map_or(main, |called: &Called| &called.program);
         let bytes = program.block(BlockId(next)).range().as_usize().len() as u64;
-        let most = self
-            .core
-            .setup
-            .limits
-            .work(main.block_count() as u64, main.source().len() as u64);
+        let limits = &self.core.setup.limits;
+        let most = limits.work(main.block_count() as u64, main.source().len() as u64);
         let budget = self.flow.course.count(bytes, most);
         if let BlockBudget::Out { most, proved, blocks } = budget {
             let at = match most {

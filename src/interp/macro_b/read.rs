@@ -155,14 +155,12 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// Takes a code that calls or returns, where calls are followed.
     pub(crate) fn takes_flow_code(&mut self, kind: CodeKind, tenths: u32, range: TextRange) -> bool {
-        let Some(macros) = self.macros.as_mut().filter(|macros| macros.mode != Mode::Step) else {
-            return false;
-        };
-        let Some(code) = flow_code(self.dialect, kind, tenths) else {
+        let macros = self.macros.as_mut().filter(|macros| macros.mode != Mode::Step);
+        let (Some(macros), Some(code)) = (macros, flow_code(self.dialect, kind, tenths)) else {
             return false;
         };
         macros.deep().code = Some((code, range));
-        self.words.flow = true;
+        (self.words.flow, self.words.reads_input) = (true, code == FlowCode::Branch);
         // what follows are arguments, which have their own reader
         self.words.declares = matches!(code, FlowCode::Macro | FlowCode::Modal);
         true

@@ -166,10 +166,7 @@ impl<'d> Iso<'d> {
                 return;
             }
             FlowCode::Branch => {
-                let what = "the input that M96 reads".to_owned();
-                report.fault(range, FaultKind::NotDecided { what });
-                deep.pending = Some(Transfer::End);
-                return;
+                return not_decided(deep, range, "the input that M96 reads".to_owned(), report);
             }
             FlowCode::Return => {
                 let label = words.p.index().map(Key::Number);
@@ -193,19 +190,14 @@ impl<'d> Iso<'d> {
                 let call = arguments::read(&mut macros, self.core.dialect, block, range, &mut tell);
                 *deep = slot.unwrap_or_default();
                 if let Some((range, what)) = call.unknown {
-                    report.fault(range, FaultKind::NotDecided { what });
-                    deep.pending = Some(Transfer::End);
-                    return;
+                    return not_decided(deep, range, what, report);
                 }
                 (call.program.flatten(), call.times, Some(call.arguments))
             }
             FlowCode::Call | FlowCode::CallLocal | FlowCode::CallExternal => {
                 let l = words.letter(b'L');
                 if matches!(words.p, WordValue::Unread) || matches!(l, WordValue::Unread) {
-                    let what = "the numbers of the call".to_owned();
-                    report.fault(range, FaultKind::NotDecided { what });
-                    deep.pending = Some(Transfer::End);
-                    return;
+                    return not_decided(deep, range, "the numbers of the call".to_owned(), report);
                 }
                 let times = l.is_given().then(|| l.number().map(|number| number.value));
                 (words.p.number().map(|number| number.value), times, None)
@@ -244,6 +236,12 @@ impl<'d> Iso<'d> {
             }
         }
     }
+}
+
+/// What runs next is unknown: the run ends.
+fn not_decided(deep: &mut Deep, range: TextRange, what: String, report: &mut Report<'_>) {
+    report.fault(range, FaultKind::NotDecided { what });
+    deep.pending = Some(Transfer::End);
 }
 
 /// The text of a call: its code and the word P where that follows.

@@ -333,6 +333,11 @@ fn a_jump_on_an_input_is_a_branch_that_is_not_known() {
         .map(|fault| fault.block.0 + 1)
         .collect();
     assert_eq!(undecided, [2]);
+    assert!(
+        !log.faults.iter().any(|fault| fault.kind == FaultKind::UnusedWord),
+        "{:?}",
+        log.faults
+    );
     assert_eq!(lines("haas-ngc", source), ["R X0"]);
     // on a Fanuc the machine builder decides what it is
     let (_, log) = run_bytes(FANUC, source.as_bytes(), &Setup::default());

@@ -73,11 +73,8 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     // clamps are closed and opened again for the target machine
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
-    let mut job = job(&reading, source.dialect, options, rewritten, setting.post)
-        .and_then(|job| drops_something(&reading, job, options))?;
-    for fault in &reading.unused {
-        job.leave_out(&reading.program.text(fault.range), fault.block);
-    }
+    let job = job(&reading, source.dialect, options, rewritten, setting.post)
+        .and_then(|job| drops_something(&reading, without_unused(&reading, job), options))?;
     let (tolerance_mm, axis_deg) = setting.tolerances(machine, options)?;
     let work_offset = options.work_offset(setting.post);
     let planner = Planner {
@@ -230,6 +227,14 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
     Err(Refused::range(program, fault.range, wording(program, fault)))
+}
+
+/// Words that nothing reads are left out.
+fn without_unused(reading: &Reading, mut job: Job) -> Job {
+    for fault in &reading.unused {
+        job.leave_out(&reading.program.text(fault.range), fault.block);
+    }
+    job
 }
 
 /// Refuses a `--drop` that leaves out nothing: the user would think that the code is gone.

@@ -63,6 +63,7 @@ export interface CheckedFile {
     motions: number;
     motions_known: number;
     not_run: { line: number; last_line: number; reason: string }[];
+    not_judged: { rule: string; needs: string }[];
     given_up: { line: number; reason: string } | null;
   };
   assumptions: string[];

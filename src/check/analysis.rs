@@ -118,6 +118,7 @@ fn with_both(
         event::group(program, &mut report);
     }
     report.coverage.complete(program, settings.dialect);
+    report.coverage.not_judged = coverage::not_judged(settings);
     coverage::tell(program, settings, &mut report);
     unread::weigh(program, &mut report);
     Some(report)

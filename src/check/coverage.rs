@@ -71,6 +71,15 @@ pub struct NotRun {
     pub moves: bool,
 }
 
+/// A rule that judged nothing, because the machine file does not declare what it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotJudged {
+    /// Its name.
+    pub rule: &'static str,
+    /// What the machine file would have to declare.
+    pub needs: &'static str,
+}
+
 /// Where a run was stopped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GivenUp {
@@ -95,6 +104,8 @@ pub struct Coverage {
     pub travels: u64,
     /// Blocks with content that did not run.
     pub not_run: Vec<NotRun>,
+    /// Rules that judged nothing on this machine.
+    pub not_judged: Vec<NotJudged>,
     /// Where the run was stopped.
     pub given_up: Option<GivenUp>,
     /// The blocks that ran.
@@ -207,6 +218,18 @@ impl Coverage {
     }
 }
 
+/// The rules that are in force and judge nothing on this machine.
+pub(crate) fn not_judged(settings: &Settings<'_>) -> Vec<NotJudged> {
+    let Some(machine) = settings.judged_machine() else {
+        return Vec::new();
+    };
+    let mut active = active(&settings.rules);
+    active.dedup_by_key(|entry| entry.name);
+    let lacking = |name| Some((name, crate::rule(name)?.needs?(machine)?));
+    let found = active.iter().filter_map(|entry| lacking(entry.name));
+    found.map(|(rule, needs)| NotJudged { rule, needs }).collect()
+}
+
 /// Adds what the rules have to say about the parts of the program that did not run.
 pub(crate) fn tell(program: &Program, settings: &Settings<'_>, report: &mut Report) {
     let coverage = &report.coverage;
@@ -242,4 +265,30 @@ fn findings(
         }
     });
     reporter.finish(&|_| Vec::new())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::check_on;
+
+    #[test]
+    fn rules_without_data_are_named_until_the_machine_declares_it() {
+        let lacking = |axis: &str, control: &str, extra: &str| -> Vec<&'static str> {
+            let linear = ["X", "Y", "Z"].map(|letter| format!("{{letter=\"{letter}\", sign=1, dyn={{vmax=200{axis}}}}}"));
+            let text = format!(
+                "schema = \"ncmachine/1\"\naxis = [{}{extra}]\n[control]\nfamily = \"fanuc-30i\"\n{control}",
+                linear.join(", ")
+            );
+            let machine = trunnion_machine::load("m", &text).expect("valid");
+            let report = check_on(&machine, "fanuc-30i", "G21 G90 G94\nM30\n");
+            report.coverage.not_judged.iter().map(|lacking| lacking.rule).collect()
+        };
+        let rotary = |uncertainty: &str| format!(", {{letter=\"C\", kind=\"rotary\", sign=1, dir=[0,0,1], point=[0,0,0], side=\"work\"{uncertainty}}}");
+        assert_eq!(lacking("", "", ""), ["corner-error", "short-block-time"]);
+        assert_eq!(lacking(", kv=20", "", ""), ["short-block-time"]);
+        assert_eq!(lacking(", kv=20", "planner = { block_time = 0.001 }\n", ""), [""; 0]);
+        let all = ["corner-error", "pivot-uncertainty", "short-block-time"];
+        assert_eq!(lacking("", "", &rotary("")), all);
+        assert_eq!(lacking("", "", &rotary(", uncertainty={point=0.01}")), [all[0], all[2]]);
+    }
 }

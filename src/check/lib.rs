@@ -54,7 +54,7 @@ mod words;
 
 pub use analysis::{check, check_objections, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Scope, Settings};
-pub use coverage::{Coverage, GivenUp, NotRun, NotRunReason};
+pub use coverage::{Coverage, GivenUp, NotJudged, NotRun, NotRunReason};
 pub use datum::{Assume, assumptions};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
 pub use report::{Report, Summary, Verdict};

@@ -271,7 +271,7 @@ fn loops(machine: &Machine) -> Option<([usize; 3], f64, f64)> {
 }
 
 /// Whether a linear axis declares its servo loop.
-fn speaks_of_loops(machine: &Machine) -> bool {
+pub(crate) fn speaks_of_loops(machine: &Machine) -> bool {
     let joints = machine.linear.iter().take(3);
     joints.clone().count() == 3
         && joints

@@ -2,6 +2,10 @@
 use crate::Severity;
 use crate::event::AtPole;
 use crate::wake::Wake;
+use trunnion_machine::Machine;
+
+/// What a machine file would have to declare before a rule judges anything on this machine; `None`: it does.
+pub(crate) type Needs = fn(&Machine) -> Option<&'static str>;
 
 /// What silence means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +23,7 @@ pub(crate) struct Body {
     guarantee: Guarantee,
     wakes: &'static [Wake],
     at_pole: Option<AtPole>,
+    needs: Option<Needs>,
 }
 
 impl Body {
@@ -29,6 +34,7 @@ impl Body {
             guarantee: Guarantee::Sound,
             wakes,
             at_pole: None,
+            needs: None,
         }
     }
 
@@ -39,6 +45,7 @@ impl Body {
             guarantee: Guarantee::Heuristic,
             wakes,
             at_pole: None,
+            needs: None,
         }
     }
 
@@ -60,6 +67,12 @@ impl Body {
         self
     }
 
+    /// It is silent on machines that do not declare something; the coverage of a check says so.
+    pub(crate) const fn needs(mut self, needs: Needs) -> Self {
+        self.needs = Some(needs);
+        self
+    }
+
     /// With its name and the header of its file.
     pub(crate) const fn named(self, name: &'static str, docs: &'static str) -> Rule {
         Rule {
@@ -69,6 +82,7 @@ impl Body {
             guarantee: self.guarantee,
             wakes: self.wakes,
             at_pole: self.at_pole,
+            needs: self.needs,
         }
     }
 }
@@ -86,6 +100,7 @@ pub struct Rule {
     pub guarantee: Guarantee,
     pub(crate) wakes: &'static [Wake],
     pub(crate) at_pole: Option<AtPole>,
+    pub(crate) needs: Option<Needs>,
 }
 
 impl Rule {

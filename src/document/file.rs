@@ -66,6 +66,8 @@ pub struct Coverage {
     pub motions_known: u64,
     /// Blocks that did not run.
     pub not_run: Vec<NotRun>,
+    /// Rules that judged nothing, because the machine file does not declare what they need.
+    pub not_judged: Vec<NotJudged>,
     /// Where the run could not be followed further.
     pub given_up: Option<GivenUp>,
 }
@@ -79,6 +81,15 @@ pub struct NotRun {
     pub last_line: u32,
     /// Why.
     pub reason: &'static str,
+}
+
+/// A rule that judged nothing.
+#[derive(Serialize)]
+pub struct NotJudged {
+    /// Its name.
+    pub rule: &'static str,
+    /// What the machine file would have to declare.
+    pub needs: &'static str,
 }
 
 /// Where the run ended early.
@@ -109,6 +120,14 @@ impl Coverage {
                     line: line(part.first),
                     last_line: line(part.last),
                     reason: part.reason.name(),
+                })
+                .collect(),
+            not_judged: found
+                .not_judged
+                .iter()
+                .map(|lacking| NotJudged {
+                    rule: lacking.rule,
+                    needs: lacking.needs,
                 })
                 .collect(),
             given_up: found.given_up.as_ref().map(|given_up| GivenUp {

@@ -26,7 +26,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing. A machine that declares `kv` for none of its linear axes has no model of its servo loops and is not judged; one that declares it for
+//! Silence proves nothing. A machine that declares `kv` for none of its linear axes has no model of its servo loops and is not judged (the coverage of the check says so); one that declares it for
 //! some of the first three, or not the same `kv` and `kff` for all, is unknown, once. The rule needs accelerations, and judges corners
 //! between feed motions with the spindle on in which no rotary axis turns. The error is that of a first-order lag, at the planned speed at the
 //! corner; `trunnion servo FILE --at LINE` simulates it. Consecutive corners are one finding with the worst of them.
@@ -46,7 +46,11 @@ pub(super) const RULE: Body = Body::heuristic(
         Wake::Pace(PaceKind::Corner, report),
         Wake::Pace(PaceKind::UnlikeLoops, unlike),
     ],
-);
+)
+.needs(|machine| {
+    let declared = crate::pace::speaks_of_loops(machine);
+    (!declared).then_some("dyn.kv of the first three linear axes")
+});
 
 fn report(place: &Place, machine: &Machine, out: &mut Reporter<'_>) {
     let tolerance = machine.control.planning.corner_tolerance.unwrap_or(CORNER);

@@ -28,7 +28,7 @@
 //! # Guarantee
 //! First order, in the worst direction, with the errors of all axes added up, and with the zero point set while the
 //! axes were at zero. The rule judges both ends of feed motions and, between them, the turn that moves the tip
-//! most. Where the machine file declares no uncertainty, silence proves nothing.
+//! most. Where the machine file declares no uncertainty, silence proves nothing; the coverage of the check says so.
 //!
 //! # Thresholds
 //! `pivot`: 0.02 mm.
@@ -36,9 +36,14 @@
 //! # Sources
 //! * docs/kinematics.md#uncertainty-of-the-rotary-axes
 use crate::prelude::*;
-use trunnion_machine::pivot_sensitivity_between;
+use trunnion_machine::{Axis, AxisKind, pivot_sensitivity_between};
 
-pub(super) const RULE: Body = Body::heuristic(Info, &[Wake::UncertainCut(check)]);
+pub(super) const RULE: Body = Body::heuristic(Info, &[Wake::UncertainCut(check)]).needs(|machine| {
+    let rotary = machine.axes.iter().filter(|axis| axis.kind == AxisKind::Rotary);
+    let declared = |axis: &Axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some();
+    let missing = rotary.clone().next().is_some() && !rotary.clone().any(declared);
+    missing.then_some("the uncertainty of the rotary axes")
+});
 
 fn check(cut: &facts::UncertainCut<'_>, out: &mut Reporter<'_>) {
     let found = pivot_sensitivity_between(cut.machine, &cut.start.joints, &cut.end.joints, cut.end.tool_length);

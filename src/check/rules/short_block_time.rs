@@ -26,7 +26,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Silence proves nothing on a machine that declares no `block_time`; otherwise each feed motion with the spindle on is judged by its length and feed.
+//! Silence proves nothing on a machine that declares no `block_time` (the coverage of the check says so); otherwise each feed motion with the spindle on is judged by its length and feed.
 //! Consecutive blocks are one finding.
 //!
 //! # Thresholds
@@ -38,7 +38,10 @@ use crate::pace::{PaceKind, Place};
 use crate::prelude::*;
 use trunnion_machine::Machine;
 
-pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Pace(PaceKind::Short, report)]);
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Pace(PaceKind::Short, report)]).needs(|machine| {
+    let missing = machine.control.block_time.is_none();
+    missing.then_some("[control] planner.block_time")
+});
 
 fn report(place: &Place, machine: &Machine, out: &mut Reporter<'_>) {
     let limit = machine.control.block_time.unwrap_or(0.0);

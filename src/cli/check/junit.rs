@@ -37,6 +37,10 @@ pub(super) fn suite(file: &File, line: &str, denied: impl Fn(&Item) -> bool) -> 
             format!("lines {} to {}: {}", part.line, part.last_line, part.reason),
         ));
     }
+    for lacking in &c.not_judged {
+        let text = format!("{}: the machine file does not declare {}", lacking.rule, lacking.needs);
+        properties.push(("coverage.not_judged", text));
+    }
     if let Some(end) = &c.given_up {
         properties.push(("coverage.given_up", format!("line {}: {}", end.line, end.reason)));
     }

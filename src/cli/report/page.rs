@@ -89,6 +89,10 @@ pub(super) fn facts(loaded: &Loaded, report: &Report, scope: Scope) -> Vec<(&'st
         );
         facts.push(("Not run", text));
     }
+    for lacking in &c.not_judged {
+        let text = format!("{}: the machine file does not declare {}", lacking.rule, lacking.needs);
+        facts.push(("Not judged", text));
+    }
     if let Some(end) = &c.given_up {
         facts.push(("Given up", format!("line {}: {}", line(end.block), end.reason)));
     }

@@ -283,7 +283,7 @@ mod tests {
             let report = check_on(&machine, "fanuc-30i", "G21 G90 G94\nM30\n");
             report.coverage.not_judged.iter().map(|lacking| lacking.rule).collect()
         };
-        let rotary = |uncertainty: &str| format!(", {{letter=\"C\", kind=\"rotary\", sign=1, dir=[0,0,1], point=[0,0,0], side=\"work\"{uncertainty}}}");
+        let rotary = |uncertainty: &str| format!(", {{letter=\"C\", kind=\"rotary\", sign=1, dir=[0,0,1], point=[0,0,0], side=\"table\"{uncertainty}}}");
         assert_eq!(lacking("", "", ""), ["corner-error", "short-block-time"]);
         assert_eq!(lacking(", kv=20", "", ""), ["short-block-time"]);
         assert_eq!(lacking(", kv=20", "planner = { block_time = 0.001 }\n", ""), [""; 0]);

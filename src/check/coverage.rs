@@ -274,16 +274,21 @@ mod tests {
     #[test]
     fn rules_without_data_are_named_until_the_machine_declares_it() {
         let lacking = |axis: &str, control: &str, extra: &str| -> Vec<&'static str> {
-            let linear = ["X", "Y", "Z"].map(|letter| format!("{{letter=\"{letter}\", sign=1, dyn={{vmax=200{axis}}}}}"));
+            let linear =
+                ["X", "Y", "Z"].map(|letter| format!("{{letter=\"{letter}\", sign=1, dyn={{vmax=200{axis}}}}}"));
             let text = format!(
-                "schema = \"ncmachine/1\"\naxis = [{}{extra}]\n[control]\nfamily = \"fanuc-30i\"\n{control}",
+                "schema = \"ncmachine/1\"\naxis = [{extra}{}]\n[control]\nfamily = \"fanuc-30i\"\n{control}",
                 linear.join(", ")
             );
             let machine = trunnion_machine::load("m", &text).expect("valid");
             let report = check_on(&machine, "fanuc-30i", "G21 G90 G94\nM30\n");
             report.coverage.not_judged.iter().map(|lacking| lacking.rule).collect()
         };
-        let rotary = |uncertainty: &str| format!(", {{letter=\"C\", kind=\"rotary\", sign=1, dir=[0,0,1], point=[0,0,0], side=\"table\"{uncertainty}}}");
+        let rotary = |uncertainty: &str| {
+            format!(
+                "{{letter=\"C\", kind=\"rotary\", sign=1, dir=[0,0,1], point=[0,0,0], side=\"table\"{uncertainty}}}, "
+            )
+        };
         assert_eq!(lacking("", "", ""), ["corner-error", "short-block-time"]);
         assert_eq!(lacking(", kv=20", "", ""), ["short-block-time"]);
         assert_eq!(lacking(", kv=20", "planner = { block_time = 0.001 }\n", ""), [""; 0]);

@@ -6,7 +6,7 @@ use super::{
     args::{Certify, ClaimOf, Global},
     diff,
     failure::Failure,
-    load,
+    load, waiting,
 };
 use crate::cli::out::Out;
 use std::fmt::Write;
@@ -76,7 +76,9 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             .as_ref()
             .filter(|_| command.before.parent() != command.after.parent())
             .map_or(&setup.library, |second| &second.resolved.setup.library);
-        certify_with_libraries([before, &after], [dialect, other], machine, (setup, library), &claim)
+        waiting::during(global, "proving", &command.after, || {
+            certify_with_libraries([before, &after], [dialect, other], machine, (setup, library), &claim)
+        })
     };
     let shared = |verdict: fn(Difference) -> Verdict, what: &str| {
         let second = second.as_ref().filter(|_| command.certificate.is_none())?;

@@ -15,7 +15,7 @@ use super::{
     failure::{Failure, remark},
     json,
     out::Out,
-    walk,
+    waiting, walk,
 };
 use baseline::{Accepted, Baseline};
 use cache::Cache;
@@ -272,7 +272,11 @@ fn each(job: &Job<'_>, files: &[PathBuf], bar: &ProgressBar, tally: &mut Tally, 
         let results: Vec<Result<Checked, Failure>> = some
             .par_iter()
             .map(|path| {
-                let checked = job.check(path);
+                // several files have the bar
+                let checked = match files {
+                    [_] => waiting::during(job.global, "checking", path, || job.check(path)),
+                    _ => job.check(path),
+                };
                 bar.inc(1);
                 checked
             })

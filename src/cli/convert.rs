@@ -4,6 +4,7 @@ use super::{
     args::{Global, ListFormat},
     failure::{Failure, remark},
     load::{self, Loaded},
+    waiting,
 };
 use clap::ValueEnum;
 use std::path::PathBuf;
@@ -120,7 +121,10 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
             feed_mm_min: command.feed,
         },
     };
-    let converted = match convert(&source, &target, &options(command)?) {
+    let options = options(command)?;
+    let converted = match waiting::during(global, "converting", &command.file, || {
+        convert(&source, &target, &options)
+    }) {
         Ok(converted) => converted,
         Err(refused) => {
             let place = refused

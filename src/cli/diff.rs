@@ -7,7 +7,7 @@ use super::{
     args::{ClaimOf, Global},
     failure::{Failure, remark},
     json::write_json,
-    load,
+    load, waiting,
 };
 use crate::cli::out::Out;
 use clap::ValueEnum;
@@ -67,7 +67,9 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
         deg: command.tolerance_deg,
     };
     let path_only = command.claim == ClaimOf::Path;
-    let found = with_pair(&before, &after, |pair| compare(pair, tolerance, path_only));
+    let found = waiting::during(global, "comparing with", &command.after, || {
+        with_pair(&before, &after, |pair| compare(pair, tolerance, path_only))
+    });
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
     let mut out = Out::standard();
     match command.format {

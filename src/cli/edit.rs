@@ -4,7 +4,7 @@ use super::{
     args::Global,
     failure::{Failure, remark},
     fix::print_diff,
-    load,
+    load, waiting,
 };
 use clap::ValueEnum;
 use std::path::PathBuf;
@@ -163,13 +163,10 @@ pub(super) fn run(global: &Global, command: &EditProgram) -> Result<Done, Failur
     }
     let resolved = &loaded.resolved;
     let decimals = command.decimals.map(usize::from);
-    let edited = match edit(
-        &loaded.program,
-        resolved.dialect,
-        &resolved.setup,
-        command.asked.edit(),
-        decimals,
-    ) {
+    let asked = command.asked.edit();
+    let edited = match waiting::during(global, "editing", &command.file, || {
+        edit(&loaded.program, resolved.dialect, &resolved.setup, asked, decimals)
+    }) {
         Ok(edited) => edited,
         Err(refused) if refused.is_nothing => {
             remark(global.quiet, &format!("{}: {}", loaded.name, refused.message));

@@ -5,7 +5,7 @@ use super::{
     failure::{Failure, remark},
     fix::print_diff,
     load::{self, Loaded},
-    walk,
+    waiting, walk,
 };
 use crate::cli::out::Out;
 use rayon::prelude::*;
@@ -80,7 +80,12 @@ pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
     let (mut changed, mut unchanged) = (0usize, 0usize);
     let mut failures: Vec<_> = found.failures.into_iter().map(Some).collect();
     for some in paths.chunks(64) {
-        let outcomes: Vec<_> = some.par_iter().map(|path| lay_out(global, command, path)).collect();
+        let outcomes: Vec<_> = match (some, paths.len()) {
+            ([one], 1) => vec![waiting::during(global, "formatting", one, || {
+                lay_out(global, command, one)
+            })],
+            _ => some.par_iter().map(|path| lay_out(global, command, path)).collect(),
+        };
         for outcome in outcomes {
             match outcome.and_then(|outcome| finish(global, command, &outcome)) {
                 Ok(Some(true)) => changed += 1,

@@ -31,6 +31,7 @@ mod stats;
 mod surface;
 mod trace;
 mod verdict;
+mod waiting;
 mod walk;
 
 use args::{Args, Command};

@@ -8,6 +8,7 @@ use super::{
     failure::{Failure, remark, shown},
     load::{self, Loaded},
     servo::{ServoOptions, corner},
+    waiting,
 };
 use std::path::{Path, PathBuf};
 use trunnion_interp::MotionKind;
@@ -102,10 +103,13 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         load::put(output.as_ref(), text.as_bytes())?;
         return Ok(Done::Clean);
     }
-    let mut record = gather(&loaded, machine, lines);
-    if command.kind == Kind::Feed {
-        plan(&loaded, machine, &mut record);
-    }
+    let record = waiting::during(global, "drawing", &command.file, || {
+        let mut record = gather(&loaded, machine, lines);
+        if command.kind == Kind::Feed {
+            plan(&loaded, machine, &mut record);
+        }
+        record
+    });
     if record.unknown > 0 {
         let count = record.unknown;
         remark(

@@ -8,7 +8,7 @@ use super::{
     args::{Global, Report},
     failure::{Failure, remark},
     load::{self, Loaded},
-    plot, walk,
+    plot, waiting, walk,
 };
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use std::{io::IsTerminal, path::Path};
@@ -32,7 +32,7 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
         failure.print();
         failures.push(format!("{}: {}", failure.place(), failure.message()));
     }
-    let bar = if global.quiet || !std::io::stderr().is_terminal() {
+    let bar = if global.quiet || found.files.len() < 2 || !std::io::stderr().is_terminal() {
         ProgressBar::hidden()
     } else {
         ProgressBar::with_draw_target(Some(found.files.len() as u64), ProgressDrawTarget::stderr())
@@ -41,7 +41,7 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     let mut denied = false;
     let (mut held, found_files) = (0, found.files.len());
     for file in &found.files {
-        match part(global, file) {
+        match judged(global, file, found.files.len()) {
             Ok((part, found)) => {
                 denied |= found;
                 held += part.bytes();
@@ -65,6 +65,14 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
         return Err(Failure::new("not every file could be checked (see above)"));
     }
     Ok(if denied { Done::Found } else { Done::Clean })
+}
+
+/// The part of one file. Several files have the bar.
+fn judged(global: &Global, file: &Path, files: usize) -> Result<(Part, bool), Failure> {
+    match files {
+        1 => waiting::during(global, "reporting on", file, || part(global, file)),
+        _ => part(global, file),
+    }
 }
 
 /// How many programs, and their verdicts.

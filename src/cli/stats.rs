@@ -2,7 +2,7 @@
 mod show;
 mod time;
 
-use super::{Done, args::Global, args::ListFormat, failure::Failure, load, walk};
+use super::{Done, args::Global, args::ListFormat, failure::Failure, load, waiting, walk};
 use crate::cli::out::{Indented, Out};
 use std::{
     io::{self, Write},
@@ -38,7 +38,8 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
         write!(out, "{{\n  \"files\": [")?;
     }
     for path in &found.files {
-        let (loaded, tally) = match count(global, path) {
+        let counted = waiting::during(global, "counting", path, || count(global, path));
+        let (loaded, tally) = match counted {
             Ok(counted) => counted,
             Err(failure) => {
                 failure.print();
@@ -50,7 +51,7 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
             .resolved
             .machine
             .as_ref()
-            .map(|machine| Times::of(&loaded, machine));
+            .map(|machine| waiting::during(global, "planning", path, || Times::of(&loaded, machine)));
         let interval = times.as_ref().and_then(Times::interval);
         let asked = times.as_ref().filter(|_| command.time);
         if json {

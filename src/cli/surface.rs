@@ -6,7 +6,7 @@ use super::{
     json::write_json,
     legs::each_leg,
     load::{self, Loaded},
-    plot,
+    plot, waiting,
 };
 use crate::cli::out::Out;
 use serde_json::{Value, json};
@@ -77,7 +77,9 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
         .transpose()?;
     let surface = read(&command.required, command.close)?;
     let lines = LineIndex::new(loaded.program.source());
-    let errors = judge(command, &loaded, machine, &surface, &lines)?;
+    let errors = waiting::during(global, "measuring", &command.file, || {
+        judge(command, &loaded, machine, &surface, &lines)
+    })?;
     if errors.judged == 0 {
         return Err(Failure::file(&command.file, nothing(command, &errors)));
     }

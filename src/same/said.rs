@@ -53,6 +53,8 @@ struct Said {
     in_units: bool,
     /// One of them has no known result.
     counts: bool,
+    /// The words are wanted, not only whether one of them counts: for most motions none does, and writing them takes longer than running the block.
+    wanted: bool,
 }
 
 impl Steps<'_> {
@@ -78,18 +80,30 @@ impl Steps<'_> {
         {
             return None;
         }
-        let program = self.input.program;
-        let block = program.block(motion.block);
+        let mut counts = Said::default();
+        if !lost.kind {
+            self.collect(motion, &lost, &mut counts);
+            if !counts.counts {
+                return None;
+            }
+        }
         let mut said = Said {
-            counts: lost.kind,
+            wanted: true,
             ..Said::default()
         };
+        self.collect(motion, &lost, &mut said);
+        Some(said.told(motion, self.state()))
+    }
+
+    /// The words of the block of a motion.
+    fn collect(&self, motion: &Motion, lost: &Lost, said: &mut Said) {
+        let program = self.input.program;
+        let block = program.block(motion.block);
         match program.options().format {
-            Format::Iso | Format::Osp => self.words_of(&block, &lost, &mut said),
-            Format::Klartext => self.sentence_of(&block, &lost, &mut said),
-            Format::Apt => said.whole(self.text(&program.text(block.range())), lost.linear),
+            Format::Iso | Format::Osp => self.words_of(&block, lost, said),
+            Format::Klartext => self.sentence_of(&block, lost, said),
+            Format::Apt => said.whole(|| self.text(&program.text(block.range())), lost.linear),
         }
-        said.counts.then(|| said.told(motion, self.state()))
     }
 
     /// A text with its known values, in one spelling.
@@ -112,10 +126,10 @@ impl Steps<'_> {
                         .name(&program.text(call.name))
                         .is_some_and(|code| code.group.is_some());
                     if !modal || call.arguments.is_some() {
-                        said.whole(self.text(&program.text(call.range)), lost.linear);
+                        said.whole(|| self.text(&program.text(call.range)), lost.linear);
                     }
                 }
-                Item::Other(range) => said.whole(self.text(&program.text(range)), lost.linear),
+                Item::Other(range) => said.whole(|| self.text(&program.text(range)), lost.linear),
                 Item::Comment(_) | Item::Skip(..) | Item::Percent(_) | Item::Label(_) => {}
             }
         }
@@ -140,7 +154,7 @@ impl Steps<'_> {
         let (program, dialect) = (self.input.program, self.input.dialect);
         let text = || self.text(&program.text(word.range));
         let Address::Letter(letter) = word.address else {
-            return said.whole(text(), lost.linear);
+            return said.whole(text, lost.linear);
         };
         let letter = letter.to_ascii_uppercase();
         match dialect.role(letter) {
@@ -155,7 +169,7 @@ impl Steps<'_> {
                     .and_then(|code| dialect.g(code))
                     .is_none_or(|code| code.group.is_none())
                 {
-                    said.words.push(text());
+                    said.add(text);
                 }
                 return;
             }
@@ -165,7 +179,8 @@ impl Steps<'_> {
         match letter {
             b'N' | b'O' | b'S' | b'T' | b'D' => {}
             b'H' if !dialect.quirks.diameter => {}
-            b'F' | b'E' => said.whole_if(lost.feed || lost.kind, &text, lost.feed),
+            b'F' | b'E' if lost.feed || lost.kind => said.whole(text, lost.feed),
+            b'F' | b'E' => {}
             _ => {
                 // increments of a lathe
                 let axis = match (letter, dialect.quirks.diameter) {
@@ -179,12 +194,13 @@ impl Steps<'_> {
                     None => lost.linear && !lost.arc,
                 };
                 // the increments of a lathe, and the time of a dwell, stay as they are written
+                said.counts |= counts;
+                if !said.wanted {
+                    return;
+                }
                 match self.in_mm(letter, word).filter(|_| axis == letter && !lost.kind) {
-                    Some(plain) => {
-                        said.words.push(plain);
-                        said.counts |= counts;
-                    }
-                    None => said.whole(text(), counts),
+                    Some(plain) => said.words.push(plain),
+                    None => said.whole(text, counts),
                 }
             }
         }
@@ -198,11 +214,11 @@ impl Steps<'_> {
         let next = blocks.find_map(|id| block.program().block(id).sentence());
         let corner = next.map(|next| String::from_utf8_lossy(&next.text()).to_ascii_uppercase());
         if let Some(corner) = corner.filter(|text| text.starts_with("RND") || text.starts_with("CHF")) {
-            said.whole(self.text(&corner), lost.linear);
+            said.whole(|| self.text(&corner), lost.linear);
         }
         let mut words = text.split_whitespace();
         if words.next() != Some("L") {
-            return said.whole(self.text(&text), lost.linear || lost.feed);
+            return said.whole(|| self.text(&text), lost.linear || lost.feed);
         }
         for word in words {
             let bare = word.strip_prefix('I').unwrap_or(word);
@@ -210,28 +226,30 @@ impl Steps<'_> {
             let named = bare.as_bytes().get(1).is_some_and(is_value);
             let axis = bare.bytes().next().and_then(AxisLetter::new).filter(|_| named);
             match axis {
-                Some(axis) => said.whole(self.text(word), lost.axes & (1 << axis.0) != 0),
-                None if word.starts_with('F') => said.whole_if(lost.feed, &|| self.text(word), lost.feed),
+                Some(axis) => said.whole(|| self.text(word), lost.axes & (1 << axis.0) != 0),
+                None if word.starts_with('F') && lost.feed => said.whole(|| self.text(word), true),
+                None if word.starts_with('F') => {}
                 None if matches!(word, "R0" | "RL" | "RR" | "AUTO" | "MAX")
                     || word.starts_with('M') && word != "M91" => {}
-                None => said.whole(self.text(word), lost.linear),
+                None => said.whole(|| self.text(word), lost.linear),
             }
         }
     }
 }
 
 impl Said {
-    /// Adds something; `counts`: its result is not known.
-    fn whole(&mut self, text: String, counts: bool) {
-        self.in_units = true;
-        self.words.push(text);
-        self.counts |= counts;
+    /// Adds a word.
+    fn add(&mut self, text: impl FnOnce() -> String) {
+        if self.wanted {
+            self.words.push(text());
+        }
     }
 
-    fn whole_if(&mut self, wanted: bool, text: &dyn Fn() -> String, counts: bool) {
-        if wanted {
-            self.whole(text(), counts);
-        }
+    /// Adds something that counts in the unit of the program; `counts`: its result is not known.
+    fn whole(&mut self, text: impl FnOnce() -> String, counts: bool) {
+        self.in_units = true;
+        self.counts |= counts;
+        self.add(text);
     }
 
     /// In one order, with what the numbers are. Where a corner has cut off the end, or a cycle has several levels, the unknown values still differ by as much

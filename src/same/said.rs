@@ -177,10 +177,9 @@ impl Steps<'_> {
             _ => {}
         }
         match letter {
-            b'N' | b'O' | b'S' | b'T' | b'D' => {}
             b'H' if !dialect.quirks.diameter => {}
             b'F' | b'E' if lost.feed || lost.kind => said.whole(text, lost.feed),
-            b'F' | b'E' => {}
+            b'N' | b'O' | b'S' | b'T' | b'D' | b'F' | b'E' => {}
             _ => {
                 // increments of a lathe
                 let axis = match (letter, dialect.quirks.diameter) {

@@ -9,7 +9,7 @@ use crate::tools::Chosen;
 use crate::travel::Travel;
 use crate::words::{Places, WordValue, Words};
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
-use trunnion_dialect::Action;
+use trunnion_dialect::{Action, Macros};
 use trunnion_geometry::arc::{Arc, Turning};
 
 /// A coordinate that differs by no more than this has not moved, mm: sums of offsets are rounded.
@@ -25,10 +25,11 @@ impl Iso<'_> {
             self.to_machine(&mut start, 1.0);
         }
         let shaped = self.memory.frames.active && !block.machine_coordinates;
+        let base = self.memory.words_count_from(start);
         let from = if shaped {
-            self.memory.frames.programmed(&start)
+            self.memory.frames.programmed(&base)
         } else {
-            start
+            base
         };
         let mut end = from;
         if shaped {
@@ -41,6 +42,7 @@ impl Iso<'_> {
         }
         self.turned_by_hand(words, &mut end, block.machine_coordinates);
         let mut kind = match self.core.state.motion {
+            _ if self.rapid_to_machine(block) => MotionKind::Rapid,
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
             Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
@@ -92,7 +94,12 @@ impl Iso<'_> {
         motion
     }
 
-    /// G53 under G91: a Fanuc ignores the code, and the words may then be distances (Series 30i operator's manual, machine coordinate system; Mitsubishi
+    /// G53 of a Fanuc positions at rapid, whatever motion code is in effect (Series 30i operator's manual, machine coordinate system).
+    fn rapid_to_machine(&self, block: &BlockCodes) -> bool {
+        block.machine_coordinates && self.core.dialect.quirks.macros == Macros::Fanuc
+    }
+
+    /// G53 with distances, of G91 or U and W: a Fanuc ignores the code, and the words may then be distances (Series 30i operator's manual, machine coordinate system; Mitsubishi
     /// M700V programming manual, p. 508: incremental). Where the axes go is unknown.
     fn machine_words_incremental(
         &mut self,
@@ -105,7 +112,12 @@ impl Iso<'_> {
         *kind = MotionKind::Unknown;
         end.known &= !named;
         self.core.state.position.known &= !named;
-        let what = "G53 under G91: write G90 before it".to_owned();
+        let what = if self.core.state.coordinates.incremental() {
+            "G53 under G91: write G90 before it"
+        } else {
+            "G53 with distances: name X and Z"
+        };
+        let what = what.to_owned();
         report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
     }
 
@@ -120,7 +132,7 @@ impl Iso<'_> {
     fn machine_words(&mut self, words: &Words, kind: &mut MotionKind, end: &mut Position, report: &mut Report<'_>) {
         if self.core.state.tool_axis.tcp() {
             self.machine_words_under_tcp(words, kind, end, report);
-        } else if self.core.state.coordinates.incremental() && self.core.dialect.quirks.macro_b() {
+        } else if self.distances(words) != 0 && self.core.dialect.quirks.macro_b() {
             self.machine_words_incremental(words, kind, end, report);
         }
     }

@@ -25,6 +25,7 @@ mod frames;
 mod iso;
 mod klartext;
 mod leader;
+mod length_change;
 mod macro_b;
 mod memory;
 mod named_words;

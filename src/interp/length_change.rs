@@ -55,7 +55,8 @@ impl Iso<'_> {
     fn new_length(&mut self, before: Before, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
         let mode = self.core.dialect.quirks.length_change;
         let now = self.core.state.length;
-        let unclear = (before.length.is_undeclared() || now.is_undeclared()) && before.length.of() != now.of();
+        let other = before.returned || before.length.of() != now.of();
+        let unclear = other && (before.length.is_undeclared() || now.is_undeclared());
         let change = now.mm().unwrap_or(0.0) - before.length.mm().unwrap_or(0.0);
         // what a return has cancelled is not cancelled again
         let nothing = change == 0.0 && !unclear || before.returned && now.mm().is_none();
@@ -89,7 +90,9 @@ impl Iso<'_> {
         self.core.state.position = base;
         if self.core.effects.wanted() {
             let words = vec![Argument::code("a new tool length without its axis")];
-            self.core.effects.add(self.core.main_block(report.block), Effect::Unmodelled(words));
+            self.core
+                .effects
+                .add(self.core.main_block(report.block), Effect::Unmodelled(words));
         }
     }
 
@@ -154,13 +157,17 @@ impl Iso<'_> {
         let axes = self.length_axes();
         let named = (words.axes.given | words.axes.unread) & axes;
         let cycle = self.core.state.motion.is_some_and(|motion| motion.is_hole_cycle()) && words.axes.any();
-        let still = block.returns.is_some() && self.stays_or_leads(axes, words) && self.distances(words) & named == named;
+        let still =
+            block.returns.is_some() && self.stays_or_leads(axes, words) && self.distances(words) & named == named;
         if named == 0 && !cycle || block.machine_coordinates || block.takes_coordinates || still {
             return None;
         }
         let what = "coordinates of the tool's axis after G28, G30 or G53 has cancelled the tool length: when it acts again. Program G43 H again, or declare \
                     `length-after-return` in the quirks of a dialect table";
-        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what: what.to_owned() });
+        report.fault(
+            words.first.unwrap_or_default(),
+            FaultKind::NotModelled { what: what.to_owned() },
+        );
         let mut unread = *words;
         let lost = if cycle { axes } else { named };
         unread.axes.given &= !lost;

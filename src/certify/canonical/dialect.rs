@@ -124,7 +124,10 @@ impl Encode for Quirks {
                 .field(32, &dollar_commands.then_some(true))
                 .field(33, &skips_leader.then_some(true))
                 .field(34, &tool_change_stops_spindle.then_some(true))
-                .field(35, &(*length_after_return == LengthAfterReturn::CancelledByG28).then_some(true))
+                .field(
+                    35,
+                    &(*length_after_return == LengthAfterReturn::CancelledByG28).then_some(true),
+                )
                 .field(36, &program_stop_stops_spindle.then_some(true))
                 .field(37, &returned)
                 .field(38, &changes);

@@ -150,7 +150,8 @@ impl Iso<'_> {
         let file = trail.library.find(name, tried.into_iter(), dialect.lex, load)?;
         let found = self.first_block(file, name);
         if self.is_of_others(file, name) {
-            return Err(Vec::new());
+            let called = self.flow.trail().library.file(file);
+            return Err(called.iter().map(|called| called.path.clone().into()).collect());
         }
         Ok((file, found))
     }

@@ -101,7 +101,11 @@ fn what_moves_nothing_or_leads_to_a_place_is_clean() {
         assert_eq!(faults, 0, "{rest}: {found:?}");
         assert!(found.last().is_some_and(|last| last.contains('Z')), "{rest}: {found:?}");
     }
-    let (_, log) = run_bytes("fanuc-30i", b"G40 G49 G80\nG0 X1. Y1. Z9.\nG40 G49 G80\nX2.\nM30\n", &setup());
+    let (_, log) = run_bytes(
+        "fanuc-30i",
+        b"G40 G49 G80\nG0 X1. Y1. Z9.\nG40 G49 G80\nX2.\nM30\n",
+        &setup(),
+    );
     assert_eq!(log.faults, []);
     assert_eq!(line(&log.motions[1]), "R X2 Y1 Z9");
 }
@@ -114,11 +118,23 @@ fn a_return_leaves_the_length_open() {
         let last = found.last().expect("motions");
         assert_eq!((last.as_str(), faults), ("R X5 Y0", 1), "{home}: {found:?}");
         let (found, faults) = after("", &format!("{home}\nX5.\nG43 H1 Z10.\n"));
-        assert_eq!((found.last().map(String::as_str), faults), (Some("R X5 Y0 Z10"), 0), "{home}");
+        assert_eq!(
+            (found.last().map(String::as_str), faults),
+            (Some("R X5 Y0 Z10"), 0),
+            "{home}"
+        );
         let (found, faults) = after("length-after-return = \"cancelled\"\n", &format!("{home}\nX5.\nZ10.\n"));
-        assert_eq!((found.last().map(String::as_str), faults), (Some("R X5 Y0 Z10"), 0), "{home}");
+        assert_eq!(
+            (found.last().map(String::as_str), faults),
+            (Some("R X5 Y0 Z10"), 0),
+            "{home}"
+        );
         let kept = after("length-after-return = \"kept\"\n", &format!("{home}\nX5.\n"));
-        assert_eq!((kept.0.last().map(String::as_str), kept.1), (Some("R X5 Y0 Z400"), 0), "{home}");
+        assert_eq!(
+            (kept.0.last().map(String::as_str), kept.1),
+            (Some("R X5 Y0 Z400"), 0),
+            "{home}"
+        );
     }
     // other axes leave it as it is
     let (found, faults) = after("", "G53 X0.\nZ10.\n");
@@ -129,7 +145,10 @@ fn a_return_leaves_the_length_open() {
     // the coordinates and the length that a macro reads
     for read in ["#5003", "#5083"] {
         let (found, faults) = after("", &format!("G53 Z0.\nG1 F[{read}+700.] X5.\n"));
-        assert!(found.last().is_some_and(|last| last.contains("F?")) || faults > 0, "{read}: {found:?}");
+        assert!(
+            found.last().is_some_and(|last| last.contains("F?")) || faults > 0,
+            "{read}: {found:?}"
+        );
     }
 }
 

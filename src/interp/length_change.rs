@@ -156,7 +156,7 @@ impl Iso<'_> {
     pub(crate) fn after_return(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Option<Words> {
         let axes = self.length_axes();
         let named = (words.axes.given | words.axes.unread) & axes;
-        let cycle = self.core.state.motion.is_some_and(|motion| motion.is_hole_cycle()) && words.axes.any();
+        let cycle = self.core.state.motion.is_some_and(Action::is_hole_cycle) && words.axes.any();
         let still =
             block.returns.is_some() && self.stays_or_leads(axes, words) && self.distances(words) & named == named;
         if named == 0 && !cycle || block.machine_coordinates || block.takes_coordinates || still {
@@ -188,11 +188,4 @@ fn takes_over(words: &Words, block: &BlockCodes) -> bool {
         || words.unknown_code
         || words.forgets_all
         || words.polynomial
-}
-
-/// The motion of a block starts where the axes stand; its words count from here.
-impl crate::memory::Memory<'_> {
-    pub(crate) fn words_count_from(&mut self, start: Position) -> Position {
-        self.length_base.take().unwrap_or(start)
-    }
 }

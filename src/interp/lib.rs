@@ -26,6 +26,7 @@ mod iso;
 mod klartext;
 mod leader;
 mod length_change;
+mod machine_words;
 mod macro_b;
 mod memory;
 mod named_words;

@@ -6,7 +6,7 @@ use crate::core::Report;
 use crate::frames::Return;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, Effect, FaultKind, LengthOf, Position};
+use crate::{Argument, Effect, FaultKind, LengthOf};
 use trunnion_dialect::{Action, LengthAfterReturn, LengthChange};
 use trunnion_vocabulary::ToolLength;
 

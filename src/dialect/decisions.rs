@@ -93,6 +93,34 @@ impl WholeNumbers {
     }
 }
 
+/// What happens to the axis of the tool when its length changes: G43, G49, H.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LengthChange {
+    /// The coordinates shift and the axis stays; an increment in the same block is travelled as it is written.
+    #[default]
+    Shifts,
+    /// The axis travels the change too, in a block without its word as well.
+    Moves,
+    /// A parameter decides, or no source states it.
+    Undeclared,
+}
+
+/// What G28, G30 and G53 do to the length of the tool.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LengthAfterReturn {
+    /// It acts again in the next block.
+    #[default]
+    Kept,
+    /// G28 cancels it, like G49.
+    CancelledByG28,
+    /// A motion of the tool's axis by any of them cancels it until the next G43 or H.
+    Cancelled,
+    /// Such a motion cancels it; when it acts again, a parameter decides.
+    Undeclared,
+}
+
 /// The language of expressions and flow, for carrying a program over to another control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expressions {

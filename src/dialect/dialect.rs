@@ -1,5 +1,7 @@
 //! A dialect: look-ups over a loaded table.
-use crate::{Action, Advice, Code, CodeKind, Language, Macros, Role, ToolWord, WholeNumbers};
+use crate::{
+    Action, Advice, Code, CodeKind, Language, LengthAfterReturn, LengthChange, Macros, Role, ToolWord, WholeNumbers,
+};
 use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 use std::collections::BTreeMap;
@@ -67,8 +69,10 @@ pub struct Quirks {
     pub tool_change_stops_spindle: bool,
     /// M0 stops the spindle and the coolant, and nothing starts them again.
     pub program_stop_stops_spindle: bool,
-    /// G28 cancels the length of the tool.
-    pub return_cancels_length: bool,
+    /// What G28, G30 and G53 do to the length of the tool.
+    pub length_after_return: LengthAfterReturn,
+    /// What a change of the tool length moves.
+    pub length_change: LengthChange,
     /// A line that begins with `$` is a command to the control, and `!`, `~` and `?` act when they arrive (grbl).
     pub dollar_commands: bool,
     /// Text before the first `%` is the leader of the tape: the control skips it (Fanuc).

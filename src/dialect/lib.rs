@@ -28,7 +28,7 @@ pub use action::Role;
 pub use advice::{Advice, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
-pub use decisions::{Expressions, Language, Macros, ToolWord, WholeNumbers};
+pub use decisions::{Expressions, Language, LengthAfterReturn, LengthChange, Macros, ToolWord, WholeNumbers};
 pub use detect::{
     Detected, Foreign, Surroundings, detect, detect_on, is_program_file_name, looks_like_program, named, not_text,
     program_extensions,

@@ -1,5 +1,5 @@
 //! `[quirks]` of a table: missing keys stay as in the table that it extends.
-use crate::{Action, Language, Macros, Quirks, ToolWord, WholeNumbers};
+use crate::{Action, Language, LengthAfterReturn, LengthChange, Macros, Quirks, ToolWord, WholeNumbers};
 use serde::Deserialize;
 
 /// The keys of `[quirks]`, each optional; [`Quirks`] says what they mean.
@@ -34,7 +34,8 @@ pub(crate) struct QuirksRow {
     cycle_return_unknown: Option<bool>,
     tool_change_stops_spindle: Option<bool>,
     program_stop_stops_spindle: Option<bool>,
-    return_cancels_length: Option<bool>,
+    length_after_return: Option<LengthAfterReturn>,
+    length_change: Option<LengthChange>,
     dollar_commands: Option<bool>,
     skips_leader: Option<bool>,
 }
@@ -71,7 +72,8 @@ impl QuirksRow {
             program_stop_stops_spindle: self
                 .program_stop_stops_spindle
                 .unwrap_or(base.program_stop_stops_spindle),
-            return_cancels_length: self.return_cancels_length.unwrap_or(base.return_cancels_length),
+            length_after_return: self.length_after_return.unwrap_or(base.length_after_return),
+            length_change: self.length_change.unwrap_or(base.length_change),
             dollar_commands: self.dollar_commands.unwrap_or(base.dollar_commands),
             skips_leader: self.skips_leader.unwrap_or(base.skips_leader),
             machine_data_suppress_length: self

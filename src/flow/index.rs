@@ -73,6 +73,11 @@ impl<B> Index<B> {
         (start, end)
     }
 
+    /// Whether the file says which programs are in it.
+    pub fn names_programs(&self) -> bool {
+        !self.programs.is_empty()
+    }
+
     /// First block of the program of a number or name.
     pub fn program(&self, name: &Key) -> Option<u32> {
         self.programs

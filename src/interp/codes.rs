@@ -201,6 +201,7 @@ impl<'d> Iso<'d> {
             Action::CompensationLeft => self.compensation(41, found, words, report),
             Action::CompensationRight => self.compensation(42, found, words, report),
             Action::ToolLengthOn => {
+                self.note_length();
                 self.end_tcp_of_group(found.code);
                 // H is modal, and which one is in effect at the start of the program is not known
                 let no_number = !words.length_offset.is_given() && self.memory.length_offset.is_none();
@@ -211,6 +212,7 @@ impl<'d> Iso<'d> {
                 }
             }
             Action::ToolLengthOff => {
+                self.note_length();
                 self.end_tcp_of_group(found.code);
                 self.set_length(None, LengthOf::Nothing);
             }

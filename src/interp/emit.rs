@@ -25,10 +25,12 @@ impl Iso<'_> {
             self.to_machine(&mut start, 1.0);
         }
         let shaped = self.memory.frames.active && !block.machine_coordinates;
+        // a new tool length may make the words count from another place
+        let base = self.memory.length_base.take().unwrap_or(start);
         let from = if shaped {
-            self.memory.frames.programmed(&start)
+            self.memory.frames.programmed(&base)
         } else {
-            start
+            base
         };
         let mut end = from;
         if shaped {
@@ -41,6 +43,7 @@ impl Iso<'_> {
         }
         self.turned_by_hand(words, &mut end, block.machine_coordinates);
         let mut kind = match self.core.state.motion {
+            _ if self.rapid_to_machine(block) => MotionKind::Rapid,
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
             Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
@@ -90,59 +93,6 @@ impl Iso<'_> {
             self.note_heading(&motion.kind, &motion.start, &motion.end);
         }
         motion
-    }
-
-    /// G53 under G91: a Fanuc ignores the code, and the words may then be distances (Series 30i operator's manual, machine coordinate system; Mitsubishi
-    /// M700V programming manual, p. 508: incremental). Where the axes go is unknown.
-    fn machine_words_incremental(
-        &mut self,
-        words: &Words,
-        kind: &mut MotionKind,
-        end: &mut Position,
-        report: &mut Report<'_>,
-    ) {
-        let named = words.axes.given | words.axes.unread;
-        *kind = MotionKind::Unknown;
-        end.known &= !named;
-        self.core.state.position.known &= !named;
-        let what = "G53 under G91: write G90 before it".to_owned();
-        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-    }
-
-    fn in_machine_coordinates(&self, motion: &mut Motion, moved: u16) {
-        motion.in_machine_coordinates(moved);
-        // G16 H0 of an Okuma: whether the length acts is not stated by a source
-        let acts = self.core.dialect.quirks.user_task() && self.core.state.length.is_undeclared();
-        motion.undeclared.length |= acts && moved & LINEAR != 0;
-    }
-
-    /// Machine coordinates of which it is not known where they lead.
-    fn machine_words(&mut self, words: &Words, kind: &mut MotionKind, end: &mut Position, report: &mut Report<'_>) {
-        if self.core.state.tool_axis.tcp() {
-            self.machine_words_under_tcp(words, kind, end, report);
-        } else if self.core.state.coordinates.incremental() && self.core.dialect.quirks.macro_b() {
-            self.machine_words_incremental(words, kind, end, report);
-        }
-    }
-
-    /// Linear machine coordinates under tool centre point control: G53 of a Fanuc may be refused there; SUPA of a Sinumerik suppresses frames,
-    /// and its transformation stays, so that its words are no joints. Where the axes go is unknown.
-    fn machine_words_under_tcp(
-        &mut self,
-        words: &Words,
-        kind: &mut MotionKind,
-        end: &mut Position,
-        report: &mut Report<'_>,
-    ) {
-        if (words.axes.given | words.axes.unread) & LINEAR == 0 {
-            return;
-        }
-        *kind = MotionKind::Unknown;
-        self.core.state.position.known &= !words.axes.given;
-        self.core.forget_linear();
-        end.known &= self.core.state.position.known;
-        let what = "machine coordinates under tool centre point control: where the axes go".to_owned();
-        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
     }
 
     /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along the tool at home, its length. Under tool

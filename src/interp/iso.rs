@@ -239,7 +239,16 @@ impl<'d> Iso<'d> {
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
-        let mut motion = self.motion(codes, words, &block, report);
+        self.length_travels(words, &block, report);
+        let returned = self
+            .memory
+            .length_returned
+            .then(|| self.after_return(words, &block, report));
+        let mut motion = self.motion(codes, returned.flatten().as_ref().unwrap_or(words), &block, report);
+        self.memory.length_base = None;
+        if block.machine_coordinates {
+            self.length_after_return(words.axes.given | words.axes.unread);
+        }
         self.called_cycle(codes, words, &block, &mut motion, report);
         self.spindle_after(&block);
         if words.forgets_all {

@@ -25,6 +25,8 @@ mod frames;
 mod iso;
 mod klartext;
 mod leader;
+mod length_change;
+mod machine_words;
 mod macro_b;
 mod memory;
 mod named_words;

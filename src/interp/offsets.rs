@@ -174,6 +174,7 @@ impl<'d> Iso<'d> {
             return self.unstated_length("H without a code that reads it", range, report);
         }
         if self.core.state.length.mm().is_some() {
+            self.note_length();
             self.length_on(words.length_offset, range, report);
         } else if let Some(number) = words.length_offset.index() {
             self.memory.length_offset = Some(number);

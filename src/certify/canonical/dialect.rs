@@ -1,6 +1,8 @@
 //! A dialect: notation, letters, codes, quirks and alarms.
 use super::{CanonicalV1, Encode};
-use trunnion_dialect::{ArcTolerance, Code, Dialect, DialectFacts, Language, Macros, Quirks, ToolWord};
+use trunnion_dialect::{
+    ArcTolerance, Code, Dialect, DialectFacts, Language, LengthAfterReturn, LengthChange, Macros, Quirks, ToolWord,
+};
 use trunnion_syntax::LexOptions;
 
 impl Encode for Dialect {
@@ -69,12 +71,23 @@ impl Encode for Quirks {
             cycle_return_unknown,
             tool_change_stops_spindle,
             program_stop_stops_spindle,
-            return_cancels_length,
+            length_after_return,
+            length_change,
             dollar_commands,
             skips_leader,
             machine_data_suppress_length,
         } = self;
         let has = |wanted: Language| *language == wanted;
+        let returned: Option<u32> = match length_after_return {
+            LengthAfterReturn::Kept | LengthAfterReturn::CancelledByG28 => None,
+            LengthAfterReturn::Cancelled => Some(1),
+            LengthAfterReturn::Undeclared => Some(2),
+        };
+        let changes: Option<u32> = match length_change {
+            LengthChange::Shifts => None,
+            LengthChange::Moves => Some(1),
+            LengthChange::Undeclared => Some(2),
+        };
         out.record(|fields| {
             fields
                 .field(1, &has(Language::Linuxcnc))
@@ -111,8 +124,13 @@ impl Encode for Quirks {
                 .field(32, &dollar_commands.then_some(true))
                 .field(33, &skips_leader.then_some(true))
                 .field(34, &tool_change_stops_spindle.then_some(true))
-                .field(35, &return_cancels_length.then_some(true))
-                .field(36, &program_stop_stops_spindle.then_some(true));
+                .field(
+                    35,
+                    &(*length_after_return == LengthAfterReturn::CancelledByG28).then_some(true),
+                )
+                .field(36, &program_stop_stops_spindle.then_some(true))
+                .field(37, &returned)
+                .field(38, &changes);
         });
     }
 }

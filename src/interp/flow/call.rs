@@ -149,9 +149,9 @@ impl Iso<'_> {
         let load = |file: &str| library.load(file).map(|loaded| (loaded.path, loaded.bytes));
         let file = trail.library.find(name, tried.into_iter(), dialect.lex, load)?;
         let found = self.first_block(file, name);
-        if dialect.quirks.user_task() && !self.names_program(file, name) {
-            // a file says which programs are in it
-            return Err(Vec::new());
+        if self.is_of_others(file, name) {
+            let called = self.flow.trail().library.file(file);
+            return Err(called.iter().map(|called| called.path.clone().into()).collect());
         }
         Ok((file, found))
     }
@@ -174,10 +174,12 @@ impl Iso<'_> {
         })
     }
 
-    /// Whether a file that was indexed has a program of this name.
-    fn names_program(&self, file: u16, name: &Key) -> bool {
+    /// Whether a file that was indexed says which programs are in it, and this is none of them. On an Okuma it always says so; elsewhere a file
+    /// without a number is the program whose number is its name.
+    fn is_of_others(&self, file: u16, name: &Key) -> bool {
         let index = self.flow.trail.as_ref().and_then(|trail| trail.known_index(file));
-        index.is_some_and(|index| index.program(name).is_some())
+        let says = |others: bool| self.core.dialect.quirks.user_task() || others && matches!(name, Key::Number(_));
+        index.is_none_or(|index| says(index.names_programs()) && index.program(name).is_none())
     }
 
     /// A return.

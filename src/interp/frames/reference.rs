@@ -4,7 +4,7 @@ use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, LengthOf, MotionKind, Position};
-use trunnion_dialect::Action;
+use trunnion_dialect::{Action, LengthAfterReturn};
 use trunnion_syntax::TextRange;
 
 /// A return in the current block.
@@ -57,9 +57,10 @@ impl Iso<'_> {
                     return;
                 }
                 self.reach_reference(named, number, range, report);
-                if number == 1 && self.core.dialect.quirks.return_cancels_length {
+                if number == 1 && self.core.dialect.quirks.length_after_return == LengthAfterReturn::CancelledByG28 {
                     self.set_length(None, LengthOf::Nothing);
                 }
+                self.length_after_return(named);
             }
         }
     }

@@ -60,7 +60,8 @@ impl<'d> Iso<'d> {
         self.refresh_zero();
     }
 
-    /// G92: the present point gets the given coordinates, in all work offsets. With S alone it limits the speed.
+    /// G92: the present point gets the given coordinates, in all work offsets; where custom macro B is, it ends G52 of these axes (Haas mill operator's
+    /// manual 96-8000, p. 146; Fanuc operator's manual, local coordinate system). With S alone it limits the speed.
     pub(crate) fn position_set(
         &mut self,
         found: &Found<'d>,
@@ -79,8 +80,8 @@ impl<'d> Iso<'d> {
         let known = words.axes.given & !self.core.state.position.known == 0;
         // under a length offset the coordinates are those of the point before it
         let named = |(axis, along): (usize, f64)| along != 0.0 && words.axes.get(axis).is_some();
-        let length = self.core.state.length.mm().is_some_and(|length| length != 0.0)
-            && self.core.setup.length_along().into_iter().enumerate().any(named);
+        let acts = self.memory.length_returned || self.core.state.length.mm().is_some_and(|length| length != 0.0);
+        let length = acts && self.core.setup.length_along().into_iter().enumerate().any(named);
         if !known || length || !self.shifts_plainly(words) || self.core.state.zero.is_lost() {
             self.frame_change(found, words, block, report);
             return;
@@ -94,6 +95,9 @@ impl<'d> Iso<'d> {
                     value
                 };
                 self.memory.frames.shift[axis] += self.core.state.position.values[axis] - value;
+                if self.core.dialect.quirks.macro_b() {
+                    self.memory.frames.shift[axis] += std::mem::take(&mut self.memory.frames.local[axis]);
+                }
             }
         }
         self.refresh_zero();

@@ -48,6 +48,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if own.letter == b'M' && code.owner == Owner::MachineBuilder && code.action == Action::NoMotion && !clamps_axis
         {
             self.core.state.spindle.may_start();
+            // a program of the user: what it does is not known
+            self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
         }
         let known = matches!(
             code.action,

@@ -1,6 +1,9 @@
 //! Programs that rest on a state that the program did not set: the spindle, a length, a plane; and words that were misread.
 use super::items::{HEAD, Item, KLARTEXT, SINUMERIK};
 
+/// Two tools of declared lengths, the first in force at Z50.
+const LENGTHS: &str = "(trunnion: tool 1 flat diameter 10 length 100)\n(trunnion: tool 2 flat diameter 10 length 150)\nG21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nG0 X0 Y0 M3 S1000\nG43 H1 Z50.\n";
+
 pub(super) const STATE: &[Item] = &[
     (
         "M6 of a Fanuc may stop the spindle",
@@ -217,5 +220,54 @@ pub(super) const STATE: &[Item] = &[
         ],
         &["10 unknown not-modelled"],
         [6, 7],
+    ),
+    (
+        "G49 alone",
+        ["fanuc-30i", ""],
+        [LENGTHS, "G49\nX5.\nZ120.\nX6.\nM5\nM30\n"],
+        &["8 unknown not-modelled"],
+        [3, 5],
+    ),
+    (
+        "G49 before absolute and machine coordinates",
+        ["fanuc-30i", ""],
+        [LENGTHS, "G49\nZ120.\nG43 H1 Z50.\nG49\nG53 Z0.\nM5\nM30\n"],
+        &[],
+        [4, 5],
+    ),
+    (
+        "a new length with an increment",
+        ["haas-ngc", ""],
+        [LENGTHS, "G91 G43 H2 Z-32.\nG90 Z50.\nM5\nM30\n"],
+        &["7 unknown not-modelled"],
+        [2, 4],
+    ),
+    (
+        "Z after G53 has cancelled the length",
+        ["fanuc-30i", ""],
+        [LENGTHS, "G53 Z0.\nX5.\nZ10.\nG43 H1 Z50.\nM5\nM30\n"],
+        &["9 unknown not-modelled"],
+        [4, 6],
+    ),
+    (
+        "G53 under G1 is a rapid and needs no feed",
+        ["fanuc-30i", ""],
+        [LENGTHS, "G1 G53 Z0.\nM5\nM30\n"],
+        &[],
+        [2, 3],
+    ),
+    (
+        "a user function of a Haas",
+        ["haas-ngc", ""],
+        [LENGTHS, "M21\nM5\nM30\n"],
+        &["7 unknown unknown-code"],
+        [1, 2],
+    ),
+    (
+        "a program of the user of a LinuxCNC",
+        ["linuxcnc", ""],
+        ["", "G21 G17 G90 G94\nG0 X0 Y0 Z0\nM101\nG0 X1\nM2\n"],
+        &["3 unknown unknown-code"],
+        [2, 2],
     ),
 ];

@@ -163,6 +163,25 @@ fn a_program_in_another_file_runs_and_its_motions_stand_at_the_call() {
     assert!(matches!(&log.faults[0].kind, FaultKind::NotModelled { what } if what.contains("lib/2000, line 3")));
 }
 
+/// A file without a number is the program of its name; one that begins with another number is not.
+#[test]
+fn a_file_of_another_number_is_not_the_program() {
+    for (text, found) in [
+        ("G0X5.\nM99\n", true),
+        ("%\nO0005\nG0X5.\nM99\n%\n", true),
+        ("%\nO0007\nG0X5.\nM99\n%\n", false),
+    ] {
+        let log = with_files("G0X1.\nM98P5\nM30\n", &[("5.nc", text)]);
+        assert_eq!(log.motions.len() == 2, found, "{text}");
+        let missing = |searched: &[Searched]| searched[0].folder == "lib/5.nc";
+        let told = log
+            .faults
+            .iter()
+            .any(|fault| matches!(&fault.kind, FaultKind::MissingSubprogram { searched, .. } if missing(searched)));
+        assert_eq!(told, !found, "{text}: {:?}", log.faults);
+    }
+}
+
 #[test]
 fn a_program_that_is_nowhere_names_the_folders() {
     let log = with_files("G0X1.Y1.\nM98P77\nX2.\nM30\n", &[]);

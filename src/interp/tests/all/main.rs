@@ -25,6 +25,7 @@ mod frames;
 mod haas_planes;
 mod klartext;
 mod klartext_more;
+mod length_change;
 mod macro_calls;
 mod macro_flow;
 mod macro_programs;

@@ -160,7 +160,8 @@ fn h_and_d_are_modal() {
         ..Setup::default()
     };
     // H2 alone changes the length in effect: the same place is 50 mm lower in the words
-    let (_, log) = run_bytes("fanuc-30i", b"G43 H1\nG0 Z200.\nH2\nG91 Z0.\nM30\n", &setup);
+    let source = "G43 H1\nG0 Z200.\nH2\nG91 Z0.\nM30\n";
+    let log = crate::length_change::run_with("fanuc-30i", crate::length_change::SHIFTS, source, &setup);
     assert_eq!(log.motions.iter().map(line).collect::<Vec<_>>(), ["R Z200", "R Z150"]);
     assert_eq!(log.motions[1].tool_length_mm, 150.0);
     // H before G43, D before G41

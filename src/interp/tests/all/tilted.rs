@@ -48,7 +48,7 @@ fn the_tools_length_and_holes_lie_along_the_planes_normal() {
     let mut setup = Setup::default();
     setup.tools.push(crate::tools::tool(1, None, None, Some(80.0)));
     let text = "T1 M6\nG68.2 X0. Y0. Z0. I90. J90. K0.\nG53.1\nG0 X10. Y5. Z100.\nG43 H1\nG81 X10. Y20. Z-3. R2. F100.\nG80\nG69\nM30\n";
-    let (_, log) = run_bytes("fanuc-30i", text.as_bytes(), &setup);
+    let log = crate::length_change::run_with("fanuc-30i", crate::length_change::SHIFTS, text, &setup);
     assert_eq!(log.faults, []);
     // X of the plane is Y of the part, Y of it Z, Z of it X
     let ends: Vec<_> = log.motions[1..].iter().map(|motion| motion.end.xyz()).collect();

@@ -1,4 +1,5 @@
 //! Tools: T and M6, lengths by H and D, and what is declared about the tool in use.
+use crate::length_change::{SHIFTS, run_with};
 use crate::support::{faults, line, run_bytes, run_text};
 use trunnion_interp::{LengthUnit, Position, Setup, Tool, ToolShape};
 
@@ -57,7 +58,7 @@ fn h_gives_the_length() {
 
 #[test]
 fn a_change_of_length_moves_the_programmed_z() {
-    let (_, log) = run_bytes("fanuc-30i", b"G0 X1 Y1 Z300\nG43 H1\nX2\nM30\n", &setup());
+    let log = run_with("fanuc-30i", SHIFTS, "G0 X1 Y1 Z300\nG43 H1\nX2\nM30\n", &setup());
     let got: Vec<_> = log.motions.iter().map(line).collect();
     assert_eq!(got, ["R X1 Y1 Z300", "R X2 Y1 Z200"]);
 }
@@ -106,8 +107,8 @@ fn declared_lengths_are_mm_on_a_machine_that_keeps_inches() {
 fn a_change_of_length_moves_the_words_along_the_tool() {
     let mut setup = setup();
     setup.control.length_along = Some([2.0, 0.0, 0.0]);
-    let program = b"G0 X300 Y1 Z5\nG43 H1\nG0 Z2\nG53 G0 Y2\nG91 X1\nG90 G49\nZ1\nM30\n";
-    let (_, log) = run_bytes("fanuc-30i", program, &setup);
+    let program = "G0 X300 Y1 Z5\nG43 H1\nG0 Z2\nG53 G0 Y2\nG91 X1\nG90 G49\nZ1\nM30\n";
+    let log = run_with("fanuc-30i", SHIFTS, program, &setup);
     let got: Vec<_> = log.motions.iter().map(line).collect();
     let want = [
         "R X300 Y1 Z5",

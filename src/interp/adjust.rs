@@ -112,12 +112,9 @@ impl Iso<'_> {
         scale(&mut words.radius, if turns { 1000.0 } else { divisor });
         let mode = codes
             .iter()
-            .fold(self.core.state.feed.mode(), |mode, found| match found.code.action {
-                Action::FeedPerMinute => FeedMode::PerMinute,
-                Action::FeedPerRevolution => FeedMode::PerRevolution,
-                Action::FeedInverseTime => FeedMode::InverseTime,
-                _ => mode,
-            });
+            .filter_map(|found| crate::feed_speed::meaning_of_feed(found.code))
+            .last()
+            .unwrap_or(self.core.state.feed.mode());
         let feed = match (mode, inch) {
             (FeedMode::PerMinute, true) | (FeedMode::PerRevolution, false) => 100.0,
             (FeedMode::PerRevolution, true) => 10_000.0,

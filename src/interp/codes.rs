@@ -137,6 +137,9 @@ impl<'d> Iso<'d> {
         if let Some(mode) = crate::feed_speed::meaning_of_feed(found.code) {
             self.feed_mode(mode);
         }
+        if found.code.group.as_deref() == Some("feed-profile") {
+            self.core.feed_profile = found.code.action != Action::NoMotion;
+        }
         let state = &mut self.core.state;
         self.core.unknown.restore_known(found.code);
         match found.code.action {
@@ -185,6 +188,8 @@ impl<'d> Iso<'d> {
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";
             }
+            // S and M3 to M5 are those of another spindle from here on (SINUMERIK Programming Manual, Fundamentals: SETMS)
+            Action::NoMotion if found.code.group.as_deref() == Some("master-spindle") => state.spindle.forget(),
             Action::NoMotion if found.code.group.as_deref() == Some("orientation-angles") => {
                 self.memory.own.contour.euler = found.code.id == "ORIEULER";
             }

@@ -13,7 +13,7 @@ use trunnion_certify::conversion::{
     Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on, read,
 };
 use trunnion_dialect::Dialect;
-use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks, LengthOf};
+use trunnion_interp::{AllClampCodes, Fault, FaultKind, Feed, Lacks, LengthOf};
 use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
 use trunnion_syntax::{BlockId, Format, LineIndex, Program};
 
@@ -35,6 +35,8 @@ pub struct Converted {
     pub left_out: Vec<(String, u32)>,
     /// A zero point that the target cannot name (a preset, G15 H1), and the work offset that stands for it.
     pub renamed_offset: Option<(String, String)>,
+    /// Lines of cuts whose feed per revolution became a feed per minute at the speed that is programmed.
+    pub feeds_per_minute: Vec<u32>,
     /// Tools whose length the original compensates, where the target compensates none: the operator sets the zero of Z with each.
     pub set_by_hand: Vec<u32>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
@@ -126,6 +128,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .collect(),
         set_by_hand: set_by_hand(&reading, &job, setting.post),
         renamed_offset: job.renamed_offset,
+        feeds_per_minute: feeds_per_minute(&reading, &outs, line),
         swaps: swaps
             .iter()
             .map(|&index| line(reading.motions[index].motion.block))
@@ -140,6 +143,21 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
 fn line_of(reading: &Reading, lines: &LineIndex, block: BlockId) -> u32 {
     let start = reading.program.block(block).range().start;
     lines.line_column(reading.program.source(), start).0
+}
+
+/// See [`Converted::feeds_per_minute`].
+fn feeds_per_minute(reading: &Reading, outs: &[Out], line: impl Fn(BlockId) -> u32) -> Vec<u32> {
+    let per_minute =
+        |out: &Out| matches!(out, Out::Moves(moves) if moves.iter().any(|one| matches!(one.feed, Feed::PerMinute(_))));
+    let mut lines: Vec<u32> = reading
+        .motions
+        .iter()
+        .zip(outs)
+        .filter(|(posed, out)| matches!(posed.motion.feed, Feed::PerRevolution(_)) && per_minute(out))
+        .map(|(posed, _)| line(posed.motion.block))
+        .collect();
+    lines.dedup();
+    lines
 }
 
 /// See [`Converted::set_by_hand`].

@@ -13,7 +13,7 @@ use trunnion_certify::conversion::{
     Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on, read,
 };
 use trunnion_dialect::Dialect;
-use trunnion_interp::{AllClampCodes, Fault, FaultKind, Feed, Lacks, LengthOf};
+use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks, LengthOf};
 use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
 use trunnion_syntax::{BlockId, Format, LineIndex, Program};
 
@@ -41,13 +41,11 @@ pub struct Converted {
     pub set_by_hand: Vec<u32>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
-    /// Axes that leave their travel, each limit once, computed from an undeclared zero point. Where it is declared, such a program is
-    /// refused.
+    /// Axes that leave their travel, each limit once, from an undeclared zero point. Where it is declared, such a program is refused.
     pub beyond: Vec<Beyond>,
     /// Lines of motions between whose ends the travel could not be decided.
     pub travel_undecided: Vec<u32>,
-    /// Axes with a clamp whose codes are not written, because the machine names none or the control has no word for them. A remark at
-    /// the start of the text says so too.
+    /// Axes with a clamp whose codes are not written: nobody names them, or the control has no word. A remark in the text says so too.
     pub clamps: Vec<char>,
     /// What a certificate of it needs: with this the proof can be made again without the converter.
     pub told: Told,
@@ -128,7 +126,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .collect(),
         set_by_hand: set_by_hand(&reading, &job, setting.post),
         renamed_offset: job.renamed_offset,
-        feeds_per_minute: feeds_per_minute(&reading, &outs, line),
+        feeds_per_minute: crate::feeds::per_minute(&reading, &outs, line),
         swaps: swaps
             .iter()
             .map(|&index| line(reading.motions[index].motion.block))
@@ -143,21 +141,6 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
 fn line_of(reading: &Reading, lines: &LineIndex, block: BlockId) -> u32 {
     let start = reading.program.block(block).range().start;
     lines.line_column(reading.program.source(), start).0
-}
-
-/// See [`Converted::feeds_per_minute`].
-fn feeds_per_minute(reading: &Reading, outs: &[Out], line: impl Fn(BlockId) -> u32) -> Vec<u32> {
-    let per_minute =
-        |out: &Out| matches!(out, Out::Moves(moves) if moves.iter().any(|one| matches!(one.feed, Feed::PerMinute(_))));
-    let mut lines: Vec<u32> = reading
-        .motions
-        .iter()
-        .zip(outs)
-        .filter(|(posed, out)| matches!(posed.motion.feed, Feed::PerRevolution(_)) && per_minute(out))
-        .map(|(posed, _)| line(posed.motion.block))
-        .collect();
-    lines.dedup();
-    lines
 }
 
 /// See [`Converted::set_by_hand`].

@@ -147,7 +147,9 @@ impl Iso<'_> {
             // data of a cycle may be written alone
             Some(motion) if motion.is_hole_cycle() || motion.is_pass_cycle() => self.memory.cycle.letters,
             Some(Action::Thread | Action::VariableThread) if moves => self.memory.cycle.letters,
-            Some(Action::Linear) if moves && self.turned_corner(words).is_some() => letter_bit(b'R') | letter_bit(b'I') | letter_bit(b'K'),
+            Some(Action::Linear) if moves && self.turned_corner(words).is_some() => {
+                letter_bit(b'R') | letter_bit(b'I') | letter_bit(b'K')
+            }
             _ => 0,
         }
     }

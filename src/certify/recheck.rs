@@ -48,7 +48,15 @@ pub fn certify_with_libraries(
     (setup, after_library): (&Setup, &Library),
     claim: &Claim,
 ) -> Outcome {
-    match prove([before, after], dialects, machine, (setup, after_library), claim) {
+    let question = Question {
+        texts: [before, after],
+        dialects,
+        machine,
+        setup,
+        after_library,
+        claim,
+    };
+    match prove(question) {
         Ok(certificate) => Outcome::Proved(Box::new(certificate)),
         Err(outcome) => outcome,
     }
@@ -66,8 +74,14 @@ pub fn recheck(
     let fresh = match inputs_match(certificate, before, after, dialect, machine, setup)
         .and_then(|()| after_dialect(certificate, dialect))
         .and_then(|other| {
-            let library = (setup, &setup.library);
-            prove([before, after], [dialect, other], machine, library, &certificate.claim)
+            prove(Question {
+                texts: [before, after],
+                dialects: [dialect, other],
+                machine,
+                setup,
+                after_library: &setup.library,
+                claim: &certificate.claim,
+            })
         }) {
         Ok(fresh) => fresh,
         Err(outcome) => return outcome,
@@ -132,15 +146,24 @@ fn after_dialect<'d>(certificate: &Certificate, dialect: &'d Dialect) -> Result<
         .ok_or_else(|| Outcome::refuted(format!("the certificate was made for another dialect {}", named.name)))
 }
 
+/// What is to be proved of what.
+#[derive(Clone, Copy)]
+struct Question<'a> {
+    texts: [&'a [u8]; 2],
+    dialects: [&'a Dialect; 2],
+    machine: &'a Machine,
+    setup: &'a Setup,
+    /// Called programs of the text after.
+    after_library: &'a Library,
+    claim: &'a Claim,
+}
+
 /// The proof: where blocks with `/` run, and where they are skipped, unless it is declared which.
-fn prove(
-    texts: [&[u8]; 2],
-    dialects: [&Dialect; 2],
-    machine: &Machine,
-    (setup, after_library): (&Setup, &Library),
-    claim: &Claim,
-) -> Result<Certificate, Outcome> {
-    let mut proved = prove_for_all(texts, dialects, machine, (setup, after_library), claim)?;
+fn prove(question: Question<'_>) -> Result<Certificate, Outcome> {
+    let Question {
+        texts, dialects, setup, ..
+    } = question;
+    let mut proved = prove_for_all(question)?;
     if texts[0] == texts[1] || setup.control.block_delete.is_some() {
         return Ok(proved);
     }
@@ -152,27 +175,30 @@ fn prove(
     switch::at_most_one(&switches)?;
     let mut skipping = setup.clone();
     skipping.control.block_delete = Some(true);
-    let other =
-        prove_for_all(texts, dialects, machine, (&skipping, after_library), claim).map_err(switch::where_skipped)?;
+    let other = prove_for_all(Question {
+        setup: &skipping,
+        ..question
+    })
+    .map_err(switch::where_skipped)?;
     proved.worst.join(&other.worst);
     Ok(proved.sealed())
 }
 
 /// The proof for one state of the switch for block delete. Two programs are the same only with any values of what nobody declares.
-fn prove_for_all(
-    texts: [&[u8]; 2],
-    dialects: [&Dialect; 2],
-    machine: &Machine,
-    (setup, after_library): (&Setup, &Library),
-    claim: &Claim,
-) -> Result<Certificate, Outcome> {
-    let (proved, unset) = prove_run(texts, dialects, machine, (setup, after_library), claim)?;
+fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
+    let Question {
+        texts, setup, claim, ..
+    } = question;
+    let (proved, unset) = prove_run(question)?;
     if texts[0] != texts[1]
         && matches!(claim, Claim::SameToolPath { .. } | Claim::SamePath { .. })
         && let Some(unrelated) = unrelated(setup, &unset)
     {
         // only that they differ counts: with stand-ins a pose may be out of reach
-        let again = prove_run(texts, dialects, machine, (&unrelated, after_library), claim);
+        let again = prove_run(Question {
+            setup: &unrelated,
+            ..question
+        });
         if let Err(Outcome::Refuted(found)) = again {
             let place = found.line.map_or_else(String::new, |line| format!("line {line}: "));
             return Err(Outcome::unknown_at(found.line, place + &only_by_chance(&unset)));
@@ -182,13 +208,15 @@ fn prove_for_all(
 }
 
 /// The proof with the values that the setup declares, all others at 0, and what was not declared.
-fn prove_run(
-    [before, after]: [&[u8]; 2],
-    [dialect, other]: [&Dialect; 2],
-    machine: &Machine,
-    (setup, after_library): (&Setup, &Library),
-    claim: &Claim,
-) -> Result<(Certificate, Vec<FaultKind>), Outcome> {
+fn prove_run(question: Question<'_>) -> Result<(Certificate, Vec<FaultKind>), Outcome> {
+    let Question {
+        texts: [before, after],
+        dialects: [dialect, other],
+        machine,
+        setup,
+        after_library,
+        claim,
+    } = question;
     claim_makes_sense(claim)?;
     let old = parse(before.to_vec(), dialect.lex);
     // a program is compared with itself to see what of it is known: its text is held once

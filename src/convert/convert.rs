@@ -35,17 +35,17 @@ pub struct Converted {
     pub left_out: Vec<(String, u32)>,
     /// A zero point that the target cannot name (a preset, G15 H1), and the work offset that stands for it.
     pub renamed_offset: Option<(String, String)>,
+    /// Lines of cuts whose feed per revolution became a feed per minute at the speed that is programmed.
+    pub feeds_per_minute: Vec<u32>,
     /// Tools whose length the original compensates, where the target compensates none: the operator sets the zero of Z with each.
     pub set_by_hand: Vec<u32>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
-    /// Axes that leave their travel, each limit once, computed from an undeclared zero point. Where it is declared, such a program is
-    /// refused.
+    /// Axes that leave their travel, each limit once, from an undeclared zero point. Where it is declared, such a program is refused.
     pub beyond: Vec<Beyond>,
     /// Lines of motions between whose ends the travel could not be decided.
     pub travel_undecided: Vec<u32>,
-    /// Axes with a clamp whose codes are not written, because the machine names none or the control has no word for them. A remark at
-    /// the start of the text says so too.
+    /// Axes with a clamp whose codes are not written: nobody names them, or the control has no word. A remark in the text says so too.
     pub clamps: Vec<char>,
     /// What a certificate of it needs: with this the proof can be made again without the converter.
     pub told: Told,
@@ -126,6 +126,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .collect(),
         set_by_hand: set_by_hand(&reading, &job, setting.post),
         renamed_offset: job.renamed_offset,
+        feeds_per_minute: crate::feeds::per_minute(&reading, &outs, line),
         swaps: swaps
             .iter()
             .map(|&index| line(reading.motions[index].motion.block))

@@ -16,6 +16,7 @@ mod emit_move;
 mod events;
 mod events_apt;
 mod events_klartext;
+mod feeds;
 mod job;
 mod meanings;
 mod modal;

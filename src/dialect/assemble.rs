@@ -308,6 +308,7 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
         words: row.words,
         action: row.action,
         path: row.path,
+        feed: row.feed.map(crate::schema::FeedRow::action),
         doc: row.doc.into_inner(),
         source: own.map_or_else(|| source.to_owned(), |(_, text)| text),
         owner: row.owner,

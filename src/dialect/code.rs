@@ -28,6 +28,8 @@ pub struct Code {
     pub action: Action,
     /// What it demands at the end of a block; `None`: it is no mode of path control, or the sources leave it open.
     pub path: Option<PathMode>,
+    /// What F means from here on, as one of the codes whose action that is, where the code decides this beside its action (G96 of a Sinumerik).
+    pub feed: Option<Action>,
     /// One line for people.
     pub doc: String,
     /// Where that is written down.

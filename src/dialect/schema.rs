@@ -110,6 +110,23 @@ pub(crate) struct ArcToleranceRow {
     pub(crate) source: Spanned<String>,
 }
 
+/// `feed = "per-minute" | "per-revolution"`.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FeedRow {
+    PerMinute,
+    PerRevolution,
+}
+
+impl FeedRow {
+    pub(crate) fn action(self) -> Action {
+        match self {
+            Self::PerMinute => Action::FeedPerMinute,
+            Self::PerRevolution => Action::FeedPerRevolution,
+        }
+    }
+}
+
 /// One row of `[codes]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -118,6 +135,7 @@ pub(crate) struct CodeRow {
     #[serde(deserialize_with = "crate::action::action")]
     pub(crate) action: Action,
     pub(crate) path: Option<crate::PathMode>,
+    pub(crate) feed: Option<FeedRow>,
     #[serde(default)]
     pub(crate) words: Vec<String>,
     pub(crate) doc: Spanned<String>,

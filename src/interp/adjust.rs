@@ -112,12 +112,9 @@ impl Iso<'_> {
         scale(&mut words.radius, if turns { 1000.0 } else { divisor });
         let mode = codes
             .iter()
-            .fold(self.core.state.feed.mode(), |mode, found| match found.code.action {
-                Action::FeedPerMinute => FeedMode::PerMinute,
-                Action::FeedPerRevolution => FeedMode::PerRevolution,
-                Action::FeedInverseTime => FeedMode::InverseTime,
-                _ => mode,
-            });
+            .filter_map(|found| crate::feed_speed::meaning_of_feed(found.code))
+            .last()
+            .unwrap_or(self.core.state.feed.mode());
         let feed = match (mode, inch) {
             (FeedMode::PerMinute, true) | (FeedMode::PerRevolution, false) => 100.0,
             (FeedMode::PerRevolution, true) => 10_000.0,
@@ -129,7 +126,7 @@ impl Iso<'_> {
     /// Reports F without a decimal point where a setting of the control reads it as written or as least increments. On a Haas that is every F. On a
     /// Fanuc F in mm/min is whole mm/min either way; in inch, per turn, as a lead and in inverse time it is not (FANUC B-64490EN, parameters
     /// 1404, 1405 and 3401; B-62764EN, inverse time feed).
-    pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
+    pub(crate) fn whole_feed(&mut self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
         let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
         let Some(feed) = feed.filter(|_| !dwell_reads(codes, "F")) else {
             return;
@@ -141,15 +138,31 @@ impl Iso<'_> {
         let of_setting = self.core.dialect.quirks.whole_numbers.feeds_ambiguous();
         let thread = |action| matches!(action, Action::Thread | Action::VariableThread);
         let leads = codes.iter().any(|found| thread(found.code.action)) || self.core.state.motion.is_some_and(thread);
+        let implicit = self.core.setup.control.implicit_decimals;
         let open = match mode {
             _ if of_setting => mode != FeedMode::InverseTime,
-            _ if self.core.setup.control.implicit_decimals.is_some() => false,
+            // the manuals read do not agree on the least increment of an inverse time
+            FeedMode::InverseTime if implicit == Some(ImplicitDecimals::LeastIncrement) => true,
+            _ if implicit.is_some() => false,
             FeedMode::PerMinute => !metric || leads,
             FeedMode::PerRevolution | FeedMode::InverseTime => true,
         };
-        if open {
-            report.fault(feed.range, FaultKind::AmbiguousDecimal);
+        if !open {
+            return;
         }
+        report.fault(feed.range, FaultKind::AmbiguousDecimal);
+        if mode == FeedMode::PerMinute && (of_setting || metric) {
+            return;
+        }
+        // the two readings are a factor of 100 and more apart
+        let what = if implicit.is_some() {
+            "the feed F without a decimal point under G93: write the point"
+        } else {
+            "the feed F without a decimal point: a parameter decides its unit (write the point, or declare [control] implicit_decimals)"
+        };
+        report.fault(feed.range, FaultKind::NotModelled { what: what.to_owned() });
+        self.core.state.feed.set(None);
+        self.core.feed_unread = true;
     }
 
     /// Whether a parameter decides how long a dwell is that an axis word without a decimal point gives: seconds or least increments

@@ -1,8 +1,10 @@
 //! APT / CL records to motions.
 mod args;
+mod auxiliary;
 pub(crate) mod cycle;
 mod drill;
 mod drive;
+mod feed;
 mod frame;
 mod ignored;
 mod remark;
@@ -23,6 +25,10 @@ use trunnion_syntax::{Block, BlockId, Program, Record, TextRange};
 pub(crate) struct AptState {
     /// RAPID: the next motion is a rapid.
     pub(crate) rapid: bool,
+    /// RAPID had words that are not understood: which motions are rapids is not known from here on.
+    pub(crate) rapid_unread: bool,
+    /// What F means and mm per unit, as the last FEDRAT with a unit says.
+    pub(crate) feed_unit: Option<(FeedMode, f64)>,
     /// CIRCLE: the next GOTO is the end of this arc.
     pub(crate) circle: Option<Circle>,
     /// TLAXIS: the orientation of the next motion.
@@ -168,7 +174,7 @@ impl Apt<'_> {
             b"GOTO" => return self.goto(&args, report),
             b"GODLTA" => return self.godlta(&args, report),
             b"FROM" => self.from(&args, report),
-            b"RAPID" => self.rapid(report),
+            b"RAPID" => self.rapid_record(&args, report),
             b"CIRCLE" => self.circle(&args, report),
             b"INDIRV" if matches!(args.numbers(), [_, _, _]) && !args.odd => {
                 let &[i, j, k] = args.numbers() else { return None };
@@ -190,6 +196,7 @@ impl Apt<'_> {
             b"LOAD" | b"TOOLNO" if args.has(program, "TOOL") || record.is("TOOLNO") => self.load_tool(&args, report),
             b"CUTCOM" => self.cutcom(&args, report),
             b"CYCLE" => self.cycle(record, report),
+            b"AUXFUN" => self.auxiliary(&args, report),
             b"END" | b"FINI" => {
                 self.core.state.ended = true;
                 self.core.proper_end = true;
@@ -215,7 +222,10 @@ impl Apt<'_> {
                 report.fault(record.range, FaultKind::NotModelled { what });
                 self.lose_place();
             }
-            Action::FrameChange if args.has(program, "OFF") || args.has(program, "NOMORE") => {
+            Action::FrameChange
+                if (args.has(program, "OFF") || args.has(program, "NOMORE"))
+                    && !self.kept.frame.is_shifted_by(record) =>
+            {
                 let ended = self.core.unknown.end(code);
                 self.core.forget_if(ended);
             }
@@ -260,18 +270,6 @@ impl Apt<'_> {
         }
     }
 
-    fn rapid(&mut self, report: &mut Report<'_>) {
-        if self.kept.circle.take().is_some() {
-            report.fault(
-                TextRange::default(),
-                FaultKind::NotModelled {
-                    what: "CIRCLE followed by RAPID".to_owned(),
-                },
-            );
-        }
-        self.kept.rapid = true;
-    }
-
     fn units(&mut self, args: &Args, report: &mut Report<'_>) {
         let unit = match args.words().first() {
             Some(&word) if is(report.program, word, "MM") => 1.0,
@@ -291,46 +289,6 @@ impl Apt<'_> {
             }
         };
         self.core.state.units(unit, unit);
-    }
-
-    /// FEDRAT/v, FEDRAT/v,MMPM, FEDRAT/MMPM,v; without a unit length units per minute.
-    fn fedrat(&mut self, args: &Args, report: &mut Report<'_>) {
-        let program = report.program;
-        if args.has(program, "RAPID") {
-            return self.rapid(report);
-        }
-        let units = [
-            ("MMPM", FeedMode::PerMinute, Some(1.0)),
-            ("IPM", FeedMode::PerMinute, Some(25.4)),
-            ("PERMIN", FeedMode::PerMinute, None),
-            ("MMPR", FeedMode::PerRevolution, Some(1.0)),
-            ("IPR", FeedMode::PerRevolution, Some(25.4)),
-            ("PERREV", FeedMode::PerRevolution, None),
-            ("INVERS", FeedMode::InverseTime, Some(1.0)),
-        ];
-        let unit = match args.words() {
-            [] => Some((FeedMode::PerMinute, None)),
-            words => units
-                .iter()
-                .find(|(name, ..)| words.iter().any(|&word| is(program, word, name)))
-                .map(|&(_, mode, unit)| (mode, unit)),
-        };
-        match (unit, args.numbers().first()) {
-            (Some((mode, unit)), Some(value)) if !args.odd => {
-                self.core.state.feed.switch_mode(mode);
-                self.core
-                    .state
-                    .feed
-                    .set(Some(value * unit.unwrap_or(self.core.state.feed.unit_mm())));
-                self.core.feed_unread = false;
-            }
-            _ => {
-                let what = program.text(report.whole()).into_owned();
-                report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.core.state.feed.set(None);
-                self.core.feed_unread = true;
-            }
-        }
     }
 
     /// SPINDL/n[,RPM][,CLW|CCLW], SPINDL/ON, SPINDL/OFF; a cutting speed (SFM, SMM) leaves the turns unknown.

@@ -19,8 +19,7 @@ impl Apt<'_> {
             return Some(self.unreadable_goto(report));
         }
         if let Some(&feed) = numbers.get(6) {
-            self.core.state.feed.set(Some(feed * self.core.state.feed.unit_mm()));
-            self.core.feed_unread = false;
+            self.feed_without_unit(feed, report);
         }
         let unit = self.core.state.coordinates.unit_mm();
         let frame = self.kept.frame;
@@ -245,11 +244,15 @@ impl Apt<'_> {
         self.core.state.orientation = orientation;
         let kind = match circle {
             Some(circle) => MotionKind::Arc(self.arc_to(&circle, start, end, report)),
+            None if self.kept.rapid_unread => MotionKind::Unknown,
             None if rapid => MotionKind::Rapid,
             None => MotionKind::Linear,
         };
         self.core.state.motion = Some(if rapid { Action::Rapid } else { Action::Linear });
-        let feed = self.core.feed(kind, || range, report);
+        let feed = match kind {
+            MotionKind::Unknown => Feed::Unknown,
+            kind => self.core.feed(kind, || range, report),
+        };
         Some(self.core.motion_in_frame(kind, [start, end], orientation, feed, report))
     }
 

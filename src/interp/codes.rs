@@ -6,7 +6,7 @@ use crate::iso::Iso;
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{WordValue, Words};
-use crate::{FaultKind, FeedMode, LengthOf, TcpMistake};
+use crate::{FaultKind, LengthOf, TcpMistake};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
 
@@ -134,6 +134,12 @@ impl<'d> Iso<'d> {
     }
 
     fn apply_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        if let Some(mode) = crate::feed_speed::meaning_of_feed(found.code) {
+            self.feed_mode(mode);
+        }
+        if found.code.group.as_deref() == Some("feed-profile") {
+            self.core.feed_profile = found.code.action != Action::NoMotion;
+        }
         let state = &mut self.core.state;
         self.core.unknown.restore_known(found.code);
         match found.code.action {
@@ -163,9 +169,7 @@ impl<'d> Iso<'d> {
             Action::Inch => state.units(25.4, 25.4),
             Action::InchLengthsOnly => state.units(25.4, 1.0),
             Action::Metric => state.units(1.0, 1.0),
-            Action::FeedInverseTime => self.feed_mode(FeedMode::InverseTime),
-            Action::FeedPerMinute => self.feed_mode(FeedMode::PerMinute),
-            Action::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution),
+            Action::FeedInverseTime | Action::FeedPerMinute | Action::FeedPerRevolution => {}
             Action::ConstantSurfaceSpeed => {
                 state.spindle.set_surface_speed(true);
             }
@@ -184,6 +188,8 @@ impl<'d> Iso<'d> {
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";
             }
+            // S and M3 to M5 are those of another spindle from here on (SINUMERIK Programming Manual, Fundamentals: SETMS)
+            Action::NoMotion if found.code.group.as_deref() == Some("master-spindle") => state.spindle.forget(),
             Action::NoMotion if found.code.group.as_deref() == Some("orientation-angles") => {
                 self.memory.own.contour.euler = found.code.id == "ORIEULER";
             }
@@ -296,58 +302,6 @@ impl<'d> Iso<'d> {
             report.fault(found.range, FaultKind::NotModelled { what });
             self.core.unknown.begin(found.code, true);
             self.core.forget_position();
-        }
-    }
-
-    fn feed_mode(&mut self, mode: FeedMode) {
-        if self.core.state.feed.mode() != mode {
-            self.core.state.feed.switch_mode(mode);
-            self.core.feed_unread = false;
-        }
-    }
-
-    fn feed_word(&mut self, codes: &[Found<'_>], words: &Words) {
-        if self.core.state.feed.mode() == FeedMode::InverseTime {
-            self.core.state.feed.set(None);
-            self.core.feed_unread = false;
-        }
-        if !words.feed.is_given() || dwell_reads(codes, "F") {
-            return;
-        }
-        let unit = if self.core.state.feed.mode() == FeedMode::InverseTime {
-            1.0
-        } else {
-            self.core.state.feed.unit_mm()
-        };
-        self.core
-            .state
-            .feed
-            .set(words.feed.number().map(|number| number.value * unit));
-        self.core.feed_unread = self.core.state.feed.value().is_none();
-    }
-
-    fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
-        // G92 S, G26 S and the like limit the speed
-        let limits = |found: &Found<'_>| match found.code.action {
-            Action::FrameChange | Action::PositionSet => !words.axes.any(),
-            Action::NotFollowed => found.code.kind == CodeKind::G,
-            _ => false,
-        };
-        let limit = || codes.iter().any(limits);
-        if words.speed.is_given() && !dwell_reads(codes, "S") && !limit() {
-            let value = words.speed.number().map(|number| number.value);
-            let state = &mut self.core.state;
-            if state.spindle.surface_speed() {
-                // S is in feet per minute where lengths are in inches
-                let unit = if state.coordinates.unit_mm() == 1.0 {
-                    1.0
-                } else {
-                    0.3048
-                };
-                state.spindle.set_cutting_speed(value.map(|value| value * unit));
-            } else {
-                state.spindle.set_rpm(value);
-            }
         }
     }
 }

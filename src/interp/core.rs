@@ -40,6 +40,8 @@ pub(crate) struct Core<'d> {
     pub(crate) losses: u64,
     /// F has a value that is not evaluated.
     pub(crate) feed_unread: bool,
+    /// The feed changes along each motion (FLIN, FCUB, FPO of a Sinumerik).
+    pub(crate) feed_profile: bool,
     /// It was reported that cutter compensation is not followed.
     pub(crate) compensation_reported: bool,
     /// Work offsets that were reported as missing.
@@ -103,6 +105,7 @@ impl<'d> Core<'d> {
             effects: Effects::default(),
             losses: 0,
             feed_unread: false,
+            feed_profile: false,
             compensation_reported: false,
             offsets_reported: Reported::default(),
             last_content: None,
@@ -185,6 +188,7 @@ impl<'d> Core<'d> {
             return Feed::Rapid;
         }
         match self.state.feed.value() {
+            Some(_) if self.feed_profile => Feed::Unknown,
             Some(feed) if feed > 0.0 => match self.state.feed.mode() {
                 FeedMode::PerMinute => Feed::PerMinute(feed),
                 FeedMode::PerRevolution => Feed::PerRevolution(feed),

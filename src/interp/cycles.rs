@@ -63,7 +63,7 @@ pub(crate) struct Cycle {
 impl Cycle {
     /// Whether its code reads a letter.
     fn reads_letter(&self, letter: u8) -> bool {
-        self.letters & (1 << (letter - b'A')) != 0
+        self.letters & crate::unused::letter_bit(letter) != 0
     }
     /// The dwell at the bottom, seconds: P stays from cycle to cycle, and a cycle that does not read it does not wait.
     fn dwell(&self) -> Option<f64> {

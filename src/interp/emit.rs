@@ -38,6 +38,9 @@ impl Iso<'_> {
         } else {
             self.targets(&words.axes, block.machine_coordinates, &mut end);
         }
+        if !block.machine_coordinates {
+            self.after_offsets(words, &mut end, report);
+        }
         if block.machine_coordinates {
             self.suppressed_length(words, &mut end, report);
         }

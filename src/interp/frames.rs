@@ -4,6 +4,7 @@
 mod agree_tests;
 mod data_entry;
 mod feature;
+mod increments;
 mod linear;
 mod points;
 mod polar;
@@ -57,6 +58,10 @@ pub(crate) struct Frames {
     pub(crate) fresh: u16,
     /// Axes whose next coordinate must be absolute, since a turned plane has ended.
     pub(crate) must_be_absolute: u16,
+    /// What the zero point and the frames of a Sinumerik have moved, for the next incremental coordinates.
+    pub(crate) moved_by_frames: increments::Moved,
+    /// The same of tool lengths.
+    pub(crate) moved_by_lengths: increments::Moved,
     /// Zero point that is selected (G54), without shifts.
     pub(crate) selected: [f64; 9],
     /// G92.

@@ -20,6 +20,7 @@ mod dwell;
 mod effects;
 mod emit;
 mod engine;
+mod feed_speed;
 mod flow;
 mod frames;
 mod iso;

@@ -90,9 +90,11 @@ impl<'d> Iso<'d> {
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: OffsetValues) {
-        self.core.state.zero.choose(name, Undeclared::ALL_ZEROS & !zero.known);
-        self.memory.frames.selected = zero.values;
-        self.refresh_zero();
+        self.frames_move(|iso| {
+            iso.core.state.zero.choose(name, Undeclared::ALL_ZEROS & !zero.known);
+            iso.memory.frames.selected = zero.values;
+            iso.refresh_zero();
+        });
     }
 
     /// Selects no work offset (G500): the rest of the zero point is its base, which may be declared under that name.
@@ -198,7 +200,7 @@ impl<'d> Iso<'d> {
         let range = edge.number().map_or(TextRange::default(), |number| number.range);
         self.memory.edge = edge.index();
         match edge.index() {
-            Some(0) => self.set_length(None, LengthOf::Nothing),
+            Some(0) => self.edge_length(edge.index(), range, report),
             // the tool is chosen, but not yet in the spindle: its length comes with it
             _ if self.core.tools.waits_for_change() => {}
             edge => self.edge_length(edge, range, report),
@@ -222,6 +224,10 @@ impl<'d> Iso<'d> {
     }
 
     pub(crate) fn edge_length(&mut self, edge: Option<u32>, range: TextRange, report: &mut Report<'_>) {
+        self.lengths_move(|iso| iso.take_edge(edge, range, report));
+    }
+
+    fn take_edge(&mut self, edge: Option<u32>, range: TextRange, report: &mut Report<'_>) {
         let name = match (&self.core.tools.in_spindle(), edge) {
             (Chosen::Nothing, Some(1)) => "D1".to_owned(),
             _ => self.core.tools.name(),

@@ -153,16 +153,10 @@ impl<'d> Iso<'d> {
 /// code stands beside it, what the control does is not documented.
 pub(crate) fn data_codes(codes: &[Found<'_>], words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
     let axes_of = |found: &Found<'_>| {
-        let listed = |letter: char| {
-            found
-                .code
-                .words
-                .iter()
-                .any(|word| word.starts_with(letter) && word.len() == 1)
-        };
+        let listed = crate::unused::letters(found.code);
         let bits = crate::AXIS_LETTERS.iter().enumerate();
         bits.fold(0_u16, |all, (axis, letter)| {
-            all | u16::from(listed(char::from(*letter))) << axis
+            all | u16::from(listed & crate::unused::letter_bit(*letter) != 0) << axis
         })
     };
     let given = words.axes.given | words.axes.unread;

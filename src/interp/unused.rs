@@ -11,29 +11,30 @@ use crate::{FaultKind, Refusal};
 use trunnion_dialect::{Action, Code, CodeKind, Owner, Role};
 use trunnion_syntax::Address;
 
-const fn bit(letter: u8) -> u32 {
+/// The place of an upper-case letter in a mask of letters.
+pub(crate) const fn letter_bit(letter: u8) -> u32 {
     1 << (letter - b'A')
 }
 
 /// Letters that mean something only where a code reads them.
-pub(crate) const PARAMETERS: u32 = bit(b'D')
-    | bit(b'E')
-    | bit(b'H')
-    | bit(b'I')
-    | bit(b'J')
-    | bit(b'K')
-    | bit(b'L')
-    | bit(b'P')
-    | bit(b'Q')
-    | bit(b'R');
+pub(crate) const PARAMETERS: u32 = letter_bit(b'D')
+    | letter_bit(b'E')
+    | letter_bit(b'H')
+    | letter_bit(b'I')
+    | letter_bit(b'J')
+    | letter_bit(b'K')
+    | letter_bit(b'L')
+    | letter_bit(b'P')
+    | letter_bit(b'Q')
+    | letter_bit(b'R');
 /// I, J, K.
-const CENTRE: u32 = bit(b'I') | bit(b'J') | bit(b'K');
+const CENTRE: u32 = letter_bit(b'I') | letter_bit(b'J') | letter_bit(b'K');
 const ALL: u32 = u32::MAX;
 
 /// The letters that a code reads beside the axes.
 pub(crate) fn letters(code: &Code) -> u32 {
     let letter = |word: &String| match word.as_bytes() {
-        [letter @ b'A'..=b'Z'] => bit(*letter),
+        [letter @ b'A'..=b'Z'] => letter_bit(*letter),
         _ => 0,
     };
     code.words.iter().map(letter).fold(0, |all, one| all | one)
@@ -60,7 +61,7 @@ impl Iso<'_> {
                 continue;
             };
             // a vacant variable: the word counts as not written
-            if left & bit(letter) == 0 || !words.letter(letter).is_given() {
+            if left & letter_bit(letter) == 0 || !words.letter(letter).is_given() {
                 continue;
             }
             let kind = match self.core.dialect.alarm("unused-word") {
@@ -122,19 +123,19 @@ impl Iso<'_> {
         let mut read = 0;
         let role = |letter| self.core.dialect.role(letter);
         if self.core.dialect.quirks.offset_compensation || self.core.state.compensation != 0 {
-            read |= bit(b'D');
+            read |= letter_bit(b'D');
         }
         if role(b'D') == Some(Role::EdgeOffset) {
-            read |= bit(b'D');
+            read |= letter_bit(b'D');
         }
         if matches!(role(b'H'), Some(Role::LengthOffset | Role::Increment)) {
-            read |= bit(b'H');
+            read |= letter_bit(b'H');
         }
         if words.flow {
-            read |= bit(b'P') | bit(b'L');
+            read |= letter_bit(b'P') | letter_bit(b'L');
         }
         if words.reads_input {
-            read |= bit(b'Q');
+            read |= letter_bit(b'Q');
         }
         if self.core.state.tool_axis.vectors() {
             read |= CENTRE;
@@ -146,7 +147,9 @@ impl Iso<'_> {
             // data of a cycle may be written alone
             Some(motion) if motion.is_hole_cycle() || motion.is_pass_cycle() => self.memory.cycle.letters,
             Some(Action::Thread | Action::VariableThread) if moves => self.memory.cycle.letters,
-            Some(Action::Linear) if moves && self.turned_corner(words).is_some() => bit(b'R') | bit(b'I') | bit(b'K'),
+            Some(Action::Linear) if moves && self.turned_corner(words).is_some() => {
+                letter_bit(b'R') | letter_bit(b'I') | letter_bit(b'K')
+            }
             _ => 0,
         }
     }
@@ -177,13 +180,13 @@ impl Iso<'_> {
             return code;
         }
         let [first, second, _] = plane_axes(self.core.state.coordinates.plane());
-        let centre = bit(b'I' + first as u8) | bit(b'I' + second as u8);
+        let centre = letter_bit(b'I' + first as u8) | letter_bit(b'I' + second as u8);
         (code & !CENTRE) | centre
     }
 
     /// Q or L beside an arc, where the arc codes read them: a spiral or cone.
     pub(crate) fn is_spiral(&self, words: &Words) -> bool {
         let code = || self.core.dialect.g(20).map_or(0, letters);
-        words.letters & code() & (bit(b'Q') | bit(b'L')) != 0
+        words.letters & code() & (letter_bit(b'Q') | letter_bit(b'L')) != 0
     }
 }

@@ -214,6 +214,11 @@ pub struct ControlData {
     pub roll_pitch_yaw: Option<RollPitchYaw>,
     /// In which order ROT and CROT of a Sinumerik turn about several axes; `None`: not declared, such frames are unknown.
     pub frame_angles: Option<FrameAngles>,
+    /// Whether the first incremental coordinate after another zero point or frame travels the change too (Sinumerik setting data 42440
+    /// FRAME_OFFSET_INCR_PROG); `None`: not declared, where such a coordinate leads is unknown.
+    pub increment_adds_frame: Option<bool>,
+    /// The same after another tool length (Sinumerik setting data 42442 TOOL_OFFSET_INCR_PROG).
+    pub increment_adds_length: Option<bool>,
     /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
     pub tcp_codes: Option<TcpCodes>,
     /// Codes by which a program closes and opens the clamps of rotary axes, as the machine names them.

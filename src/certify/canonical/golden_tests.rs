@@ -154,6 +154,7 @@ fn travels_codes_and_notations() {
         source: "not a fact".into(),
         owner: Owner::Control,
         path: None,
+        feed: None,
     };
     assert_eq!(hex(&code), CODE);
     let lex = LexOptions {

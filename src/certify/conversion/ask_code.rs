@@ -73,22 +73,20 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         Action::CannedCycle if code.id == "MCALL" => Motions,
         Action::NotModelled if taps(code) => Own(Why::Synchronised),
         Action::ConstantSurfaceSpeed => Own(Why::SurfaceSpeed),
-        // of a Sinumerik, G97 and G973 also make F a feed per revolution, which is not followed
-        Action::ConstantSpindleSpeed if code.group.as_deref() != Some("feed-mode") => Motions,
-        Action::ConstantSpindleSpeed if matches!(code.id.as_str(), "G971" | "G972") => Motions,
+        Action::ConstantSpindleSpeed => Motions,
         Action::NotModelled
         | Action::CannedCycle
         | Action::Skip
         | Action::FineBoreCycle
         | Action::BackBoreCycle
-        | Action::BoreManualCycle
-        | Action::ConstantSpindleSpeed => Own(Why::Motion),
+        | Action::BoreManualCycle => Own(Why::Motion),
         Action::PositionSet if text.split(' ').any(|word| word.starts_with('S')) => Own(Why::SpindleLimit),
         Action::PositionSet
         | Action::DataEntry
         | Action::DataEntryEnd
         | Action::ReferenceStore
         | Action::ReferenceStoreOther => Own(Why::Stored),
+        Action::NotFollowed if code.id == "SETAL" => quiet(code, held, text),
         Action::NotFollowed if text.split(' ').any(|word| word.starts_with('S')) => Own(Why::SpindleLimit),
         Action::PathMode | Action::NoMotion => quiet(code, held, text),
         _ => Own(Why::Machine),

@@ -82,6 +82,8 @@ pub(super) struct FileControl {
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
     frame_angles: Option<Order>,
+    increment_adds_frame: Option<bool>,
+    increment_adds_length: Option<bool>,
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
@@ -156,6 +158,8 @@ impl FileControl {
                 Order::Rpy => FrameAngles::RollPitchYaw,
                 Order::Euler => FrameAngles::Euler,
             }),
+            increment_adds_frame: self.increment_adds_frame,
+            increment_adds_length: self.increment_adds_length,
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
                 on: codes.on.clone(),
                 off: codes.off.clone(),
@@ -270,7 +274,7 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
-                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
@@ -283,6 +287,10 @@ mod tests {
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
         assert_eq!(control.frame_angles, Some(trunnion_interp::FrameAngles::RollPitchYaw));
+        assert_eq!(
+            (control.increment_adds_frame, control.increment_adds_length),
+            (Some(true), Some(false))
+        );
         let codes = control.tcp_codes.expect("declared");
         assert_eq!((codes.meaning("M429"), codes.meaning("M428")), (Some(true), None));
         let points: Vec<_> = control

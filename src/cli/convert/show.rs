@@ -13,6 +13,19 @@ fn renamed(name: &str, converted: &Converted) -> Option<String> {
     ))
 }
 
+/// Feeds that do not follow the spindle any more.
+fn per_minute(name: &str, converted: &Converted) -> Option<String> {
+    let lines = &converted.feeds_per_minute;
+    let places: Vec<String> = lines.iter().take(20).map(u32::to_string).collect();
+    (!lines.is_empty()).then(|| {
+        format!(
+            "{name}: the feed per revolution of {} is written per minute, for the programmed speed: it does not follow the spindle override; lines {}",
+            counted(lines.len() as u64, "line"),
+            places.join(", ")
+        )
+    })
+}
+
 /// Tools whose length the output does not compensate.
 fn by_hand(name: &str, converted: &Converted) -> Option<String> {
     let tools: Vec<String> = converted.set_by_hand.iter().map(|tool| format!("T{tool}")).collect();
@@ -69,6 +82,7 @@ pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     }
     lines.extend(renamed(name, converted));
     lines.extend(by_hand(name, converted));
+    lines.extend(per_minute(name, converted));
     if !converted.swaps.is_empty() {
         let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
@@ -143,6 +157,7 @@ pub(super) fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &C
         },
         "left_out": left_out,
         "renamed_offset": converted.renamed_offset.as_ref().map(|(was, now)| json!({ "was": was, "now": now })),
+        "feeds_per_minute_lines": converted.feeds_per_minute,
         "set_z_zero_for_tools": converted.set_by_hand,
         "swap_lines": converted.swaps,
         "beyond_travel": beyond,

@@ -72,6 +72,10 @@ impl Frame {
     pub(crate) fn is_lost(&self) -> bool {
         self.unread || self.remark_unread
     }
+    /// Whether a TRANS or ORIGIN before shifts what follows. That a word such as NOMORE ends it is in no source that was found.
+    pub(crate) fn is_shifted_by(&self, record: &Record<'_>) -> bool {
+        record.is("TRANS") && self.trans != Vec3::zeros() || record.is("ORIGIN") && self.origin != Vec3::zeros()
+    }
     /// A point of a record, mm, in the part.
     pub(crate) fn point(&self, point: Vec3) -> Vec3 {
         self.cut.turn * (self.system.turn * point + self.system.shift) + self.cut.shift + self.trans - self.origin

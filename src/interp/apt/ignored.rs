@@ -14,7 +14,8 @@ pub struct IgnoredRecords {
 }
 
 /// Records without a motion that are read, that report themselves, or that are texts and names for people.
-const READ: [&str; 17] = [
+const READ: [&str; 18] = [
+    "AUXFUN",
     "CUTTER",
     "TLDATA",
     "CSYS",

@@ -50,21 +50,6 @@ impl crate::frames::Frames {
             None => declared().map(|offset| OffsetValues::declared(offset.values)),
         }
     }
-
-    /// The settable frames of a Sinumerik that are written or declared: number and name.
-    pub(crate) fn offset_names<'a>(&'a self, setup: &'a Setup) -> impl Iterator<Item = (u32, &'a str)> {
-        let written = self.written.iter().map(|(name, _)| name.as_ref());
-        let declared = setup.work_offsets.iter().map(|offset| offset.name.as_ref());
-        written.chain(declared).filter_map(|name: &str| {
-            let number: u32 = name.strip_prefix(['G', 'g'])?.parse().ok()?;
-            let frame = match number {
-                54..=57 => number - 53,
-                505..=599 => number - 500,
-                _ => return None,
-            };
-            Some((frame, name))
-        })
-    }
 }
 
 impl<'d> Iso<'d> {

@@ -22,7 +22,7 @@ impl<'d> Iso<'d> {
         let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
         let (coupled, solid) = (self.is_coupled(), self.is_solid());
-        self.change_frame(found, words, block, report);
+        self.frames_move(|iso| iso.change_frame(found, words, block, report));
         if coupled || self.is_coupled() {
             self.unsay_moved(&before, solid);
         }
@@ -105,8 +105,6 @@ impl<'d> Iso<'d> {
             }
             FrameStep::Linear(next) => self.set_linear(Some(before.then(&next))),
         }
-        // whether an incremental coordinate adds what a frame has changed is setting data (42440 FRAME_OFFSET_INCR_PROG)
-        self.memory.frames.must_be_absolute |= words.axes.given & (LINEAR | ROTARY);
         self.refresh_zero();
         let position = self.core.state.position;
         self.memory.frames.refresh(&position);

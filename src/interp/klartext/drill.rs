@@ -5,7 +5,8 @@
 //! in position control, interpolated with the tool axis (HEIDENHAIN Technical Manual MANUALplus 620, p. 1028).
 use super::Klartext;
 use super::hole::{Cycle, CycleFeed, Hole};
-use super::words::Words;
+use super::values::Value;
+use super::words::{Parameter, Words};
 use crate::core::Report;
 use crate::{Feed, MotionKind, Refusal};
 use trunnion_syntax::TextRange;
@@ -99,6 +100,17 @@ impl Klartext<'_> {
     }
 
     pub(super) fn drill(&mut self, hole: &Hole, report: &mut Report<'_>) {
+        if let Some(parameter) = self.changed_since(hole) {
+            self.memory.unfollowed = true;
+            self.not_modelled_once(
+                &format!(
+                    "cycle {}: {parameter} has changed since CYCL DEF, and whether the cycle reads it at its call is in no source: define the cycle again",
+                    hole.cycle
+                ),
+                report,
+            );
+            return self.work_unknown(report);
+        }
         let unit = self.core.state.coordinates.unit_mm();
         let (Some(clear), Some(depth), Some(surface)) = (hole.clear, hole.depth, hole.surface) else {
             self.not_modelled_once(
@@ -180,6 +192,13 @@ impl Klartext<'_> {
             // whether it turns afterwards is not taken from a source
             self.core.state.spindle.lose();
         }
+    }
+
+    /// A parameter of the definition that has another value by now.
+    fn changed_since(&self, hole: &Hole) -> Option<Parameter> {
+        let parameters = &self.memory.parameters;
+        let changed = |given: &&(Parameter, Value)| parameters.get(given.0) != given.1;
+        hole.given.iter().find(changed).map(|given| given.0)
     }
 
     /// Whether the motions of a hole say all about it: nothing else of its definition counts.

@@ -4,7 +4,7 @@
 use super::Klartext;
 use super::old_cycle::OldCycle;
 use super::values::Value;
-use super::words::{Said, Words};
+use super::words::{Parameter, Said, Words};
 use crate::core::Report;
 
 /// The feed of a cycle.
@@ -24,6 +24,8 @@ pub(crate) enum CycleFeed {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Hole {
     pub(crate) cycle: u32,
+    /// The parameters of its definition.
+    pub(crate) given: Vec<(Parameter, Value)>,
     /// Q200, Q201, Q203, Q204, in the program's unit.
     pub(crate) clear: Value,
     pub(crate) depth: Value,
@@ -93,6 +95,7 @@ impl Klartext<'_> {
             };
             // cycles write their parameters
             self.memory.parameters.set(parameter, value);
+            hole.given.push((parameter, value));
             match parameter.number {
                 200 => hole.clear = value,
                 201 => hole.depth = value,

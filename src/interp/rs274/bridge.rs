@@ -155,7 +155,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             end,
             // lines that are emitted as differences may name other rotary axes
             says_way: if modal.coordinates.incremental() {
-                crate::core::ROTARY | state.named_axes
+                crate::core::ROTARY & end.known | state.named_axes
             } else {
                 0
             },

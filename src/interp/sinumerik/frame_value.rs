@@ -311,3 +311,24 @@ pub(super) fn offset_name(number: u32) -> String {
         _ => format!("G{}", 500 + number),
     }
 }
+
+/// The number of the settable frame of a code: the inverse of [`offset_name`].
+fn offset_number(name: &str) -> Option<u32> {
+    let number: u32 = name.strip_prefix(['G', 'g'])?.parse().ok()?;
+    match number {
+        54..=57 => Some(number - 53),
+        505..=599 => Some(number - 500),
+        _ => None,
+    }
+}
+
+impl crate::frames::Frames {
+    /// The settable frames that are written or declared: number and name.
+    pub(super) fn offset_names<'a>(&'a self, setup: &'a crate::Setup) -> impl Iterator<Item = (u32, &'a str)> {
+        let written = self.written.iter().map(|(name, _)| name.as_ref());
+        let declared = setup.work_offsets.iter().map(|offset| offset.name.as_ref());
+        written
+            .chain(declared)
+            .filter_map(|name: &str| Some((offset_number(name)?, name)))
+    }
+}

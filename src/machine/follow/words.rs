@@ -103,7 +103,7 @@ impl Words {
         ((1_u32 << self.count) - 1) as u16
     }
 
-    /// The first letter that the motion gives a value to and that is not an axis of the machine. Words that do not change are not reported.
+    /// The first letter that the motion gives a value or an increment to and that is not an axis of the machine. Words that do not change are not reported.
     #[inline]
     pub(crate) fn foreign(&self, motion: &Motion) -> Option<u8> {
         let mut named = motion.end.known & self.foreign;
@@ -117,7 +117,9 @@ impl Words {
             }
             named &= named - 1;
         }
-        None
+        // an increment from an unknown place
+        let moved = motion.says_way & !motion.end.known & self.foreign & !self.absent;
+        (moved != 0 && motion.tilt.swivel == Swivel::No).then(|| AXIS_LETTERS[moved.trailing_zeros() as usize])
     }
 
     /// The letter of a rotary axis that the active work offset turns.

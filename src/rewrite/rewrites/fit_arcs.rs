@@ -39,6 +39,8 @@
 //! claimed of the programmed points only. Feed, spindle, offsets and all else are the same.
 //!
 //! # Traps
+//! - The tolerance is measured from the program that is read. A second run measures from the output of the first and cannot know the original: it may
+//!   find more, and the deviations add up, at most one tolerance for each run. Start again from the original instead.
 //! - A control slows down in arcs where it does not on lines; the programmed feed stays as it is.
 //! - Arcs are at most 350 degrees and 10 m in radius, or full circles.
 //! - A block with a comment begins a new piece, so comments stay. Words other than a number, G1, X, Y, Z and F end a chain.

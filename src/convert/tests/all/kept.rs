@@ -134,7 +134,6 @@ fn a_sinumerik_asks_for_more_than_motions() {
         ("LIMS=3000", "LIMS"),
         ("G26 S3000", "G26"),
         ("G96 S100", "G96"),
-        ("G97 S100", "G97"),
         ("G9 G1 X8 F100", "G9"),
         ("G641 ADIS=0.5", "G641"),
         ("ADIS=0.5", "ADIS"),

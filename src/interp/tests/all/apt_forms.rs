@@ -266,3 +266,77 @@ fn cl_data_have_the_targets_of_the_programs_posted_from_them() {
     eprintln!("{compared} places of posted programs");
     assert!(compared > 9_000, "{compared}");
 }
+
+/// OFF and MODAL are words of one post-processor.
+#[test]
+fn words_of_rapid_make_the_motions_after_it_unknown() {
+    for words in ["OFF", "MODAL", "1"] {
+        let text = format!("FEDRAT/9,MMPM\nGOTO/0,0,0\nRAPID/{words}\nGOTO/1,2,3\nGOTO/2,2,3\n");
+        assert_eq!(
+            lines("apt", &text)[1..],
+            ["U X1 Y2 Z3 <0 0 1>", "U X2 Y2 Z3 <0 0 1>"].map(|line| line.replace(" <", " tcp <")),
+            "{words}"
+        );
+        assert_eq!(faults("apt", &text).len(), 1, "{words}");
+    }
+    assert!(lines("apt", "RAPID/\nGOTO/1,2,3\n")[0].starts_with("R X1"));
+}
+
+#[test]
+fn a_feed_without_its_unit_is_per_minute_unless_another_unit_was_named() {
+    for (before, known) in [
+        ("", true),
+        ("FEDRAT/100,MMPM\n", true),
+        ("FEDRAT/100,PERMIN\n", true),
+        ("FEDRAT/0.1,MMPR\n", false),
+        ("FEDRAT/5,IPM\n", false),
+        ("FEDRAT/5,INVERS\n", false),
+    ] {
+        for record in ["FEDRAT/9\nGOTO/1,2,3\n", "GOTO/1,2,3,0,0,1,9\n"] {
+            let found = lines("apt", &format!("{before}{record}"));
+            assert_eq!(found[0].contains(" F9 "), known, "{before}{record}: {found:?}");
+            let told = faults("apt", &format!("{before}{record}")).len();
+            assert_eq!(told, usize::from(!known), "{before}{record}");
+        }
+    }
+}
+
+/// A TRANS without numbers is unknown, and NOMORE ends that; one with numbers goes on, as far as any source says.
+#[test]
+fn nomore_ends_no_shift_that_is_followed() {
+    for record in ["TRANS", "ORIGIN"] {
+        let text = format!("FEDRAT/9,MMPM\n{record}/5,0,0\nGOTO/1,2,3\n{record}/NOMORE\nGOTO/1,2,3\n");
+        let ends: Vec<_> = run_text("apt", &text)
+            .motions
+            .iter()
+            .map(|motion| motion.end.xyz())
+            .collect();
+        assert!(ends[0].is_some() && ends[1].is_none(), "{record}");
+        assert_eq!(faults("apt", &text).len(), 1, "{record}");
+        let plain = format!("FEDRAT/9,MMPM\n{record}/NOMORE\nGOTO/1,2,3\n");
+        assert!(run_text("apt", &plain).motions[0].end.xyz().is_some(), "{record}");
+        assert_eq!(faults("apt", &plain), [""; 0], "{record}");
+    }
+}
+
+#[test]
+fn an_auxiliary_code_does_what_its_number_does() {
+    let after = |record: &str| {
+        let log = run_text(
+            "apt",
+            &format!("SPINDL/500,CLW\nFEDRAT/9,MMPM\nGOTO/0,0,0\n{record}\nGODLTA/1,0,0\n"),
+        );
+        let motion = log.motions.last().copied().expect("a motion");
+        (log.motions.len(), motion.spindle_on, motion.end.xyz().is_some())
+    };
+    assert_eq!(after("AUXFUN/5"), (2, Some(false), true));
+    assert_eq!(after("AUXFUN/0"), (2, None, true));
+    assert_eq!(after("AUXFUN/8"), (2, Some(true), true));
+    assert_eq!(after("AUXFUN/77"), (2, Some(true), true));
+    assert_eq!(after("SPINDL/OFF\nAUXFUN/77"), (2, None, true));
+    assert_eq!(after("SPINDL/OFF\nAUXFUN/3"), (2, Some(true), true));
+    assert_eq!(after("AUXFUN/30"), (1, Some(true), true));
+    for unknown in ["AUXFUN/6", "AUXFUN/7,8", "AUXFUN/7,NEXT", "PALLET/2", "RESET/ALL"] {
+        assert!(!after(unknown).2, "{unknown}");
+    }
+}

@@ -57,7 +57,7 @@ fn ambiguous(decimals: Option<ImplicitDecimals>, text: &str) -> usize {
 }
 
 #[test]
-fn a_whole_feed_is_told_where_a_parameter_decides_it() {
+fn a_whole_feed_is_reported_where_a_parameter_decides_it() {
     let open = [
         "G21 G95 G1 X5. F20",
         "G20 G94 G1 X5. F10",

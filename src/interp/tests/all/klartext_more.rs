@@ -378,3 +378,23 @@ fn motions_of_cycles_count_towards_the_bound_of_blocks() {
         "{told}"
     );
 }
+
+/// Whether a cycle reads its parameters at its definition or at its call is in no source.
+#[test]
+fn a_parameter_that_changes_after_the_definition_of_a_cycle_makes_it_unknown() {
+    let cycle = "CYCL DEF 200 BOHREN Q200=2 Q201=-10 Q206=150 Q202=10 Q210=0 Q203=0 Q204=20 Q211=0\n";
+    let run = |between: &str| {
+        let text = program(&format!("{cycle}{between}L X+5 Y+5 Z+20 R0 FMAX M3\nCYCL CALL\n"));
+        let told = faults(NAME, &text)
+            .into_iter()
+            .filter(|fault| fault.contains("CYCL DEF"))
+            .count();
+        (lines(NAME, &text).iter().any(|line| line.contains("Z-10")), told)
+    };
+    for kept in ["", "Q1 = -20\n", "Q201 = -10\n", "FN 0: Q205 = +3\n"] {
+        assert_eq!(run(kept), (true, 0), "{kept}");
+    }
+    for changed in ["Q201 = -20\n", "FN 0: Q203 = +1\n", "Q206 = 200\n", "Q201 = Q99\n"] {
+        assert_eq!(run(changed), (false, 1), "{changed}");
+    }
+}

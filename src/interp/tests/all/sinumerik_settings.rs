@@ -1,6 +1,6 @@
 //! CYCLE832 in both forms, DIAMOF on a machine whose X words are diameters, positions of the machine as values.
-use crate::support::{fault_line, run_bytes};
-use trunnion_interp::Setup;
+use crate::support::{fault_line, faults, lines, run_bytes};
+use trunnion_interp::{Setup, WorkOffset};
 
 /// Whether each line is one of the tip, its end if known, and what was reported.
 fn run(text: &str, setup: &Setup) -> (Vec<(bool, bool)>, Vec<String>) {
@@ -99,4 +99,143 @@ fn positions_of_the_machine_and_the_radius_of_the_tool() {
             "{name} {other}"
         );
     }
+}
+
+/// Where the axis is after `blocks` from X0 Y0 Z0, with what the setting data say, and what was reported.
+fn after(blocks: &str, frames: Option<bool>, lengths: Option<bool>) -> ([Option<f64>; 3], Vec<String>) {
+    let mut setup = Setup::default();
+    setup.control.increment_adds_frame = frames;
+    setup.control.increment_adds_length = lengths;
+    for (name, x) in [("G54", 0.0), ("G55", 100.0)] {
+        setup.work_offsets.push(WorkOffset {
+            name: name.to_owned(),
+            values: [x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        });
+    }
+    setup.tools.push(trunnion_interp::Tool {
+        number: 1,
+        shape: None,
+        diameter_mm: None,
+        length_mm: Some(80.0),
+        holder_mm: None,
+    });
+    let text = format!("G17 G90 G71 G94 G54 D0\nG1 X0 Y0 Z0 F9\n{blocks}\n");
+    let (program, log) = run_bytes("sinumerik-840d", text.as_bytes(), &setup);
+    let told = log.faults.iter().map(|fault| fault_line(&program, fault));
+    let end = log.motions.last().expect("a motion").end;
+    (
+        [0, 1, 2].map(|axis| end.get(axis)),
+        told.filter(|fault| fault.contains("setting data")).collect(),
+    )
+}
+
+/// The words are those of the new zero point: there X0 of G54 is X-100 of G55.
+#[test]
+fn setting_data_say_whether_an_increment_travels_another_offset() {
+    for (blocks, axis, travels, stays, data) in [
+        ("G91 G55 X5", 0, 5.0, -95.0, "42440"),
+        ("G55\nG91 Y1\nX5", 0, 5.0, -95.0, "42440"),
+        ("G55\nX=IC(5)", 0, 5.0, -95.0, "42440"),
+        ("TRANS X10\nG91 X5", 0, 5.0, -5.0, "42440"),
+        ("TRANS X10\nX0\nTRANS\nG91 X5", 0, 5.0, 15.0, "42440"),
+    ] {
+        assert_eq!(
+            after(blocks, Some(true), None),
+            (expect(axis, travels, blocks), vec![]),
+            "{blocks}"
+        );
+        assert_eq!(
+            after(blocks, Some(false), None),
+            (expect(axis, stays, blocks), vec![]),
+            "{blocks}"
+        );
+        let (end, told) = after(blocks, None, Some(true));
+        assert_eq!(end[axis], None, "{blocks}");
+        assert!(told.len() == 1 && told[0].contains(data), "{blocks}: {told:?}");
+    }
+    // without another offset, and with an absolute coordinate first, nothing depends on them
+    for blocks in ["G54\nG91 X5", "G55 X0\nG91 X5", "G55\nG91 X=AC(0)\nX5", "D0\nG91 X5"] {
+        let (end, told) = after(blocks, None, None);
+        assert_eq!((end[0], told), (Some(5.0), vec![]), "{blocks}");
+    }
+}
+
+fn expect(axis: usize, value: f64, blocks: &str) -> [Option<f64>; 3] {
+    let mut end = [Some(0.0); 3];
+    end[axis] = Some(value);
+    if blocks.contains("Y1") {
+        end[1] = Some(1.0);
+    }
+    end
+}
+
+#[test]
+fn setting_data_say_whether_an_increment_travels_another_length() {
+    let blocks = "T1\nM6\nD0\nX0 Y0 Z100\nG91 D1 Z5";
+    // the tip is 80 mm below the point before it
+    assert_eq!(after(blocks, None, Some(false)).0[2], Some(25.0));
+    assert_eq!(after(blocks, None, Some(true)).0[2], Some(105.0));
+    let (end, told) = after(blocks, Some(true), None);
+    assert_eq!(end[2], None);
+    assert!(told.len() == 1 && told[0].contains("42442"), "{told:?}");
+    // an edge whose length is not declared
+    let other = "T1\nM6\nX0 Y0 Z100\nG91 D2 Z5";
+    assert_eq!(after(other, None, Some(true)).0[2], Some(105.0));
+    assert_eq!(after(other, None, Some(false)).0[2], None);
+    assert_eq!(after("T1\nM6\nX0 Y0 Z100\nG91 D1 Z5", None, None).0[2], Some(105.0));
+}
+
+/// Each line is the code and the motion after it.
+#[test]
+fn a_cutting_speed_sets_the_meaning_of_f() {
+    let head = "G17 G90 G71 G94 F100\nG1 X0 Y0 Z0 S500 M3\n";
+    for (codes, motion) in [
+        ("G97 S2000", "L X10 Y0 Z0"),
+        ("G97 S2000 F0.2", "L X10 Y0 Z0 F0.2/rev"),
+        ("G96 S200 F0.2", "L X10 Y0 Z0 F0.2/rev"),
+        ("G973 S2000 F0.2", "L X10 Y0 Z0 F0.2/rev"),
+        ("G961 S200", "L X10 Y0 Z0 F100"),
+        ("G971 S2000", "L X10 Y0 Z0 F100"),
+        ("G95 F0.3\nG971 S2000 F90", "L X10 Y0 Z0 F90"),
+        ("G95 F0.3\nG97 S2000", "L X10 Y0 Z0 F0.3/rev"),
+        ("G962 S200", "L X10 Y0 Z0 F100"),
+        ("G95 F0.3\nG972 S200", "L X10 Y0 Z0 F0.3/rev"),
+        ("G97 S2000\nG94", "L X10 Y0 Z0"),
+    ] {
+        let text = format!("{head}{codes}\nG1 X10\n");
+        let found = lines("sinumerik-840d", &text);
+        assert_eq!(found.last().map(String::as_str), Some(motion), "{codes}");
+        let missing = faults("sinumerik-840d", &text)
+            .iter()
+            .any(|fault| fault.contains("MissingFeed"));
+        assert_eq!(missing, !motion.contains('F'), "{codes}");
+    }
+}
+
+#[test]
+fn a_feed_profile_another_spindle_and_an_alarm_do_not_pass_in_silence() {
+    let head = "G17 G90 G71 G94 F100\nG1 X0 Y0 Z0 S500 M3\n";
+    for profile in ["FLIN", "FCUB", "FPO"] {
+        let text = format!("{head}{profile}\nG1 X10 F200\nFNORM\nX20 F300\n");
+        assert_eq!(
+            lines("sinumerik-840d", &text)[1..],
+            ["L X10 Y0 Z0", "L X20 Y0 Z0 F300"],
+            "{profile}"
+        );
+        assert_eq!(faults("sinumerik-840d", &text).len(), 1, "{profile}");
+    }
+    let spindle = |text: &str| {
+        let motion = crate::support::run_text("sinumerik-840d", text)
+            .motions
+            .pop()
+            .expect("a motion");
+        (motion.spindle_on, motion.spindle_rpm)
+    };
+    assert_eq!(spindle(&format!("{head}SETMS(2)\nX10\n")), (None, None));
+    assert_eq!(
+        spindle(&format!("{head}SETMS(2)\nS900 M3\nX10\n")),
+        (Some(true), Some(900.0))
+    );
+    let alarm = faults("sinumerik-840d", &format!("{head}SETAL(65000)\nX10\n"));
+    assert!(alarm.len() == 1 && alarm[0].contains("SETAL"), "{alarm:?}");
 }

@@ -112,8 +112,8 @@ impl Iso<'_> {
         scale(&mut words.radius, if turns { 1000.0 } else { divisor });
         let mode = codes
             .iter()
-            .filter_map(|found| crate::feed_speed::meaning_of_feed(found.code))
-            .last()
+            .rev()
+            .find_map(|found| crate::feed_speed::meaning_of_feed(found.code))
             .unwrap_or(self.core.state.feed.mode());
         let feed = match (mode, inch) {
             (FeedMode::PerMinute, true) | (FeedMode::PerRevolution, false) => 100.0,

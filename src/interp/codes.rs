@@ -169,7 +169,6 @@ impl<'d> Iso<'d> {
             Action::Inch => state.units(25.4, 25.4),
             Action::InchLengthsOnly => state.units(25.4, 1.0),
             Action::Metric => state.units(1.0, 1.0),
-            Action::FeedInverseTime | Action::FeedPerMinute | Action::FeedPerRevolution => {}
             Action::ConstantSurfaceSpeed => {
                 state.spindle.set_surface_speed(true);
             }
@@ -195,7 +194,12 @@ impl<'d> Iso<'d> {
             }
             Action::ProgramStop => block.stops_program = Some(found.code.id != "M0"),
             Action::PathMode if found.with_arguments && found.code.id == "CYCLE832" => self.high_speed(found, report),
-            Action::NoMotion | Action::PathMode | Action::Declaration => {}
+            Action::FeedInverseTime
+            | Action::FeedPerMinute
+            | Action::FeedPerRevolution
+            | Action::NoMotion
+            | Action::PathMode
+            | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
     }

@@ -59,9 +59,9 @@ pub(crate) struct Frames {
     /// Axes whose next coordinate must be absolute, since a turned plane has ended.
     pub(crate) must_be_absolute: u16,
     /// What the zero point and the frames of a Sinumerik have moved, for the next incremental coordinates.
-    pub(crate) moved_by_frames: increments::Moved,
+    pub(crate) frame_moves: increments::Moved,
     /// The same of tool lengths.
-    pub(crate) moved_by_lengths: increments::Moved,
+    pub(crate) length_moves: increments::Moved,
     /// Zero point that is selected (G54), without shifts.
     pub(crate) selected: [f64; 9],
     /// G92.

@@ -49,6 +49,7 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         | Action::BoreStopCycle
         | Action::DrillCycle
         | Action::WorkSystem
+        | Action::ConstantSpindleSpeed
         | Action::WorkSystemOnce => Motions,
         Action::SpindleStop if head(text) == "M5" => Motions,
         Action::SpindleStop => Own(Why::Oriented),
@@ -73,7 +74,6 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         Action::CannedCycle if code.id == "MCALL" => Motions,
         Action::NotModelled if taps(code) => Own(Why::Synchronised),
         Action::ConstantSurfaceSpeed => Own(Why::SurfaceSpeed),
-        Action::ConstantSpindleSpeed => Motions,
         Action::NotModelled
         | Action::CannedCycle
         | Action::Skip

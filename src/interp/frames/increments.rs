@@ -72,7 +72,7 @@ impl Iso<'_> {
         } else {
             (undeclared | new_undeclared) & (XYZ | ROTARY)
         };
-        self.memory.frames.moved_by_frames.add(&before, &now, unclear);
+        self.memory.frames.frame_moves.add(&before, &now, unclear);
     }
 
     /// Runs what may change the tool length.
@@ -89,7 +89,7 @@ impl Iso<'_> {
         let unclear = (0..3)
             .filter(|axis| other && (undeclared || new_undeclared) && along[*axis] != 0.0)
             .fold(0, |all, axis| all | 1 << axis);
-        self.memory.frames.moved_by_lengths.add(&before, &now, unclear);
+        self.memory.frames.length_moves.add(&before, &now, unclear);
     }
 
     /// The position in the coordinates of the words.
@@ -102,7 +102,7 @@ impl Iso<'_> {
     pub(crate) fn after_offsets(&mut self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
         let named = words.axes.given | words.axes.unread;
         let frames = &mut self.memory.frames;
-        if (frames.moved_by_frames.axes | frames.moved_by_lengths.axes) & named == 0 {
+        if (frames.frame_moves.axes | frames.length_moves.axes) & named == 0 {
             return;
         }
         let directed = words.axes.shortest | words.axes.positive | words.axes.negative;
@@ -113,10 +113,10 @@ impl Iso<'_> {
         };
         let control = &self.core.setup.control;
         let by_frames = frames
-            .moved_by_frames
+            .frame_moves
             .act(named, incremental, control.increment_adds_frame, end);
         let by_lengths = frames
-            .moved_by_lengths
+            .length_moves
             .act(named, incremental, control.increment_adds_length, end);
         for (unknown, of, data, key) in [
             (by_frames, "zero point or frame", 42440, "increment_adds_frame"),

@@ -111,6 +111,10 @@ impl Klartext<'_> {
             );
             return self.work_unknown(report);
         }
+        self.drill_as_defined(hole, report);
+    }
+
+    fn drill_as_defined(&mut self, hole: &Hole, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let (Some(clear), Some(depth), Some(surface)) = (hole.clear, hole.depth, hole.surface) else {
             self.not_modelled_once(

@@ -308,7 +308,10 @@ pub(super) const STATE: &[Item] = &[
     (
         "an increment of an axis that the lathe lacks",
         ["fanuc-30i-lathe-a", "lathe-2axis"],
-        ["", "G21 G18 G99\nT0101\nG97 S1000 M3\nG0 X40. Z-5.\nG1 H5. F0.2\nM30\n"],
+        [
+            "",
+            "G21 G18 G99\nT0101\nG97 S1000 M3\nG0 X-80. Z-5.\nG1 H5. F0.2\nM30\n",
+        ],
         &["5 error missing-axis"],
         [2, 2],
     ),

@@ -127,7 +127,7 @@ fn where_the_number_of_blocks_matters_nothing_is_put_together() {
     }
     let timed = |text: String| {
         text.replace("G1 Z0. F500\n", "G1 Z0. F500\nG93\n")
-            .replace('Y', "F60 Y")
+            .replace('Y', "F60. Y")
     };
     assert!(refused(prove(&timed(chords("", "")), &timed(arc("", ARC, "")), 0.08)).contains("inverse time"));
 }

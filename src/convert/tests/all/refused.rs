@@ -40,7 +40,7 @@ fn programs_that_say_too_little_or_too_much() {
         ("CUTCOM/LEFT\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "cutter radius"),
         ("FROBNI/1\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "unknown record"),
         ("DWELL/1\n", "sinumerik-840d", five, 5, "DELAY"),
-        ("AUXFUN/MANY\n", "sinumerik-840d", five, 5, "AUXFUN takes"),
+        ("AUXFUN/MANY\n", "sinumerik-840d", five, 5, "AUXFUN/MANY"),
         ("COOLNT/THRU\n", "sinumerik-840d", five, 5, "coolant-thru"),
         ("SPINDL/ON\n", "sinumerik-840d", five, 5, "unknown speed"),
         ("GOTO/1,1\n", "sinumerik-840d", five, 5, "not understood"),

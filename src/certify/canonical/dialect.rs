@@ -39,6 +39,24 @@ record! {
     }
 }
 
+/// What older versions did not know of the tool length after a return.
+fn returned(decision: LengthAfterReturn) -> Option<u32> {
+    match decision {
+        LengthAfterReturn::Kept | LengthAfterReturn::CancelledByG28 => None,
+        LengthAfterReturn::Cancelled => Some(1),
+        LengthAfterReturn::Undeclared => Some(2),
+    }
+}
+
+/// What a new tool length moves; older versions knew one answer.
+fn changes(decision: LengthChange) -> Option<u32> {
+    match decision {
+        LengthChange::Shifts => None,
+        LengthChange::Moves => Some(1),
+        LengthChange::Undeclared => Some(2),
+    }
+}
+
 /// Decisions are written as the flags that they replace, so that stored certificates stay valid: a tag for each.
 impl Encode for Quirks {
     fn encode(&self, out: &mut CanonicalV1) {
@@ -78,16 +96,6 @@ impl Encode for Quirks {
             machine_data_suppress_length,
         } = self;
         let has = |wanted: Language| *language == wanted;
-        let returned: Option<u32> = match length_after_return {
-            LengthAfterReturn::Kept | LengthAfterReturn::CancelledByG28 => None,
-            LengthAfterReturn::Cancelled => Some(1),
-            LengthAfterReturn::Undeclared => Some(2),
-        };
-        let changes: Option<u32> = match length_change {
-            LengthChange::Shifts => None,
-            LengthChange::Moves => Some(1),
-            LengthChange::Undeclared => Some(2),
-        };
         out.record(|fields| {
             fields
                 .field(1, &has(Language::Linuxcnc))
@@ -129,8 +137,8 @@ impl Encode for Quirks {
                     &(*length_after_return == LengthAfterReturn::CancelledByG28).then_some(true),
                 )
                 .field(36, &program_stop_stops_spindle.then_some(true))
-                .field(37, &returned)
-                .field(38, &changes);
+                .field(37, &returned(*length_after_return))
+                .field(38, &changes(*length_change));
         });
     }
 }

@@ -69,7 +69,7 @@ fn incremental_words_turn_as_far_as_they_say() {
         let mut follower = Follower::new(&machine);
         let mut turn = |from: Option<f64>, to: f64, incremental: bool| {
             let mut motion = words(from.map_or(position(&[]), at), at(to));
-            motion.says_way = if incremental { 0b11_1000 } else { 0 };
+            motion.says_way = if incremental { 0b10_1000 } else { 0 };
             deg(follower.follow(&motion).end.expect("known").joints[0])
         };
         assert!((turn(None, 350.0, false) - 350.0).abs() < 1e-9);

@@ -48,6 +48,32 @@ fn a_retract_after_a_cut_is_not_left_out() {
     }
 }
 
+/// LinuxCNC: G53 and G28 end at a place of the machine, which is no coordinate of the part as long as G54 is not declared.
+#[test]
+fn a_return_of_a_linuxcnc_is_no_coordinate_of_the_part() {
+    let program = |retract: &str| {
+        format!(
+            "(trunnion: tool 1 length 100)\nG17 G90 G54 G21 G94 G40 G49 G80\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z50\nG1 Z-5 F100\n{retract}\nM2\n"
+        )
+    };
+    let machines = ("mill-3axis", "mill-3axis");
+    for target in ["fanuc-30i", "haas-ngc", "sinumerik-840d", "heidenhain-klartext", "apt"] {
+        for back in ["G53 G0 Z0", "G28 Z60"] {
+            let why = message(&program(back), "linuxcnc", machines, target);
+            assert!(why.contains("G54"), "{target} {back}: {why}");
+        }
+        // after a rapid to a known height it is left out
+        let safe = program("G0 Z50\nG53 G0 Z0");
+        let made = text(to(
+            (&safe, "linuxcnc", machines.0),
+            target,
+            machines.1,
+            &Options::default(),
+        ));
+        assert!(!made.contains("Z0") && !made.contains("Z+0"), "{target}: {made}");
+    }
+}
+
 /// The turn to the plane and the approach in it would become one rapid in all axes.
 #[test]
 fn a_turn_before_the_first_known_position_is_not_joined() {

@@ -12,7 +12,7 @@
 //! N20 M3 S5000
 //! N30 G0 G43 H1 X0. Y0. Z150. A0. C0.
 //! N40 G1 Z149. F200.
-//! N50 G49
+//! N50 G49 G0 Z150.
 //! N60 G1 A0.05
 //! ;   ^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 0 mm
 //! N70 M30

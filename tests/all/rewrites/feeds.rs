@@ -61,7 +61,7 @@ fn only_the_block_that_an_axis_limits_is_slower() {
         "once is enough"
     );
     // inch: the same path, feeds in inch per minute with the digits that they need
-    let inch = "G20 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X4 F80\nX4.1 A90\nX8\nM30\n";
+    let inch = "G20 G90 G94 G17\nG0 X0 Y0 Z0 A0\nG1 X4 F80.\nX4.1 A90\nX8\nM30\n";
     let (after, _) = certified(adapt(inch, &on_mill("fanuc-30i"), 0.0));
     let word = |text: &str| {
         text.lines()

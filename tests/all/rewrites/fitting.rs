@@ -70,7 +70,9 @@ fn the_pocket_of_1999() {
             .is_some_and(|number| (1..=253).contains(&number))
     };
     let lines: Vec<&str> = program.lines().filter(wanted).collect();
-    let text = format!("G20 G90 G94 G17 G54\nM3 S1000\n{}\nM30\n", lines.join("\n"));
+    // without a decimal point a parameter of the control decides what F means in inch
+    let lines = lines.join("\n").replace("F3", "F3.").replace("F2", "F2.");
+    let text = format!("G20 G90 G94 G17 G54\nM3 S1000\n{lines}\nM30\n");
     for (inches, points, chords) in [
         (0.0001, 91, 224),
         (0.0002, 85, 121),

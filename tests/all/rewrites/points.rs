@@ -126,7 +126,7 @@ fn what_is_not_declared_or_not_a_number_is_named() {
     let incremental = text.replace("N10 G1", "N10 G91 G1").replace("Z90.000", "Z-10.000");
     let reason = refused(insert(&incremental, &settings, 0.01));
     assert!(reason.contains("G91"), "{reason}");
-    let inverse = text.replace("N10 G1", "N10 G93 G1").replace("F1000", "F100");
+    let inverse = text.replace("N10 G1", "N10 G93 G1").replace("F1000", "F100.");
     let reason = refused(insert(&inverse, &settings, 0.01));
     assert!(reason.contains("inverse time (G93)"), "{reason}");
     // the stop at the end of the line would come after the first piece

@@ -248,13 +248,12 @@ impl Sink for Collector<'_> {
                 pose
             };
             let start = leg.start.as_ref().map(|stance| pose(&stance.joints));
-            // without a work offset the zero point is the base that the operator set, or the active preset
             let undeclared =
                 Some(state.zero.offset().unwrap_or(UNNAMED_ZERO)).filter(|name| self.setup.work_offset(name).is_none());
-            // LinuxCNC gives the ends of G53, G28 and G30 in program coordinates, and only what they depend on says that they are another place
-            let by_machine = motion.undeclared.zero != state.zero.undeclared();
+            // LinuxCNC gives the ends of G53, G28 and G30 in program coordinates: what they depend on says that they are another place
+            let by_machine = motion.machine_coordinates || motion.undeclared.zero != state.zero.undeclared();
             let end = match &leg.end {
-                Ok(_) if undeclared.is_some() && (motion.machine_coordinates || by_machine) => Err(format!(
+                Ok(_) if undeclared.is_some() && by_machine => Err(format!(
                     "where machine coordinates are in the part depends on {}: declare it in [work_offsets]",
                     undeclared.unwrap_or_default()
                 )),

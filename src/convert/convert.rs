@@ -45,7 +45,7 @@ pub struct Converted {
     pub beyond: Vec<Beyond>,
     /// Lines of motions between whose ends the travel could not be decided.
     pub travel_undecided: Vec<u32>,
-    /// Axes with a clamp whose codes are not written: nobody names them, or the control has no word. A remark in the text says so too.
+    /// Axes with a clamp whose codes are not written: the machine names none, or the control has no word. A remark in the text says so too.
     pub clamps: Vec<char>,
     /// What a certificate of it needs: with this the proof can be made again without the converter.
     pub told: Told,

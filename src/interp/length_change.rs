@@ -6,9 +6,9 @@ use crate::core::Report;
 use crate::frames::Return;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, Effect, FaultKind, LengthOf};
+use crate::{Argument, Effect, FaultKind, LengthOf, Position};
 use trunnion_dialect::{Action, LengthAfterReturn, LengthChange};
-use trunnion_vocabulary::ToolLength;
+use trunnion_vocabulary::{ToolLength, Zero};
 
 /// What was in effect before the first code of a block that may change the length.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,14 @@ pub(crate) struct Before {
     length: ToolLength,
     /// A motion in machine coordinates had cancelled it.
     returned: bool,
+}
+
+/// The length has changed, and where the axis of the tool is since then is not known.
+#[derive(Clone, Debug)]
+pub(crate) struct Open {
+    /// As long as nothing but changes of the length may have moved the axis, the length, the zero point and the place of before: with that length the axis
+    /// is there again, whether it travels or the coordinates shift.
+    stood: Option<(ToolLength, Zero, Position)>,
 }
 
 impl Iso<'_> {
@@ -39,11 +47,17 @@ impl Iso<'_> {
         if let Some(before) = self.memory.length_before.take() {
             self.new_length(before, words, block, report);
         }
-        if !self.memory.length_open {
+        let axes = self.length_axes();
+        let leads = self.leads_absolutely(axes, words, block);
+        let led = self.memory.frames.active || self.core.state.tool_axis.tcp();
+        let Some(open) = &mut self.memory.length_open else {
             return;
+        };
+        if led || (words.axes.given | words.axes.unread) & axes != 0 || takes_over(words, block) {
+            open.stood = None;
         }
-        if self.leads_absolutely(self.length_axes(), words, block) {
-            self.memory.length_open = false;
+        if leads {
+            self.memory.length_open = None;
         } else if words.axes.any() && !block.takes_coordinates || block.returns.is_some() {
             let what = "a motion from where a new tool length has left the tool's axis: whether the axis travels the change (a Fanuc: parameter 5006 bit 6, \
                         TOS). Give the axis an absolute coordinate first (`G43 H1 Z50.`), or declare `length-change` in the quirks of a dialect table";
@@ -61,6 +75,18 @@ impl Iso<'_> {
         // what a return has cancelled is not cancelled again
         let nothing = change == 0.0 && !unclear || before.returned && now.mm().is_none();
         let axes = self.length_axes();
+        let stood = self.memory.length_open.as_ref().and_then(|open| open.stood.clone());
+        if let Some((length, zero, place)) = stood
+            && length == now
+            && zero == self.core.state.zero
+        {
+            for axis in (0..9).filter(|axis| axes & (1 << axis) != 0) {
+                self.core.state.position.values[axis] = place.values[axis];
+            }
+            self.core.state.position.known |= axes;
+            self.memory.length_open = None;
+            return;
+        }
         let known = self.core.state.position.known & axes == axes;
         if nothing || !known || mode == LengthChange::Shifts || self.leads_absolutely(axes, words, block) {
             return;
@@ -69,19 +95,24 @@ impl Iso<'_> {
         let straight = matches!(self.core.state.motion, Some(Action::Rapid | Action::Linear));
         let plain = straight && !takes_over(words, block) && !block.machine_coordinates;
         let mut base = self.core.state.position;
+        // the programmed position of before
+        let mut place = base;
+        for (value, along) in place.values.iter_mut().zip(self.core.setup.length_along()) {
+            *value += change * along;
+        }
         if mode == LengthChange::Moves && !unclear && plain {
-            let along = self.core.setup.length_along();
-            for (value, along) in base.values.iter_mut().zip(along) {
-                *value += change * along;
-            }
-            self.memory.length_base = Some(base);
+            self.memory.length_base = Some(place);
             if !moves {
                 let motion = self.modelled_motion(words, block, report);
                 self.memory.out.push(motion);
             }
             return;
         }
-        self.memory.length_open = true;
+        let still = plain && !moves && !before.returned;
+        let stood = (before.length, self.core.state.zero.clone(), place);
+        self.memory.length_open = Some(Open {
+            stood: still.then_some(stood),
+        });
         base.known &= !axes;
         if plain && moves {
             self.memory.length_base = Some(base);
@@ -116,7 +147,7 @@ impl Iso<'_> {
     pub(crate) fn distances(&self, words: &Words) -> u16 {
         let axes = &words.axes;
         let modal = if self.core.state.coordinates.incremental() {
-            axes.given & !(axes.absolute | axes.shortest | axes.positive | axes.negative)
+            (axes.given | axes.unread) & !(axes.absolute | axes.shortest | axes.positive | axes.negative)
         } else {
             0
         };

@@ -39,8 +39,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) length_before: Option<crate::length_change::Before>,
     /// What the axes of the tool start from in this block where that is not where they stand: see [`crate::length_change`].
     pub(crate) length_base: Option<crate::Position>,
-    /// The length has changed, and where the axis of the tool is since then is not known.
-    pub(crate) length_open: bool,
+    /// Where the axis of the tool is since its length has changed is not known.
+    pub(crate) length_open: Option<crate::length_change::Open>,
     /// A motion in machine coordinates has cancelled the length in force, and it is not known when it acts again.
     pub(crate) length_returned: bool,
     /// The zero point that is in effect again after this block: its name, its values, the axes for which it is not declared.

@@ -199,7 +199,7 @@ impl Iso<'_> {
             Some(place) => self.stands_at(&place),
             None => self.core.forget_linear(),
         }
-        self.memory.length_open = false;
+        self.memory.length_open = None;
         self.tcp_at_tool_change(report);
         // a turret that T turns does not concern the spindle
         if self.core.dialect.quirks.tool_change_stops_spindle {

@@ -186,7 +186,7 @@ mod tests {
                 "fanuc-30i",
             ),
             ("G49\nG0 Z50.\nM30\n", "fanuc-30i"),
-            ("G49\nG43 H1\nG1 X5. Z-1.\nM30\n", "fanuc-30i"),
+            ("G49\nG43 H1\nG1 X5.\nM30\n", "fanuc-30i"),
         ] {
             assert_drawn(&format!("gcode {dialect}"), &format!("{first}{rest}"));
         }

@@ -42,7 +42,7 @@ pub(super) const RULE: Body = Body::heuristic(Info, &[Wake::UncertainCut(check)]
     let rotary = machine.axes.iter().filter(|axis| axis.kind == AxisKind::Rotary);
     let declared = |axis: &Axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some();
     let missing = rotary.clone().next().is_some() && !rotary.clone().any(declared);
-    missing.then_some("the uncertainty of the rotary axes")
+    missing.then_some("uncertainty of a rotary axis")
 });
 
 fn check(cut: &facts::UncertainCut<'_>, out: &mut Reporter<'_>) {

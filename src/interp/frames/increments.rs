@@ -101,16 +101,11 @@ impl Iso<'_> {
     /// The effect on the coordinates of a block, which are those of the words.
     pub(crate) fn after_offsets(&mut self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
         let named = words.axes.given | words.axes.unread;
+        let incremental = self.distances(words);
         let frames = &mut self.memory.frames;
         if (frames.frame_moves.axes | frames.length_moves.axes) & named == 0 {
             return;
         }
-        let directed = words.axes.shortest | words.axes.positive | words.axes.negative;
-        let incremental = if self.core.state.coordinates.incremental() {
-            !(words.axes.absolute | directed)
-        } else {
-            words.axes.incremental
-        };
         let control = &self.core.setup.control;
         let by_frames = frames
             .frame_moves

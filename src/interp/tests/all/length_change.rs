@@ -57,6 +57,21 @@ fn a_length_alone_moves_the_axis_or_the_coordinates() {
     assert_eq!(after("", "H2\nX5.\n"), (words(&["R X5 Y0"]), 1));
 }
 
+/// With the length of before, the axis is where it was, whatever the control does: unless it moved, or the zero point is another one.
+#[test]
+fn the_same_length_again_leaves_nothing_open() {
+    assert_eq!(after("", "G49\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 0));
+    assert_eq!(after("", "H2\nG49\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 0));
+    let moved_along_x = (words(&["R X1 Y0", "R X5 Y0 Z50"]), 1);
+    assert_eq!(after("", "G49\nX1.\nG43 H1\nX5.\n"), moved_along_x);
+    assert_eq!(
+        after("", "G49\nG91 Z5.\nG90 G43 H1\nX5.\n"),
+        (words(&["R X0 Y0", "R X5 Y0"]), 2)
+    );
+    let (lines, faults) = after("", "G49\nG55\nG43 H1\nX5.\n");
+    assert!(faults > 0 && !lines[0].contains('Z'), "{lines:?}");
+}
+
 #[test]
 fn the_axis_travels_from_where_it_stands() {
     let source = "G54 G0 X0 Y0\nG43 H1 Z50.\nG1 F100. G49\nM30\n";

@@ -10,11 +10,13 @@ impl Iso<'_> {
     /// documentation, interface and commands). Whether the whole line is done with: it was a command or setting.
     pub(crate) fn grbl_line(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) -> bool {
         let wanted = self.core.effects.wanted();
-        let is_command = view.first_byte() == Some(b'$');
-        if !is_command && !wanted {
+        let first = view.first_byte();
+        if !wanted && !matches!(first, Some(b'$' | b' ' | b'\t')) {
             return false;
         }
         let text = view.program().text(view.range());
+        // grbl drops blanks as it reads a line (grbl 1.1, protocol.c)
+        let is_command = text.trim_start().starts_with('$');
         let text = text.trim();
         let bare = text.split([';', '(']).next().unwrap_or_default();
         if wanted && (is_command || bare.contains(['!', '~', '?', '\u{18}'])) {

@@ -54,6 +54,7 @@ fn commands_and_arcs_of_grbl() {
         assert_eq!(found, want, "{source}");
     }
     assert_eq!(lines("grbl", "G0 X1 Y2 Z3\n$H\nG0 X5\n"), ["R X1 Y2 Z3", "R X5"]);
+    assert_eq!(lines("grbl", "G0 X1 Y2 Z3\n \t$H\nG0 X5\n"), ["R X1 Y2 Z3", "R X5"]);
     // an arc needs a word of its plane there; Fanuc runs a full circle
     let circle = "G90 G21 G94 G17\nG0 X10 Y0 Z0\nG2 I-5 J0 F100\nG18 G2 Y1 I-5 K0\nG17 G2 X10 I-5 J0\nM2\n";
     let found = faults("grbl", circle);

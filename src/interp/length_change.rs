@@ -59,8 +59,8 @@ impl Iso<'_> {
         if leads {
             self.memory.length_open = None;
         } else if words.axes.any() && !block.takes_coordinates || block.returns.is_some() {
-            let what = "a motion from where a new tool length has left the tool's axis: whether the axis travels the change (a Fanuc: parameter 5006 bit 6, \
-                        TOS). Give the axis an absolute coordinate first (`G43 H1 Z50.`), or declare `length-change` in the quirks of a dialect table";
+            let what = "a motion after a new tool length: whether the axis travels the change (Fanuc: 5006 bit 6, TOS) (declare `length-change` in the \
+                        [quirks] of a dialect table, or give the axis an absolute coordinate first: `G43 H1 Z50.`)";
             let kind = FaultKind::NotModelled { what: what.to_owned() };
             report.fault(words.first.unwrap_or_default(), kind);
         }
@@ -193,8 +193,8 @@ impl Iso<'_> {
         if named == 0 && !cycle || block.machine_coordinates || block.takes_coordinates || still {
             return None;
         }
-        let what = "coordinates of the tool's axis after G28, G30 or G53 has cancelled the tool length: when it acts again. Program G43 H again, or declare \
-                    `length-after-return` in the quirks of a dialect table";
+        let what = "coordinates of the tool's axis after G28, G30 or G53: whether the tool length acts (declare `length-after-return` in the [quirks] of a \
+                    dialect table, or program G43 H again)";
         report.fault(
             words.first.unwrap_or_default(),
             FaultKind::NotModelled { what: what.to_owned() },

@@ -216,6 +216,9 @@ fn divided(what: &str) -> (&str, Option<String>) {
         let tool = tool.trim_end_matches(')');
         return (what, Some(format!("declare `[[tool]]`{tool}, in trunnion.toml")));
     }
+    if let Some((what, rest)) = what.split_once(" (declare `") {
+        return (what, Some(format!("declare `{}", rest.trim_end_matches(')'))));
+    }
     let Some(at) = what.find("declare [control]") else {
         return (what, None);
     };
@@ -277,6 +280,9 @@ mod tests {
             divided("G71: one block: declare [control] roughing_retract (setting 73)"),
             ("G71: one block", remedy("roughing_retract (setting 73)"))
         );
+        let table = "a motion: whether the axis moves (declare `length-change` in a table, or write Z)";
+        let help = "declare `length-change` in a table, or write Z".to_owned();
+        assert_eq!(divided(table), ("a motion: whether the axis moves", Some(help)));
         assert_eq!(divided("INSERT"), ("INSERT", None));
         let nose = "the nose is not declared (`[[tool]]` with `nose_radius` in mm)";
         let tool = "declare `[[tool]]` with `nose_radius` in mm, in trunnion.toml";

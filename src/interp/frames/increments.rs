@@ -125,7 +125,7 @@ impl Iso<'_> {
                 .map(|axis| char::from(AXIS_LETTERS[axis]).to_string())
                 .collect();
             let what = format!(
-                "incremental {} after another {of}: setting data {data} decides whether it travels the change too (declare [control] {key} and the offsets)",
+                "incremental {} after another {of} (setting data {data}): what it travels (declare [control] {key}; the offsets too)",
                 letters.join(" ")
             );
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });

@@ -174,6 +174,10 @@ impl Klartext<'_> {
         let all = || (0..main.block_count() as u32).map(BlockId);
         let first = all().find_map(|id| main.block(id).sentence());
         let last = all().rev().find_map(|id| main.block(id).sentence());
+        if first.is_none() {
+            // blank lines are no program, and do nothing
+            return;
+        }
         let is = |sentence: Option<trunnion_syntax::Sentence<'_>>, name: &str| {
             sentence.is_some_and(|sentence| {
                 let text = sentence.text();

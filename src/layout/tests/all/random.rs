@@ -162,3 +162,13 @@ fn a_message_before_a_jump_is_laid_out() {
         assert!(!matches!(outcome, Layout::Refused(_)), "{name}: {outcome:?}");
     }
 }
+
+/// Found by the test above, in Klartext and grbl.
+#[test]
+fn blank_lines_and_blanks_before_a_command_are_laid_out() {
+    for name in BUILTIN_NAMES {
+        for text in [" ", "\n\n\n", " $A.MIN%", "\t$H"] {
+            laid_with(text.as_bytes(), name, &Style::default());
+        }
+    }
+}

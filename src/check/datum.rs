@@ -191,6 +191,21 @@ impl Datum {
                 length: (undeclared.length && axis.per_length != 0.0).then_some(in_force.length_of),
             };
             let end = joints[axis.joint];
+            if self.anchors[axis.joint].is_none() && stands(&leg.motion, axis.bit) {
+                // a tool change has left it there, in coordinates of the machine
+                let of_machine = Basis {
+                    offset: None,
+                    length: None,
+                };
+                let named = names_axis(program, leg.motion.block, axis.letter);
+                if leg.motion.chain != ChainId::MAIN {
+                    self.may_reach(axis, basis, [end, end], place);
+                }
+                if leg.motion.chain != ChainId::MAIN || !named {
+                    self.anchors[axis.joint] = Some((end, of_machine));
+                    continue;
+                }
+            }
             match self.anchors[axis.joint].replace((end, basis)) {
                 // an increment starts from where the axis was
                 Some((_, before)) if leg.motion.says_way & axis.bit != 0 => {
@@ -298,6 +313,13 @@ impl Datum {
         }
         open.into_values()
     }
+}
+
+/// Whether an axis is where it was before a motion.
+fn stands(motion: &Motion, bit: u16) -> bool {
+    let axis = bit.trailing_zeros() as usize;
+    let at = (bit != 0).then(|| motion.start.get(axis)).flatten();
+    at.is_some() && at == motion.end.get(axis)
 }
 
 #[cfg(test)]

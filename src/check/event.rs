@@ -1,4 +1,5 @@
-//! One event, one finding: what several rules report of one block at the pole is put together.
+//! One event, one finding: what several rules report of one block at the pole is put together, and so is what a rule reports that
+//! follows from the finding of another one.
 //!
 //! A cause says what happens at the pole (an axis flips, the posture changes); the effects are what follows in its block or in those
 //! that touch it (an axis overruns, the feed drops, the linear axes run a loop). The strongest cause of a block leads, takes the worst
@@ -7,6 +8,7 @@
 use crate::suppress::has_code;
 use crate::{Diagnostic, Report, Severity, Status, ValueKey};
 use core::cmp::Reverse;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -29,6 +31,63 @@ type Span = (u32, u32);
 
 /// Puts the findings of each event together, and counts anew.
 pub(crate) fn group(program: &Program, report: &mut Report) {
+    group_at_poles(program, report);
+    group_consequences(program, report);
+}
+
+/// Findings that follow from those of another rule become part of them: the same axis, and no block outside theirs.
+fn group_consequences(program: &Program, report: &mut Report) {
+    let fails = |found: &Diagnostic| found.status == Status::Fail;
+    let cause_of = |found: &Diagnostic| {
+        crate::rule(found.rule)
+            .and_then(|rule| rule.follows)
+            .filter(|_| fails(found))
+    };
+    if !report.diagnostics.iter().any(|found| cause_of(found).is_some()) {
+        return;
+    }
+    let blocks = Blocks(program);
+    let lines = LineIndex::new(program.source());
+    let mut causes: HashMap<(&str, Option<&str>), Vec<(Span, usize)>> = HashMap::new();
+    for (index, found) in report.diagnostics.iter().enumerate().filter(|(_, found)| fails(found)) {
+        let of_rule = causes.entry((found.rule, limiting_axis(found)));
+        of_rule.or_default().push((blocks.span(found), index));
+    }
+    for of_rule in causes.values_mut() {
+        of_rule.sort_unstable();
+    }
+    let lead_of = |found: &Diagnostic| {
+        let (first, last) = blocks.span(found);
+        let of_rule = causes.get(&(cause_of(found)?, limiting_axis(found)))?;
+        let after = of_rule.partition_point(|((begin, _), _)| *begin <= first);
+        let (span, index) = of_rule[..after].last()?;
+        (last <= span.1).then_some(*index)
+    };
+    let leads: Vec<Option<usize>> = report.diagnostics.iter().map(lead_of).collect();
+    let mut found: Vec<Option<Diagnostic>> = report.diagnostics.drain(..).map(Some).collect();
+    let mut parts: BTreeMap<usize, Vec<Diagnostic>> = BTreeMap::new();
+    for (index, lead) in leads.into_iter().enumerate() {
+        let Some(lead) = lead else { continue };
+        parts.entry(lead).or_default().extend(found[index].take());
+    }
+    for (lead, parts) in parts {
+        if let Some(lead) = &mut found[lead] {
+            carry((program, &lines), lead, parts);
+        }
+    }
+    report.diagnostics = found.into_iter().flatten().collect();
+    report.summary.recount(&report.diagnostics);
+}
+
+/// The axis that a finding is about, if it names one.
+fn limiting_axis(found: &Diagnostic) -> Option<&str> {
+    found.values.iter().find_map(|(key, value)| match value {
+        ValueKey::Text(axis) if *key == "limiting_axis" => Some(axis.as_ref()),
+        _ => None,
+    })
+}
+
+fn group_at_poles(program: &Program, report: &mut Report) {
     let role = |found: &Diagnostic| match found.status {
         Status::Fail => crate::rule(found.rule).and_then(|rule| rule.at_pole),
         Status::Unknown => None,
@@ -103,7 +162,7 @@ fn carry(place: (&Program, &LineIndex), lead: &mut Diagnostic, mut others: Vec<D
         }
     }
     if let Some(more @ 1..) = others.len().checked_sub(NOTED) {
-        lead.notes.push(format!("and {more} more findings at this pole"));
+        lead.notes.push(format!("and {more} more findings in these blocks"));
     }
     lead.also = others;
 }

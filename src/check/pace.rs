@@ -77,6 +77,7 @@ pub(crate) struct Pace<'m> {
     /// Corners wait for loops that are declared alike: said at the first one.
     unlike: bool,
     modes: Modes,
+    linuxcnc: bool,
     motions: u32,
     tool: Option<u32>,
     before: Option<Tangent>,
@@ -100,7 +101,8 @@ impl<'m> Pace<'m> {
             seen: Seen::new(machine),
             loops: loops(machine),
             unlike: loops(machine).is_none() && speaks_of_loops(machine),
-            modes: Modes::new(machine),
+            modes: Modes::new(dialect),
+            linuxcnc: dialect.quirks.rs274(),
             motions: 0,
             tool: None,
             before: None,
@@ -110,7 +112,7 @@ impl<'m> Pace<'m> {
 
     /// Whether effects of this program may change times.
     pub(crate) fn wants_effects(&self, program: &Program) -> bool {
-        let codes: &[&[u8]] = if self.machine.control.family == "linuxcnc" {
+        let codes: &[&[u8]] = if self.linuxcnc {
             &[b"61", b"64"]
         } else {
             &[b"60", b"61", b"9", b"09"]
@@ -127,9 +129,6 @@ impl<'m> Pace<'m> {
 
     /// The machine stands still.
     fn wait(&mut self, seconds: f64) {
-        if seconds <= 0.0 {
-            return;
-        }
         self.planner.end(self.modes.last());
         let seen = &mut self.seen;
         self.planner.finish(&mut |timed| seen.take(&timed));

@@ -23,6 +23,7 @@ pub(crate) struct Body {
     guarantee: Guarantee,
     wakes: &'static [Wake],
     at_pole: Option<AtPole>,
+    follows: Option<&'static str>,
     needs: Option<Needs>,
 }
 
@@ -34,6 +35,7 @@ impl Body {
             guarantee: Guarantee::Sound,
             wakes,
             at_pole: None,
+            follows: None,
             needs: None,
         }
     }
@@ -45,6 +47,7 @@ impl Body {
             guarantee: Guarantee::Heuristic,
             wakes,
             at_pole: None,
+            follows: None,
             needs: None,
         }
     }
@@ -67,6 +70,12 @@ impl Body {
         self
     }
 
+    /// Its findings are part of those of another rule that name the same axis in the same blocks.
+    pub(crate) const fn follows(mut self, rule: &'static str) -> Self {
+        self.follows = Some(rule);
+        self
+    }
+
     /// It is silent on machines that do not declare something; the coverage of a check says so.
     pub(crate) const fn needs(mut self, needs: Needs) -> Self {
         self.needs = Some(needs);
@@ -82,6 +91,7 @@ impl Body {
             guarantee: self.guarantee,
             wakes: self.wakes,
             at_pole: self.at_pole,
+            follows: self.follows,
             needs: self.needs,
         }
     }
@@ -100,6 +110,7 @@ pub struct Rule {
     pub guarantee: Guarantee,
     pub(crate) wakes: &'static [Wake],
     pub(crate) at_pole: Option<AtPole>,
+    pub(crate) follows: Option<&'static str>,
     pub(crate) needs: Option<Needs>,
 }
 

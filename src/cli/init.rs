@@ -5,7 +5,11 @@ use super::{
     failure::{Failure, remark},
     load, walk,
 };
-use std::{collections::BTreeMap, fmt::Write, path::PathBuf};
+use std::{
+    collections::BTreeMap,
+    fmt::Write,
+    path::{Path, PathBuf},
+};
 use trunnion_files::Outputs;
 
 /// Writes `trunnion.toml` in a folder that has none.
@@ -19,8 +23,12 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
     }
     let file = folder.join("trunnion.toml");
     if file.exists() {
-        return Err(Failure::file(&file, "exists already and was not changed"));
+        return Err(Failure::file(
+            &file,
+            "exists already and was not changed; edit it, or remove it first",
+        ));
     }
+    known(global, &folder)?;
     let target = Outputs::new().output("trunnion.toml", &file)?;
     let mut dialects = BTreeMap::<String, usize>::new();
     // a folder without programs gets its settings too
@@ -47,6 +55,21 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
     let next = format!("next: {first}run `trunnion check {}`", folder.display());
     remark(global.quiet, &next);
     Ok(Done::Clean)
+}
+
+/// What the user names must exist before it is written down.
+fn known(global: &Global, folder: &Path) -> Result<(), Failure> {
+    if let Some(machine) = &global.machine {
+        trunnion_workspace::find_machine(machine, Some(folder))?;
+    }
+    match &global.dialect {
+        Some(name) if trunnion_dialect::builtin(name).is_none() => {
+            let names = trunnion_dialect::BUILTIN_NAMES;
+            let hint = trunnion_check::or_known(name, names, "dialects");
+            Err(Failure::new(format!("unknown dialect `{name}`{hint}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn text(global: &Global, dialects: &BTreeMap<String, usize>) -> String {

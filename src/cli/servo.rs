@@ -124,6 +124,9 @@ fn keeps(cornered: &Cornered, tolerance: f64) -> Result<(f64, Within), Failure> 
     Ok((tolerance, found))
 }
 
+/// Braking that takes as many times 1/Kv changes the closed form by less than 1 %.
+const LONG: f64 = 5.0;
+
 /// Finds the corner at the start of a line and runs the loops through it.
 #[expect(clippy::too_many_lines, reason = "one value after the other")]
 pub(super) fn corner(
@@ -199,6 +202,13 @@ pub(super) fn corner(
         acceleration,
         corner_speed: options.corner_feed / 60.0,
     };
+    if profile.ramps()[0] * x < LONG {
+        notes.push(format!(
+            "the closed form takes the braking as long against 1/Kv, and is too large here: it takes {:.3} s, and 1/Kv is {:.3} s",
+            profile.ramps()[0],
+            1.0 / x
+        ));
+    }
     for (length, feed) in found.lengths.iter().zip(profile.feeds) {
         let braking = (feed * feed - profile.corner_speed.min(feed).powi(2)) / (2.0 * acceleration);
         if *length < braking {

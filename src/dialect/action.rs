@@ -48,6 +48,10 @@ pub enum Role {
     /// A word of a path that its name tells apart: polar coordinates AP= RP=, opening angle AR=, intermediate point I1=, corners CHR= RND=,
     /// angle of a line ANG=, angle of a turned frame RPL=.
     PathWord,
+    /// OVR=: percent of the programmed feed.
+    FeedOverride,
+    /// OVRRAP=: percent of the rapid.
+    RapidOverride,
     /// Recognised; it moves nothing, but its effect (posture, feed limit) is not modelled: reported once.
     NotFollowed,
     /// Recognised, but it changes the path or calls a program in a form that is not modelled (RND=, CHF=, A2=, L20).

@@ -86,6 +86,8 @@ pub(crate) fn meaning(dialect: &Dialect, word: &str) -> String {
         Some(Role::Increment) => "distance from the present point",
         Some(Role::Variable) => "variable",
         Some(Role::PathWord) => "part of the path",
+        Some(Role::FeedOverride) => "percent of the programmed feed",
+        Some(Role::RapidOverride) => "percent of the rapid",
         Some(Role::Parameter) => "parameter of the code",
         Some(Role::NotFollowed | Role::NotModelled) | None => "not followed here",
     }

@@ -105,6 +105,7 @@ impl<'d> Iso<'d> {
             rest = after;
         }
         self.feed_word(codes, words);
+        self.override_words(words, report);
         if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_feed(codes, words, report);
         }

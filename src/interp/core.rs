@@ -42,6 +42,8 @@ pub(crate) struct Core<'d> {
     pub(crate) feed_unread: bool,
     /// The feed changes along each motion (FLIN, FCUB, FPO of a Sinumerik).
     pub(crate) feed_profile: bool,
+    /// The program sets another share of the feed, or of the rapid, than 100 %.
+    pub(crate) overridden: (bool, bool),
     /// It was reported that cutter compensation is not followed.
     pub(crate) compensation_reported: bool,
     /// Work offsets that were reported as missing.
@@ -106,6 +108,7 @@ impl<'d> Core<'d> {
             losses: 0,
             feed_unread: false,
             feed_profile: false,
+            overridden: (false, false),
             compensation_reported: false,
             offsets_reported: Reported::default(),
             last_content: None,
@@ -185,10 +188,10 @@ impl<'d> Core<'d> {
     /// The feed of a motion; reports at `range` when there is none.
     pub(crate) fn feed(&self, kind: MotionKind, range: impl FnOnce() -> TextRange, report: &mut Report<'_>) -> Feed {
         if kind == MotionKind::Rapid {
-            return Feed::Rapid;
+            return if self.overridden.1 { Feed::Unknown } else { Feed::Rapid };
         }
         match self.state.feed.value() {
-            Some(_) if self.feed_profile => Feed::Unknown,
+            Some(_) if self.feed_profile || self.overridden.0 => Feed::Unknown,
             Some(feed) if feed > 0.0 => match self.state.feed.mode() {
                 FeedMode::PerMinute => Feed::PerMinute(feed),
                 FeedMode::PerRevolution => Feed::PerRevolution(feed),

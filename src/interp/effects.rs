@@ -73,7 +73,12 @@ impl Iso<'_> {
                 Sort::Held => free &= !crate::unused::letters(found.code),
                 Sort::Setting("speed limit") => {
                     let to = [Argument::code(found.code.id.clone()), said("S", words.speed)];
-                    self.core.effects.add(block, Effect::set("speed limit", to));
+                    // each of G25 and G26 of a Sinumerik writes a limit of its own, and so does LIMS
+                    let key = match found.code.action {
+                        Action::NotFollowed => format!("speed limit {}", found.code.id),
+                        _ => "speed limit".to_owned(),
+                    };
+                    self.core.effects.add(block, Effect::set(key, to));
                     free = 0;
                     held = u32::MAX;
                 }

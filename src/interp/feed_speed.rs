@@ -1,9 +1,11 @@
 //! F and S of a block, and what its codes make of them.
-use crate::FeedMode;
 use crate::codes::{Found, dwell_reads};
+use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::{FaultKind, FeedMode};
 use trunnion_dialect::{Action, Code, CodeKind};
+use trunnion_syntax::TextRange;
 
 impl Iso<'_> {
     pub(crate) fn feed_mode(&mut self, mode: FeedMode) {
@@ -31,6 +33,33 @@ impl Iso<'_> {
             .feed
             .set(words.feed.number().map(|number| number.value * unit));
         self.core.feed_unread = self.core.state.feed.value().is_none();
+    }
+
+    /// OVR= and OVRRAP=: another share than 100 % makes feeds and rapids unknown, as do the switches of the operator, which are taken as 100 %.
+    pub(crate) fn override_words(&mut self, words: &Words, report: &mut Report<'_>) {
+        let overridden = &mut self.core.overridden;
+        for (said, other, what) in [
+            (
+                words.feed_share,
+                &mut overridden.0,
+                "OVR: feeds of another share than 100 %",
+            ),
+            (
+                words.rapid_share,
+                &mut overridden.1,
+                "OVRRAP: rapids of another share than 100 %",
+            ),
+        ] {
+            if !said.is_given() {
+                continue;
+            }
+            let share = said.number();
+            *other = share.map(|share| share.value) != Some(100.0);
+            if *other {
+                let range = share.map_or_else(TextRange::default, |share| share.range);
+                report.fault(range, FaultKind::NotModelled { what: what.to_owned() });
+            }
+        }
     }
 
     pub(crate) fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {

@@ -20,6 +20,7 @@ mod path;
 mod path_words;
 mod pattern;
 mod plane;
+mod positioning;
 mod sentence;
 mod tool;
 mod values;

@@ -198,6 +198,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Role::PostureTurn => self.words.posture.turn = Some((self.bits(word), word.range)),
             Role::ArcTurns => self.words.turns = self.kept(letter, word),
             Role::Feed => self.words.feed = self.kept(letter, word),
+            Role::FeedOverride => self.words.feed_share = self.kept(letter, word),
+            Role::RapidOverride => self.words.rapid_share = self.kept(letter, word),
             Role::Speed => self.words.speed = self.kept(letter, word),
             Role::Tool => self.words.tool = self.kept(letter, word),
             Role::LengthOffset => self.words.length_offset = self.kept(letter, word),

@@ -152,6 +152,9 @@ pub(crate) struct Words {
     /// STAT and TU.
     pub(crate) posture: crate::travel::PostureWords,
     pub(crate) feed: WordValue,
+    /// OVR= and OVRRAP=, percent.
+    pub(crate) feed_share: WordValue,
+    pub(crate) rapid_share: WordValue,
     pub(crate) speed: WordValue,
     pub(crate) tool: WordValue,
     pub(crate) length_offset: WordValue,

@@ -65,7 +65,8 @@ fn same(whole: &[Timed], parts: &[Timed], what: &str) {
     for (a, b) in whole.iter().zip(parts) {
         let seconds = a.seconds.iter().zip(b.seconds).all(|(a, b)| each(*a, b));
         let speeds = each(a.reached, b.reached) && each(a.lowest, b.lowest) && each(a.leaves, b.leaves);
-        let slow = near(a.below, b.below) && near(a.crawls, b.crawls);
+        let slow =
+            near(a.below, b.below) && near(a.crawl.enters, b.crawl.enters) && near(a.crawl.leaves, b.crawl.leaves);
         assert!(
             seconds && speeds && slow && a.limit == b.limit && a.block == b.block,
             "{what}\n{a:?}\n{b:?}"

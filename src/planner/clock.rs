@@ -17,15 +17,18 @@ pub trait Listener {
     }
 }
 
-/// Runs a program on a machine and tells the time of each motion. The effects of the program are watched: path control, M codes.
+/// Runs a program on a machine and tells the time of each motion. The effects of the program are watched: path control, tool changes, M codes.
+/// The axes stand where a tool change of the machine leaves them.
 pub fn time(program: &Program, dialect: &Dialect, setup: &Setup, machine: &Machine, listener: &mut impl Listener) {
-    let mut interpreter = Interpreter::new(dialect, setup);
+    let mut setup = setup.clone();
+    setup.control.tool_change = machine.control.tool_change;
+    let mut interpreter = Interpreter::new(dialect, &setup);
     interpreter.watch_effects();
     let mut clock = Clock {
         follower: Follower::new(machine),
         planner: Planner::new(machine, dialect.advice.rotary_feed),
-        modes: Modes::new(machine),
-        tool: None,
+        modes: Modes::new(dialect),
+        tool: vec![Argument::code("T")],
         motions: 0,
         listener,
     };
@@ -46,18 +49,14 @@ struct Clock<'m, 'l, L> {
     follower: Follower<'m>,
     planner: Planner<'m>,
     modes: Modes,
-    tool: Option<u32>,
+    /// The tool in use, as its effect says it.
+    tool: Vec<Argument>,
     motions: u32,
     listener: &'l mut L,
 }
 
 impl<L: Listener> Sink for Clock<'_, '_, L> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        if motion.tool.is_some() && motion.tool != self.tool {
-            self.tool = motion.tool;
-            let change = self.follower.machine().control.planning.tool_change_time;
-            self.wait(motion.block, change);
-        }
         let leg = self.follower.follow(motion);
         self.listener.leg(&leg, state, self.motions);
         self.motions += 1;
@@ -70,23 +69,31 @@ impl<L: Listener> Sink for Clock<'_, '_, L> {
         self.listener.fault(fault);
     }
     fn effect(&mut self, placed: Placed) {
+        if let Effect::Set { key, to } = &placed.effect
+            && key == "tool in use"
+            && *to != self.tool
+        {
+            self.tool.clone_from(to);
+            let change = self.follower.machine().control.planning.tool_change_time;
+            self.wait(placed.block, change.unwrap_or(0.0));
+        }
         if let Some(seconds) = self.modes.take(&placed.effect, self.follower.machine()) {
-            self.wait(placed.block, Some(seconds));
+            self.wait(placed.block, seconds);
         }
     }
 }
 
 impl<L: Listener> Clock<'_, '_, L> {
-    fn wait(&mut self, block: BlockId, seconds: Option<f64>) {
-        if seconds.is_none_or(|seconds| seconds <= 0.0) {
-            return;
-        }
+    /// The machine stops, and stands still for so many seconds.
+    fn wait(&mut self, block: BlockId, seconds: f64) {
         // what comes out first belongs to motions before
         self.planner.end(self.modes.last());
         let listener = &mut *self.listener;
         self.planner.finish(&mut |timed| listener.timed(&timed, false));
-        self.planner
-            .wait(block, seconds, &mut |timed| listener.timed(&timed, true));
+        if seconds > 0.0 {
+            self.planner
+                .wait(block, Some(seconds), &mut |timed| listener.timed(&timed, true));
+        }
     }
 }
 
@@ -102,9 +109,9 @@ pub struct Modes {
 
 impl Modes {
     /// Before the first block.
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(dialect: &Dialect) -> Self {
         Self {
-            linuxcnc: machine.control.family == "linuxcnc",
+            linuxcnc: dialect.quirks.rs274(),
             now: PathControl::ByMachine,
             before: PathControl::ByMachine,
             once: false,
@@ -126,7 +133,7 @@ impl Modes {
         core::mem::replace(&mut self.before, now)
     }
 
-    /// Reads an effect; the time of its M codes, s.
+    /// Reads an effect; the time of its M codes, s. `Some(0.0)`: a stop of the program (M0), for a time that the operator decides.
     pub fn take(&mut self, effect: &Effect, machine: &Machine) -> Option<f64> {
         let arguments = match effect {
             Effect::Set { key, to } => {
@@ -145,6 +152,9 @@ impl Modes {
                 self.once = true;
             }
             let number = code.strip_prefix('M').and_then(|number| number.parse::<u16>().ok());
+            if matches!(number, Some(0 | 60)) {
+                seconds.get_or_insert(0.0);
+            }
             let times = &machine.control.planning.m_times;
             if let Some((_, time)) = number.and_then(|number| times.iter().find(|(code, _)| *code == number)) {
                 seconds = Some(seconds.unwrap_or(0.0) + time);

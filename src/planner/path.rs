@@ -57,22 +57,16 @@ impl Ramp {
         self.change(a, self.top) + self.change(self.top, b) + even
     }
 
-    /// How long the speed is below `speed`, s.
-    pub fn seconds_below(&self, speed: f64) -> f64 {
-        let [a, b] = self.ends;
-        if self.top <= speed {
-            return if self.top < speed {
-                self.seconds()
+    /// How long the speed is below `speed` at the start and at the end, where the highest is not below it, s. At rest the acceleration begins and ends
+    /// gently, as `smooth` says: durations of the even acceleration, and of the change of acceleration.
+    pub fn seconds_below(&self, speed: f64, smooth: [f64; 2]) -> [f64; 2] {
+        self.ends.map(|end| {
+            if end <= 0.0 {
+                from_rest(speed, self.top, smooth)
             } else {
-                self.change(a, self.top) + self.change(self.top, b)
-            };
-        }
-        self.change(a.min(speed), speed) + self.change(speed, b.min(speed))
-    }
-
-    /// How long the speed is below `speed` at the end, where the highest is above it, s.
-    pub fn seconds_to_end_below(&self, speed: f64) -> f64 {
-        self.change(speed, self.ends[1].min(speed))
+                self.change(end.min(speed), speed)
+            }
+        })
     }
 
     /// Speed and acceleration at the way `s` from the start.
@@ -93,6 +87,24 @@ impl Ramp {
         } else {
             (self.top, 0.0)
         }
+    }
+}
+
+/// When a change of speed from rest to `top` reaches `speed`, s. Its acceleration is an even one of this duration, smoothed by a mean over another duration:
+/// a trapezoid, whatever of both is longer.
+fn from_rest(speed: f64, top: f64, [even, change]: [f64; 2]) -> f64 {
+    let (long, short) = (even.max(change), even.min(change));
+    if long <= 0.0 {
+        return 0.0;
+    }
+    if speed > 0.5 * top {
+        return long + short - from_rest((top - speed).max(0.0), top, [even, change]);
+    }
+    let acceleration = top / long;
+    if speed <= 0.5 * acceleration * short {
+        (2.0 * speed * short / acceleration).sqrt()
+    } else {
+        speed / acceleration + 0.5 * short
     }
 }
 

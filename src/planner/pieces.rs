@@ -2,7 +2,8 @@
 use crate::corner::{Passage, Side};
 use crate::sampled::sampled;
 use crate::{Bounds, Limit, Piece};
-use trunnion_geometry::math::hypot;
+use core::f64::consts::PI;
+use trunnion_geometry::math::{atan2, cos, hypot, sin};
 use trunnion_geometry::{arc::Arc, deg};
 use trunnion_interp::{Feed, MotionKind};
 use trunnion_machine::{BlockPath, Joints, Leg, Machine, leads_tip};
@@ -170,7 +171,7 @@ fn take_at(
         feed.is_finite(),
     ) {
         let most = length / seconds;
-        course.block_time = (most < feed).then_some(most);
+        course.block_time = (most < feed * (1.0 - 1e-9)).then_some(most);
         for piece in &mut pieces[first..] {
             if most < piece.planned.cap {
                 (piece.planned.cap, piece.planned.by) = (most, Limit::BlockTime);
@@ -327,6 +328,24 @@ pub(crate) fn push(
     Some(())
 }
 
+/// The largest shares that an axis has in the direction of the motion and in the one to the centre, anywhere on an arc, 0..=1. Both are a cosine
+/// of the angle that the arc has turned; that of a spiral, and all with `whole`, are taken over a whole turn.
+fn shares(arc: &Arc, letter: usize, whole: bool) -> [f64; 2] {
+    let arm = (arc.start - arc.centre) / arc.radius_start.max(1e-9);
+    let side = arc.normal.cross(&arm) * arc.sweep.signum();
+    let (x, y, way) = (arm[letter], side[letter], arc.sweep.abs());
+    let whole = whole || (arc.radius_start - arc.radius_end).abs() > 1e-6 * arc.radius_start;
+    // x cos + y sin to the centre, and its derivative
+    [[y, -x], [x, y]].map(|[cosine, sine]| {
+        let first_peak = atan2(sine, cosine).rem_euclid(PI);
+        if whole || first_peak <= way {
+            return hypot(cosine, sine);
+        }
+        let end = cosine * cos(way) + sine * sin(way);
+        cosine.abs().max(end.abs())
+    })
+}
+
 /// An arc without rotary motion: one piece. Along the tangent and at right angles to it the joints need a together, sqrt(at^2 + an^2) per axis.
 fn round(
     machine: &Machine,
@@ -344,18 +363,23 @@ fn round(
     let flat = arc.sweep.abs() * arc.radius_start.max(arc.radius_end) / course.length;
     let bend = arc.sweep * arc.sweep * radius.max(1e-9) / (course.length * course.length);
     let turned = leads_tip(&leg.motion);
+    let rise = (arc.height() / course.length).abs();
+    // LinuxCNC holds an arc to what its axes allow on a whole circle
+    let whole = machine.control.corner_model.as_deref() == Some("linuxcnc-g64");
     for (letter, joint) in machine.joint_of_letter.iter().enumerate().take(3) {
         let Some(joint) = joint.map(usize::from) else { continue };
         // with the table turned, any axis may take any part
-        let across = if turned {
-            1.0
+        let ([along, inward], up) = if turned {
+            ([1.0; 2], 1.0)
         } else {
-            (1.0 - arc.normal[letter] * arc.normal[letter]).max(0.0).sqrt()
+            (shares(arc, letter, whole), arc.normal[letter].abs())
         };
-        let up = if turned { 1.0 } else { arc.normal[letter].abs() };
-        let rise = (arc.height() / course.length).abs();
-        rates[joint] = hypot(flat.min(1.0) * across, rise * up);
-        bends[joint] = if across > 1e-9 { bend * across } else { 0.0 };
+        rates[joint] = if turned {
+            hypot(flat.min(1.0), rise)
+        } else {
+            flat.min(1.0) * along + rise * up
+        };
+        bends[joint] = if inward > 1e-9 { bend * inward } else { 0.0 };
     }
     push(machine, course, motion, (course.length, &rates, &bends, ROUND), pieces)
 }

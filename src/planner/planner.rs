@@ -125,7 +125,11 @@ impl<'m> Planner<'m> {
             _ => {}
         }
         if leg.motion.feed == Feed::Rapid && self.machine.control.rapid != RapidPath::Synchronous {
-            let time = self.dogleg(leg);
+            let mut time = self.dogleg(leg);
+            if self.machine.control.rapid == RapidPath::Undeclared {
+                // it may be the slower one, in which all axes arrive together
+                time.0[1] = time.0[1].and_then(|own| Some(own.max(self.together(leg, timed.motion)?)));
+            }
             return self.emit_alone(
                 time.1.map_or(timed, |reached| Timed {
                     reached: Some(reached),
@@ -290,6 +294,22 @@ impl<'m> Planner<'m> {
         ([Some(optimistic), known.then_some(planned)], reached)
     }
 
+    /// A rapid in which all axes arrive together, from stop to stop: planned time, s.
+    fn together(&self, leg: &Leg, motion: u32) -> Option<f64> {
+        let mut run = Run {
+            pieces: Vec::new(),
+            begun: None,
+            ..self.run
+        };
+        match take(self.machine, leg, motion, &mut run.pieces) {
+            Taken::Course(course) if course.complete => {
+                Some(run.plan().seconds.iter().map(|[planned, _]| planned).sum())
+            }
+            Taken::Still => Some(0.0),
+            _ => None,
+        }
+    }
+
     /// A motion from stop to stop.
     fn emit_alone(&mut self, timed: Timed, seconds: [Option<f64>; 2], out: &mut impl FnMut(Timed)) {
         self.flush(out);
@@ -320,8 +340,7 @@ impl Timed {
             leaves: None,
             limit: Limit::Stop,
             below: 0.0,
-            crawls: 0.0,
-            crawls_out: 0.0,
+            crawl: crate::timed::Crawl::default(),
             block_time_feed: None,
             bend_feed: None,
             engaged: false,

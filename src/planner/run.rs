@@ -1,5 +1,6 @@
 //! From one stop to the next: backward and forward pass over the pieces, then times.
 use crate::{Bounds, Piece, Ramp, s_curve};
+use trunnion_geometry::math::{exp, ln};
 
 /// The pieces between two stops.
 #[derive(Clone, Debug, Default)]
@@ -35,8 +36,8 @@ pub struct Planned {
     pub seconds: Vec<[f64; 2]>,
     /// Length of the filter that limits the jerk, s; part of the last piece's time. 0 where the run is one move in closed form.
     pub filter: f64,
-    /// Highest speed of a run that is one move with limited jerk, mm/s.
-    pub top: Option<f64>,
+    /// Of a run that is one move with limited jerk: how long it accelerates evenly, and how long the acceleration changes, s.
+    pub one_move: Option<[f64; 2]>,
 }
 
 /// Highest speed (mm/s) and acceleration (mm/s^2) of each piece.
@@ -84,7 +85,7 @@ impl Run {
             ramps: filtered.ramps,
             seconds,
             filter: filtered.filter,
-            top: None,
+            one_move: None,
         }
     }
 
@@ -127,7 +128,8 @@ impl Run {
     /// The plan with the filter that makes the run fastest: the shorter it is, the less may the axes accelerate.
     fn filtered(&self) -> Filtered {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        const ROUNDS: u32 = 24;
+        const ROUNDS: u32 = 28;
+        const SHORTEST: f64 = 1e-6;
         if let Some(begun) = self.begun {
             return self.with_filter(begun.filter);
         }
@@ -138,22 +140,22 @@ impl Run {
         if longest <= WORTH * f64::from(motions) || self.with_filter(0.97 * longest).total >= best.total {
             return best;
         }
-        // golden section on a function with one valley
-        let (mut low, mut high) = (1e-3 * longest, longest);
+        // golden section on a function with one valley, over the logarithm: one axis may ask for a filter that is many times longer than the best one
+        let (mut low, mut high) = (ln(SHORTEST * longest), ln(longest));
         let inside = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
         let mut at = inside(low, high);
-        let mut found = at.map(|length| self.with_filter(length));
+        let mut found = at.map(|length| self.with_filter(exp(length)));
         for _ in 0..ROUNDS {
             if found[0].total < found[1].total {
                 high = at[1];
                 at = inside(low, high);
                 found.swap(0, 1);
-                found[0] = self.with_filter(at[0]);
+                found[0] = self.with_filter(exp(at[0]));
             } else {
                 low = at[0];
                 at = inside(low, high);
                 found.swap(0, 1);
-                found[1] = self.with_filter(at[1]);
+                found[1] = self.with_filter(exp(at[1]));
             }
         }
         for one in found {
@@ -311,7 +313,7 @@ impl Run {
             ramps,
             seconds,
             filter: 0.0,
-            top: Some(move_.top),
+            one_move: Some([move_.change - move_.bend, move_.bend + self.filter]),
         }
     }
 }

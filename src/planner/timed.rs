@@ -32,16 +32,47 @@ pub struct Timed {
     pub limit: Limit,
     /// Planned time below 80 % of F, s.
     pub below: f64,
-    /// Planned time below 5 % of F, s.
-    pub crawls: f64,
-    /// The part of it at the end of the motion, without a break, s.
-    pub crawls_out: f64,
+    /// Planned time below 5 % of F.
+    pub crawl: Crawl,
     /// The speed that the control's time for a block allows, where it is below F, mm/min.
     pub block_time_feed: Option<f64>,
     /// The speed that bends allow, where it is below F, mm/min, and the joint.
     pub bend_feed: Option<(f64, u8)>,
     /// A feed motion with the spindle on.
     pub engaged: bool,
+}
+
+/// Stretches of a motion in which it is very slow, s.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Crawl {
+    /// From its start on; the whole motion where it is never faster.
+    pub enters: f64,
+    /// The longest one that neither begins nor ends it.
+    pub inside: f64,
+    /// Up to its end, where it is faster before.
+    pub leaves: f64,
+    /// It is faster somewhere.
+    pub faster: bool,
+}
+
+impl Crawl {
+    /// A piece in which it is slow all the time.
+    pub(crate) fn goes_on(&mut self, seconds: f64) {
+        *(if self.faster {
+            &mut self.leaves
+        } else {
+            &mut self.enters
+        }) += seconds;
+    }
+
+    /// A piece in which it is slow at both ends.
+    pub(crate) fn breaks(&mut self, [start, end]: [f64; 2]) {
+        self.goes_on(start);
+        if self.faster {
+            self.inside = self.inside.max(self.leaves);
+        }
+        (self.faster, self.leaves) = (true, end);
+    }
 }
 
 impl Timed {

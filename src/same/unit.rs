@@ -7,9 +7,8 @@ use std::collections::BTreeMap;
 use trunnion_interp::{Argument, ModalState, Value, same_number};
 
 /// Settings whose numbers are no lengths: numbers of tools and offsets, spindle speeds, what is shown.
-const NO_LENGTHS: [&str; 9] = [
+const NO_LENGTHS: [&str; 8] = [
     "speed",
-    "speed limit",
     "tool prepared",
     "tool in use",
     "D",
@@ -33,7 +32,9 @@ pub(crate) fn other_unit_settings(item: &Item, state: &ModalState) -> Result<(),
         Item::Motion(step) => &step.process,
         Item::Happens { process, .. } => process,
     };
-    let found = process.lengthy(|key, words| !NO_LENGTHS.contains(&key) && words.iter().any(may_be_length));
+    let found = process.lengthy(|key, words| {
+        !NO_LENGTHS.contains(&key) && !key.starts_with("speed limit") && words.iter().any(may_be_length)
+    });
     if let Some((key, words)) = found {
         let what = format!(
             "{key} is `{}`: whether that is a length, and in which unit, is not known",

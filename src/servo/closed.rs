@@ -10,11 +10,17 @@ use trunnion_geometry::math::{exp, ln, sin};
 /// Feed forward scales the following error, so p shrinks with it, and q grows by its share of the way that the reference has gone: the error falls by
 /// less than the following error. Source: docs/kinematics.md#servo.
 pub fn closed_form(corner: &Corner, profile: &Profile, kv: f64, feed_forward: f64) -> f64 {
-    sin(corner.turn()).max(0.0) * per_sine(profile, kv, feed_forward)
+    sin(corner.turn()).max(0.0) * per_sine(profile, kv, feed_forward, [f64::INFINITY; 2])
 }
 
-/// The same, for a turn of 90 deg, mm.
-fn per_sine(profile: &Profile, kv: f64, feed_forward: f64) -> f64 {
+/// The same, with the time that the path takes to brake from its feed before the corner, and to reach the one after it: with t1 = Kv times the first of
+/// them p fades from alpha + beta (1 - e^-t1), and q grows at an even speed after the second one. It is [`closed_form`] where both are long against 1/Kv.
+pub fn closed_form_with_ramps(corner: &Corner, profile: &Profile, kv: f64, feed_forward: f64) -> f64 {
+    sin(corner.turn()).max(0.0) * per_sine(profile, kv, feed_forward, profile.ramps().map(|ramp| kv * ramp))
+}
+
+/// The same, for a turn of 90 deg, mm; `ramps` in units of 1/Kv.
+fn per_sine(profile: &Profile, kv: f64, feed_forward: f64, ramps: [f64; 2]) -> f64 {
     let speed = profile.speed_at_corner();
     let changes = profile
         .feeds
@@ -22,10 +28,18 @@ fn per_sine(profile: &Profile, kv: f64, feed_forward: f64) -> f64 {
     let alpha = speed / kv;
     let [before, after] = changes.map(|acceleration| acceleration / (kv * kv));
     let rest = 1.0 - feed_forward;
-    let fading = |x: f64| rest * (alpha + before) * exp(-x);
+    let fading = |x: f64| rest * (alpha + before * (1.0 - exp(-ramps[0]))) * exp(-x);
+    let ramp = ramps[1];
+    // the way of the reference and how far the axis is behind it, as long as the path gets faster
+    let way = |x: f64| alpha * x + after * 0.5 * x * x;
+    let behind = |x: f64| rest * (alpha * (1.0 - exp(-x)) + after * (x - 1.0 + exp(-x)));
     let growing = |x: f64| {
-        let way = alpha * x + after * 0.5 * x * x;
-        way - rest * (alpha * (1.0 - exp(-x)) + after * (x - 1.0 + exp(-x)))
+        if x <= ramp {
+            return way(x) - behind(x);
+        }
+        let even = alpha + after * ramp;
+        let left = rest * even - (rest * even - behind(ramp)) * exp(ramp - x);
+        way(ramp) + even * (x - ramp) - left
     };
     // fading falls, growing rises
     let (mut low, mut high) = (0.0, 64.0);

@@ -9,7 +9,7 @@ mod profile;
 mod search;
 mod simulate;
 
-pub use closed::{closed_form, sampled_gain, slowest_corner_speed, stop_acceleration};
+pub use closed::{closed_form, closed_form_with_ramps, sampled_gain, slowest_corner_speed, stop_acceleration};
 pub use corner::Corner;
 pub use plant::Plant;
 pub use profile::Profile;

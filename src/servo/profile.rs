@@ -23,6 +23,11 @@ impl Profile {
         (feed, (feed - self.speed_at_corner()) / self.acceleration)
     }
 
+    /// How long the path takes to brake before the corner and to get faster after it, s.
+    pub fn ramps(&self) -> [f64; 2] {
+        [-1.0, 1.0].map(|side| self.side(side).1)
+    }
+
     /// Path length from the corner, mm, and speed, mm/s, at the time t.
     pub fn at(&self, t: f64) -> (f64, f64) {
         let (feed, ramp) = self.side(t);

@@ -61,6 +61,7 @@ tags! {
         BlockNumber = 1, ProgramNumber = 2, G = 3, M = 4, Axis = 5, ArcCentre = 6, ArcRadius = 7, ArcTurns = 8, ToolVector = 9,
         PostureStatus = 10, PostureTurn = 11, Feed = 12, Speed = 13, Tool = 14, LengthOffset = 15, EdgeOffset = 16,
         Parameter = 17, Increment = 18, Variable = 19, NotFollowed = 20, NotModelled = 21, PathWord = 22,
+        FeedOverride = 23, RapidOverride = 24,
     }
 }
 

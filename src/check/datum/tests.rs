@@ -137,3 +137,18 @@ fn what_is_assumed_is_listed_and_judged() {
     let report = check("gcode fanuc-30i mill-3axis", text);
     assert!(report.assumptions.is_empty());
 }
+
+/// Where a tool change leaves an axis is a place of the machine, and no word in G54.
+#[test]
+fn the_place_of_a_tool_change_is_no_word() {
+    let [low, high] = travel(2);
+    for first in ["G0 X0. Y0.\nZ20.", "G0 X0. Y0. Z20."] {
+        let text = format!("G21 G90 G17 G54\nT1 M6\n{first}\nG1 Z-350. F100.\nM30\n");
+        let report = check("gcode fanuc-30i mill-3axis", &text);
+        let found = of(&report, "axis-limit");
+        assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
+        assert_eq!(found[0].status, Status::Unknown);
+        assert_eq!(number(found[0], "fits_z_min_mm"), Some(low + 350.0));
+        assert_eq!(number(found[0], "fits_z_max_mm"), Some(high - 20.0));
+    }
+}

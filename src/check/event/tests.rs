@@ -85,7 +85,39 @@ fn without_a_cause_each_finding_stays() {
         &["pole-flip", "branch-swap", "fast-pole"].map(|rule| (rule, RuleLevel::Allow)),
     );
     assert!(report.diagnostics.len() > 1, "{:?}", rules(&report.diagnostics));
-    assert!(report.diagnostics.iter().all(|found| found.also.is_empty()));
+    let also = |found: &Diagnostic| !found.also.is_empty();
+    assert!(
+        !report
+            .diagnostics
+            .iter()
+            .any(|found| also(found) && found.rule != "axis-overspeed")
+    );
+}
+
+/// C turns 9 deg in each mm at 120 deg/s, which is 800 mm/min.
+const FAST: &str = "TRAORI
+G0 X0 Y0 Z50 A30 C0
+G1 X1 C9 F2000
+X2 C18 F900
+X3 C27 F2000
+M30
+";
+
+#[test]
+fn a_feed_that_drops_is_part_of_the_axis_that_is_too_fast() {
+    let found = report(FAST, &[]);
+    let shown = found.diagnostics.iter().map(|found| (found.rule, rules(&found.also)));
+    let (both, one) = (("axis-overspeed", vec!["feed-drop"]), ("axis-overspeed", vec![]));
+    assert_eq!(
+        shown.collect::<Vec<_>>(),
+        [both.clone(), one, both],
+        "{:#?}",
+        found.diagnostics
+    );
+    assert_eq!(found.summary.warnings + found.summary.errors, 3);
+    // without the finding of the axis it stays
+    let alone = report(FAST, &[("axis-overspeed", RuleLevel::Allow)]);
+    assert_eq!(rules(&alone.diagnostics), ["feed-drop"; 2]);
 }
 
 /// The same pass twice, with a block between them that has nothing to do with a pole.

@@ -3,7 +3,7 @@ use super::{CORNER, PaceKind, Place, loops};
 use std::collections::VecDeque;
 use trunnion_machine::Machine;
 use trunnion_planner::Timed;
-use trunnion_servo::{Corner, Profile, closed_form};
+use trunnion_servo::{Corner, Profile, closed_form_with_ramps};
 
 /// The most places of a kind that are kept apart; later ones count as part of the last.
 const MOST: usize = 1000;
@@ -11,8 +11,7 @@ const MOST: usize = 1000;
 const MATTERS: f64 = 0.7;
 /// Two dips within this path are a swing, mm.
 const WINDOW: f64 = 2.0;
-/// The tool crawls below this share of F, when it does for this long, s.
-const CRAWL: f64 = 0.05;
+/// The tool crawls when it is below 5 % of F for this long, s.
 const CRAWLS: f64 = 0.05;
 /// A corner whose speed is not planned yet.
 #[derive(Clone, Copy)]
@@ -41,33 +40,36 @@ pub(super) struct Seen<'m> {
     pub(super) crawl: f64,
 }
 
-/// The feed along the path in feed, as a run of dips.
+/// The share of F along the path in feed, as a run of dips.
 #[derive(Default)]
 pub(super) struct Swing {
     way: f64,
-    /// Highest since the last dip, lowest in it, and whether it is in one.
+    /// Highest since the last dip, lowest in it and where, and whether it is in one.
     pub(super) high: f64,
     pub(super) low: f64,
+    at: f64,
     falling: bool,
     dip: Option<f64>,
 }
 
 impl Swing {
-    /// The next feed after some way, both mm; the lowest feed of two dips that lie within the window.
-    fn next(&mut self, way: f64, feed: f64) -> Option<f64> {
+    /// The next share of F after some way, mm; the lowest one of two dips that lie within the window.
+    fn next(&mut self, way: f64, share: f64) -> Option<f64> {
         self.way += way;
         if self.falling {
-            self.low = self.low.min(feed);
-            if feed * MATTERS <= self.low {
+            if share <= self.low {
+                (self.low, self.at) = (share, self.way);
+            }
+            if share * MATTERS <= self.low {
                 return None;
             }
-            let found = self.dip.is_some_and(|dip| self.way - dip <= WINDOW).then_some(self.low);
-            (self.dip, self.falling, self.high) = (Some(self.way), false, feed);
+            let found = self.dip.is_some_and(|dip| self.at - dip <= WINDOW).then_some(self.low);
+            (self.dip, self.falling, self.high) = (Some(self.at), false, share);
             return found;
         }
-        self.high = self.high.max(feed);
-        if feed < self.high * MATTERS {
-            (self.falling, self.low) = (true, feed);
+        self.high = self.high.max(share);
+        if share < self.high * MATTERS {
+            (self.falling, self.low, self.at) = (true, share, self.way);
         }
         None
     }
@@ -116,21 +118,22 @@ impl Seen<'_> {
             self.place(timed, PaceKind::Short, (most, feed), 0);
         }
         // from block to block without a break: it leaves one slowly and enters the next one so
-        self.crawl += timed.crawls;
-        if self.crawl > CRAWLS {
-            self.place(timed, PaceKind::Crawl, (self.crawl, feed), 0);
+        let crawl = timed.crawl;
+        self.crawl += crawl.enters;
+        let longest = self.crawl.max(crawl.inside).max(crawl.leaves);
+        if longest > CRAWLS {
+            self.place(timed, PaceKind::Crawl, (longest, feed), 0);
         }
-        let slow = |speed: Option<f64>| speed.is_some_and(|speed| speed < CRAWL * feed);
-        if !slow(timed.reached) {
-            self.crawl = if slow(timed.leaves) { timed.crawls_out } else { 0.0 };
+        if crawl.faster {
+            self.crawl = crawl.leaves;
         }
         if turns {
             self.swing = Swing::default();
         } else if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {
             let half = 0.5 * timed.length;
-            let first = self.swing.next(half, reached);
-            if let Some(low) = self.swing.next(half, leaves).or(first) {
-                self.place(timed, PaceKind::Swing, (low, feed), 0);
+            let first = self.swing.next(half, reached / feed);
+            if let Some(low) = self.swing.next(half, leaves / feed).or(first) {
+                self.place(timed, PaceKind::Swing, (low * feed, feed), 0);
             }
         }
     }
@@ -152,7 +155,7 @@ impl Seen<'_> {
                 acceleration: pending.acceleration,
                 corner_speed: self.leaves,
             };
-            let error = closed_form(&pending.corner, &profile, kv, forward);
+            let error = closed_form_with_ramps(&pending.corner, &profile, kv, forward);
             let tolerance = self.machine.control.planning.corner_tolerance.unwrap_or(CORNER);
             if error > tolerance {
                 self.place(timed, PaceKind::Corner, (error, self.leaves * 60.0), 0);

@@ -70,7 +70,12 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
     out.finding(cut, Merge::runs(key, -limit.feed_mm_min), |draft| {
         let name = letter(axis.letter);
         let feed = cut.programmed_feed();
-        let at = feed.map_or_else(String::new, |feed| format!(" at F{}", number(feed)));
+        let at = match (feed, cut.motion().feed) {
+            (None, _) => String::new(),
+            // F is turns of the block per minute there
+            (Some(feed), Feed::InverseTime(_)) => format!(" at {} {}", number(feed), cut.feed_unit()),
+            (Some(feed), _) => format!(" at F{}", number(feed)),
+        };
         draft
             .at_axis(axis.letter)
             .say(format!(

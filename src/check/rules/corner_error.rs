@@ -99,8 +99,9 @@ mod tests {
 
     #[test]
     fn gains_that_differ_are_unknown_once() {
-        let program = "G21 G17 G90 G94\nG0 X0. Y0. Z0.\nS900 M3\nG1 X50. F20.\nY50.\nX0.\nM30\n";
-        let statuses = |y: &str| -> Vec<Status> {
+        let program =
+            |feed: u32| format!("G21 G17 G90 G94\nG0 X0. Y0. Z0.\nS900 M3\nG1 X50. F{feed}.\nY50.\nX0.\nM30\n");
+        let statuses_at = |y: &str, feed: u32| -> Vec<Status> {
             let axis =
                 |letter: &str, kv: &str| format!("{{letter=\"{letter}\", sign=1, dyn={{vmax=200, amax=900{kv}}}}}");
             let axes = [axis("X", ", kv=20"), axis("Y", y), axis("Z", ", kv=20")].join(", ");
@@ -108,13 +109,16 @@ mod tests {
                 "schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"fanuc-30i\"\ncorner = {{ model = \"exact-stop\" }}\n"
             );
             let machine = trunnion_machine::load("m", &text).expect("valid");
-            let report = check_on(&machine, "fanuc-30i", program);
+            let report = check_on(&machine, "fanuc-30i", &program(feed));
             let own = report.diagnostics.iter().filter(|d| d.rule == "corner-error");
             own.map(|d| d.status).collect()
         };
+        let statuses = |y: &str| statuses_at(y, 6000);
         assert_eq!(statuses(", kv=30"), [Status::Unknown]);
         assert_eq!(statuses(""), [Status::Unknown]);
         // 0.27 A/Kv^2 = 0.61 mm
         assert_eq!(statuses(", kv=20"), [Status::Fail]);
+        // what follows at F20 is 0.017 mm behind, and cuts less than that
+        assert_eq!(statuses_at(", kv=20", 20), []);
     }
 }

@@ -55,3 +55,46 @@ fn report(place: &Place, _: &Machine, out: &mut Reporter<'_>) {
             .spans(place.count, place.last);
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::ValueKey;
+    use crate::fixture::check_on;
+
+    fn seconds(dynamics: &str, blocks: &str) -> Vec<f64> {
+        let axis = |letter: &str| format!("{{letter=\"{letter}\", sign=1, dyn={{{dynamics}}}}}");
+        let axes = ["X", "Y", "Z"].map(axis).join(", ");
+        let text = format!(
+            "schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"fanuc-30i\"\nrapid = \"synchronous\"\ncorner = {{ model = \"exact-stop\" }}\n"
+        );
+        let machine = trunnion_machine::load("m", &text).expect("valid");
+        let program = format!("G21 G17 G90 G94\nG0 X0. Y0. Z0.\nS900 M3\n{blocks}M30\n");
+        let report = check_on(&machine, "fanuc-30i", &program);
+        let own = report.findings().filter(|d| d.rule == "dwell-mark");
+        let value = |value: &ValueKey| match value {
+            ValueKey::Number(value) => *value,
+            ValueKey::Text(_) => panic!("a number of seconds"),
+        };
+        own.map(|d| value(&d.values[0].1)).collect()
+    }
+
+    /// Below 5 % of 516.7 mm/s for 0.026 s at the start and at the end, 0.4 s apart; about a corner both are one.
+    #[test]
+    fn both_ends_of_a_block_are_not_one() {
+        let dynamics = "vmax=1000, amax=1000";
+        assert_eq!(seconds(dynamics, "G1 X500. F31000.\n"), [0.0; 0]);
+        let [corner] = seconds(dynamics, "G1 X500. F31000.\nY500.\n")[..] else {
+            panic!("one corner");
+        };
+        assert!((corner - 2.0 * 0.05 * 31.0 / 60.0).abs() < 1e-3, "{corner}");
+    }
+
+    /// With 200 mm/s^3 it takes sqrt(2 5/200) = 0.224 s to get to 5 mm/s, on both sides of a corner.
+    #[test]
+    fn a_jerk_makes_the_tool_crawl_longer() {
+        let [corner] = seconds("vmax=1000, amax=1000, jmax=200", "G1 X500. F6000.\nY500.\n")[..] else {
+            panic!("one corner");
+        };
+        assert!((corner - 0.447).abs() < 1e-3, "{corner}");
+    }
+}

@@ -25,7 +25,8 @@
 //! # Guarantee
 //! Sound for axes with a declared speed: the worst moment inside the block is judged, not the average. Acceleration is
 //! not considered. Up to 8 consecutive blocks are reported one by one; a longer run is reported as one finding with
-//! its worst block.
+//! its worst block. What it finds follows from an axis that is too fast: it is listed in the finding of `axis-overspeed`
+//! for the same blocks, which takes its level.
 //!
 //! # Thresholds
 //! `feed_drop_warning`: 0.8 of the programmed feed; `feed_drop_error`: 0.3.
@@ -34,7 +35,9 @@
 //! * docs/kinematics.md#axis-speed-and-feed
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]).follows_pole_event();
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)])
+    .follows_pole_event()
+    .follows("axis-overspeed");
 
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;
@@ -55,9 +58,11 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
     } else {
         Warning
     };
-    let key = u64::from(cut.feed_in_degrees());
+    // a run of one axis, as that of axis-overspeed, which it is part of
+    let letter_of_axis = cut.machine.axes[limit.axis].letter;
+    let key = u64::from(letter_of_axis) + 256 * u64::from(cut.feed_in_degrees());
     out.finding_as(severity, cut, Merge::runs(key, -limit.feed_mm_min), |draft| {
-        let name = letter(cut.machine.axes[limit.axis].letter);
+        let name = letter(letter_of_axis);
         let (unit, keys) = (cut.feed_unit(), cut.feed_keys());
         let percent = number((share * 1000.0).round() / 10.0);
         draft
@@ -86,19 +91,19 @@ mod tests {
     #[test]
     fn below_eighty_percent_it_warns_below_thirty_it_is_an_error() {
         // C turns 9 deg in 1 mm at 120 deg/s: 800 mm/min
+        // one finding, with that of the axis
         for (feed, severity) in [
             (1000, None),
-            (1001, Some(Severity::Warning)),
-            (2667, Some(Severity::Error)),
+            (1001, Some((Severity::Warning, 1))),
+            (2667, Some((Severity::Error, 1))),
         ] {
             let text = format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 X1 C9 F{feed}\nM30\n");
             let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
             let report = fixture.check().unwrap();
             let found = report
-                .diagnostics
-                .iter()
+                .findings()
                 .find(|d| d.rule == "feed-drop")
-                .map(|d| d.severity);
+                .map(|d| (d.severity, report.diagnostics.len()));
             assert_eq!(found, severity, "F{feed}: {:?}", report.diagnostics);
         }
     }
@@ -112,7 +117,7 @@ mod tests {
         let text = format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 F1600\n{rows}M30\n");
         let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
         let report = fixture.check().unwrap();
-        let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "feed-drop").collect();
+        let found: Vec<_> = report.findings().filter(|d| d.rule == "feed-drop").collect();
         assert_eq!(
             (found.len(), found[0].count, found[0].severity),
             (1, 12, Severity::Error)

@@ -77,7 +77,6 @@ struct Document {
 /// A baseline that was read.
 pub(super) struct Baseline {
     path: PathBuf,
-    bytes: Vec<u8>,
     files: BTreeMap<String, BTreeMap<String, Entry>>,
 }
 
@@ -116,13 +115,8 @@ impl Baseline {
         let files = document.files.into_iter().map(|(key, list)| (key, by_mark(list)));
         Ok(Self {
             path: path.to_owned(),
-            bytes,
             files: files.collect(),
         })
-    }
-    /// Its bytes.
-    pub(super) fn bytes(&self) -> &[u8] {
-        &self.bytes
     }
     /// The key of a program.
     pub(super) fn key(&self, program: &Path) -> String {

@@ -97,7 +97,8 @@ impl Job<'_> {
     /// Checks one file, or takes it from the cache.
     pub(super) fn check(&self, path: &Path) -> Result<Checked, Failure> {
         let opened = load::open(self.global, path)?;
-        let Some((cache, key)) = self.cache.zip(self.key(path, &opened)) else {
+        let cached = self.cache.and_then(|cache| Some((cache, self.key(path, &opened)?)));
+        let Some((cache, key)) = cached else {
             return Ok(self.judge(&opened.parse()).0);
         };
         if let Some(checked) = cache.get(&key) {
@@ -137,7 +138,9 @@ impl Job<'_> {
             key.add(text.as_bytes());
         }
         if let Some(baseline) = self.baseline {
-            key.add(baseline.bytes());
+            // what it accepts of this program
+            let known = baseline.of(&baseline.key(path));
+            key.add(&serde_json::to_vec(&known).ok()?);
         }
         Some(key.finish())
     }

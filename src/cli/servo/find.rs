@@ -47,6 +47,7 @@ struct Side {
     length: f64,
     feed: Result<f64, &'static str>,
     turns: bool,
+    bends: bool,
 }
 
 /// The corner at the start of the first motion of a line.
@@ -129,7 +130,16 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
         feeds: [feed(&before)?, feed(&after)?],
         lengths: [before.length, after.length],
         joints,
-        notes: Vec::new(),
+        notes: [&before, &after]
+            .into_iter()
+            .filter(|side| side.bends)
+            .map(|side| {
+                format!(
+                    "the motion of line {} is bent, and is taken as its tangent at the corner",
+                    side.line
+                )
+            })
+            .collect(),
     })
 }
 
@@ -156,6 +166,7 @@ fn side(machine: &Machine, joints: [usize; 3], leg: &Leg, known: &(Joints, u16),
         length,
         feed: feed(machine, joints, leg, &rates[1], length),
         turns: hypot(leg.rotary_change[0], leg.rotary_change[1]) > NO_TURN,
+        bends: matches!(leg.motion.kind, MotionKind::Arc(_)),
     })
 }
 

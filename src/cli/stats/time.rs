@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use trunnion_interp::{Fault, ModalState};
-use trunnion_machine::{Leg, Machine};
+use trunnion_machine::{Leg, Machine, RapidPath};
 use trunnion_planner::{Listener, Timed, time};
 use trunnion_syntax::{BlockId, LineIndex};
 
@@ -266,6 +266,11 @@ impl<'a> Times<'a> {
         let control = &self.machine.control;
         if control.corner_model.is_none() {
             out.push("the model of corners ([control] corner): anything from full speed to a stop".to_owned());
+        }
+        if control.rapid == RapidPath::Undeclared {
+            out.push(
+                "how axes move in a rapid ([control] rapid): between each at its own speed and all together".to_owned(),
+            );
         }
         if control.planning.tool_change_time.is_none() {
             out.push("the time of a tool change ([control] planner.tool_change_time): taken as none".to_owned());

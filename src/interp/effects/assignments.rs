@@ -43,7 +43,7 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
                 effects.push(Effect::Unmodelled(words));
             }
             Some(Role::Variable) => effects.push(Effect::Store(stored(full))),
-            Some(Role::Parameter) => {
+            Some(Role::Parameter | Role::FeedOverride | Role::RapidOverride) => {
                 let key = match stem.as_str() {
                     "SPOS" | "SPOSA" | "SPCON" | "SPCOF" | "SVC" => "spindle".to_owned(),
                     "LIMS" => "speed limit".to_owned(),

@@ -5,11 +5,12 @@
 //! the linear axes of a machine with table axes move in the tilted system as in the basic one). So its axes in the workpiece are the product of
 //! the turns of the chain, workpiece side first. Both pages show axes along X, Y and Z; for others the directions of X and Y stay open.
 use super::Klartext;
+use super::positioning::Positioning;
 use super::values::Value;
 use super::words::{Kind, Parameter};
 use crate::core::{ROTARY, Report};
 use crate::frames::Tilted;
-use crate::{AXIS_LETTERS, Posture, Refusal, RotaryTurn, Swivel};
+use crate::{AXIS_LETTERS, Refusal, RotaryTurn};
 use trunnion_geometry::{Mat3, Vec3};
 
 /// A plane by its axes: what they make of the machine's directions, and where A, B and C stand.
@@ -24,23 +25,23 @@ impl Klartext<'_> {
     pub(super) fn plane_by_axes(
         &mut self,
         numbers: &[(String, Value)],
-        swivel: Option<Swivel>,
+        positioning: Positioning,
         report: &mut Report<'_>,
     ) {
         match self.axial(numbers, report) {
             Ok(axial) => {
-                self.set_plane(axial.turn, None, Posture::ByRule, report);
+                self.set_plane(axial.turn, None, report);
                 self.set_angles(axial.stands);
                 self.memory.angles_wait = None;
-                if let Some(swivel) = swivel {
-                    self.turn_axes(swivel, axial.stands, report);
+                if let Some(swivel) = positioning.swivel {
+                    self.turn_axes((swivel, positioning.feed), axial.stands, report);
                 }
             }
             Err(why) => {
                 Self::not_modelled(format!("PLANE AXIAL: {why}"), report);
                 self.memory.angles_wait = None;
                 self.unknown_plane();
-                if swivel.is_some() {
+                if positioning.swivel.is_some() {
                     self.core.state.position.known &= !ROTARY;
                     self.unknown_motion(report);
                 }

@@ -63,7 +63,6 @@ impl Klartext<'_> {
 
     /// M140 MB: back along the tool axis.
     pub(super) fn back_along_tool(&mut self, words: &PathWords, report: &mut Report<'_>) {
-        let start = self.core.state.position;
         let unit = self.core.state.coordinates.unit_mm();
         let mut distance = words.back.map(|distance| distance * unit);
         if words.given != 0 {
@@ -76,6 +75,28 @@ impl Klartext<'_> {
             words.own_feed
         };
         let rapid = self.take_feed(feed, report);
+        let said = feed != super::path_words::FeedSaid::Nothing;
+        let kind = if said {
+            self.straight(rapid)
+        } else {
+            MotionKind::Unknown
+        };
+        if !said {
+            self.not_modelled_once("M140 without F: at which feed", report);
+        }
+        let feed = if said {
+            self.core.feed(kind, TextRange::default, report)
+        } else {
+            Feed::Unknown
+        };
+        // words of the block make both motions one that is not known
+        self.core.state.position.known &= !words.given;
+        self.retract(distance, kind, feed, report);
+    }
+
+    /// Back along the tool axis, by a distance in mm; `None`: it is not known.
+    pub(super) fn retract(&mut self, distance: Option<f64>, kind: MotionKind, feed: Feed, report: &mut Report<'_>) {
+        let start = self.core.state.position;
         let stands = (3..6).all(|axis| start.get(axis).is_none_or(|value| value == 0.0));
         let along = match self.core.state.orientation {
             _ if self.memory.frames.tilt.is_some() => Some(Vec3::z()),
@@ -92,23 +113,9 @@ impl Klartext<'_> {
                     }
                 }
             }
-            None => end.known &= !LINEAR & !words.given,
-        }
-        let said = feed != super::path_words::FeedSaid::Nothing;
-        let kind = if said {
-            self.straight(rapid)
-        } else {
-            MotionKind::Unknown
-        };
-        if !said {
-            self.not_modelled_once("M140 without F: at which feed", report);
+            None => end.known &= !LINEAR,
         }
         self.core.state.position = end;
-        let feed = if said {
-            self.core.feed(kind, TextRange::default, report)
-        } else {
-            Feed::Unknown
-        };
         let orientation = self.core.held_orientation();
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         // it moves axes that the block does not name

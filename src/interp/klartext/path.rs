@@ -282,7 +282,7 @@ impl Klartext<'_> {
         // which axes the machine has, and the feed, are not in the motion
         self.memory.unfollowed = true;
         let posture = self.memory.angles_wait.unwrap_or_default();
-        self.swivel(Swivel::AxesStay, posture, report);
+        self.swivel((Swivel::AxesStay, Feed::Rapid), posture, report);
     }
 
     pub(crate) fn axes(&self) -> [usize; 3] {

@@ -184,8 +184,9 @@ impl Klartext<'_> {
                 found.back = if most { None } else { self.said(word.value, report) };
                 return true;
             }
-            // distances of M120 LA, M118 X Y Z
+            // distances of M120 LA, M118 X Y Z, M124 T
             b"LA" => {}
+            b"T" if found.has(124) => {}
             // what a computation that failed has written
             name if is_no_number(name) => self.no_number(found, report),
             b"" if matches!(word.value, Said::Parameter(..)) && found.codes().is_empty() && found.given == 0 => {
@@ -239,12 +240,12 @@ impl Klartext<'_> {
             found.given |= bit;
             return;
         }
-        if found.given & bit != 0 {
-            report.fault(TextRange::default(), FaultKind::RepeatedWord);
-        }
-        // handwheel distances
+        // handwheel distances, beside the positions of the block
         if found.has(118) {
             return;
+        }
+        if found.given & bit != 0 {
+            report.fault(TextRange::default(), FaultKind::RepeatedWord);
         }
         found.values[usize::from(axis)] = self.said(word.value, report);
         found.given |= bit;

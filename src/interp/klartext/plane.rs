@@ -7,15 +7,13 @@
 //! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED is not followed; AXIAL is in `axial`.
 use super::Klartext;
 use super::datum::PLANE;
+use super::positioning::Positioning;
 use super::values::Value;
-use super::words::{Said, Words};
+use super::words::Words;
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::frames::Tilted;
 use crate::{Feed, MotionKind, Orientation, Posture, Refusal, Swivel};
 use trunnion_geometry::{Mat3, Vec3};
-
-/// Words of a PLANE block that are no numbers of its form.
-const POSITIONING: [&str; 3] = ["SEQ", "SYM", "FMAX"];
 
 impl Klartext<'_> {
     pub(crate) fn plane(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
@@ -27,46 +25,12 @@ impl Klartext<'_> {
                 report,
             );
         };
-        let mut numbers = Vec::new();
-        let (mut swivel, mut posture, mut free) = (None, Posture::ByRule, None);
-        let (mut says_how, mut says_feed, mut turns_table) = (false, false, false);
-        for word in words.by_ref() {
-            says_how |= matches!(word.name(), b"MOVE" | b"TURN" | b"STAY");
-            says_feed |= matches!(word.name(), b"F" | b"FMAX" | b"FAUTO");
-            turns_table |= word.name() == b"TABLE";
-            match word.name() {
-                b"MOVE" => swivel = Some(Swivel::TipStays),
-                b"TURN" => swivel = Some(Swivel::AxesStay),
-                b"STAY" => swivel = None,
-                b"SEQ" => match word.value {
-                    Said::Sign(minus) => posture = if minus { Posture::Lower } else { Posture::Higher },
-                    _ => Self::rejected(Refusal::Syntax, "SEQ needs + or -", report),
-                },
-                b"F" | b"DIST" | b"MB" | b"TABLE" | b"COORD" => self.memory.unfollowed = true,
-                b"SYM" => free = Some("SYM: the symmetric solution"),
-                // where the swivel leaves no free axis it makes no difference
-                b"ROT" | b"MAX" | b"AUTO" => {}
-                name if POSITIONING.iter().any(|known| name == known.as_bytes()) => {}
-                _ if word.value == Said::Nothing => {
-                    let what = String::from_utf8_lossy(word.name()).into_owned();
-                    Self::not_modelled(format!("PLANE: {what}"), report);
-                }
-                name => {
-                    let name = String::from_utf8_lossy(name).into_owned();
-                    numbers.push((name, self.said(word.value, report)));
-                }
-            }
-        }
-        // without MOVE, TURN or STAY, or without a feed, it is up to the control
-        self.memory.unfollowed |= !says_how || swivel.is_some() && !says_feed;
-        if let Some(what) = free {
-            self.not_modelled_once(what, report);
-        }
-        self.set_angles([None; 3]);
         let name = String::from_utf8_lossy(form.name()).into_owned();
+        let (numbers, positioning) = self.plane_words(&name, words, report);
+        self.set_angles([None; 3]);
         match name.as_str() {
-            "RESET" => return self.reset_plane(swivel, report),
-            "AXIAL" => return self.plane_by_axes(&numbers, swivel, report),
+            "RESET" => return self.reset_plane(positioning, report),
+            "AXIAL" => return self.plane_by_axes(&numbers, positioning, report),
             _ => {}
         }
         let number = |wanted: &str| numbers.iter().find(|(found, _)| found == wanted).map(|found| found.1);
@@ -90,8 +54,8 @@ impl Klartext<'_> {
             self.memory.angles_wait = None;
             return self.unknown_plane();
         };
-        self.set_plane(turn, swivel, posture, report);
-        if turns_table && swivel.is_some() && turn[(2, 2)] == 1.0 {
+        self.set_plane(turn, Some(positioning), report);
+        if positioning.turns_table && positioning.swivel.is_some() && turn[(2, 2)] == 1.0 {
             self.turn_table(report);
         }
     }
@@ -122,18 +86,18 @@ impl Klartext<'_> {
         self.lose(PLANE);
     }
 
-    fn reset_plane(&mut self, swivel: Option<Swivel>, report: &mut Report<'_>) {
+    fn reset_plane(&mut self, positioning: Positioning, report: &mut Report<'_>) {
         self.found(PLANE);
         self.tilt_to(None);
         self.memory.angles_wait = None;
-        if let Some(swivel) = swivel {
-            self.turn_back(swivel, report);
+        if let Some(swivel) = positioning.swivel {
+            self.turn_back(swivel, positioning.feed, report);
         }
     }
 
     /// PLANE RESET with MOVE or TURN: the rotary axes go to their basic setting, 0, whatever angle a plane left them at. X Y Z are in the
     /// machine's directions after it. With MOVE the tip stays on the part, with TURN the linear axes stay.
-    fn turn_back(&mut self, swivel: Swivel, report: &mut Report<'_>) {
+    fn turn_back(&mut self, swivel: Swivel, feed: Feed, report: &mut Report<'_>) {
         let zero = self.core.state.zero.values();
         if self.core.state.zero.is_lost() || zero[3..6].iter().any(|shift| *shift != 0.0) {
             let what = "PLANE RESET where the zero of a rotary axis is shifted: to which of both zeros it turns";
@@ -142,11 +106,16 @@ impl Klartext<'_> {
             self.core.state.position.known &= !ROTARY;
             return self.unknown_motion(report);
         }
-        self.turn_axes(swivel, [Some(0.0); 3], report);
+        self.turn_axes((swivel, feed), [Some(0.0); 3], report);
     }
 
     /// Turns A, B and C to positions.
-    pub(super) fn turn_axes(&mut self, swivel: Swivel, stands: [Option<f64>; 3], report: &mut Report<'_>) {
+    pub(super) fn turn_axes(
+        &mut self,
+        (swivel, feed): (Swivel, Feed),
+        stands: [Option<f64>; 3],
+        report: &mut Report<'_>,
+    ) {
         self.core.forget_linear();
         let start = self.core.state.position;
         let mut end = start;
@@ -159,13 +128,14 @@ impl Klartext<'_> {
         self.core.state.orientation = Orientation::Words;
         let mut motion = self
             .core
-            .new_motion(MotionKind::Rapid, start, end, Orientation::Words, Feed::Rapid, report);
+            .new_motion(MotionKind::Rapid, start, end, Orientation::Words, feed, report);
         motion.tilt.swivel = swivel;
         motion.tcp = swivel == Swivel::TipStays;
         self.finish_motion(&super::Made { motion, tilt: None });
     }
 
-    pub(super) fn set_plane(&mut self, turn: Mat3, swivel: Option<Swivel>, posture: Posture, report: &mut Report<'_>) {
+    /// `positioning`: `None` where the block turns the axes otherwise.
+    pub(super) fn set_plane(&mut self, turn: Mat3, positioning: Option<Positioning>, report: &mut Report<'_>) {
         self.found(PLANE);
         if !self.memory.frames.shape.is_identity() {
             Self::not_modelled("a tilted plane in a turned, mirrored or scaled system", report);
@@ -177,9 +147,15 @@ impl Klartext<'_> {
             turn,
             programmed: false,
         }));
+        let posture = positioning.map_or(Posture::ByRule, |positioning| positioning.posture);
         self.memory.angles_wait = Some(posture);
-        if let Some(swivel) = swivel {
-            self.swivel(swivel, posture, report);
+        if let Some(Positioning {
+            swivel: Some(swivel),
+            feed,
+            ..
+        }) = positioning
+        {
+            self.swivel((swivel, feed), posture, report);
             self.memory.angles_wait = None;
         }
     }
@@ -215,7 +191,7 @@ impl Klartext<'_> {
     }
 
     /// Turns the rotary axes onto the plane's normal.
-    pub(crate) fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &mut Report<'_>) {
+    pub(crate) fn swivel(&mut self, (swivel, feed): (Swivel, Feed), posture: Posture, report: &mut Report<'_>) {
         let start = self.core.state.position;
         self.core.forget_linear();
         self.core.state.position.known &= !ROTARY;
@@ -224,7 +200,7 @@ impl Klartext<'_> {
         let orientation = Orientation::Vector(None, Vec3::z());
         let mut motion = self
             .core
-            .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+            .new_motion(MotionKind::Rapid, start, end, orientation, feed, report);
         (motion.tilt.swivel, motion.tilt.posture, motion.tcp) = (swivel, posture, false);
         let tilt = self
             .memory

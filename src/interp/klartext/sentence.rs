@@ -288,9 +288,11 @@ impl Klartext<'_> {
 /// Where an M code stands in its block.
 fn m_range(code: u32, report: &Report<'_>) -> TextRange {
     let whole = report.whole();
-    let text = report.program.text(whole).into_owned();
+    // as bytes: what is no text would move the place
+    let text = report.program.source().get(whole.as_usize()).unwrap_or_default();
     let name = format!("M{code}");
-    let found = text.find(&name).map(|at| whole.start + at as u32);
+    let found = text.windows(name.len()).position(|found| found == name.as_bytes());
+    let found = found.map(|at| whole.start + at as u32);
     found.map_or_else(TextRange::default, |start| {
         TextRange::new(start, start + name.len() as u32)
     })

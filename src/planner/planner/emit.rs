@@ -1,6 +1,7 @@
 //! What is planned becomes times: at a stop all of it, and of a long run what is settled.
 use super::{Open, Planner};
 use crate::run::{Begun, WORTH};
+use crate::timed::Crawl;
 use crate::{Limit, Planned, Run, Timed};
 use trunnion_machine::Machine;
 
@@ -84,8 +85,8 @@ pub(super) fn longest_filter(machine: &Machine) -> f64 {
 fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<usize>) -> Timed {
     let Open { timed, complete, .. } = *open;
     let mut seconds = [0.0; 2];
-    let (mut reached, mut lowest, mut below, mut crawls) = (0.0_f64, f64::INFINITY, 0.0, 0.0);
-    let mut crawls_out = 0.0;
+    let (mut reached, mut lowest, mut below) = (0.0_f64, f64::INFINITY, 0.0);
+    let mut crawl = Crawl::default();
     let mut slowest = pieces.start;
     for index in pieces.clone() {
         let (ramp, [own, free]) = (&planned.ramps[index], planned.seconds[index]);
@@ -95,16 +96,15 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
         lowest = lowest.min(ramp.ends[0]).min(ramp.ends[1]);
         let feed = run.pieces[index].feed;
         if feed.is_finite() {
-            // what smooths the ends is time below F as well
-            let more = own - ramp.seconds();
-            below += ramp.seconds_below(SLOW * feed) + more.max(0.0);
-            let slow = ramp.seconds_below(CRAWL * feed);
-            crawls += slow;
-            crawls_out = if ramp.top < CRAWL * feed {
-                crawls_out + slow
-            } else {
-                ramp.seconds_to_end_below(CRAWL * feed)
-            };
+            let smooth = planned
+                .one_move
+                .unwrap_or([ramp.top / ramp.acceleration, planned.filter]);
+            let slow = |speed: f64| (ramp.top >= speed).then(|| ramp.seconds_below(speed, smooth));
+            below += slow(SLOW * feed).map_or(own, |[enters, leaves]| enters + leaves);
+            match slow(CRAWL * feed) {
+                None => crawl.goes_on(own),
+                Some(ends) => crawl.breaks(ends),
+            }
         }
         if ramp.top < planned.ramps[slowest].top {
             slowest = index;
@@ -115,7 +115,9 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
     let near = |a: f64, b: f64| a >= b * (1.0 - 1e-6);
     let limit = if near(ramp.top, piece.planned.cap) {
         piece.planned.by
-    } else if planned.top.is_some() && piece.jerk.is_finite() && ramp.top < piece.planned.acceleration * piece.jerk_time
+    } else if planned.one_move.is_some()
+        && piece.jerk.is_finite()
+        && ramp.top < piece.planned.acceleration * piece.jerk_time
     {
         Limit::Jerk
     } else if near(ramp.ends[0].min(ramp.ends[1]), ramp.top) && ramp.top > 0.0 {
@@ -131,8 +133,7 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
         leaves: complete.then_some(last * 60.0),
         limit,
         below,
-        crawls,
-        crawls_out,
+        crawl,
         ..timed
     }
 }

@@ -1,7 +1,7 @@
 //! HEIDENHAIN Klartext.
 use crate::support::{faults, lines, run_bytes, run_text, shared};
 use trunnion_geometry::Vec3;
-use trunnion_interp::{Motion, MotionKind, Orientation, Setup};
+use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Setup, Swivel};
 
 pub(crate) const NAME: &str = "heidenhain-klartext";
 
@@ -344,4 +344,50 @@ fn a_retreat_to_the_limit_ends_at_an_unknown_place() {
         // what is left open has moved
         assert_eq!(last.says_way & 0b111 == 0b111, !known, "{before}{back}");
     }
+}
+
+/// MB of PLANE leads the tool back before the axes turn; a turn about another point than the tip ends at a place that is not followed.
+#[test]
+fn a_plane_retracts_before_it_turns() {
+    let motions = |how: &str| {
+        let text = program(&format!(
+            "L X+1 Y+2 Z+5 R0 FMAX\nPLANE SPATIAL SPA+0 SPB+45 SPC+0 {how}\nL M30\n"
+        ));
+        run_text(NAME, &text).motions
+    };
+    let [.., back, turn] = &motions("TURN MB30 FMAX")[..] else {
+        panic!("a retract and a turn");
+    };
+    assert_eq!(back.end.xyz(), Some(Vec3::new(1.0, 2.0, 35.0)));
+    assert_eq!((turn.tilt.swivel, turn.feed), (Swivel::AxesStay, Feed::Rapid));
+    let [.., back, _] = &motions("TURN MB MAX FMAX")[..] else {
+        panic!("a retract and a turn");
+    };
+    assert_eq!((back.end.xyz(), back.says_way & 0b111), (None, 0b111));
+    for (how, swivel, feed) in [
+        ("MOVE DIST0 F1000", Swivel::TipStays, Feed::Unknown),
+        ("MOVE DIST50 FMAX", Swivel::AxesLost, Feed::Rapid),
+        ("MOVE ABST50 F1000", Swivel::AxesLost, Feed::Unknown),
+        ("TURN DIST50 FMAX", Swivel::AxesStay, Feed::Rapid),
+    ] {
+        let motions = motions(how);
+        let turn = motions.last().expect("a turn");
+        assert_eq!((turn.tilt.swivel, turn.feed), (swivel, feed), "{how}");
+    }
+}
+
+#[test]
+fn words_of_m_codes_are_no_words_of_the_path() {
+    let body = "L X+10 Y+5 R0 F100 M118 X1 Y1 Z0.5\nL X+20 M124 T0.01\nL M30\n";
+    let log = run_text(NAME, &program(body));
+    assert_eq!(log.faults, [], "{:?}", log.faults);
+    let places: Vec<_> = log
+        .motions
+        .iter()
+        .map(|motion| (motion.end.get(0), motion.end.get(1)))
+        .collect();
+    assert_eq!(
+        places[places.len() - 2..],
+        [(Some(10.0), Some(5.0)), (Some(20.0), Some(5.0))]
+    );
 }

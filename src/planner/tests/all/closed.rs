@@ -61,7 +61,16 @@ fn trapezoids() {
 fn time_below_a_speed() {
     // from rest to 50 with 1000 and back: below 10 for 10 ms at each end
     let ramp = Ramp::fastest(100.0, 50.0, 1000.0, [0.0, 0.0]);
-    assert!((ramp.seconds_below(10.0) - 0.02).abs() < 1e-12);
-    assert!((ramp.seconds_below(60.0) - ramp.seconds()).abs() < 1e-12);
+    let below = |speed: f64, smooth: [f64; 2]| ramp.seconds_below(speed, smooth);
+    assert!(
+        below(10.0, [ramp.top / 1000.0, 0.0])
+            .iter()
+            .all(|end| (end - 0.01).abs() < 1e-12)
+    );
+    // with 40 000 mm/s^3 the acceleration is there after 0.025 s, at 12.5: v = j t^2/2 before, and the same before the top
+    let smooth = [ramp.top / 1000.0, 0.025];
+    for (speed, seconds) in [(10.0, (20.0 / 40_000.0_f64).sqrt()), (30.0, 0.0425), (50.0, 0.075)] {
+        assert!((below(speed, smooth)[0] - seconds).abs() < 1e-12, "{speed}");
+    }
     assert_eq!(ramp.at(0.2), ((400.0_f64).sqrt(), 1000.0));
 }

@@ -2,8 +2,8 @@
 use std::fmt::Write;
 use trunnion_dialect::{RotaryFeed, builtin};
 use trunnion_interp::{Fault, ModalState, Motion, Setup, Sink};
-use trunnion_machine::{Follower, Machine, load};
-use trunnion_planner::{Limit, PathControl, Planner, Timed};
+use trunnion_machine::{Follower, Leg, Machine, load};
+use trunnion_planner::{Limit, Listener, PathControl, Planner, Timed, time};
 use trunnion_syntax::{Program, parse};
 
 const AXES: &str = r#"schema = "ncmachine/1"
@@ -178,4 +178,165 @@ fn higher_limits_do_not_slow_down() {
             }
         }
     }
+}
+
+/// What an arc asks of its axes is what they need on it, and not on a whole circle: 20 deg about the X axis take sin 10 deg of the acceleration from Y.
+#[test]
+fn a_short_arc_asks_of_each_axis_what_it_needs_there() {
+    let axes = "schema = \"ncmachine/1\"\naxis = [{letter=\"X\", sign=1, dyn={vmax=1000, amax=1000}}, {letter=\"Y\", sign=1, dyn={vmax=1000, amax=100}}, {letter=\"Z\", sign=1, dyn={vmax=1000, amax=1000}}]\n";
+    let machine = load(
+        "m",
+        &format!("{axes}[control]\ncorner = {{ model = \"axis-jump\", dv = {{ X = 8, Y = 8, Z = 8 }} }}\n"),
+    )
+    .expect("valid");
+    let limit = |text: &str| {
+        let dialect = builtin("linuxcnc").expect("there");
+        let program: Program = parse(text.as_bytes().to_vec(), dialect.lex);
+        let mut legs = Legs {
+            follower: Follower::new(&machine),
+            limits: Vec::new(),
+        };
+        trunnion_interp::run(&program, dialect, &Setup::default(), &mut legs);
+        legs.limits.pop().flatten()
+    };
+    let (x, y) = (9.84808, 1.73648);
+    let arc = |from: [f64; 2], to: [f64; 2]| {
+        limit(&format!(
+            "G21 G90 G17\nG0 X{} Y{} Z0\nG3 X{} Y{} I{} J{} F100\nM2\n",
+            from[0], from[1], to[0], to[1], -from[0], -from[1]
+        ))
+    };
+    // v^2/10 sin 10 deg = 100
+    let (feed, joint) = arc([x, -y], [x, y]).expect("bends");
+    assert!(
+        (feed - 60.0 * (1000.0 / 0.173_648_f64).sqrt()).abs() < 0.1 && joint == 1,
+        "{feed}"
+    );
+    // across the Y axis it takes all of it there, both ways round
+    for (from, to) in [([y, x], [-y, x]), ([x, y], [-x, -y])] {
+        let (feed, joint) = arc(from, to).expect("bends");
+        assert!((feed - 60.0 * 1000.0_f64.sqrt()).abs() < 0.1 && joint == 1, "{feed}");
+    }
+}
+
+struct Legs<'m> {
+    follower: Follower<'m>,
+    limits: Vec<Option<(f64, usize)>>,
+}
+
+impl Sink for Legs<'_> {
+    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+        let leg = self.follower.follow(motion);
+        self.limits
+            .push(trunnion_planner::bend_limit(self.follower.machine(), &leg));
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+/// amax over jmax may be many times the filter that suits a run.
+#[test]
+fn an_enormous_acceleration_does_not_slow_a_bend_down() {
+    let time = |amax: f64| {
+        let axes = format!(
+            "schema = \"ncmachine/1\"\naxis = [{{letter=\"X\", sign=1, dyn={{vmax=250, amax={amax}, jmax=30000}}}}, {{letter=\"Y\", sign=1, dyn={{vmax=250, amax=2000, jmax=30000}}}}, {{letter=\"Z\", sign=1, dyn={{vmax=250, amax=2000, jmax=30000}}}}]\n"
+        );
+        let machine = load(
+            "m",
+            &format!("{axes}[control]\ncorner = {{ model = \"axis-jump\", dv = {{ X = 8, Y = 8, Z = 8 }} }}\n"),
+        )
+        .expect("valid");
+        let out = plan(
+            &machine,
+            "G21 G90 G17\nG0 X0 Y0 Z0\nG2 X0.2 Y0 I0.1 J0 F600\nM2\n",
+            PathControl::ByMachine,
+        );
+        total(&out)[1]
+    };
+    let least = time(2000.0);
+    for amax in [1e4, 1e6, 3e6, 1e7] {
+        assert!(time(amax) <= least + 0.001, "{amax}: {} {least}", time(amax));
+    }
+}
+
+struct Clocked([f64; 2]);
+
+impl Listener for Clocked {
+    fn leg(&mut self, _: &Leg, _: &ModalState, _: u32) {}
+    fn timed(&mut self, timed: &Timed, _: bool) {
+        for (all, own) in self.0.iter_mut().zip(timed.seconds) {
+            *all += own.expect("known");
+        }
+    }
+}
+
+fn clock(machine: &Machine, dialect: &str, text: &str) -> [f64; 2] {
+    let dialect = builtin(dialect).expect("there");
+    let program: Program = parse(text.as_bytes().to_vec(), dialect.lex);
+    let mut clocked = Clocked([0.0; 2]);
+    time(&program, dialect, &Setup::default(), machine, &mut clocked);
+    clocked.0
+}
+
+fn with(control: &str) -> Machine {
+    let axes = ["X", "Y", "Z"].map(|letter| format!("{{letter=\"{letter}\", sign=1, dyn={{vmax=250, amax=1000}}}}"));
+    let text = format!(
+        "schema = \"ncmachine/1\"\naxis = [{}]\n[control]\n{control}\n",
+        axes.join(", ")
+    );
+    load("m", &text).expect("valid")
+}
+
+/// G61 and G61.1 are those of the language, whatever family the machine is of: G61 passes what is straight on, G61.1 stops.
+#[test]
+fn exact_stops_are_those_of_the_dialect() {
+    let machine = with(
+        "family = \"generic\"\nrapid = \"synchronous\"\ncorner = { model = \"axis-jump\", dv = { X = 8, Y = 8, Z = 8 } }",
+    );
+    let text = |code: &str| format!("G21 G90 G17\nG0 X0 Y0 Z0\n{code}\nG1 X50 F3000\nX100\nM2\n");
+    let [through, stops] = ["G61", "G61.1"].map(|code| clock(&machine, "linuxcnc", &text(code))[1]);
+    assert!(
+        (through - 2.05).abs() < 1e-9 && (stops - 2.1).abs() < 1e-9,
+        "{through} {stops}"
+    );
+    assert!((clock(&machine, "fanuc-30i", &text("G61"))[1] - 2.1).abs() < 1e-9);
+}
+
+#[test]
+fn stops_and_tool_changes_of_the_program() {
+    let corner = "rapid = \"synchronous\"\ncorner = { model = \"axis-jump\", dv = { X = 8, Y = 8, Z = 8 } }\nplanner = { tool_change_time = 7 }\n";
+    let machine = with(corner);
+    let planned = |text: &str| clock(&machine, "fanuc-30i", text)[1];
+    let cut = |between: &str| {
+        planned(&format!(
+            "G21 G90 G17\nG0 X0 Y0 Z0\nG1 X50. F3000\n{between}X100.\nM30\n"
+        ))
+    };
+    assert!((cut("") - 2.05).abs() < 1e-9);
+    assert!((cut("M0\n") - 2.1).abs() < 1e-9, "{}", cut("M0\n"));
+    assert!((cut("M8\n") - 2.05).abs() < 1e-9);
+    // each change counts, of a tool that does not move too, and the same tool is none
+    assert!((planned("T1 M6\nM30\n") - 7.0).abs() < 1e-9);
+    assert!((planned("T1 M6\nT2 M6\nM30\n") - 14.0).abs() < 1e-9);
+    assert!((planned("T1 M6\nT1 M6\nM30\n") - 7.0).abs() < 1e-9);
+    assert!((planned("T1 M6\nT0 M6\nM30\n") - 14.0).abs() < 1e-9);
+}
+
+/// The slower one counts of what a machine may do that does not say how it moves in a rapid.
+#[test]
+fn an_undeclared_rapid_is_planned_as_the_slower_kind() {
+    let axes = "axis = [{letter=\"X\", sign=1, dyn={vmax=200, amax=1000}}, {letter=\"Y\", sign=1, dyn={vmax=50, amax=500}}, {letter=\"Z\", sign=1, dyn={vmax=30, amax=100}}]";
+    let planned = |rapid: &str| {
+        let machine = load("m", &format!("schema = \"ncmachine/1\"\n{axes}\n[control]\n{rapid}\n")).expect("valid");
+        clock(
+            &machine,
+            "fanuc-30i",
+            "G21 G90\nG0 X0. Y0. Z0.\nG0 X100. Y30. Z5.\nM30\n",
+        )
+    };
+    let [dogleg, together, open] = ["rapid = \"dogleg\"", "rapid = \"synchronous\"", ""].map(planned);
+    assert!((dogleg[1] - 0.7).abs() < 1e-9, "{dogleg:?}");
+    assert!(
+        together[1] > dogleg[1] && open == [dogleg[0], together[1]],
+        "{together:?} {open:?}"
+    );
 }

@@ -147,6 +147,35 @@ fn closed_form_and_simulation_agree() {
     }
 }
 
+/// With its ramps it holds for any feed: one that the braking reaches within a fraction of 1/Kv, too.
+#[test]
+fn the_closed_form_with_ramps_holds_for_slow_feeds() {
+    near(closed_form_with_ramps(&corner(), &profile(), KV, 0.0), 23.117, 5e-5);
+    let corner = Corner::turning(rad(90.0)).expect("works");
+    for feed_mm_min in [20.0, 60.0, 300.0, 3000.0] {
+        for (corner_speed, feed_forward) in [(0.0, 0.0), (0.2, 0.0), (0.0, 0.5)] {
+            let profile = Profile {
+                feeds: [feed_mm_min / 60.0; 2],
+                acceleration: 1000.0,
+                corner_speed,
+            };
+            let servo = Servo {
+                gain: Vec3::repeat(30.0),
+                feed_forward,
+                plant: Plant::First,
+                sample: None,
+            };
+            let found = simulate(&corner, &profile, &servo, &Correction::default()).expect("works");
+            let closed = closed_form_with_ramps(&corner, &profile, 30.0, feed_forward);
+            assert!(
+                (found.exact / closed - 1.0).abs() < 2e-3,
+                "F{feed_mm_min} {corner_speed}: {} {closed}",
+                found.exact
+            );
+        }
+    }
+}
+
 #[test]
 fn known_factors() {
     let corner = Corner::turning(rad(90.0)).expect("works");

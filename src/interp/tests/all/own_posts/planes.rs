@@ -109,7 +109,7 @@ fn plain9(value: f64) -> String {
 const HOW: [&str; 8] = [
     "STAY",
     "MOVE DIST0 FMAX",
-    "MOVE ABST50 F1000 SEQ-",
+    "MOVE ABST0 F1000 SEQ-",
     "MOVE F2000 SEQ+ COORD ROT",
     "TURN FMAX",
     "TURN MB MAX FMAX SEQ-",

@@ -105,6 +105,9 @@ pub struct Modes {
     before: PathControl,
     /// An exact stop at the end of one block (G9).
     once: bool,
+    /// The spindle's setting, and which coolants are on: mist and flood.
+    spindle: Vec<Argument>,
+    coolants: [bool; 2],
 }
 
 impl Modes {
@@ -115,6 +118,8 @@ impl Modes {
             now: PathControl::ByMachine,
             before: PathControl::ByMachine,
             once: false,
+            spindle: vec![Argument::code("M5")],
+            coolants: [false; 2],
         }
     }
 
@@ -137,13 +142,18 @@ impl Modes {
     pub fn take(&mut self, effect: &Effect, machine: &Machine) -> Option<f64> {
         let arguments = match effect {
             Effect::Set { key, to } => {
-                if key == "path-control" {
-                    self.now = self.mode(to);
+                match &**key {
+                    "path-control" => self.now = self.mode(to),
+                    "mist coolant" | "flood coolant" => return self.coolant(key == "flood coolant", to, machine),
+                    // a code that changes nothing takes no time
+                    "spindle" if *to == self.spindle => return None,
+                    "spindle" => self.spindle.clone_from(to),
+                    _ => {}
                 }
                 to
             }
-            Effect::Event(arguments) | Effect::Unmodelled(arguments) => arguments,
-            Effect::Store(_) | Effect::End(_) => return None,
+            Effect::Event(arguments) | Effect::Unmodelled(arguments) | Effect::End(arguments) => arguments,
+            Effect::Store(_) => return None,
         };
         let mut seconds = None;
         for argument in arguments {
@@ -155,12 +165,26 @@ impl Modes {
             if matches!(number, Some(0 | 60)) {
                 seconds.get_or_insert(0.0);
             }
-            let times = &machine.control.planning.m_times;
-            if let Some((_, time)) = number.and_then(|number| times.iter().find(|(code, _)| *code == number)) {
+            if let Some(time) = number.and_then(|number| time_of(machine, number)) {
                 seconds = Some(seconds.unwrap_or(0.0) + time);
             }
         }
         seconds
+    }
+
+    /// The time of M7, M8 or M9 where it changes a coolant, s.
+    fn coolant(&mut self, flood: bool, to: &[Argument], machine: &Machine) -> Option<f64> {
+        let on = !to.is_empty();
+        if core::mem::replace(&mut self.coolants[usize::from(flood)], on) == on {
+            return None;
+        }
+        match (on, flood) {
+            (true, false) => time_of(machine, 7),
+            (true, true) => time_of(machine, 8),
+            // once, when the last one ends
+            (false, _) if self.coolants == [false; 2] => time_of(machine, 9),
+            (false, _) => None,
+        }
     }
 
     fn mode(&self, to: &[Argument]) -> PathControl {
@@ -177,4 +201,10 @@ impl Modes {
             _ => PathControl::ByMachine,
         }
     }
+}
+
+/// The time that the machine file gives an M code, s.
+fn time_of(machine: &Machine, number: u16) -> Option<f64> {
+    let times = &machine.control.planning.m_times;
+    times.iter().find(|(code, _)| *code == number).map(|(_, time)| *time)
 }

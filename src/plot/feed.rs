@@ -24,7 +24,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
             "nothing to draw: the feed of every feed block is unknown".into(),
         ));
     }
-    // a limit far above what is programmed is of no interest
+    // a limit far above what is programmed is of no interest, and not drawn
     let programmed = cuts.iter().filter_map(|block| block.feed[0]).fold(0.0, f64::max);
     let top = if programmed > 0.0 { 3.0 * programmed } else { most };
     let least = least.min(top);
@@ -42,7 +42,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     );
     let across = [across[0].max(0.0), across[1]];
     let planned = cuts.iter().any(|block| block.planned.is_some());
-    let legend = legend(&cuts, planned);
+    let legend = legend(&cuts, planned, top);
     sheet(header, &legend, |body| {
         let frame = Frame {
             x: across,
@@ -66,11 +66,17 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         };
         let panel = Panel::new(body, &frame)?;
         let stairs = |which: usize| {
+            let mut last = 0.0;
             cuts.iter().flat_map(move |block| {
                 let samples = record.of(block);
-                let way = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
-                let at = block.feed[which].map_or(f64::NAN, |feed| value(feed.min(top)).max(upwards[0]));
-                way.map(|way| (way, at))
+                let [from, to] =
+                    [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+                // nothing is drawn across a rapid, nor above the picture
+                let gap = (from - core::mem::replace(&mut last, to)).abs() > 1e-6;
+                let feed = block.feed[which].filter(|feed| *feed <= top * (1.0 + 1e-9));
+                let at = feed.map_or(f64::NAN, |feed| value(feed).max(upwards[0]));
+                let gap = gap.then_some((from, f64::NAN));
+                gap.into_iter().chain([(from, at), (to, at)])
             })
         };
         panel.line(stairs(1), BLUE, 1.6)?;
@@ -83,13 +89,19 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     })
 }
 
-fn legend(cuts: &[&Block], planned: bool) -> Vec<Entry> {
+fn legend(cuts: &[&Block], planned: bool, top: f64) -> Vec<Entry> {
+    let above = |block: &&&Block| block.feed[1].is_some_and(|feed| feed > top * (1.0 + 1e-9));
+    let limit = if cuts.iter().any(|block| above(&block)) {
+        format!("highest feed that no axis limits, where it is below {top:.0} mm/min")
+    } else {
+        "highest feed that no axis limits".to_owned()
+    };
     let low = cuts
         .iter()
         .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
         .count();
     let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), "highest feed that no axis limits".into()),
+        (Swatch::Line(BLUE), limit),
         (Swatch::Dashed(VERMILION), "programmed feed".into()),
         (
             Swatch::Dot(VERMILION),

@@ -64,7 +64,7 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
         format!("write G43 H{tool} with the first Z move after the tool change")
     };
     match (in_force.tool_length_mm, motion.other_length(in_force.own_length_mm)) {
-        (Some(active), Some(own)) => {
+        (Some(active), Some(own)) if !motion.undeclared.length => {
             out.report_block(format!(
                 "T{tool} is {} long, but cuts with an active length compensation of {}",
                 mm(own),
@@ -74,7 +74,7 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
             .value("tool_length_mm", own)
             .value("length_in_force_mm", active);
         }
-        (Some(_), None) => {
+        (Some(_), _) => {
             // where both lengths are declared they are the same
             let known = in_force.own_length_mm.is_some() && !motion.undeclared.length;
             if let LengthOf::Tool(Some(number)) = in_force.length_of

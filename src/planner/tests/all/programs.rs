@@ -321,6 +321,27 @@ fn stops_and_tool_changes_of_the_program() {
     assert!((planned("T1 M6\nT0 M6\nM30\n") - 14.0).abs() < 1e-9);
 }
 
+/// A code that changes nothing takes no time; each change takes its own.
+#[test]
+fn m_codes_take_their_times() {
+    let machine = with(
+        "family = \"generic\"\nplanner = { m_times = { M3 = 1, M5 = 2, M7 = 4, M8 = 8, M9 = 16, M30 = 32, M2 = 64 } }",
+    );
+    for (dialect, text, seconds) in [
+        ("fanuc-30i", "M30\n", 32.0),
+        (
+            "fanuc-30i",
+            "S1000 M3\nM8\nM8\nM9\nM9\nM5\nM30\n",
+            1.0 + 8.0 + 16.0 + 2.0 + 32.0,
+        ),
+        ("linuxcnc", "M7\nM8\nM9\nM2\n", 4.0 + 8.0 + 16.0 + 64.0),
+        ("linuxcnc", "T1 M6\nM2\n", 64.0),
+    ] {
+        let found = clock(&machine, dialect, text)[1];
+        assert!((found - seconds).abs() < 1e-9, "{dialect} {text}: {found}");
+    }
+}
+
 /// The slower one counts of what a machine may do that does not say how it moves in a rapid.
 #[test]
 fn an_undeclared_rapid_is_planned_as_the_slower_kind() {

@@ -56,6 +56,11 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
         bar.inc(1);
     }
     bar.finish_and_clear();
+    if parts.is_empty() && !failures.is_empty() {
+        return Err(Failure::new(
+            "no program could be read (see above), so no page was written",
+        ));
+    }
     target.write(page::page(&parts, &failures).as_bytes(), None)?;
     remark(
         global.quiet,

@@ -25,11 +25,19 @@ impl Post {
                 Some(if name == "title" { String::new() } else { "1".to_owned() })
             });
             for ask in asked_in(text.unwrap_or_default().as_bytes(), dialect) {
-                if let Ask::Own(own) = ask {
+                if let Ask::Own(own) = ask
+                    && (meaning.is_some() || is_code(&own.text))
+                {
                     all.push((own.text, meaning.clone()));
                 }
             }
         }
         all
     }
+}
+
+/// A G or M code: coordinates and words that a template fills in are none.
+fn is_code(text: &str) -> bool {
+    let number = text.strip_prefix(['G', 'M']).unwrap_or_default();
+    !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
 }

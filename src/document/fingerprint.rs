@@ -106,18 +106,14 @@ fn plain(line: &[u8]) -> Vec<u8> {
         .map(u8::to_ascii_uppercase)
         .collect();
     let skip = usize::from(text.first() == Some(&b'/'));
-    match text.get(skip..).and_then(|rest| rest.strip_prefix(b"N")) {
-        Some(rest) => {
-            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
-            if digits == 0 {
-                return text;
-            }
-            let mut out = text[..skip].to_vec();
-            out.extend_from_slice(&rest[digits..]);
-            out
-        }
-        None => text,
+    let (skipped, rest) = text.split_at(skip);
+    // `N10`, or the bare number of Klartext
+    let rest = rest.strip_prefix(b"N").unwrap_or(rest);
+    let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    if digits == 0 || digits == rest.len() {
+        return text;
     }
+    [skipped, &rest[digits..]].concat()
 }
 
 #[cfg(test)]
@@ -129,6 +125,8 @@ mod tests {
         assert_eq!(plain(b"N10 g1 X5."), plain(b"N0200G1X5."));
         assert_eq!(plain(b"/N10 G1"), b"/G1");
         assert_eq!(plain(b"NX=5"), b"NX=5");
+        assert_eq!(plain(b"12 L X+5"), plain(b"13 L  X+5"));
+        assert_eq!(plain(b"N10"), b"N10");
         assert_ne!(plain(b"G1 X5."), plain(b"G1 X6."));
         assert_eq!(line_at(b"a\nbc\rd", 3), (2, &b"bc"[..]));
         assert_eq!(line_at(b"a\nbc", 4), (2, &b"bc"[..]));

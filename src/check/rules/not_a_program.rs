@@ -42,8 +42,16 @@ fn check(foreign: &Foreign, out: &mut Reporter<'_>) {
     } else {
         TextRange::new(0, u32::from(!source.is_empty()))
     };
-    out.report(range, format!("this is {what}"))
+    let (what, help) = if crate::unreadable::is_utf16(source) {
+        (
+            "this file is UTF-16, which no control reads".to_owned(),
+            "save it as UTF-8 or ASCII",
+        )
+    } else {
+        (format!("this is {what}"), "name the program, or leave this file out")
+    };
+    out.report(range, what)
         .note("nothing in it was checked")
-        .help("name the program, or leave this file out")
+        .help(help)
         .unknown();
 }

@@ -124,7 +124,7 @@ fn extents(tally: &Tally) -> Table {
 fn times(tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Vec<Vec<String>> {
     let time = match cycle_time_s {
         Some([low, high]) => format!("{} to {}", clock(low), clock(high)),
-        None => "unknown (no machine, no feed or no acceleration declared)".to_owned(),
+        None => "unknown (`trunnion stats --time` says which motions are not known)".to_owned(),
     };
     let mut rows = vec![
         vec!["cycle time".to_owned(), time],

@@ -54,7 +54,7 @@ impl Space {
             .obstacles
             .iter()
             .find(|obstacle| !obstacle.is_part())
-            .ok_or("no obstacle is declared")?;
+            .ok_or("no obstacle is declared: [[obstacle]] in trunnion.toml or in the machine file")?;
         let frame_of = |obstacle: &Obstacle| {
             let missing = || format!("the machine lacks the axis that {} moves with", obstacle.name);
             obstacle.frame(machine).ok_or_else(missing)

@@ -137,8 +137,10 @@ impl<'d> Iso<'d> {
         if let Some(mode) = crate::feed_speed::meaning_of_feed(found.code) {
             self.feed_mode(mode);
         }
-        if found.code.group.as_deref() == Some("feed-profile") {
-            self.core.feed_profile = found.code.action != Action::NoMotion;
+        match found.code.group.as_deref() {
+            Some("feed-profile") => self.core.feed_profile = found.code.action != Action::NoMotion,
+            Some("feed-mode") => self.core.feed_mode_unread = found.code.action == Action::NotModelled,
+            _ => {}
         }
         let state = &mut self.core.state;
         self.core.unknown.restore_known(found.code);

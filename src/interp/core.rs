@@ -42,6 +42,8 @@ pub(crate) struct Core<'d> {
     pub(crate) feed_unread: bool,
     /// The feed changes along each motion (FLIN, FCUB, FPO of a Sinumerik).
     pub(crate) feed_profile: bool,
+    /// What F means is not modelled (G931).
+    pub(crate) feed_mode_unread: bool,
     /// It was reported that cutter compensation is not followed.
     pub(crate) compensation_reported: bool,
     /// Work offsets that were reported as missing.
@@ -106,6 +108,7 @@ impl<'d> Core<'d> {
             losses: 0,
             feed_unread: false,
             feed_profile: false,
+            feed_mode_unread: false,
             compensation_reported: false,
             offsets_reported: Reported::default(),
             last_content: None,
@@ -188,6 +191,7 @@ impl<'d> Core<'d> {
             return Feed::Rapid;
         }
         match self.state.feed.value() {
+            _ if self.feed_mode_unread => Feed::Unknown,
             Some(_) if self.feed_profile => Feed::Unknown,
             Some(feed) if feed > 0.0 => match self.state.feed.mode() {
                 FeedMode::PerMinute => Feed::PerMinute(feed),

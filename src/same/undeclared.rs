@@ -18,13 +18,13 @@ fn is_undeclared(kind: &FaultKind) -> bool {
     )
 }
 
-/// Names of the zero points and of the tool lengths, each once, where there are at least two: one has no relation to another.
-fn related(unset: &[FaultKind]) -> [Vec<String>; 2] {
+/// Names of the zero points and of the tool lengths, each once.
+fn named(unset: &[FaultKind]) -> [Vec<String>; 2] {
     let names = |of: fn(&FaultKind) -> Option<String>| {
         let mut names: Vec<String> = unset.iter().filter_map(of).collect();
         names.sort_unstable();
         names.dedup();
-        if names.len() < 2 { Vec::new() } else { names }
+        names
     };
     let zeros = names(|kind| match kind {
         FaultKind::WorkOffsetUnset { name } => Some(offset_name(name).to_string()),
@@ -37,11 +37,10 @@ fn related(unset: &[FaultKind]) -> [Vec<String>; 2] {
     [zeros, lengths]
 }
 
-/// The setup with stand-ins for the zero points and tool lengths of `unset`, where these make a difference: see [`with_stand_ins`]. `None`:
-/// there are less than two of a kind.
+/// The setup with stand-ins for the zero points and tool lengths of `unset`: see [`with_stand_ins`]. One alone has a relation too: to positions
+/// in the machine's frame (G53, a reference point), and to motions without a length. `None`: everything is declared.
 pub fn unrelated(setup: &Setup, unset: &[FaultKind]) -> Option<Setup> {
-    let some = related(unset).iter().any(|names| !names.is_empty());
-    some.then(|| with_stand_ins(setup, unset))
+    unset.iter().any(is_undeclared).then(|| with_stand_ins(setup, unset))
 }
 
 /// The setup with stand-ins for the zero points and tool lengths of `unset`. They are unlike each other and no sums of each other, so that
@@ -101,14 +100,15 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
 
 /// Why two programs that are the same with all of `unset` at 0 are not proved to be: one sentence.
 pub fn only_by_chance(unset: &[FaultKind]) -> String {
-    let [mut names, lengths] = related(unset);
+    let [mut names, lengths] = named(unset);
     let flags = [(names.is_empty(), "work-offset"), (lengths.is_empty(), "tool-length")];
     let flags: Vec<&str> = flags.iter().filter(|(none, _)| !none).map(|(_, flag)| *flag).collect();
     names.extend(lengths);
+    let (verb, them) = if names.len() == 1 { ("is", "it") } else { ("are", "them") };
     let last = names.pop().unwrap_or_default();
+    let all = if names.is_empty() { last } else { format!("{} and {last}", names.join(", ")) };
     format!(
-        "they are the same only for certain values of {} and {last}, which are not declared: declare them, or take them as zero with --assume {}",
-        names.join(", "),
+        "they are the same only for certain values of {all}, which {verb} not declared: declare {them}, or take {them} as zero with --assume {}",
         flags.join(",")
     )
 }

@@ -225,14 +225,14 @@ pub(super) const STATE: &[Item] = &[
         "G49 alone",
         ["fanuc-30i", ""],
         [LENGTHS, "G49\nX5.\nZ120.\nX6.\nM5\nM30\n"],
-        &["8 unknown not-modelled"],
+        &["7 unknown not-modelled", "8 unknown not-modelled"],
         [3, 5],
     ),
     (
-        "G49 before absolute and machine coordinates",
+        "G49 alone before absolute and machine coordinates",
         ["fanuc-30i", ""],
         [LENGTHS, "G49\nZ120.\nG43 H1 Z50.\nG49\nG53 Z0.\nM5\nM30\n"],
-        &[],
+        &["7 unknown not-modelled", "10 unknown not-modelled"],
         [4, 5],
     ),
     (

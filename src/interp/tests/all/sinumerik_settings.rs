@@ -201,6 +201,12 @@ fn a_cutting_speed_sets_the_meaning_of_f() {
         ("G962 S200", "L X10 Y0 Z0 F100"),
         ("G95 F0.3\nG972 S200", "L X10 Y0 Z0 F0.3/rev"),
         ("G97 S2000\nG94", "L X10 Y0 Z0"),
+        ("G942", "L X10 Y0 Z0 F100"),
+        ("G95 F0.3\nG942 F90", "L X10 Y0 Z0 F90"),
+        ("G952 F0.2", "L X10 Y0 Z0 F0.2/rev"),
+        ("G95 F0.3\nG952", "L X10 Y0 Z0 F0.3/rev"),
+        ("G931 F2", "L X10 Y0 Z0 F?"),
+        ("G931 F2\nG94 F80", "L X10 Y0 Z0 F80"),
     ] {
         let text = format!("{head}{codes}\nG1 X10\n");
         let found = lines("sinumerik-840d", &text);

@@ -80,13 +80,23 @@ impl Iso<'_> {
             self.memory.length_open = None;
             return;
         }
-        let known = self.core.state.position.known & axes == axes;
-        if nothing || !known || mode == LengthChange::Shifts || self.leads_absolutely(axes, words, block) {
+        if nothing || mode == LengthChange::Shifts || self.leads_absolutely(axes, words, block) {
             return;
         }
         let moves = words.axes.any() || takes_over(words, block);
         let straight = matches!(self.core.state.motion, Some(Action::Rapid | Action::Linear));
         let plain = straight && !takes_over(words, block) && !block.machine_coordinates;
+        let known = self.core.state.position.known & axes == axes;
+        let lowers = change < 0.0 || unclear && before.mm().is_some();
+        let alone = !moves && !block.machine_coordinates && !before.is_open();
+        if alone && lowers && mode == LengthChange::Undeclared && (known || self.memory.length_open.is_some()) {
+            let what = "a tool length that ends or gets shorter in a block without its axis: whether the axis travels the change, towards the part (Fanuc: 5006 \
+                        bit 6, TOS) (declare `length-change` in the [quirks] of a dialect table, or write both in one block: `G0 G49 Z100.`)";
+            report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
+        }
+        if !known {
+            return;
+        }
         let mut base = self.core.state.position;
         // the programmed position of before
         let mut place = base;
@@ -101,14 +111,7 @@ impl Iso<'_> {
             }
             return;
         }
-        let still = plain && !moves && !before.is_open();
-        let lowers = change < 0.0 || unclear && before.mm().is_some();
-        if still && lowers {
-            let what = "a tool length that ends or gets shorter in a block without its axis: whether the axis travels the change, towards the part (Fanuc: 5006 \
-                        bit 6, TOS) (declare `length-change` in the [quirks] of a dialect table, or write both in one block: `G0 G49 Z100.`)";
-            let kind = FaultKind::NotModelled { what: what.to_owned() };
-            report.fault(report.whole(), kind);
-        }
+        let still = plain && alone;
         let stood = (before, self.core.state.zero.clone(), place);
         self.memory.length_open = Some(Open {
             stood: still.then_some(stood),

@@ -49,6 +49,8 @@ pub(crate) struct Run<'a> {
     pub(crate) missing: Vec<BlockId>,
     /// Faults, if they are requested.
     faults: Option<Vec<Fault>>,
+    /// Work offsets that motions depend on and nobody declares, with the faults; `None`: the zero point without one.
+    zeros: Vec<Option<Arc<str>>>,
     /// Effects with their numbers in the run, if they are requested.
     log: Option<Vec<(u32, Placed)>>,
 }
@@ -58,6 +60,12 @@ impl Sink for Run<'_> {
         if self.motions.len() >= self.most_in_block {
             self.give_up(motion.block);
             return;
+        }
+        if motion.undeclared.zero != 0 && self.faults.is_some() {
+            let offset = state.zero.offset();
+            if !self.zeros.iter().any(|known| known.as_deref() == offset) {
+                self.zeros.push(state.zero.offset_name());
+            }
         }
         let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
         self.motions.push_back((*motion, leg, Held::new(state)));
@@ -149,6 +157,7 @@ impl<'a> Steps<'a> {
                 given_up: false,
                 missing: Vec::new(),
                 faults: None,
+                zeros: Vec::new(),
                 log: None,
             },
             ready: VecDeque::new(),
@@ -240,6 +249,11 @@ impl<'a> Steps<'a> {
     /// What was found wrong since the last call.
     pub fn take_faults(&mut self) -> Vec<Fault> {
         self.run.faults.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Work offsets that motions depended on and nobody declares, since the last call; with [`Steps::watch_faults`].
+    pub(crate) fn take_zeros(&mut self) -> Vec<Option<Arc<str>>> {
+        std::mem::take(&mut self.run.zeros)
     }
 
     /// What the program did in the blocks that have run.

@@ -1,14 +1,22 @@
 //! What nobody declares, and what two programs still have in common.
 use crate::{Steps, offset_name};
-use trunnion_interp::{FaultKind, Setup, Tool, WorkOffset};
+use trunnion_interp::{FaultKind, Setup, Tool, UNNAMED_ZERO, WorkOffset};
+use trunnion_syntax::Format;
 
 /// Stand-ins of rotary axes are small, so that no axis leaves its travel because of them: 0.07 to 1.07 deg, where linear axes have 7 to 107 mm.
 const DEG_PER_MM: f64 = 0.01;
 
-/// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name.
+/// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name. The zero point at power-on is
+/// one, though no word of the program selects it.
 pub fn undeclared(steps: &mut Steps<'_>) -> Vec<FaultKind> {
-    let kinds = steps.take_faults().into_iter().map(|fault| fault.kind);
-    kinds.filter(is_undeclared).collect()
+    let dialect = steps.input().dialect;
+    let first = dialect.quirks.first_offset_at_start || dialect.lex.format == Format::Apt;
+    let unnamed = if first { "G54" } else { UNNAMED_ZERO };
+    let zeros = steps.take_zeros().into_iter().map(|name| FaultKind::WorkOffsetUnset {
+        name: name.as_deref().unwrap_or(unnamed).to_owned(),
+    });
+    let faults = steps.take_faults().into_iter().map(|fault| fault.kind);
+    faults.filter(is_undeclared).chain(zeros).collect()
 }
 
 fn is_undeclared(kind: &FaultKind) -> bool {
@@ -27,6 +35,9 @@ fn named(unset: &[FaultKind]) -> [Vec<String>; 2] {
         names
     };
     let zeros = names(|kind| match kind {
+        FaultKind::WorkOffsetUnset { name } if name == UNNAMED_ZERO => {
+            Some(format!("the zero point without a work offset ({UNNAMED_ZERO})"))
+        }
         FaultKind::WorkOffsetUnset { name } => Some(offset_name(name).to_string()),
         _ => None,
     });

@@ -212,7 +212,9 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
 /// claimed to be zero.
 fn claim_for_all(claim: &Claim) -> Option<Claim> {
     match claim {
-        Claim::ClearRapids { assumed_zeros, .. } | Claim::InsertedRetracts { assumed_zeros, .. } if *assumed_zeros => None,
+        Claim::ClearRapids { assumed_zeros, .. } | Claim::InsertedRetracts { assumed_zeros, .. } if *assumed_zeros => {
+            None
+        }
         // how fast the axes are depends on where the part is
         Claim::AdaptedFeed {
             tolerance_mm,

@@ -7,6 +7,7 @@ use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
 use crate::process::{Held, Process};
 use crate::since::Since;
+use crate::undeclared::Zeros;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trunnion_interp::{Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, is_left};
@@ -49,8 +50,7 @@ pub(crate) struct Run<'a> {
     pub(crate) missing: Vec<BlockId>,
     /// Faults, if they are requested.
     faults: Option<Vec<Fault>>,
-    /// Work offsets that motions depend on and nobody declares, with the faults; `None`: the zero point without one.
-    zeros: Vec<Option<Arc<str>>>,
+    pub(crate) zeros: Zeros,
     /// Effects with their numbers in the run, if they are requested.
     log: Option<Vec<(u32, Placed)>>,
 }
@@ -61,12 +61,7 @@ impl Sink for Run<'_> {
             self.give_up(motion.block);
             return;
         }
-        if motion.undeclared.zero != 0 && self.faults.is_some() {
-            let offset = state.zero.offset();
-            if !self.zeros.iter().any(|known| known.as_deref() == offset) {
-                self.zeros.push(state.zero.offset_name());
-            }
-        }
+        self.zeros.note(motion, state);
         let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
         self.motions.push_back((*motion, leg, Held::new(state)));
     }
@@ -157,7 +152,7 @@ impl<'a> Steps<'a> {
                 given_up: false,
                 missing: Vec::new(),
                 faults: None,
-                zeros: Vec::new(),
+                zeros: Zeros::default(),
                 log: None,
             },
             ready: VecDeque::new(),
@@ -249,11 +244,6 @@ impl<'a> Steps<'a> {
     /// What was found wrong since the last call.
     pub fn take_faults(&mut self) -> Vec<Fault> {
         self.run.faults.as_mut().map(std::mem::take).unwrap_or_default()
-    }
-
-    /// Work offsets that motions depended on and nobody declares, since the last call; with [`Steps::watch_faults`].
-    pub(crate) fn take_zeros(&mut self) -> Vec<Option<Arc<str>>> {
-        std::mem::take(&mut self.run.zeros)
     }
 
     /// What the program did in the blocks that have run.

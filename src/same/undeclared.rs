@@ -1,10 +1,25 @@
 //! What nobody declares, and what two programs still have in common.
 use crate::{Steps, offset_name};
-use trunnion_interp::{FaultKind, Setup, Tool, UNNAMED_ZERO, WorkOffset};
+use std::sync::Arc;
+use trunnion_interp::{FaultKind, ModalState, Motion, Setup, Tool, UNNAMED_ZERO, WorkOffset};
 use trunnion_syntax::Format;
 
 /// Stand-ins of rotary axes are small, so that no axis leaves its travel because of them: 0.07 to 1.07 deg, where linear axes have 7 to 107 mm.
 const DEG_PER_MM: f64 = 0.01;
+
+/// Work offsets that the motions of a run depend on and nobody declares; `None`: the zero point without one.
+#[derive(Default)]
+pub(crate) struct Zeros(Vec<Option<Arc<str>>>);
+
+impl Zeros {
+    #[inline]
+    pub(crate) fn note(&mut self, motion: &Motion, state: &ModalState) {
+        let offset = state.zero.offset();
+        if motion.undeclared.zero != 0 && !self.0.iter().any(|known| known.as_deref() == offset) {
+            self.0.push(state.zero.offset_name());
+        }
+    }
+}
 
 /// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name. The zero point at power-on is
 /// one, though no word of the program selects it.
@@ -12,9 +27,12 @@ pub fn undeclared(steps: &mut Steps<'_>) -> Vec<FaultKind> {
     let dialect = steps.input().dialect;
     let first = dialect.quirks.first_offset_at_start || dialect.lex.format == Format::Apt;
     let unnamed = if first { "G54" } else { UNNAMED_ZERO };
-    let zeros = steps.take_zeros().into_iter().map(|name| FaultKind::WorkOffsetUnset {
-        name: name.as_deref().unwrap_or(unnamed).to_owned(),
-    });
+    let zeros = std::mem::take(&mut steps.run.zeros)
+        .0
+        .into_iter()
+        .map(|name| FaultKind::WorkOffsetUnset {
+            name: name.as_deref().unwrap_or(unnamed).to_owned(),
+        });
     let faults = steps.take_faults().into_iter().map(|fault| fault.kind);
     faults.filter(is_undeclared).chain(zeros).collect()
 }
@@ -115,9 +133,17 @@ pub fn only_by_chance(unset: &[FaultKind]) -> String {
     let flags = [(names.is_empty(), "work-offset"), (lengths.is_empty(), "tool-length")];
     let flags: Vec<&str> = flags.iter().filter(|(none, _)| !none).map(|(_, flag)| *flag).collect();
     names.extend(lengths);
-    let (verb, them) = if names.len() == 1 { ("is", "it") } else { ("are", "them") };
+    let (verb, them) = if names.len() == 1 {
+        ("is", "it")
+    } else {
+        ("are", "them")
+    };
     let last = names.pop().unwrap_or_default();
-    let all = if names.is_empty() { last } else { format!("{} and {last}", names.join(", ")) };
+    let all = if names.is_empty() {
+        last
+    } else {
+        format!("{} and {last}", names.join(", "))
+    };
     format!(
         "they are the same only for certain values of {all}, which {verb} not declared: declare {them}, or take {them} as zero with --assume {}",
         flags.join(",")

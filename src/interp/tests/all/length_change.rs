@@ -129,17 +129,28 @@ fn what_moves_nothing_or_leads_to_a_place_is_clean() {
 /// With TOS = 0 the axis goes down by the length in the block of G49, whatever follows.
 #[test]
 fn a_length_that_ends_without_its_axis_is_unknown() {
-    for rest in ["G49\nZ160.\n", "G49\nG53 Z0.\n", "G49\nG28 G91 Z0.\n", "G43 H2 Z50.\nH1\nZ60.\n"] {
+    for rest in [
+        "G49\nZ160.\n",
+        "G49\nG53 Z0.\n",
+        "G49\nG28 G91 Z0.\n",
+        "G43 H2 Z50.\nH1\nZ60.\n",
+    ] {
         let (found, faults) = after("", rest);
         assert_eq!(faults, 1, "{rest}: {found:?}");
         assert_eq!(after(SHIFTS, rest).1, 0, "{rest}");
         assert_eq!(after(MOVES, rest).1, 0, "{rest}");
     }
     let (_, log) = run_bytes("fanuc-30i", b"G54 G0 X0. Y0.\nG43 H7 Z50.\nG49\nZ160.\nM30\n", &setup());
-    let end = log.faults.iter().filter(|fault| format!("{fault:?}").contains("ends or gets shorter"));
+    let end = log
+        .faults
+        .iter()
+        .filter(|fault| format!("{fault:?}").contains("ends or gets shorter"));
     assert_eq!(end.count(), 1, "{:?}", log.faults);
     let (_, log) = run_bytes("fanuc-30i", b"G54 G0 X0. Y0. Z9.\nG43 H7\nZ160.\nM30\n", &setup());
-    let end = log.faults.iter().filter(|fault| format!("{fault:?}").contains("ends or gets shorter"));
+    let end = log
+        .faults
+        .iter()
+        .filter(|fault| format!("{fault:?}").contains("ends or gets shorter"));
     assert_eq!(end.count(), 0, "{:?}", log.faults);
 }
 

@@ -6,7 +6,7 @@ use crate::conversion::is_grave;
 use crate::{Outcome, switch};
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, Lacks, Position, Setup};
-use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed, with_stand_ins};
+use trunnion_same::{Apart, Change, Input, Steps, Verdict, compare_changed, undeclared, with_stand_ins};
 use trunnion_syntax::{BlockId, Program};
 
 /// Why an edit is not proved.
@@ -91,7 +91,7 @@ fn run(programs: [&Program; 2], dialect: &Dialect, setup: &Setup, change: &Chang
         let mut steps = Steps::new(input(program, dialect, setup));
         steps.watch_faults();
         while steps.next().is_some() {}
-        unset.extend(steps.take_faults().into_iter().map(|fault| fault.kind));
+        unset.extend(undeclared(&mut steps));
     }
     let setup = with_levels(with_stand_ins(setup, &unset));
     let [mut old, mut new] = programs.map(|program| Steps::new(input(program, dialect, &setup)));

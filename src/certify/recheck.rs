@@ -191,12 +191,13 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
     } = question;
     let (proved, unset) = prove_run(question)?;
     if texts[0] != texts[1]
-        && matches!(claim, Claim::SameToolPath { .. } | Claim::SamePath { .. })
+        && let Some(claim) = &claim_for_all(claim)
         && let Some(unrelated) = unrelated(setup, &unset)
     {
         // only that they differ counts: with stand-ins a pose may be out of reach
         let again = prove_run(Question {
             setup: &unrelated,
+            claim,
             ..question
         });
         if let Err(Outcome::Refuted(found)) = again {
@@ -205,6 +206,27 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
         }
     }
     Ok(proved)
+}
+
+/// What of a claim must hold with any values of what nobody declares. `None`: nothing, as only numbers of coordinates differ, or these values are
+/// claimed to be zero.
+fn claim_for_all(claim: &Claim) -> Option<Claim> {
+    match claim {
+        Claim::ClearRapids { assumed_zeros, .. } | Claim::InsertedRetracts { assumed_zeros, .. } if *assumed_zeros => {
+            None
+        }
+        // how fast the axes are depends on where the part is
+        Claim::AdaptedFeed {
+            tolerance_mm,
+            tolerance_deg,
+            ..
+        } => Some(Claim::SamePath {
+            tolerance_mm: *tolerance_mm,
+            tolerance_deg: *tolerance_deg,
+        }),
+        claim if claim.is_rewrite() => None,
+        claim => Some(claim.clone()),
+    }
 }
 
 /// The proof with the values that the setup declares, all others at 0, and what was not declared.

@@ -53,10 +53,12 @@ pub(crate) struct BlockCodes {
 
 /// Place in the order of execution (RS274/NGC, version 3, section 3.8: feed mode, F, S, T, tool change, spindle, dwell, plane,
 /// units, compensation, length, work offset, distance mode, motion, stop). Units come first, so that F of the same block has them.
-fn rank(action: Action) -> u8 {
-    match action {
+fn rank(code: &Code) -> u8 {
+    if crate::feed_speed::meaning_of_feed(code).is_some() {
+        return 1;
+    }
+    match code.action {
         Action::Inch | Action::InchLengthsOnly | Action::Metric => 0,
-        Action::FeedInverseTime | Action::FeedPerMinute | Action::FeedPerRevolution => 1,
         Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => 2,
         Action::Dwell => 3,
         Action::ToolChange => FIRST_AFTER_WORDS,
@@ -85,7 +87,7 @@ impl<'d> Iso<'d> {
     pub(crate) fn apply(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> BlockCodes {
         if codes.len() > 1 {
             conflicts(codes, report);
-            codes.sort_by_key(|found| rank(found.code.action));
+            codes.sort_by_key(|found| rank(found.code));
         }
         let mut block = BlockCodes {
             count: codes.len(),
@@ -99,7 +101,7 @@ impl<'d> Iso<'d> {
         let mut rest = &*codes;
         while let Some((found, after)) = rest
             .split_first()
-            .filter(|(found, _)| rank(found.code.action) < FIRST_AFTER_WORDS)
+            .filter(|(found, _)| rank(found.code) < FIRST_AFTER_WORDS)
         {
             self.apply_code(found, words, &mut block, report);
             rest = after;
@@ -138,8 +140,10 @@ impl<'d> Iso<'d> {
         if let Some(mode) = crate::feed_speed::meaning_of_feed(found.code) {
             self.feed_mode(mode);
         }
-        if found.code.group.as_deref() == Some("feed-profile") {
-            self.core.feed_profile = found.code.action != Action::NoMotion;
+        match found.code.group.as_deref() {
+            Some("feed-profile") => self.core.feed_profile = found.code.action != Action::NoMotion,
+            Some("feed-mode") => self.core.feed_mode_unread = found.code.action == Action::NotModelled,
+            _ => {}
         }
         let state = &mut self.core.state;
         self.core.unknown.restore_known(found.code);

@@ -44,6 +44,8 @@ pub(crate) struct Core<'d> {
     pub(crate) feed_profile: bool,
     /// The program sets another share of the feed, or of the rapid, than 100 %.
     pub(crate) overridden: (bool, bool),
+    /// What F means is not modelled (G931).
+    pub(crate) feed_mode_unread: bool,
     /// It was reported that cutter compensation is not followed.
     pub(crate) compensation_reported: bool,
     /// Work offsets that were reported as missing.
@@ -109,6 +111,7 @@ impl<'d> Core<'d> {
             feed_unread: false,
             feed_profile: false,
             overridden: (false, false),
+            feed_mode_unread: false,
             compensation_reported: false,
             offsets_reported: Reported::default(),
             last_content: None,
@@ -191,6 +194,7 @@ impl<'d> Core<'d> {
             return if self.overridden.1 { Feed::Unknown } else { Feed::Rapid };
         }
         match self.state.feed.value() {
+            _ if self.feed_mode_unread => Feed::Unknown,
             Some(_) if self.feed_profile || self.overridden.0 => Feed::Unknown,
             Some(feed) if feed > 0.0 => match self.state.feed.mode() {
                 FeedMode::PerMinute => Feed::PerMinute(feed),

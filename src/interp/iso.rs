@@ -241,8 +241,10 @@ impl<'d> Iso<'d> {
         }
         self.length_travels(words, &block, report);
         let returned = self
-            .memory
-            .length_returned
+            .core
+            .state
+            .length
+            .is_open()
             .then(|| self.after_return(words, &block, report));
         let mut motion = self.motion(codes, returned.flatten().as_ref().unwrap_or(words), &block, report);
         self.memory.length_base = None;

@@ -12,11 +12,7 @@ use trunnion_vocabulary::{ToolLength, Zero};
 
 /// What was in effect before the first code of a block that may change the length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Before {
-    length: ToolLength,
-    /// A motion in machine coordinates had cancelled it.
-    returned: bool,
-}
+pub(crate) struct Before(ToolLength);
 
 /// The length has changed, and where the axis of the tool is since then is not known.
 #[derive(Clone, Debug)]
@@ -29,10 +25,7 @@ pub(crate) struct Open {
 impl Iso<'_> {
     /// A code is about to set the length.
     pub(crate) fn note_length(&mut self) {
-        let before = Before {
-            length: self.core.state.length,
-            returned: std::mem::take(&mut self.memory.length_returned),
-        };
+        let before = Before(self.core.state.length);
         self.memory.length_before.get_or_insert(before);
     }
 
@@ -66,14 +59,14 @@ impl Iso<'_> {
         }
     }
 
-    fn new_length(&mut self, before: Before, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
+    fn new_length(&mut self, Before(before): Before, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
         let mode = self.core.dialect.quirks.length_change;
         let now = self.core.state.length;
-        let other = before.returned || before.length.of() != now.of();
-        let unclear = other && (before.length.is_undeclared() || now.is_undeclared());
-        let change = now.mm().unwrap_or(0.0) - before.length.mm().unwrap_or(0.0);
+        let other = before.is_open() || before.of() != now.of();
+        let unclear = other && (before.is_undeclared() || now.is_undeclared());
+        let change = now.mm().unwrap_or(0.0) - before.mm().unwrap_or(0.0);
         // what a return has cancelled is not cancelled again
-        let nothing = change == 0.0 && !unclear || before.returned && now.mm().is_none();
+        let nothing = change == 0.0 && !unclear || before.is_open() && now.mm().is_none();
         let axes = self.length_axes();
         let stood = self.memory.length_open.as_ref().and_then(|open| open.stood.clone());
         if let Some((length, zero, place)) = stood
@@ -87,13 +80,23 @@ impl Iso<'_> {
             self.memory.length_open = None;
             return;
         }
-        let known = self.core.state.position.known & axes == axes;
-        if nothing || !known || mode == LengthChange::Shifts || self.leads_absolutely(axes, words, block) {
+        if nothing || mode == LengthChange::Shifts || self.leads_absolutely(axes, words, block) {
             return;
         }
         let moves = words.axes.any() || takes_over(words, block);
         let straight = matches!(self.core.state.motion, Some(Action::Rapid | Action::Linear));
         let plain = straight && !takes_over(words, block) && !block.machine_coordinates;
+        let known = self.core.state.position.known & axes == axes;
+        let lowers = change < 0.0 || unclear && before.mm().is_some();
+        let alone = !moves && !block.machine_coordinates && !before.is_open();
+        if alone && lowers && mode == LengthChange::Undeclared && (known || self.memory.length_open.is_some()) {
+            let what = "a tool length that ends or gets shorter in a block without its axis: whether the axis travels the change, towards the part (Fanuc: 5006 \
+                        bit 6, TOS) (declare `length-change` in the [quirks] of a dialect table, or write both in one block: `G0 G49 Z100.`)";
+            report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
+        }
+        if !known {
+            return;
+        }
         let mut base = self.core.state.position;
         // the programmed position of before
         let mut place = base;
@@ -108,8 +111,8 @@ impl Iso<'_> {
             }
             return;
         }
-        let still = plain && !moves && !before.returned;
-        let stood = (before.length, self.core.state.zero.clone(), place);
+        let still = plain && alone;
+        let stood = (before, self.core.state.zero.clone(), place);
         self.memory.length_open = Some(Open {
             stood: still.then_some(stood),
         });
@@ -178,7 +181,7 @@ impl Iso<'_> {
                 if length.is_undeclared() {
                     self.core.state.length.set_declared(None, length.of());
                 }
-                self.memory.length_returned = true;
+                self.core.state.length.leave_open();
             }
         }
     }

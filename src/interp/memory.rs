@@ -41,8 +41,6 @@ pub(crate) struct Memory<'d> {
     pub(crate) length_base: Option<crate::Position>,
     /// Where the axis of the tool is since its length has changed is not known.
     pub(crate) length_open: Option<crate::length_change::Open>,
-    /// A motion in machine coordinates has cancelled the length in force, and it is not known when it acts again.
-    pub(crate) length_returned: bool,
     /// The zero point that is in effect again after this block: its name, its values, the axes for which it is not declared.
     pub(crate) zero_after: Option<ZeroBefore>,
     pub(crate) before_cycle: Option<Action>,

@@ -3,7 +3,7 @@ use crate::Claim;
 use crate::item::Step;
 use crate::process::{motion_difference, unlike};
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::{MotionKind, Orientation};
+use trunnion_interp::{MotionKind, Orientation, same_number};
 
 /// What must be in effect in both programs, whatever the kinds of the two motions.
 pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
@@ -21,6 +21,13 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
     let straight = |kind: &MotionKind| matches!(kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Dwell(_));
     // lines that became an arc did not need a plane
     let plane = claim.plane_counts || !straight(&a.kind) || was.held.compensation != 0;
+    let other_length = !claim.across || !same_number(a.tool_length_mm, b.tool_length_mm);
+    if was.held.length_is_open != is.held.length_is_open && other_length {
+        return unknown(
+            "in one of them a motion in machine coordinates came after the tool length, and whether it acts again is unknown (declare `length-after-return` in the [quirks] of a dialect table)"
+                .to_owned(),
+        );
+    }
     let held = was.held.difference(&is.held, plane).filter(|_| !claim.across);
     if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {
         return differs(format!("{name} differs: {from} and {to}"));

@@ -1,5 +1,5 @@
 //! What a program does, step by step: motions, events, stored data.
-use crate::process::{Held, Process};
+use crate::process::{Held, Process, Restated};
 use std::sync::Arc;
 use trunnion_interp::{Argument, Effect, Motion, Reach, Situation, Value};
 use trunnion_machine::Leg;
@@ -102,7 +102,7 @@ pub(crate) struct Waiting {
 pub(crate) enum Waits {
     Effect(Effect, Reach),
     /// A word of a group was programmed after something ran that may have changed everything: see [`Process::note`].
-    Restated(String, Vec<Argument>),
+    Restated(Restated, Vec<Argument>),
     /// Such a thing ran.
     Lost,
     /// Data that offsets are read from may have been written: see [`Process::note`].

@@ -1,6 +1,6 @@
 //! What is recorded at a block apart from its effects: what something unmodelled could read, and words that restate what may be lost.
 use crate::item::{Around, Waiting, Waits};
-use crate::process::{Process, READ_AGAIN};
+use crate::process::{Process, Restated};
 use crate::since::{keeps_place, only_steers, reads_data, writes_control, writes_data};
 use crate::steps::Steps;
 use std::sync::Arc;
@@ -166,9 +166,9 @@ impl Steps<'_> {
                 let to = self.interpreter.resolved_text(&trunnion_interp::canonical_text(&to));
                 let to = vec![Argument::text("", &to)];
                 // what it reads is what was written up to here
-                let key = if reads { format!("{key}{READ_AGAIN}") } else { key };
+                let word = Restated { group: key, reads };
                 // before the motion of its block
-                self.run.wait(effects, block, Waits::Restated(key, to));
+                self.run.wait(effects, block, Waits::Restated(word, to));
             }
         }
     }

@@ -15,11 +15,16 @@ pub struct Process {
     initial: Arc<Initial>,
     /// Words by their group that were programmed after something ran that may have changed everything modal: with and without them the state
     /// may differ.
-    restated: BTreeMap<String, Vec<Argument>>,
+    restated: BTreeMap<Restated, Vec<Argument>>,
 }
 
-/// Ends the group of a word that reads data of the control, such as H: see [`Process::note`].
-pub(crate) const READ_AGAIN: &str = ", read again";
+/// A word that says again what is in effect.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Restated {
+    pub(crate) group: String,
+    /// It reads data of the control, as H does: see [`Process::note`].
+    pub(crate) reads: bool,
+}
 
 /// The text on the screen: it matters if the program stops with it.
 const MESSAGE: &str = "message";
@@ -73,9 +78,9 @@ impl Process {
     pub(crate) fn note(this: &mut Arc<Self>, what: Waits) {
         match what {
             // a word of a group was programmed again
-            Waits::Restated(group, to) => {
-                if this.restated.get(&group) != Some(&to) {
-                    Arc::make_mut(this).restated.insert(group, to);
+            Waits::Restated(word, to) => {
+                if this.restated.get(&word) != Some(&to) {
+                    Arc::make_mut(this).restated.insert(word, to);
                 }
             }
             // the whole modal state is unknown from here on
@@ -86,9 +91,9 @@ impl Process {
             }
             // data that offsets are read from may have been written: what read them before does not hold the new values
             Waits::Written => {
-                if this.restated.keys().any(|group| group.ends_with(READ_AGAIN)) {
+                if this.restated.keys().any(|word| word.reads) {
                     let restated = &mut Arc::make_mut(this).restated;
-                    restated.retain(|group, _| !group.ends_with(READ_AGAIN));
+                    restated.retain(|word, _| !word.reads);
                 }
             }
             Waits::Effect(..) => {}
@@ -193,15 +198,15 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
             is_unknown,
         });
     }
-    let groups = was.restated.keys().chain(is.restated.keys());
-    let mut groups = groups.filter(|group| was.restated.get(*group) != is.restated.get(*group));
-    let group = groups.next().filter(|_| !shared)?;
-    let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
-    let key = match group.strip_suffix(READ_AGAIN) {
-        Some(group) => {
-            format!("{group} after offsets may have been written (whether one in effect follows at once is unknown)")
-        }
-        None => format!("{group} after a called program that could not be read"),
+    let words = was.restated.keys().chain(is.restated.keys());
+    let mut words = words.filter(|word| was.restated.get(*word) != is.restated.get(*word));
+    let word = words.next().filter(|_| !shared)?;
+    let said = |process: &Process| shown(process.restated.get(word).map_or(&[], Vec::as_slice));
+    let group = &word.group;
+    let key = if word.reads {
+        format!("{group} after offsets may have been written (whether one in effect follows at once is unknown)")
+    } else {
+        format!("{group} after a called program that could not be read")
     };
     Some(Unlike {
         key,
@@ -235,6 +240,8 @@ pub struct Held {
     pub compensation: u8,
     /// Which tool's length is active.
     pub length_of: LengthOf,
+    /// Whether it acts after a motion in machine coordinates is not known.
+    pub length_is_open: bool,
     /// Working plane: arcs, cycles and compensation lie in it.
     pub plane: Plane,
     /// Radius of the tool if it is declared to be a ball, mm.
@@ -261,6 +268,7 @@ impl Held {
             work_offset: state.zero.offset().map(offset_name),
             compensation: state.compensation,
             length_of: state.length.of(),
+            length_is_open: state.length.is_open(),
             plane: state.coordinates.plane(),
             vector_mode: state.tool_axis.vectors(),
             tool: state.tool.data(),

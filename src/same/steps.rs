@@ -7,6 +7,7 @@ use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
 use crate::process::{Held, Process};
 use crate::since::Since;
+use crate::undeclared::Zeros;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trunnion_interp::{Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, is_left};
@@ -49,6 +50,7 @@ pub(crate) struct Run<'a> {
     pub(crate) missing: Vec<BlockId>,
     /// Faults, if they are requested.
     faults: Option<Vec<Fault>>,
+    pub(crate) zeros: Zeros,
     /// Effects with their numbers in the run, if they are requested.
     log: Option<Vec<(u32, Placed)>>,
 }
@@ -59,6 +61,7 @@ impl Sink for Run<'_> {
             self.give_up(motion.block);
             return;
         }
+        self.zeros.note(motion, state);
         let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
         self.motions.push_back((*motion, leg, Held::new(state)));
     }
@@ -149,6 +152,7 @@ impl<'a> Steps<'a> {
                 given_up: false,
                 missing: Vec::new(),
                 faults: None,
+                zeros: Zeros::default(),
                 log: None,
             },
             ready: VecDeque::new(),

@@ -1,14 +1,40 @@
 //! What nobody declares, and what two programs still have in common.
 use crate::{Steps, offset_name};
-use trunnion_interp::{FaultKind, Setup, Tool, WorkOffset};
+use std::sync::Arc;
+use trunnion_interp::{FaultKind, ModalState, Motion, Setup, Tool, UNNAMED_ZERO, WorkOffset};
+use trunnion_syntax::Format;
 
 /// Stand-ins of rotary axes are small, so that no axis leaves its travel because of them: 0.07 to 1.07 deg, where linear axes have 7 to 107 mm.
 const DEG_PER_MM: f64 = 0.01;
 
-/// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name.
+/// Work offsets that the motions of a run depend on and nobody declares; `None`: the zero point without one.
+#[derive(Default)]
+pub(crate) struct Zeros(Vec<Option<Arc<str>>>);
+
+impl Zeros {
+    #[inline]
+    pub(crate) fn note(&mut self, motion: &Motion, state: &ModalState) {
+        let offset = state.zero.offset();
+        if motion.undeclared.zero != 0 && !self.0.iter().any(|known| known.as_deref() == offset) {
+            self.0.push(state.zero.offset_name());
+        }
+    }
+}
+
+/// Zero points and tool lengths that a program uses and nobody declares: those that were missing in a run, by name. The zero point at power-on is
+/// one, though no word of the program selects it.
 pub fn undeclared(steps: &mut Steps<'_>) -> Vec<FaultKind> {
-    let kinds = steps.take_faults().into_iter().map(|fault| fault.kind);
-    kinds.filter(is_undeclared).collect()
+    let dialect = steps.input().dialect;
+    let first = dialect.quirks.first_offset_at_start || dialect.lex.format == Format::Apt;
+    let unnamed = if first { "G54" } else { UNNAMED_ZERO };
+    let zeros = std::mem::take(&mut steps.run.zeros)
+        .0
+        .into_iter()
+        .map(|name| FaultKind::WorkOffsetUnset {
+            name: name.as_deref().unwrap_or(unnamed).to_owned(),
+        });
+    let faults = steps.take_faults().into_iter().map(|fault| fault.kind);
+    faults.filter(is_undeclared).chain(zeros).collect()
 }
 
 fn is_undeclared(kind: &FaultKind) -> bool {
@@ -18,15 +44,18 @@ fn is_undeclared(kind: &FaultKind) -> bool {
     )
 }
 
-/// Names of the zero points and of the tool lengths, each once, where there are at least two: one has no relation to another.
-fn related(unset: &[FaultKind]) -> [Vec<String>; 2] {
+/// Names of the zero points and of the tool lengths, each once.
+fn named(unset: &[FaultKind]) -> [Vec<String>; 2] {
     let names = |of: fn(&FaultKind) -> Option<String>| {
         let mut names: Vec<String> = unset.iter().filter_map(of).collect();
         names.sort_unstable();
         names.dedup();
-        if names.len() < 2 { Vec::new() } else { names }
+        names
     };
     let zeros = names(|kind| match kind {
+        FaultKind::WorkOffsetUnset { name } if name == UNNAMED_ZERO => {
+            Some(format!("the zero point without a work offset ({UNNAMED_ZERO})"))
+        }
         FaultKind::WorkOffsetUnset { name } => Some(offset_name(name).to_string()),
         _ => None,
     });
@@ -37,11 +66,10 @@ fn related(unset: &[FaultKind]) -> [Vec<String>; 2] {
     [zeros, lengths]
 }
 
-/// The setup with stand-ins for the zero points and tool lengths of `unset`, where these make a difference: see [`with_stand_ins`]. `None`:
-/// there are less than two of a kind.
+/// The setup with stand-ins for the zero points and tool lengths of `unset`: see [`with_stand_ins`]. One alone has a relation too: to positions
+/// in the machine's frame (G53, a reference point), and to motions without a length. `None`: everything is declared.
 pub fn unrelated(setup: &Setup, unset: &[FaultKind]) -> Option<Setup> {
-    let some = related(unset).iter().any(|names| !names.is_empty());
-    some.then(|| with_stand_ins(setup, unset))
+    unset.iter().any(is_undeclared).then(|| with_stand_ins(setup, unset))
 }
 
 /// The setup with stand-ins for the zero points and tool lengths of `unset`. They are unlike each other and no sums of each other, so that
@@ -101,14 +129,23 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
 
 /// Why two programs that are the same with all of `unset` at 0 are not proved to be: one sentence.
 pub fn only_by_chance(unset: &[FaultKind]) -> String {
-    let [mut names, lengths] = related(unset);
+    let [mut names, lengths] = named(unset);
     let flags = [(names.is_empty(), "work-offset"), (lengths.is_empty(), "tool-length")];
     let flags: Vec<&str> = flags.iter().filter(|(none, _)| !none).map(|(_, flag)| *flag).collect();
     names.extend(lengths);
+    let (verb, them) = if names.len() == 1 {
+        ("is", "it")
+    } else {
+        ("are", "them")
+    };
     let last = names.pop().unwrap_or_default();
+    let all = if names.is_empty() {
+        last
+    } else {
+        format!("{} and {last}", names.join(", "))
+    };
     format!(
-        "they are the same only for certain values of {} and {last}, which are not declared: declare them, or take them as zero with --assume {}",
-        names.join(", "),
+        "they are the same only for certain values of {all}, which {verb} not declared: declare {them}, or take {them} as zero with --assume {}",
         flags.join(",")
     )
 }

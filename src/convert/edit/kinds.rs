@@ -101,7 +101,8 @@ impl<'a, 'd> Said<'a, 'd> {
 
     /// Whether the block begins or repeats a drilling cycle.
     pub(super) fn drills(&self) -> bool {
-        self.here.is.motion.is_some_and(Action::is_hole_cycle)
+        let cycle = |motion: Action| motion.is_hole_cycle() || motion == Action::CannedCycle;
+        self.here.is.motion.is_some_and(cycle)
     }
 
     /// Whether the block turns on an arc.

@@ -80,7 +80,7 @@ impl<'d> Iso<'d> {
         let known = words.axes.given & !self.core.state.position.known == 0;
         // under a length offset the coordinates are those of the point before it
         let named = |(axis, along): (usize, f64)| along != 0.0 && words.axes.get(axis).is_some();
-        let acts = self.memory.length_returned || self.core.state.length.mm().is_some_and(|length| length != 0.0);
+        let acts = self.core.state.length.is_open() || self.core.state.length.mm().is_some_and(|length| length != 0.0);
         let length = acts && self.core.setup.length_along().into_iter().enumerate().any(named);
         if !known || length || !self.shifts_plainly(words) || self.core.state.zero.is_lost() {
             self.frame_change(found, words, block, report);

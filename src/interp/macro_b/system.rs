@@ -36,8 +36,6 @@ pub(crate) struct Kept {
     to_r: bool,
     /// Last H.
     length_offset: Option<u32>,
-    /// It is not known whether the length acts: after a return.
-    returned: bool,
 }
 
 impl Kept {
@@ -45,7 +43,6 @@ impl Kept {
         Self {
             to_r: memory.cycle.to_r,
             length_offset: memory.length_offset,
-            returned: memory.length_returned,
         }
     }
 }
@@ -162,7 +159,7 @@ impl Known<'_> {
     /// End point of the block before, program units.
     fn end(&self, axis: usize) -> Option<f64> {
         let along = || self.setup.length_along().get(axis).is_some_and(|along| *along != 0.0);
-        if self.frames.active || self.state.zero.is_lost() || self.kept.returned && along() {
+        if self.frames.active || self.state.zero.is_lost() || self.state.length.is_open() && along() {
             return None;
         }
         Some(self.state.position.get(axis)? / self.state.coordinates.unit_mm())
@@ -188,7 +185,7 @@ impl Known<'_> {
 
     fn length(&self, axis: usize) -> Option<f64> {
         let shifted = self.frames.active || self.state.zero.is_lost() || self.state.compensation != 0;
-        if self.kept.returned || self.state.tool_axis.tcp() || shifted || self.state.length.is_undeclared() {
+        if self.state.length.is_open() || self.state.tool_axis.tcp() || shifted || self.state.length.is_undeclared() {
             return None;
         }
         let along = self.setup.length_along().get(axis).copied().unwrap_or(0.0);
@@ -198,7 +195,7 @@ impl Known<'_> {
     /// Length offset in force, program units.
     fn length_in_force(&self, axis: usize) -> Option<f64> {
         let length = &self.state.length;
-        if self.kept.returned {
+        if self.state.length.is_open() {
             return None;
         }
         let mm = match (length.mm(), length.of()) {

@@ -80,6 +80,7 @@ pub struct ToolLength {
     mm: Option<f64>,
     of: LengthOf,
     is_undeclared: bool,
+    is_open: bool,
 }
 
 impl ToolLength {
@@ -95,16 +96,25 @@ impl ToolLength {
     pub fn is_undeclared(&self) -> bool {
         self.is_undeclared
     }
+    /// A motion in machine coordinates has cancelled it, and whether it acts again in the next one is not known: it counts as zero.
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
     /// A length is in effect, mm.
     pub fn set(&mut self, mm: Option<f64>, of: LengthOf) {
-        (self.mm, self.of, self.is_undeclared) = (mm, of, false);
+        (self.mm, self.of, self.is_undeclared, self.is_open) = (mm, of, false, false);
     }
     /// The length, mm; where nothing declares it, it counts as zero.
     pub fn set_declared(&mut self, mm: Option<f64>, of: LengthOf) {
-        (self.mm, self.of, self.is_undeclared) = (Some(mm.unwrap_or(0.0)), of, mm.is_none());
+        (self.mm, self.of, self.is_undeclared, self.is_open) = (Some(mm.unwrap_or(0.0)), of, mm.is_none(), false);
+    }
+    /// See [`Self::is_open`].
+    pub fn leave_open(&mut self) {
+        self.is_open = true;
     }
     /// Equal, where an unknown number equals an unknown number.
     pub(super) fn is_alike(&self, other: &Self) -> bool {
-        (self.of, self.is_undeclared) == (other.of, other.is_undeclared) && super::alike(self.mm, other.mm)
+        (self.of, self.is_undeclared, self.is_open) == (other.of, other.is_undeclared, other.is_open)
+            && super::alike(self.mm, other.mm)
     }
 }

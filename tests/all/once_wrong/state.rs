@@ -61,7 +61,7 @@ pub(super) const STATE: &[Item] = &[
         "tip control on a machine without rotary axes",
         ["fanuc-30i", "mill-3axis"],
         [HEAD, "G49\nG43.4 H1\nG0 X0. Y0. Z50.\nG1 X10. F100.\nM30\n"],
-        &["8 error tcp-state"],
+        &["6 unknown not-modelled", "8 error tcp-state"],
         [4, 4],
     ),
     (
@@ -71,7 +71,7 @@ pub(super) const STATE: &[Item] = &[
             HEAD,
             "G49\nG43.4 H1\nG0 X0. Y0. Z50. A30. C0.\nG81 X5. Z-5. R5. F100.\nG80\nM30\n",
         ],
-        &["9 unknown not-modelled"],
+        &["6 unknown not-modelled", "9 unknown not-modelled"],
         [2, 4],
     ),
     (
@@ -163,7 +163,7 @@ pub(super) const STATE: &[Item] = &[
         "H0 between two cuts",
         ["fanuc-30i", ""],
         [HEAD, "G1 Z0. F100.\nG0 Z50.\nG43 H0\nG0 Z5.\nG1 X5.\nM30\n"],
-        &["10 warning missing-tool-length"],
+        &["8 unknown not-modelled", "10 warning missing-tool-length"],
         [5, 6],
     ),
     (
@@ -225,14 +225,14 @@ pub(super) const STATE: &[Item] = &[
         "G49 alone",
         ["fanuc-30i", ""],
         [LENGTHS, "G49\nX5.\nZ120.\nX6.\nM5\nM30\n"],
-        &["8 unknown not-modelled"],
+        &["7 unknown not-modelled", "8 unknown not-modelled"],
         [3, 5],
     ),
     (
-        "G49 before absolute and machine coordinates",
+        "G49 alone before absolute and machine coordinates",
         ["fanuc-30i", ""],
         [LENGTHS, "G49\nZ120.\nG43 H1 Z50.\nG49\nG53 Z0.\nM5\nM30\n"],
-        &[],
+        &["7 unknown not-modelled"],
         [4, 5],
     ),
     (

@@ -235,7 +235,12 @@ fn a_text_that_breaks_the_claim_is_not_certified() {
 
 #[test]
 fn the_same_tool_path_is_proved_or_refuted_with_a_witness() {
-    let settings = settings("sinumerik-840d", ball());
+    let mut settings = settings("sinumerik-840d", ball());
+    // how far the paths are apart near the pole depends on where A is zero
+    settings.setup.work_offsets.push(trunnion::interp::WorkOffset {
+        name: trunnion::interp::UNNAMED_ZERO.to_owned(),
+        values: [0.0; 9],
+    });
     let before = sinumerik(ROWS);
     let machine = settings.machine.expect("a machine");
     let compare = |after: &str, tolerance_mm: f64, tolerance_deg: f64| {

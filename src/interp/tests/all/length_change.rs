@@ -50,7 +50,7 @@ fn a_length_alone_moves_the_axis_or_the_coordinates() {
     let source = "G49\nX5.\n";
     assert_eq!(after(SHIFTS, source), (words(&["R X5 Y0 Z150"]), 0));
     assert_eq!(after(MOVES, source), (words(&["R X0 Y0 Z50", "R X5 Y0 Z50"]), 0));
-    assert_eq!(after("", source), (words(&["R X5 Y0"]), 1));
+    assert_eq!(after("", source), (words(&["R X5 Y0"]), 2));
     // H2 alone changes the length in effect too
     assert_eq!(after(SHIFTS, "H2\nX5.\n"), (words(&["R X5 Y0 Z0"]), 0));
     assert_eq!(after(MOVES, "H2\nX5.\n"), (words(&["R X0 Y0 Z50", "R X5 Y0 Z50"]), 0));
@@ -60,13 +60,14 @@ fn a_length_alone_moves_the_axis_or_the_coordinates() {
 /// With the length of before, the axis is where it was, whatever the control does: unless it moved, or the zero point is another one.
 #[test]
 fn the_same_length_again_leaves_nothing_open() {
-    assert_eq!(after("", "G49\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 0));
-    assert_eq!(after("", "H2\nG49\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 0));
-    let moved_along_x = (words(&["R X1 Y0", "R X5 Y0 Z50"]), 1);
+    assert_eq!(after("", "H2\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 0));
+    assert_eq!(after("", "G49\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 1));
+    assert_eq!(after("", "H2\nG49\nG43 H1\nX5.\n"), (words(&["R X5 Y0 Z50"]), 1));
+    let moved_along_x = (words(&["R X1 Y0", "R X5 Y0 Z50"]), 2);
     assert_eq!(after("", "G49\nX1.\nG43 H1\nX5.\n"), moved_along_x);
     assert_eq!(
         after("", "G49\nG91 Z5.\nG90 G43 H1\nX5.\n"),
-        (words(&["R X0 Y0", "R X5 Y0"]), 2)
+        (words(&["R X0 Y0", "R X5 Y0"]), 3)
     );
     let (lines, faults) = after("", "G49\nG55\nG43 H1\nX5.\n");
     assert!(faults > 0 && !lines[0].contains('Z'), "{lines:?}");
@@ -104,9 +105,9 @@ fn an_increment_travels_the_change_or_not() {
 fn what_moves_nothing_or_leads_to_a_place_is_clean() {
     for rest in [
         "G40 G80\nG49 Z60.\nX1.\n",
-        "G49\nZ60.\nX1.\n",
-        "G49\nG53 Z0.\nX1.\n",
-        "G49\nG28 G91 Z0.\nX1.\n",
+        "G49 G53 Z0.\nX1.\n",
+        "G49 G28 G91 Z0.\nX1.\n",
+        "G28 G91 Z0. G49\nX1.\n",
         "G28 G91 Z0.\nG49\nX1.\n",
         "G53 Z0.\nG49\nG91 X1.\n",
         "G43 H1\nX1.\n",
@@ -123,6 +124,34 @@ fn what_moves_nothing_or_leads_to_a_place_is_clean() {
     );
     assert_eq!(log.faults, []);
     assert_eq!(line(&log.motions[1]), "R X2 Y1 Z9");
+}
+
+/// With TOS = 0 the axis goes down by the length in the block of G49, whatever follows.
+#[test]
+fn a_length_that_ends_without_its_axis_is_unknown() {
+    for rest in [
+        "G49\nZ160.\n",
+        "G49\nG53 Z0.\n",
+        "G49\nG28 G91 Z0.\n",
+        "G43 H2 Z50.\nH1\nZ60.\n",
+    ] {
+        let (found, faults) = after("", rest);
+        assert_eq!(faults, 1, "{rest}: {found:?}");
+        assert_eq!(after(SHIFTS, rest).1, 0, "{rest}");
+        assert_eq!(after(MOVES, rest).1, 0, "{rest}");
+    }
+    let (_, log) = run_bytes("fanuc-30i", b"G54 G0 X0. Y0.\nG43 H7 Z50.\nG49\nZ160.\nM30\n", &setup());
+    let end = log
+        .faults
+        .iter()
+        .filter(|fault| format!("{fault:?}").contains("ends or gets shorter"));
+    assert_eq!(end.count(), 1, "{:?}", log.faults);
+    let (_, log) = run_bytes("fanuc-30i", b"G54 G0 X0. Y0. Z9.\nG43 H7\nZ160.\nM30\n", &setup());
+    let end = log
+        .faults
+        .iter()
+        .filter(|fault| format!("{fault:?}").contains("ends or gets shorter"));
+    assert_eq!(end.count(), 0, "{:?}", log.faults);
 }
 
 /// G28 Z, G30 Z and G53 Z of a Fanuc cancel the length and leave G43 in force: Z after them is unknown until G43 or H comes again.

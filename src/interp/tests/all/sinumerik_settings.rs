@@ -1,6 +1,6 @@
 //! CYCLE832 in both forms, DIAMOF on a machine whose X words are diameters, positions of the machine as values.
 use crate::support::{fault_line, faults, lines, run_bytes};
-use trunnion_interp::{Setup, WorkOffset};
+use trunnion_interp::{Feed, Setup, WorkOffset};
 
 /// Whether each line is one of the tip, its end if known, and what was reported.
 fn run(text: &str, setup: &Setup) -> (Vec<(bool, bool)>, Vec<String>) {
@@ -77,7 +77,7 @@ fn positions_of_the_machine_and_the_radius_of_the_tool() {
         holder_mm: None,
     });
     let ends = |text: &str, setup: &trunnion_interp::Setup| {
-        let log = crate::support::run_bytes("sinumerik-840d", text.as_bytes(), setup).1;
+        let log = run_bytes("sinumerik-840d", text.as_bytes(), setup).1;
         log.motions.last().expect("a motion").end
     };
     let head = "G54 G90 G71 T1 D1\nM6\nG1 X1 Y2 Z3 C20 F100\n";
@@ -201,6 +201,10 @@ fn a_cutting_speed_sets_the_meaning_of_f() {
         ("G962 S200", "L X10 Y0 Z0 F100"),
         ("G95 F0.3\nG972 S200", "L X10 Y0 Z0 F0.3/rev"),
         ("G97 S2000\nG94", "L X10 Y0 Z0"),
+        ("G942", "L X10 Y0 Z0 F100"),
+        ("G95 F0.3\nG942 F90", "L X10 Y0 Z0 F90"),
+        ("G952 F0.2", "L X10 Y0 Z0 F0.2/rev"),
+        ("G95 F0.3\nG952", "L X10 Y0 Z0 F0.3/rev"),
     ] {
         let text = format!("{head}{codes}\nG1 X10\n");
         let found = lines("sinumerik-840d", &text);
@@ -210,6 +214,20 @@ fn a_cutting_speed_sets_the_meaning_of_f() {
             .any(|fault| fault.contains("MissingFeed"));
         assert_eq!(missing, !motion.contains('F'), "{codes}");
     }
+}
+
+/// F is a time, and not modelled, until another code of the group comes.
+#[test]
+fn a_feed_by_travel_time_is_unknown() {
+    let feed = |codes: &str| {
+        let text = format!("G17 G90 G71 G94 F100\nG1 X0 Y0 Z0\n{codes}\nG1 X10\n");
+        let (_, log) = run_bytes("sinumerik-840d", text.as_bytes(), &Setup::default());
+        log.motions.last().map(|motion| motion.feed)
+    };
+    assert_eq!(feed("G931 F2"), Some(Feed::Unknown));
+    assert_eq!(feed("G931"), Some(Feed::Unknown));
+    assert_eq!(feed("G931 F2\nG94 F80"), Some(Feed::PerMinute(80.0)));
+    assert_eq!(feed("G942 F80"), Some(Feed::PerMinute(80.0)));
 }
 
 #[test]

@@ -34,7 +34,14 @@ impl Klartext<'_> {
             );
         }
         self.core.state.position = back;
-        let kind = self.straight(rapid);
+        let mut kind = self.straight(rapid);
+        if led {
+            // M128 is reset before M91 and M92 (TNC 620 34056x-04, p. 340)
+            Self::not_modelled("machine coordinates under tool centre point control: where the axes go", report);
+            kind = MotionKind::Unknown;
+            self.core.forget_linear();
+            end.known &= !LINEAR;
+        }
         let feed = self.core.feed(kind, TextRange::default, report);
         if words.given & ROTARY != 0 {
             self.core.state.orientation = Orientation::Words;

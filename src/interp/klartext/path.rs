@@ -1,5 +1,6 @@
 //! L, LN, C, CR, CT, LP, CP, CTP and CC.
 use super::path_words::PathWords;
+use super::values::Value;
 use super::words::Words;
 use super::{Klartext, Made};
 use crate::arc::plane_axes;
@@ -198,7 +199,7 @@ impl Klartext<'_> {
         self.emit(&motion, report);
     }
 
-    /// The orientation from TX TY TZ or rotary words; else it stays.
+    /// The orientation of a block, and what is wrong with its vectors.
     fn tool_orientation(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
         for (vector, names) in [(&words.tool, "TX, TY and TZ"), (&words.normal, "NX, NY and NZ")] {
             let given = vector.iter().filter(|value| value.is_some()).count();
@@ -206,24 +207,7 @@ impl Klartext<'_> {
                 Self::rejected(Refusal::MissingWord, format!("a vector needs {names}"), report);
             }
         }
-        let orientation = if words.tool.iter().any(Option::is_some) {
-            let values = words.tool.map(Option::flatten);
-            match values {
-                [Some(x), Some(y), Some(z)] if self.core.state.tool_axis.tcp() => {
-                    self.core
-                        .unit_vector(Vec3::new(x, y, z), true, TextRange::default(), report)
-                }
-                [Some(_), Some(_), Some(_)] => {
-                    Self::not_modelled("a tool vector without M128 or FUNCTION TCPM", report);
-                    self.core.unknown_orientation()
-                }
-                _ => self.core.unknown_orientation(),
-            }
-        } else if words.given & ROTARY != 0 {
-            Orientation::Words
-        } else {
-            self.core.held_orientation()
-        };
+        let orientation = self.vector_or_words(words, report);
         if words.normal.iter().any(Option::is_some) {
             let values = words.normal.map(Option::flatten);
             if let [Some(x), Some(y), Some(z)] = values {
@@ -238,6 +222,39 @@ impl Klartext<'_> {
         }
         self.core.state.orientation = orientation;
         orientation
+    }
+
+    /// The tool axis that a block gives. Under M128 and FUNCTION TCPM a surface normal without TX, TY and TZ is the tool axis: the control keeps
+    /// the tool perpendicular to the contour (iTNC 530 60642x-03, p. 519; TNC7 81762x-17, face milling).
+    fn vector_or_words(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
+        let tcp = self.core.state.tool_axis.tcp();
+        let given = |vector: &[Option<Value>; 3]| vector.iter().any(Option::is_some);
+        let turns = words.given & ROTARY != 0;
+        let (vector, name) = if given(&words.tool) {
+            (&words.tool, "TX, TY and TZ")
+        } else if tcp && given(&words.normal) {
+            (&words.normal, "a surface normal")
+        } else if turns {
+            return Orientation::Words;
+        } else {
+            return self.core.held_orientation();
+        };
+        if turns {
+            let what = format!("{name} with words of rotary axes: which of them turn the tool");
+            Self::not_modelled(&what, report);
+            return self.core.unknown_orientation();
+        }
+        match vector.map(Option::flatten) {
+            [Some(x), Some(y), Some(z)] if tcp => {
+                self.core
+                    .unit_vector(Vec3::new(x, y, z), given(&words.tool), TextRange::default(), report)
+            }
+            [Some(_), Some(_), Some(_)] => {
+                Self::not_modelled("a tool vector without M128 or FUNCTION TCPM", report);
+                self.core.unknown_orientation()
+            }
+            _ => self.core.unknown_orientation(),
+        }
     }
 
     /// Gives a motion out, or holds it back for the corner or contour that comes.

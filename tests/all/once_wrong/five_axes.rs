@@ -1,0 +1,59 @@
+//! Programs for machines with two rotary axes: the tool axis, turns of rotary axes, positions that the linear axes cannot reach.
+use super::items::Item;
+use trunnion::machine::{Machine, builtin_source, load};
+
+/// A table-table machine of which the file is changed, by a name: `modulo-sign` and `shortest` say how words of C turn.
+pub(super) fn machine(name: &str) -> Option<Machine> {
+    let source = builtin_source("mikron-ucp710").expect("built in");
+    // the rows that check the file say that words are literal
+    let source = source.split("[[check]]").next().expect("a part");
+    let text = match name {
+        "modulo-sign" | "shortest" => source.replace("wrap = \"literal\"", &format!("wrap = \"{name}\"")),
+        _ => return None,
+    };
+    Some(load(name, &text).expect("valid"))
+}
+
+/// Preset, tool and spindle of a Klartext program under M128.
+const M128: &str = "BEGIN PGM A MM\n; trunnion: preset 1 X0 Y0 Z0\n; trunnion: tool 1 length 80\nTOOL CALL 1 Z S1000\nCYCL DEF 247 DATUM SETTING ~\n Q339=+1\nM3\nM128\nL X+0 Y+0 Z+50 A+20 C+30 R0 FMAX\n";
+
+/// The same of a Sinumerik program under TRAORI.
+const TRAORI: &str = "; trunnion: G54 X0 Y0 Z0\n; trunnion: tool 1 length 80\nG17 G54 G90 G94 G71 G40\nT1 D1\nM6\nTRAORI\nG0 X10 Y0 Z50 A10 C10 M3 S1000\n";
+
+pub(super) const FIVE_AXES: &[Item] = &[
+    (
+        "LN with a normal alone under M128 turns the tool to it",
+        ["heidenhain-klartext", "mikron-ucp710"],
+        [M128, "LN X+10 Y+0 Z+50 NX+0 NY+0.8 NZ-0.6 F500\nM30\nEND PGM A MM\n"],
+        &["10 error unreachable-orientation"],
+        [2, 2],
+    ),
+    (
+        "LN with a normal and words of rotary axes",
+        ["heidenhain-klartext", "mikron-ucp710"],
+        [M128, "LN X+10 Y+0 Z+50 NX+0 NY+0 NZ+1 A+10 F500\nM30\nEND PGM A MM\n"],
+        &["10 unknown not-modelled"],
+        [1, 2],
+    ),
+    (
+        "LN with a tool vector and words of rotary axes",
+        ["heidenhain-klartext", "mikron-ucp710"],
+        [M128, "LN X+10 Y+0 Z+50 TX+0 TY+0.6 TZ+0.8 A+10 C+200 F500\nM30\nEND PGM A MM\n"],
+        &["10 unknown not-modelled"],
+        [1, 2],
+    ),
+    (
+        "M91 under M128",
+        ["heidenhain-klartext", "mikron-ucp710"],
+        [M128, "L Z+300 FMAX M91\nL X+20 F500\nM30\nEND PGM A MM\n"],
+        &["10 unknown not-modelled"],
+        [1, 3],
+    ),
+    (
+        "a tool vector and words of rotary axes of a Sinumerik",
+        ["sinumerik-840d", "mikron-ucp710"],
+        [TRAORI, "G1 X20 A3=0 B3=0.1 C3=1 C200 A100 F500\nM30\n"],
+        &["8 unknown not-modelled"],
+        [1, 2],
+    ),
+];

@@ -35,7 +35,7 @@
 use crate::prelude::*;
 use core::f64::consts::{PI, TAU};
 use trunnion_interp::{AXIS_LETTERS, Orientation};
-use trunnion_machine::{Limits, Wrap};
+use trunnion_machine::{Limits, OpenCause, Wrap};
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::LongTurn(check)]);
 
@@ -44,7 +44,8 @@ const SLACK: f64 = 1e-6;
 
 fn check(leg: &facts::LongTurn<'_>, out: &mut Reporter<'_>) {
     let (motion, start, end) = (leg.motion(), leg.start, leg.end);
-    if motion.orientation != Orientation::Words {
+    let carried = leg.leg.open.is_some_and(|open| open.cause == OpenCause::TurnsCarried);
+    if motion.orientation != Orientation::Words || carried {
         return;
     }
     for &joint in &leg.machine.rotary {

@@ -5,7 +5,8 @@ use super::words::Words;
 use super::{Klartext, Made};
 use crate::arc::plane_axes;
 use crate::core::{LINEAR, ROTARY, Report};
-use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel};
+use crate::rotary_way::shorter;
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel, Ways};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::TextRange;
 
@@ -147,7 +148,7 @@ impl Klartext<'_> {
                 // M126: 350 to 10 is 20 degrees
                 before
                     .zip(value)
-                    .map(|(before, value)| before + turn_to(value - before))
+                    .map(|(before, value)| shorter(before, value))
                     .or(value)
             } else {
                 value
@@ -170,6 +171,7 @@ impl Klartext<'_> {
     ) {
         let start = self.core.state.position;
         self.note_heading(&kind, &from, &end);
+        let ways = self.rotary_ways(words, [&from, &end], report);
         let (mut end, kind) = if self.memory.frames.active {
             (self.memory.frames.arrive(end), self.memory.frames.kind_to_work(kind))
         } else {
@@ -193,10 +195,30 @@ impl Klartext<'_> {
         let feed = self.core.feed(kind, TextRange::default, report);
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way = words.incremental | unread(words);
-        if self.memory.shortest {
-            motion.says_way |= words.given & ROTARY;
-        }
+        motion.says_way |= ways.shortest;
+        motion.ways = ways;
         self.emit(&motion, report);
+    }
+
+    /// The directions in which the words turn rotary axes.
+    pub(super) fn rotary_ways(
+        &mut self,
+        words: &PathWords,
+        positions: [&Position; 2],
+        report: &mut Report<'_>,
+    ) -> Ways {
+        let absolute = words.given & ROTARY & !words.incremental;
+        let (shortest, plain) = if self.memory.shortest {
+            (absolute, 0)
+        } else {
+            (0, absolute)
+        };
+        let ways = Ways {
+            shortest,
+            ..Ways::default()
+        };
+        self.core
+            .ways(ways, plain, |axis| words.values[axis], positions, report)
     }
 
     /// The orientation of a block, and what is wrong with its vectors.
@@ -319,10 +341,4 @@ pub(super) fn unread(words: &PathWords) -> u16 {
         .filter(|axis| words.values[*axis].is_none())
         .fold(0, |all, axis| all | 1 << axis)
         & words.given
-}
-
-/// The turn in the shorter direction, -180 < turn <= 180 deg.
-fn turn_to(difference: f64) -> f64 {
-    let turn = difference.rem_euclid(360.0);
-    if turn > 180.0 { turn - 360.0 } else { turn }
 }

@@ -32,8 +32,11 @@ use trunnion_machine::NoStance;
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::LostArc(lost_arc)]);
 
 fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
-    // programs begin with rapids before every axis is positioned
     let motion = lost.motion();
+    if *lost.why == NoStance::Singular {
+        return singular(lost, out);
+    }
+    // programs begin with rapids before every axis is positioned
     let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
@@ -44,6 +47,20 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
         NoStance::HeldElsewhere { axis, value, held } => held_elsewhere(*axis, [*value, *held], lost, out),
         _ => {}
     }
+}
+
+/// The linear axes cannot reach the tip.
+fn singular(lost: &LegView<'_>, out: &mut Reporter<'_>) {
+    out.unknown(lost, Merge::once(hash("singular")), |draft| {
+        draft
+            .say("the position of the linear axes is unknown: at this position of the rotary axes they do not span space, and no position or many give the tip")
+            .note(format!(
+                "{} has linear axes on both sides of a rotary axis, and here two of them are parallel, or all in a plane",
+                lost.machine.id
+            ))
+            .note("limits, speeds and the tip's path are not checked here")
+            .help("turn the rotary axes to another position");
+    });
 }
 
 /// Some axes have no position.

@@ -21,7 +21,7 @@
 //! Sound for axes whose position is known: inside a block it uses a bound on the motion of the axes, not samples.
 //! Where a work offset or tool length is not declared, a chain of linear axes is judged by how far the path spans:
 //! it fails if no zero point fits; otherwise the zero points that fit are reported and the result is unknown.
-//! An axis that was never positioned is not judged. A linear axis without declared travel is unknown. Travel inside a rapid block is unknown where the machine file
+//! A block that passes a position at which the linear axes do not span space is unknown. An axis that was never positioned is not judged. A linear axis without declared travel is unknown. Travel inside a rapid block is unknown where the machine file
 //! does not say whether the axes arrive together, and also where it says that they do not while the control guides
 //! the tip.
 //!

@@ -4,7 +4,8 @@
 //! Some axis was never positioned, or its position was lost where something is not modelled. The positions of the
 //! axes are unknown, so limits, postures, speeds and the tip's path were not checked there. An axis that is not
 //! programmed is not assumed to be at zero. A work offset in a rotary axis under tool centre point control is
-//! reported in the same way: controls differ in what it does to X Y Z.
+//! reported in the same way: controls differ in what it does to X Y Z. So is a position of the rotary axes at which
+//! the linear axes do not span space.
 //!
 //! # Example
 //! ```gcode mikron-ucp710

@@ -36,7 +36,7 @@
 use crate::prelude::*;
 use core::f64::consts::{PI, TAU};
 use trunnion_interp::{AXIS_LETTERS, Orientation};
-use trunnion_machine::{Limits, OpenCause, Wrap};
+use trunnion_machine::{Limits, Wrap};
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::LongTurn(check)]);
 
@@ -45,8 +45,7 @@ const SLACK: f64 = 1e-6;
 
 fn check(leg: &facts::LongTurn<'_>, out: &mut Reporter<'_>) {
     let (motion, start, end) = (leg.motion(), leg.start, leg.end);
-    let carried = leg.leg.open.is_some_and(|open| open.cause == OpenCause::TurnsCarried);
-    if motion.orientation != Orientation::Words || carried {
+    if motion.orientation != Orientation::Words {
         return;
     }
     for &joint in &leg.machine.rotary {

@@ -186,7 +186,7 @@ impl<'m> Follower<'m> {
         }
         if self.words.wraps || motion.ways.carried != 0 {
             let from = start.map(|start| &start.joints);
-            *open = self.words.wrap(self.machine, motion, from, &mut into.0);
+            *open = self.words.wrap(self.machine, motion, from, into);
         }
         self.asked_turns(motion, into, open);
         if let Some(letter) = self.words.foreign(motion) {

@@ -30,7 +30,7 @@ impl Words {
         machine: &Machine,
         motion: &Motion,
         from: Option<&Joints>,
-        joints: &mut Joints,
+        (joints, known): &mut (Joints, u16),
     ) -> Option<Open> {
         let mut open = None;
         for rotary in machine.constants.rotary() {
@@ -49,10 +49,12 @@ impl Words {
                 continue;
             };
             if wrap == Wrap::Literal {
-                if self.names(motion.ways.carried, joint) {
-                    open = carried(before, target)
-                        .map(|other| (OpenCause::TurnsCarried, joint, other))
-                        .or(open);
+                let zero = target - word * self.scale[joint];
+                if self.names(motion.ways.carried, joint)
+                    && let Some(other) = carried(before - zero, target - zero)
+                {
+                    open = Some((OpenCause::TurnsCarried, joint, zero + other));
+                    *known &= !(1 << joint);
                 }
                 continue;
             }
@@ -98,7 +100,7 @@ impl Words {
     }
 }
 
-/// Where a plain word turns an axis that a word with a direction has carried beyond a full turn, if the control counts from the angle that it
+/// Where, in the program's coordinate, a plain word turns an axis that a word with a direction has carried beyond a full turn, if the control counts from the angle that it
 /// displays (0 to 360 deg) and that gives another place than the word itself. M126 acts on axes with such a display (TNC 620 34056x-04, p. 338).
 fn carried(before: f64, target: f64) -> Option<f64> {
     let other = before + (target - before.rem_euclid(TAU));

@@ -110,16 +110,24 @@ pub(super) const FIVE_AXES: &[Item] = &[
         ["heidenhain-klartext", "mikron-ucp710"],
         [
             M128,
-            "L C+350\nM126\nL X+10 C+10 F500\nM127\nL X+20 C+20\nM30\nEND PGM A MM\n",
+            "L C+350 FMAX\nM126\nL X+10 C+10 F500\nM127\nL X+20 C+20\nM30\nEND PGM A MM\n",
         ],
-        &["14 unknown ambiguous-posture"],
+        &[
+            "10 info angle-wrap",
+            "14 unknown ambiguous-posture",
+            "14 unknown position-unknown",
+        ],
         [4, 4],
     ),
     (
         "a word after DC has carried the axis over 360",
         ["sinumerik-840d", "mikron-ucp710"],
         [TRAORI, "C350\nC=DC(10)\nG1 X20 C20 F500\nM30\n"],
-        &["10 unknown ambiguous-posture"],
+        &[
+            "8 info angle-wrap",
+            "10 unknown ambiguous-posture",
+            "10 unknown position-unknown",
+        ],
         [4, 4],
     ),
     (

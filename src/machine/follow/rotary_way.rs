@@ -100,8 +100,9 @@ impl Words {
     }
 }
 
-/// Where, in the program's coordinate, a plain word turns an axis that a word with a direction has carried beyond a full turn, if the control counts from the angle that it
-/// displays (0 to 360 deg) and that gives another place than the word itself. M126 acts on axes with such a display (TNC 620 34056x-04, p. 338).
+/// Where, in the program's coordinate, a plain word turns an axis that a word with a direction has carried beyond a full turn, if the control
+/// counts from the angle that it displays (0 to 360 deg) and that gives another place than the word itself. M126 acts on axes with such a
+/// display (TNC 620 34056x-04, p. 338).
 fn carried(before: f64, target: f64) -> Option<f64> {
     let other = before + (target - before.rem_euclid(TAU));
     ((other - target).abs() > SAME).then_some(other)

@@ -131,6 +131,7 @@ impl Pair<'_> {
             NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } | NoStance::PostureRefused { .. } => {
                 "the machine cannot reach the pose".into()
             }
+            NoStance::Singular => "the linear axes do not span space at this position of the rotary axes".into(),
             NoStance::NotModelled => "the motion is not modelled".into(),
             NoStance::HeldElsewhere { axis, .. } => {
                 format!("the machine file holds axis {} at another position", char::from(*axis))

@@ -54,6 +54,8 @@ pub(crate) struct Core<'d> {
     pub(crate) last_content: Option<BlockId>,
     /// A code or character that ends the program was seen.
     pub(crate) proper_end: bool,
+    /// Rotary axes that a word with a direction has carried to a coordinate beyond what it said, bits as in [`Position::known`].
+    pub(crate) carried: u16,
     /// Axes that are always at 0.
     pub(crate) standing: crate::standing::Standing,
     /// What A and C of a lathe mean.
@@ -113,6 +115,7 @@ impl<'d> Core<'d> {
             overridden: (false, false),
             feed_mode_unread: false,
             compensation_reported: false,
+            carried: 0,
             offsets_reported: Reported::default(),
             last_content: None,
             proper_end: false,
@@ -267,6 +270,7 @@ impl<'d> Core<'d> {
             start,
             end,
             says_way: 0,
+            ways: crate::Ways::default(),
             orientation,
             tcp: state.tool_axis.tcp(),
             great_circle: state.tool_axis.great_circle(),

@@ -5,10 +5,11 @@ use crate::core::Report;
 use crate::core::{LINEAR, ROTARY};
 use crate::frames::XYZ;
 use crate::iso::Iso;
+use crate::rotary_way::shorter;
 use crate::tools::Chosen;
 use crate::travel::Travel;
 use crate::words::{Places, WordValue, Words};
-use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Ways};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::{Arc, Turning};
 
@@ -45,6 +46,7 @@ impl Iso<'_> {
             self.suppressed_length(words, &mut end, report);
         }
         self.turned_by_hand(words, &mut end, block.machine_coordinates);
+        let ways = self.rotary_ways(&words.axes, block.machine_coordinates, [&from, &end], report);
         let mut kind = match self.core.state.motion {
             _ if self.rapid_to_machine(block) => MotionKind::Rapid,
             Some(Action::Rapid) => MotionKind::Rapid,
@@ -80,6 +82,7 @@ impl Iso<'_> {
             self.in_machine_coordinates(&mut motion, words.axes.given | words.axes.unread);
         }
         motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
+        motion.ways = ways;
         if self.memory.tcp_used {
             self.tcp_mistakes(&motion, words, report);
         }
@@ -162,7 +165,7 @@ impl Iso<'_> {
                 (true, before) => before.map(|before| before + value),
                 // a vector has turned the axis: from which position it turns, and how far, is unknown here
                 (false, None) if directed & bit != 0 && self.memory.led_by_vector => None,
-                (false, Some(before)) if axes.shortest & bit != 0 => Some(before + turn_to(value - before)),
+                (false, Some(before)) if axes.shortest & bit != 0 => Some(shorter(before, value)),
                 (false, Some(before)) if axes.positive & bit != 0 => Some(before + (value - before).rem_euclid(360.0)),
                 (false, Some(before)) if axes.negative & bit != 0 => Some(before - (before - value).rem_euclid(360.0)),
                 (false, _) => Some(value),
@@ -197,6 +200,24 @@ impl Iso<'_> {
             0
         };
         axes.incremental | directed | modal | axes.unread
+    }
+
+    /// The directions in which the words turn rotary axes.
+    fn rotary_ways(
+        &mut self,
+        axes: &Places<9>,
+        machine: bool,
+        positions: [&Position; 2],
+        report: &mut Report<'_>,
+    ) -> Ways {
+        let ways = Ways {
+            shortest: axes.shortest,
+            forward: axes.positive,
+            back: axes.negative,
+            carried: 0,
+        };
+        let plain = (axes.given | axes.unread) & !self.says_way(axes, machine);
+        self.core.ways(ways, plain, |axis| axes.get(axis), positions, report)
     }
 
     fn arc(
@@ -334,10 +355,4 @@ fn curve(arc: Option<Arc>, code: &str, words: &Words, report: &mut Report<'_>) -
         report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
     }
     MotionKind::Arc(arc)
-}
-
-/// The turn in the shorter direction, -180 < turn <= 180 deg.
-fn turn_to(difference: f64) -> f64 {
-    let turn = difference.rem_euclid(360.0);
-    if turn > 180.0 { turn - 360.0 } else { turn }
 }

@@ -38,6 +38,7 @@ mod own;
 mod reader;
 mod reported;
 mod returns;
+mod rotary_way;
 mod rs274;
 mod run;
 mod sinumerik;
@@ -74,6 +75,7 @@ pub use trunnion_vocabulary::{
     FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library,
     Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation, OuterCorner, Placed, Position,
     Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RotaryTurn, RoughingEscape, Searched, Setup, Sink, Spin, Swivel,
-    TcpCodes, TcpMistake, Tilt, Tool, ToolShape, Undeclared, UnknownName, Value, WorkOffset, is_left, same_number,
+    TcpCodes, TcpMistake, Tilt, Tool, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left,
+    same_number,
 };
 pub use written::canonical_text;

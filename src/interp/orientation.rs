@@ -14,7 +14,14 @@ impl Iso<'_> {
             self.core.state.motion,
             Some(Action::ArcClockwise | Action::ArcCounterClockwise)
         );
-        let orientation = if words.vector.any() {
+        let rotary = (words.axes.given | words.axes.unread) & ROTARY != 0;
+        let centre = self.core.state.tool_axis.vectors() && !is_arc && words.centre.any();
+        let orientation = if rotary && (words.vector.any() || centre) {
+            // 840D sl Programming Manual, Job Planning, 6FC5398-2BP10-1BA0, p. 7-14: they exclude each other, mixed values give an alarm
+            let what = "a tool vector and words of rotary axes in one block: which of them turn the tool".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            self.core.unknown_orientation()
+        } else if words.vector.any() {
             if self.core.state.tool_axis.tcp() {
                 self.vector(&words.vector, false, report, words)
             } else {
@@ -22,9 +29,9 @@ impl Iso<'_> {
                 report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
                 self.core.unknown_orientation()
             }
-        } else if self.core.state.tool_axis.vectors() && !is_arc && words.centre.any() {
+        } else if centre {
             self.vector(&words.centre, self.core.dialect.quirks.unit_vectors, report, words)
-        } else if (words.axes.given | words.axes.unread) & ROTARY != 0 {
+        } else if rotary {
             Orientation::Words
         } else {
             self.core.held_orientation()

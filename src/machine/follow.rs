@@ -9,6 +9,7 @@ pub(crate) mod line_cache;
 pub(crate) mod lookahead;
 pub(crate) mod posture_rule;
 pub(crate) mod requests;
+pub(crate) mod rotary_way;
 pub(crate) mod row;
 pub(crate) mod stance;
 pub(crate) mod tool_vector;

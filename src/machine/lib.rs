@@ -45,6 +45,7 @@ pub use path::orientation::{OrientationDeviation, orientation_deviation};
 pub use path::quick_bounds::{Allowances, QuickBounds, quick_bounds};
 pub use path::rotary_path::{NO_TURN, rotary_turns};
 pub use path::rotary_radii::RotaryRadii;
+pub use path::singular::passes_singular;
 pub use path::speed::{FeedLimit, ShortestTime, block_duration_s, feed_limit, feed_limit_tight, shortest_time};
 pub use path::swept::swept_deviation;
 pub use path::travel::{Excursion, LinearTravel, excursions, linear_travel};

@@ -12,6 +12,7 @@ pub(crate) mod peak;
 pub(crate) mod quick_bounds;
 pub(crate) mod rotary_path;
 pub(crate) mod rotary_radii;
+pub(crate) mod singular;
 pub(crate) mod speed;
 pub(crate) mod swept;
 pub(crate) mod tip_path;

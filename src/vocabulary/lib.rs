@@ -24,6 +24,7 @@ pub use modal::{
 };
 pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
+    Ways,
 };
 pub use setup::{
     ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner, RollPitchYaw,

@@ -195,6 +195,27 @@ pub struct Spin {
     pub most_rpm: f64,
 }
 
+/// How absolute words turn rotary axes, as masks with bits as in [`Position::known`]. The coordinates of a motion have the turns that the words
+/// take from the coordinate before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Ways {
+    /// In the shorter direction: DC(), M126.
+    pub shortest: u16,
+    /// Forward: ACP().
+    pub forward: u16,
+    /// Back: ACN().
+    pub back: u16,
+    /// Plain words of an axis that such a word has carried to a coordinate beyond what it said: 370 for DC(10).
+    pub carried: u16,
+}
+
+impl Ways {
+    /// Letters whose direction is given.
+    pub fn directed(self) -> u16 {
+        self.shortest | self.forward | self.back
+    }
+}
+
 /// One motion as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
@@ -212,6 +233,8 @@ pub struct Motion {
     /// such a rotary word in another direction. Where such a letter, or one whose value is unknown, has no known end, the block moved the
     /// axis to an unknown position; other letters without a known end were not named. Bits as in [`Position::known`].
     pub says_way: u16,
+    /// Directions of rotary words.
+    pub ways: Ways,
     /// Words or vector.
     pub orientation: Orientation,
     /// Tool centre point control is active: X Y Z are the tip in the workpiece frame.
@@ -269,6 +292,7 @@ impl Motion {
             start,
             end,
             says_way: 0,
+            ways: Ways::default(),
             orientation: Orientation::Words,
             tcp: false,
             great_circle: None,

@@ -1,9 +1,11 @@
 //! Programs that were judged wrongly once, each the smallest that shows it: what is reported of them, and how many of their motions have a
 //! known end. What cannot be seen so is shown by the test that is named.
+mod five_axes;
 mod items;
 mod state;
 
 use crate::cli::tools::{json, trunnion, write};
+use five_axes::{FIVE_AXES, machine};
 use items::ITEMS;
 use state::STATE;
 use std::{fmt::Write, fs, path::Path};
@@ -51,9 +53,10 @@ fn findings(found: &[Diagnostic], text: &str) -> Vec<String> {
 #[test]
 fn each_is_judged_as_it_should_be() {
     let mut wrong = String::new();
-    for (name, [dialect, machine], text, wanted, motions) in ITEMS.iter().chain(STATE) {
+    for (name, [dialect, on], text, wanted, motions) in ITEMS.iter().chain(STATE).chain(FIVE_AXES) {
         let dialect = trunnion::dialect::builtin(dialect).expect("built in");
-        let machine = trunnion::machine::builtin(machine);
+        let own = machine(on);
+        let machine = own.as_ref().or_else(|| trunnion::machine::builtin(on));
         let mut setup = Setup::default();
         trunnion::machine::Machine::tell(machine, &mut setup.control);
         let mut settings = Settings::new(dialect, machine, setup);

@@ -21,6 +21,7 @@ pub(super) fn reason(why: &NoStance) -> String {
             char::from(*axis),
             deg(*value)
         ),
+        NoStance::Singular => "the linear axes do not span space at this position of the rotary axes".to_owned(),
         NoStance::NotModelled => "the motion is not modelled".to_owned(),
         NoStance::HeldElsewhere { axis, .. } => {
             format!("the machine file holds axis {} at another position", char::from(*axis))

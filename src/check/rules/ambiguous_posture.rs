@@ -52,12 +52,14 @@ fn check(posture: &facts::OpenPosture<'_>, out: &mut Reporter<'_>) {
             .collect();
         words.join(" and ")
     };
+    let by_words = matches!(open.cause, OpenCause::HalfTurn | OpenCause::TurnsCarried);
+    let subject = if by_words { "these words" } else { "this tool vector" };
     out.unknown(posture, Merge::once(open.cause as u64), |draft| {
         let (why, help) = cause(open, &posture.machine.control.family);
         draft
             .at_orientation()
             .say(format!(
-                "for this tool vector the control may take {} or {}",
+                "for {subject} the control may take {} or {}",
                 words(open.taken),
                 words(open.other)
             ))
@@ -87,6 +89,12 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
         OpenCause::HalfTurn => (
             text("it is half a turn in both directions: it is not documented which way the axis turns"),
             "program an intermediate point",
+        ),
+        OpenCause::TurnsCarried => (
+            text(
+                "the shorter way (DC, ACP, ACN, M126) has carried the axis beyond a full turn, and the machine file takes its words literally: the control may count from the angle that it displays",
+            ),
+            "declare how the control takes words of this axis in the machine file (wrap), or keep the shorter way on",
         ),
         OpenCause::PassingTypeNotDeclared => (
             text(

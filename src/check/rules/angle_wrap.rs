@@ -24,7 +24,8 @@
 //!
 //! # Guarantee
 //! Sound for feed motions between known positions; a rapid that turns the long way round is an info. Without tool
-//! centre point control a word that turns the axis by a full turn or more is assumed to be intended.
+//! centre point control a word that turns the axis by a full turn or more is assumed to be intended. A plain word after
+//! DC, ACP, ACN or M126 has carried the axis beyond a full turn is left to `ambiguous-posture`.
 //!
 //! # Thresholds
 //! Half a turn.

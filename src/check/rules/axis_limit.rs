@@ -21,7 +21,7 @@
 //! Sound for axes whose position is known: inside a block it uses a bound on the motion of the axes, not samples.
 //! Where a work offset or tool length is not declared, a chain of linear axes is judged by how far the path spans:
 //! it fails if no zero point fits; otherwise the zero points that fit are reported and the result is unknown.
-//! An axis that was never positioned is not judged. A linear axis without declared travel is unknown. Travel inside a rapid block is unknown where the machine file
+//! A block that passes a position at which the linear axes do not span space is unknown. An axis that was never positioned is not judged. A linear axis without declared travel is unknown. Travel inside a rapid block is unknown where the machine file
 //! does not say whether the axes arrive together, and also where it says that they do not while the control guides
 //! the tip.
 //!
@@ -33,7 +33,7 @@
 //! * docs/kinematics.md#limits-inside-a-block
 use crate::datum::{Missing, Open, Overrun};
 use crate::prelude::*;
-use trunnion_machine::{AxisKind, RapidPath};
+use trunnion_machine::{AxisKind, RapidPath, passes_singular};
 
 pub(super) const RULE: Body = Body::sound(
     Error,
@@ -154,17 +154,33 @@ fn fit_keys(letter: u8) -> Option<[&'static str; 2]> {
 
 /// Key of the unknown path; the keys of findings are letters and more.
 const UNSETTLED: u64 = 0;
+/// Key of a path that the linear axes cannot follow.
+const SINGULAR: u64 = 2;
 /// Key of travel that is not declared.
 const UNDECLARED: u64 = 1;
 
 fn check(leg: &facts::OverTravel<'_>, out: &mut Reporter<'_>) {
     if !leg.settled && leg.found.is_empty() {
-        out.unknown(leg, Merge::once(UNSETTLED), |draft| {
+        let singular = passes_singular(leg.machine, leg.leg);
+        let (key, why, help) = if singular {
+            (
+                SINGULAR,
+                "the rotary axes pass a position at which the linear axes do not span space, so that they cannot hold the tip on its path",
+                "turn the rotary axes where the tool is clear of the part",
+            )
+        } else {
+            (
+                UNSETTLED,
+                "the great circle does not lead to the posture at the end of the block: it passes over the pole, where the first rotary axis jumps, or past it to the other posture",
+                "guide the tool axis farther from the pole, or divide the block into smaller steps",
+            )
+        };
+        out.unknown(leg, Merge::once(key), |draft| {
             draft
                 .at_orientation()
                 .say("the path of the axes between the ends of this block is unknown: it is not proven that every axis stays within its travel")
-                .note("the great circle does not lead to the posture at the end of the block: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
-                .help("guide the tool axis farther from the pole, or divide the block into smaller steps");
+                .note(why)
+                .help(help);
         });
     }
     for excess in &leg.found {

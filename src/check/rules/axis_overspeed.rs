@@ -40,7 +40,7 @@
 use crate::prelude::*;
 use crate::view::NO_TURN;
 use trunnion_interp::{Feed, MotionKind};
-use trunnion_machine::{Axis, AxisKind, shortest_time};
+use trunnion_machine::{Axis, AxisKind, passes_singular, shortest_time};
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]).follows_pole_event();
 
@@ -199,6 +199,9 @@ fn undecided(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
             "the tip does not move while rotary axes turn: what F means then depends on the control"
         }
         _ if cut.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is unknown",
+        _ if passes_singular(cut.machine, cut.leg) => {
+            "the rotary axes pass a position at which the linear axes cannot hold the tip on its path"
+        }
         _ => "the motion is not modelled",
     };
     out.unknown(cut, Merge::once(hash(why)), |draft| {

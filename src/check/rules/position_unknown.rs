@@ -4,7 +4,8 @@
 //! Some axis was never positioned, or its position was lost where something is not modelled. The positions of the
 //! axes are unknown, so limits, postures, speeds and the tip's path were not checked there. An axis that is not
 //! programmed is not assumed to be at zero. A work offset in a rotary axis under tool centre point control is
-//! reported in the same way: controls differ in what it does to X Y Z.
+//! reported in the same way: controls differ in what it does to X Y Z. So is a position of the rotary axes at which
+//! the linear axes do not span space.
 //!
 //! # Example
 //! ```gcode mikron-ucp710
@@ -32,8 +33,11 @@ use trunnion_machine::NoStance;
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::LostArc(lost_arc)]);
 
 fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
-    // programs begin with rapids before every axis is positioned
     let motion = lost.motion();
+    if *lost.why == NoStance::Singular {
+        return singular(lost, out);
+    }
+    // programs begin with rapids before every axis is positioned
     let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
@@ -44,6 +48,20 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
         NoStance::HeldElsewhere { axis, value, held } => held_elsewhere(*axis, [*value, *held], lost, out),
         _ => {}
     }
+}
+
+/// The linear axes cannot reach the tip.
+fn singular(lost: &LegView<'_>, out: &mut Reporter<'_>) {
+    out.unknown(lost, Merge::once(hash("singular")), |draft| {
+        draft
+            .say("the position of the linear axes is unknown: at this position of the rotary axes they do not span space, and no position or many give the tip")
+            .note(format!(
+                "{} has linear axes on both sides of a rotary axis, and here two of them are parallel, or all in a plane",
+                lost.machine.id
+            ))
+            .note("limits, speeds and the tip's path are not checked here")
+            .help("turn the rotary axes to another position");
+    });
 }
 
 /// Some axes have no position.

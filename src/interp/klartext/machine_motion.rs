@@ -16,6 +16,7 @@ impl Klartext<'_> {
         self.to_machine(&mut start, 1.0);
         let mut end = start;
         self.place(words, &mut end);
+        let ways = self.rotary_ways(words, [&start, &end], report);
         if words.incremental != 0 {
             // from the last M91 position
             end.known &= !words.incremental;
@@ -34,7 +35,17 @@ impl Klartext<'_> {
             );
         }
         self.core.state.position = back;
-        let kind = self.straight(rapid);
+        let mut kind = self.straight(rapid);
+        if led {
+            // M128 is reset before M91 and M92 (TNC 620 34056x-04, p. 340)
+            Self::not_modelled(
+                "machine coordinates under tool centre point control: where the axes go",
+                report,
+            );
+            kind = MotionKind::Unknown;
+            self.core.forget_linear();
+            end.known &= !LINEAR;
+        }
         let feed = self.core.feed(kind, TextRange::default, report);
         if words.given & ROTARY != 0 {
             self.core.state.orientation = Orientation::Words;
@@ -42,7 +53,8 @@ impl Klartext<'_> {
         let orientation = self.core.held_orientation();
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         motion.in_machine_coordinates(words.given);
-        motion.says_way = words.incremental | unread(words);
+        motion.says_way = words.incremental | unread(words) | ways.shortest;
+        motion.ways = ways;
         self.memory.heading = None;
         self.out.push(motion);
     }

@@ -1,10 +1,12 @@
 //! L, LN, C, CR, CT, LP, CP, CTP and CC.
 use super::path_words::PathWords;
+use super::values::Value;
 use super::words::Words;
 use super::{Klartext, Made};
 use crate::arc::plane_axes;
 use crate::core::{LINEAR, ROTARY, Report};
-use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel};
+use crate::rotary_way::shorter;
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel, Ways};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::TextRange;
 
@@ -146,7 +148,7 @@ impl Klartext<'_> {
                 // M126: 350 to 10 is 20 degrees
                 before
                     .zip(value)
-                    .map(|(before, value)| before + turn_to(value - before))
+                    .map(|(before, value)| shorter(before, value))
                     .or(value)
             } else {
                 value
@@ -169,6 +171,7 @@ impl Klartext<'_> {
     ) {
         let start = self.core.state.position;
         self.note_heading(&kind, &from, &end);
+        let ways = self.rotary_ways(words, [&from, &end], report);
         let (mut end, kind) = if self.memory.frames.active {
             (self.memory.frames.arrive(end), self.memory.frames.kind_to_work(kind))
         } else {
@@ -192,13 +195,33 @@ impl Klartext<'_> {
         let feed = self.core.feed(kind, TextRange::default, report);
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way = words.incremental | unread(words);
-        if self.memory.shortest {
-            motion.says_way |= words.given & ROTARY;
-        }
+        motion.says_way |= ways.shortest;
+        motion.ways = ways;
         self.emit(&motion, report);
     }
 
-    /// The orientation from TX TY TZ or rotary words; else it stays.
+    /// The directions in which the words turn rotary axes.
+    pub(super) fn rotary_ways(
+        &mut self,
+        words: &PathWords,
+        positions: [&Position; 2],
+        report: &mut Report<'_>,
+    ) -> Ways {
+        let absolute = words.given & ROTARY & !words.incremental;
+        let (shortest, plain) = if self.memory.shortest {
+            (absolute, 0)
+        } else {
+            (0, absolute)
+        };
+        let ways = Ways {
+            shortest,
+            ..Ways::default()
+        };
+        self.core
+            .ways(ways, plain, |axis| words.values[axis], positions, report)
+    }
+
+    /// The orientation of a block, and what is wrong with its vectors.
     fn tool_orientation(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
         for (vector, names) in [(&words.tool, "TX, TY and TZ"), (&words.normal, "NX, NY and NZ")] {
             let given = vector.iter().filter(|value| value.is_some()).count();
@@ -206,24 +229,7 @@ impl Klartext<'_> {
                 Self::rejected(Refusal::MissingWord, format!("a vector needs {names}"), report);
             }
         }
-        let orientation = if words.tool.iter().any(Option::is_some) {
-            let values = words.tool.map(Option::flatten);
-            match values {
-                [Some(x), Some(y), Some(z)] if self.core.state.tool_axis.tcp() => {
-                    self.core
-                        .unit_vector(Vec3::new(x, y, z), true, TextRange::default(), report)
-                }
-                [Some(_), Some(_), Some(_)] => {
-                    Self::not_modelled("a tool vector without M128 or FUNCTION TCPM", report);
-                    self.core.unknown_orientation()
-                }
-                _ => self.core.unknown_orientation(),
-            }
-        } else if words.given & ROTARY != 0 {
-            Orientation::Words
-        } else {
-            self.core.held_orientation()
-        };
+        let orientation = self.vector_or_words(words, report);
         if words.normal.iter().any(Option::is_some) {
             let values = words.normal.map(Option::flatten);
             if let [Some(x), Some(y), Some(z)] = values {
@@ -238,6 +244,39 @@ impl Klartext<'_> {
         }
         self.core.state.orientation = orientation;
         orientation
+    }
+
+    /// The tool axis that a block gives. Under M128 and FUNCTION TCPM a surface normal without TX, TY and TZ is the tool axis: the control keeps
+    /// the tool perpendicular to the contour (iTNC 530 60642x-03, p. 519; TNC7 81762x-17, face milling).
+    fn vector_or_words(&mut self, words: &PathWords, report: &mut Report<'_>) -> Orientation {
+        let tcp = self.core.state.tool_axis.tcp();
+        let given = |vector: &[Option<Value>; 3]| vector.iter().any(Option::is_some);
+        let turns = words.given & ROTARY != 0;
+        let (vector, name) = if given(&words.tool) {
+            (&words.tool, "TX, TY and TZ")
+        } else if tcp && given(&words.normal) {
+            (&words.normal, "a surface normal")
+        } else if turns {
+            return Orientation::Words;
+        } else {
+            return self.core.held_orientation();
+        };
+        if turns {
+            let what = format!("{name} with words of rotary axes: which of them turn the tool");
+            Self::not_modelled(&what, report);
+            return self.core.unknown_orientation();
+        }
+        match vector.map(Option::flatten) {
+            [Some(x), Some(y), Some(z)] if tcp => {
+                self.core
+                    .unit_vector(Vec3::new(x, y, z), given(&words.tool), TextRange::default(), report)
+            }
+            [Some(_), Some(_), Some(_)] => {
+                Self::not_modelled("a tool vector without M128 or FUNCTION TCPM", report);
+                self.core.unknown_orientation()
+            }
+            _ => self.core.unknown_orientation(),
+        }
     }
 
     /// Gives a motion out, or holds it back for the corner or contour that comes.
@@ -302,10 +341,4 @@ pub(super) fn unread(words: &PathWords) -> u16 {
         .filter(|axis| words.values[*axis].is_none())
         .fold(0, |all, axis| all | 1 << axis)
         & words.given
-}
-
-/// The turn in the shorter direction, -180 < turn <= 180 deg.
-fn turn_to(difference: f64) -> f64 {
-    let turn = difference.rem_euclid(360.0);
-    if turn > 180.0 { turn - 360.0 } else { turn }
 }

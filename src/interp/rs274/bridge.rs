@@ -159,6 +159,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             } else {
                 0
             },
+            ways: crate::Ways::default(),
             orientation: Orientation::Words,
             tcp: modal.tool_axis.tcp(),
             great_circle: modal.tool_axis.great_circle(),

@@ -184,9 +184,9 @@ impl<'m> Follower<'m> {
         if into.1 != self.words.all() {
             self.keep(motion, start, into);
         }
-        if self.words.wraps {
+        if self.words.wraps || motion.ways.carried != 0 {
             let from = start.map(|start| &start.joints);
-            *open = self.words.wrap(self.machine, motion, from, &mut into.0);
+            *open = self.words.wrap(self.machine, motion, from, into);
         }
         self.asked_turns(motion, into, open);
         if let Some(letter) = self.words.foreign(motion) {
@@ -225,8 +225,7 @@ impl<'m> Follower<'m> {
                 return Err(NoStance::PlaneMisaligned(off));
             }
         }
-        inverse_turned(self.machine, &turns, &mut stance.joints, &tip, stance.tool_length)
-            .ok_or(NoStance::NotModelled)?;
+        inverse_turned(self.machine, &turns, &mut stance.joints, &tip, stance.tool_length).ok_or(NoStance::Singular)?;
         Ok(stance)
     }
 

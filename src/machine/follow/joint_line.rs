@@ -64,7 +64,7 @@ impl Follower<'_> {
         let tilt = &motion.tilt;
         self.words.literal
             && self.state.stance.is_some()
-            && !(motion.tcp || motion.machine_coordinates)
+            && !(motion.tcp || motion.machine_coordinates || motion.ways.carried != 0)
             && matches!(motion.orientation, Orientation::Words)
             && tilt.normal.is_none()
             && tilt.swivel == Swivel::No

@@ -142,6 +142,9 @@ pub enum OpenCause {
     Tie,
     /// A rotary axis can reach its value by half a turn in either direction.
     HalfTurn,
+    /// A plain word of a rotary axis that a word with a direction has carried beyond a full turn: whether the control counts from the angle that it
+    /// displays.
+    TurnsCarried,
     /// Mitsubishi: the types of passing the pole give different postures, and the machine file does not say which is set.
     PassingTypeNotDeclared,
     /// Fanuc: the ranges of parameters 19741 to 19744 are not declared, and without them another posture would be taken.
@@ -167,6 +170,7 @@ impl OpenCause {
             Self::RuleNotDeclared => "rule-not-declared",
             Self::Tie => "tie",
             Self::HalfTurn => "half-turn",
+            Self::TurnsCarried => "turns-carried",
             Self::PassingTypeNotDeclared => "passing-type-not-declared",
             Self::RangeNotDeclared => "range-not-declared",
             Self::StartUnknown => "start-unknown",
@@ -216,6 +220,8 @@ pub enum NoStance {
     },
     /// A motion that is not modelled.
     NotModelled,
+    /// The linear axes do not span space at the position of the rotary axes.
+    Singular,
     /// The program moves an axis that the machine file holds at another position; rad.
     HeldElsewhere {
         /// Letter.

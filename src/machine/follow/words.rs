@@ -1,11 +1,8 @@
 //! Axis words to joint values: what a program's coordinates mean for the joints of a machine.
-use crate::{AxisKind, Joints, MAX_AXES, Machine, Open, OpenCause, Wrap};
-use core::f64::consts::{PI, TAU};
+use crate::{AxisKind, Joints, MAX_AXES, Machine, Wrap};
+use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{AXIS_LETTERS, Motion, Position, Swivel};
-
-/// A move that differs by less from half a turn is half a turn, rad.
-const HALF_TURN: f64 = 1e-9;
 
 /// Bits of X, Y, Z in a [`Position`].
 pub(crate) const XYZ: u16 = 0b111;
@@ -14,9 +11,9 @@ pub(crate) const XYZ: u16 = 0b111;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Words {
     /// Index of each joint's letter in `AXIS_LETTERS`; beyond them for a letter no program can name.
-    letter: [u8; MAX_AXES],
+    pub(crate) letter: [u8; MAX_AXES],
     /// mm (rad) of joint per mm (degree) of word.
-    scale: [f64; MAX_AXES],
+    pub(crate) scale: [f64; MAX_AXES],
     /// The same for work offsets, which are never diameters, and for coordinates that the control treats as radii.
     zero_scale: [f64; MAX_AXES],
     /// mm of joint per mm of tool length: the tool axis at home in terms of the linear joints.
@@ -192,72 +189,6 @@ impl Words {
             *length = self.per_length[joint] * motion.tool_length_mm;
         }
         added
-    }
-
-    /// The turns that a control adds to rotary words that it does not take literally, from the present position: the shortest turn (M126), or
-    /// the direction of the word's sign to the word's amount (LinuxCNC wrapped rotary axes). A word that stays the same moves nothing, and an
-    /// incremental one turns by its full amount: the shorter way is for absolute words (trade knowledge of WRAPPED_ROTARY and of Fanuc's
-    /// roll-over, not read in a manual).
-    /// Half a turn in either direction is equally long: it is undecided which one is taken. `from`: the axis positions, where known; how many times
-    /// they have turned is then unknown, and the first word gives the position.
-    pub(crate) fn wrap(
-        &self,
-        machine: &Machine,
-        motion: &Motion,
-        from: Option<&Joints>,
-        joints: &mut Joints,
-    ) -> Option<Open> {
-        let mut open = None;
-        for rotary in machine.constants.rotary() {
-            let joint = rotary.joint;
-            let letter = usize::from(self.letter[joint]);
-            let wrap = machine.axes[joint].extra.wrap;
-            let word = (letter < AXIS_LETTERS.len()).then(|| motion.end.get(letter)).flatten();
-            let (Some(word), false) = (word, wrap == Wrap::Literal) else {
-                continue;
-            };
-            let target = joints[joint];
-            // where the word's sign is the direction, its amount is the place
-            let amount = target + (word.abs() - word) * self.scale[joint];
-            let Some(before) = from.map(|from| from[joint]) else {
-                if wrap == Wrap::ModuloSign && !self.names(motion.says_way, joint) {
-                    joints[joint] = amount;
-                }
-                continue;
-            };
-            let start = motion.start.get(letter);
-            joints[joint] = if start == Some(word) {
-                before
-            } else if let (Some(start), true) = (start, self.names(motion.says_way, joint)) {
-                // the words may be whole turns off the joint
-                before + (word - start) * self.scale[joint]
-            } else if wrap == Wrap::Shortest {
-                let turned = target + TAU * ((before - target) / TAU).round();
-                if ((turned - before).abs() - PI).abs() < HALF_TURN {
-                    open = Some((joint, 2.0 * before - turned));
-                }
-                turned
-            } else if word.is_sign_negative() {
-                before - (before - amount).rem_euclid(TAU)
-            } else {
-                before + (amount - before).rem_euclid(TAU)
-            };
-        }
-        let (joint, other) = open?;
-        let mut found = Open {
-            cause: OpenCause::HalfTurn,
-            taken: [0.0; 2],
-            other: [0.0; 2],
-        };
-        for (index, rotary) in machine.constants.rotary().iter().enumerate().take(2) {
-            found.taken[index] = joints[rotary.joint];
-            found.other[index] = if rotary.joint == joint {
-                other
-            } else {
-                joints[rotary.joint]
-            };
-        }
-        Some(found)
     }
 
     /// X, Y, Z of a position of the motion in mm, if all three are known.

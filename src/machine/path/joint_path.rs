@@ -74,8 +74,13 @@ pub(crate) struct JointPath<'a> {
 }
 
 impl<'a> JointPath<'a> {
-    /// `None` where a stance or the path between them is not known or not modelled.
+    /// `None` where a stance or the path between them is not known or not modelled, and where the linear axes cannot follow.
     pub(crate) fn new(machine: &'a Machine, leg: &'a Leg) -> Option<Self> {
+        Self::unproven(machine, leg).filter(|path| !path.passes_singular())
+    }
+
+    /// The same where the linear axes may not be able to follow.
+    pub(crate) fn unproven(machine: &'a Machine, leg: &'a Leg) -> Option<Self> {
         let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
         let tip = leads_path(&leg.motion);
         let tool_length = end.tool_length;

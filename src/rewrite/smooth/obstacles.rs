@@ -47,6 +47,7 @@ pub(crate) fn unknown_position(points: &[Point], line: impl Fn(usize) -> u32) ->
                 why,
                 NoStance::PositionUnknown(_)
                     | NoStance::NotModelled
+                    | NoStance::Singular
                     | NoStance::RotaryOffset(_)
                     | NoStance::HeldElsewhere { .. }
                     | NoStance::PlaneMisaligned(_)

@@ -240,12 +240,8 @@ impl<'d> Iso<'d> {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
         self.length_travels(words, &block, report);
-        let returned = self
-            .core
-            .state
-            .length
-            .is_open()
-            .then(|| self.after_return(words, &block, report));
+        let open = self.core.state.length.is_open();
+        let returned = open.then(|| self.after_return(words, &block, report));
         let mut motion = self.motion(codes, returned.flatten().as_ref().unwrap_or(words), &block, report);
         self.memory.length_base = None;
         if block.machine_coordinates {

@@ -3,7 +3,7 @@ use super::support::to;
 use trunnion_convert::Options;
 
 const PART: &str = "O1\nG21 G90 G94 G17 G54\nT1 M6\nS8000 M3\nG0 X10. Y-5.\nG43 H1 Z50.\nM8\nG1 Z-1. F300\nX20. F500\nG2 X30. Y-15. I0 J-10.\nG3 X20. Y-5. R10.\n\
-                    G4 P500\nG1 Y10.\nG81 X10. Y10. Z-5. R2. F100\nX20.\nG80\nG0 Z50.\nM9\nM5\nG49\nM30\n";
+                    G4 P500\nG1 Y10.\nG81 X10. Y10. Z-5. R2. F100\nX20.\nG80\nG0 Z50.\nM9\nM5\nM30\n";
 
 #[test]
 fn there_and_back_in_three_axes() {

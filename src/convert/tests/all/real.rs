@@ -143,7 +143,10 @@ fn one_part_of_two_controls_gives_the_same_cl_data() {
         let records = joined.lines().filter(|line| line.starts_with("GOTO"));
         records.map(str::to_owned).collect()
     };
-    let one = run(&head(fanuc), "fanuc-30i", Some(&machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
+    // G49 alone, whose way down the parameter TOS decides, is refused
+    let fanuc = String::from_utf8_lossy(&head(fanuc)).replace("N110 G49", "N110");
+    let one =
+        run(fanuc.as_bytes(), "fanuc-30i", Some(&machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
     let two = run(&head(siemens), "sinumerik-840d", Some(&machine), "apt", None)
         .unwrap_or_else(|refused| panic!("{refused}"));
     let (one, two) = (points(&one.text), points(&two.text));

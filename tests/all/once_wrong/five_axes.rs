@@ -36,14 +36,14 @@ pub(super) fn machine(name: &str) -> Option<Machine> {
 }
 
 /// Preset, tool and spindle of a Klartext program under M128.
-const M128: &str = "BEGIN PGM A MM\n; trunnion: preset 1 X0 Y0 Z0\n; trunnion: tool 1 length 80\nTOOL CALL 1 Z S1000\nCYCL DEF 247 DATUM SETTING ~\n Q339=+1\nM3\nM128\nL X+0 Y+0 Z+50 A+20 C+30 R0 FMAX\n";
+const M128: &str = "BEGIN PGM A MM\n; preset 1 is at the centre of the table\n; trunnion: tool 1 length 80\nTOOL CALL 1 Z S1000\nCYCL DEF 247 DATUM SETTING ~\n Q339=+1\nM3\nM128\nL X+0 Y+0 Z+50 A+20 C+30 R0 FMAX\n";
 
 /// The same of a Sinumerik program under TRAORI.
-const TRAORI: &str = "; trunnion: G54 X0 Y0 Z0\n; trunnion: tool 1 length 80\nG17 G54 G90 G94 G71 G40\nT1 D1\nM6\nTRAORI\nG0 X10 Y0 Z50 A10 C10 M3 S1000\n";
+const TRAORI: &str = "; G54 is at the centre of the table\n; trunnion: tool 1 length 80\nG17 G54 G90 G94 G71 G40\nT1 D1\nM6\nTRAORI\nG0 X10 Y0 Z50 A10 C10 M3 S1000\n";
 
 /// The same without a position.
 const SLID: &str =
-    "; trunnion: G54 X0 Y0 Z0\n; trunnion: tool 1 length 80\nG17 G54 G90 G94 G71 G40\nT1 D1\nM6\nTRAORI\n";
+    "; G54 is at the centre of the table\n; trunnion: tool 1 length 80\nG17 G54 G90 G94 G71 G40\nT1 D1\nM6\nTRAORI\n";
 
 pub(super) const FIVE_AXES: &[Item] = &[
     (

@@ -36,6 +36,7 @@ impl Klartext<'_> {
         }
         self.core.state.position = back;
         let mut kind = self.straight(rapid);
+        let feed = self.core.feed(kind, TextRange::default, report);
         if led {
             // M128 is reset before M91 and M92 (TNC 620 34056x-04, p. 340)
             Self::not_modelled(
@@ -46,7 +47,6 @@ impl Klartext<'_> {
             self.core.forget_linear();
             end.known &= !LINEAR;
         }
-        let feed = self.core.feed(kind, TextRange::default, report);
         if words.given & ROTARY != 0 {
             self.core.state.orientation = Orientation::Words;
         }

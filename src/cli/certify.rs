@@ -12,6 +12,7 @@ use crate::cli::out::Out;
 use std::fmt::Write;
 use trunnion_certify::conversion::{Conversion, ConversionCertificate};
 use trunnion_certify::{Certificate, Chain, Claim, Gap, Outcome, certify_with_libraries};
+use trunnion_interp::Setup;
 use trunnion_machine::Machine;
 use trunnion_same::{Difference, Verdict};
 use trunnion_workspace::find_machine;
@@ -46,7 +47,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     } else if let Some(file) = &command.certificate {
         let text = trunnion_files::read_text(file)?;
         let chain = Chain::from_json(&text).map_err(|e| Failure::file(file, e))?;
-        let outcome = checked_again(&chain, [before, &after], &loaded, machine);
+        let outcome = checked_again(&chain, [before, &after], (&loaded, setup), machine);
         outcome.map_or_else(
             |outcome| outcome,
             |(earlier, last)| {
@@ -188,11 +189,11 @@ fn in_all(earlier: &[Certificate], last: &Certificate) -> String {
 fn checked_again(
     chain: &Chain,
     [before, after]: [&[u8]; 2],
-    loaded: &load::Loaded,
+    (loaded, assumed): (&load::Loaded, &Setup),
     machine: &Machine,
 ) -> Result<(Vec<Certificate>, Certificate), Outcome> {
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
-    let fresh = chain.recheck(before, after, dialect, machine, setup);
+    let fresh = chain.recheck(before, after, dialect, machine, (setup, assumed));
     match fresh {
         Ok((earlier, last)) => Ok((earlier, last)),
         Err((_, outcome)) if chain.steps.len() == 1 => Err(outcome),

@@ -13,7 +13,7 @@ use trunnion_dialect::Foreign;
 use trunnion_files::{Outputs, Seen, Target};
 use trunnion_interp::{Fault, FaultKind, Limits, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Steps, undeclared, with_zeros};
+use trunnion_same::{Input, assumed, with_zeros};
 use trunnion_syntax::{LineIndex, Program};
 use trunnion_workspace::{Overrides, Resolved, resolve};
 
@@ -118,15 +118,7 @@ pub(crate) fn with_assumed(setup: &Setup, programs: &[&Loaded]) -> Setup {
     let mut unset = Vec::new();
     for loaded in programs {
         let assume = loaded.resolved.assume;
-        if assume.work_offset || assume.tool_length {
-            let mut steps = Steps::new(loaded.input());
-            steps.watch_faults();
-            steps.by_ref().for_each(drop);
-            unset.extend(undeclared(&mut steps).into_iter().filter(|kind| match kind {
-                FaultKind::WorkOffsetUnset { .. } => assume.work_offset,
-                _ => assume.tool_length,
-            }));
-        }
+        unset.extend(assumed(loaded.input(), [assume.work_offset, assume.tool_length]));
     }
     with_zeros(setup, &unset)
 }

@@ -73,11 +73,9 @@ impl Iso<'_> {
                 Sort::Held => free &= !crate::unused::letters(found.code),
                 Sort::Setting("speed limit") => {
                     let to = [Argument::code(found.code.id.clone()), said("S", words.speed)];
-                    // each of G25 and G26 of a Sinumerik writes a limit of its own, and so does LIMS
-                    let key = match found.code.action {
-                        Action::NotFollowed => format!("speed limit {}", found.code.id),
-                        _ => "speed limit".to_owned(),
-                    };
+                    // G25, G26 and LIMS of a Sinumerik write limits of their own
+                    let of_code = found.code.action == Action::NotFollowed;
+                    let key = format!("speed limit{}", if of_code { &found.code.id } else { "" });
                     self.core.effects.add(block, Effect::set(key, to));
                     free = 0;
                     held = u32::MAX;

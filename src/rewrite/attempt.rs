@@ -5,6 +5,9 @@ use core::cell::OnceCell;
 use core::fmt::Write;
 use trunnion_certify::{Certificate, Claim, Outcome, certify};
 use trunnion_check::{Diagnostic, Report, Settings, Severity, Status, check_objections};
+use trunnion_interp::Setup;
+use trunnion_machine::Machine;
+use trunnion_same::{Input, assumed, with_zeros};
 use trunnion_syntax::{BlockId, LineIndex, Program, TextEdit, parse};
 
 /// So many places are left out one after the other because they cannot be proved; then all of them are refused. Each costs a proof.
@@ -43,6 +46,8 @@ pub struct Proved {
     pub after: Vec<u8>,
     /// The proof.
     pub certificate: Box<Certificate>,
+    /// What it was proved with: undeclared values that the settings assume are zero in it, where the proof needs them.
+    pub setup: Setup,
     /// What it does.
     pub summary: String,
 }
@@ -248,14 +253,15 @@ impl Prover<'_> {
         let Some(after) = trunnion_syntax::apply_edits(before, edits) else {
             return Err("the edits overlap".to_owned().into());
         };
-        let certificate = match certify(
-            before,
-            &after,
-            self.settings.dialect,
-            machine,
-            &self.settings.setup,
-            claim,
-        ) {
+        let dialect = self.settings.dialect;
+        let prove = |setup| certify(before, &after, dialect, machine, setup, claim);
+        let mut setup = self.settings.setup.clone();
+        let mut outcome = prove(&setup);
+        if let (Outcome::Unknown(_), Some(zeros)) = (&outcome, self.assumed(machine)) {
+            // what is the same with the values that the user takes as zero
+            (outcome, setup) = (prove(&zeros), zeros);
+        }
+        let certificate = match outcome {
             Outcome::Proved(certificate) => certificate,
             Outcome::Refuted(witness) => {
                 return Err(Failure {
@@ -285,8 +291,24 @@ impl Prover<'_> {
             edits: edits.to_vec(),
             after,
             certificate,
+            setup,
             summary: self.summary.clone(),
         })
+    }
+}
+
+impl Prover<'_> {
+    /// The setup with the undeclared values at zero that the user assumes to be; `None`: there are none.
+    fn assumed(&self, machine: &Machine) -> Option<Setup> {
+        let input = Input {
+            program: self.program,
+            dialect: self.settings.dialect,
+            setup: &self.settings.setup,
+            machine: Some(machine),
+        };
+        let assume = self.settings.assume;
+        let unset = assumed(input, [assume.work_offset, assume.tool_length]);
+        (!unset.is_empty()).then(|| with_zeros(&self.settings.setup, &unset))
     }
 }
 

@@ -51,5 +51,5 @@ pub use process::{Held, Process, offset_name, shown};
 pub use refit::{Refit, Refitted};
 pub use steps::Steps;
 pub use twins::run_alike;
-pub use undeclared::{only_by_chance, undeclared, unrelated, with_stand_ins, with_zeros};
+pub use undeclared::{assumed, only_by_chance, undeclared, unrelated, with_stand_ins, with_zeros};
 pub use verdict::{Difference, Verdict};

@@ -1,5 +1,5 @@
 //! What nobody declares, and what two programs still have in common.
-use crate::{Steps, offset_name};
+use crate::{Input, Steps, offset_name};
 use std::sync::Arc;
 use trunnion_interp::{FaultKind, ModalState, Motion, Setup, Tool, UNNAMED_ZERO, WorkOffset};
 use trunnion_syntax::Format;
@@ -35,6 +35,22 @@ pub fn undeclared(steps: &mut Steps<'_>) -> Vec<FaultKind> {
         });
     let faults = steps.take_faults().into_iter().map(|fault| fault.kind);
     faults.filter(is_undeclared).chain(zeros).collect()
+}
+
+/// The same of the kinds that are assumed to be zero: zero points, and tool lengths.
+pub fn assumed(input: Input<'_>, [zeros, lengths]: [bool; 2]) -> Vec<FaultKind> {
+    if !(zeros || lengths) {
+        return Vec::new();
+    }
+    let mut steps = Steps::new(input);
+    steps.watch_faults();
+    steps.by_ref().for_each(drop);
+    let mut unset = undeclared(&mut steps);
+    unset.retain(|kind| match kind {
+        FaultKind::WorkOffsetUnset { .. } => zeros,
+        _ => lengths,
+    });
+    unset
 }
 
 fn is_undeclared(kind: &FaultKind) -> bool {

@@ -21,5 +21,5 @@ N90 X10 X0
 N100 G0 Z10 !
 (expect unknown-word)
 N110 Z10 AB=5
-N120 G49 M5
+N120 M5
 N130 M30

@@ -36,8 +36,8 @@ pub(super) struct Seen<'m> {
     /// Planned speed at the end of the last motion, mm/s.
     pub(super) leaves: f64,
     pub(super) swing: Swing,
-    /// For how long the tool crawls without a break, s.
-    pub(super) crawl: f64,
+    /// For how long the tool crawls without a break, s; `None` before the first block of a cut.
+    pub(super) crawl: Option<f64>,
 }
 
 /// The share of F along the path in feed, as a run of dips.
@@ -87,7 +87,7 @@ impl<'m> Seen<'m> {
             turning: VecDeque::new(),
             leaves: 0.0,
             swing: Swing::default(),
-            crawl: 0.0,
+            crawl: None,
         }
     }
 }
@@ -108,7 +108,7 @@ impl Seen<'_> {
         self.corner(timed);
         self.leaves = timed.leaves.unwrap_or(0.0) / 60.0;
         let Some(feed) = timed.feed.filter(|_| timed.engaged && timed.seconds[1].is_some()) else {
-            (self.swing, self.crawl) = (Swing::default(), 0.0);
+            (self.swing, self.crawl) = (Swing::default(), None);
             return;
         };
         if let Some((bend, joint)) = timed.bend_feed {
@@ -119,14 +119,16 @@ impl Seen<'_> {
         }
         // from block to block without a break: it leaves one slowly and enters the next one so
         let crawl = timed.crawl;
-        self.crawl += crawl.enters;
-        let longest = self.crawl.max(crawl.inside).max(crawl.leaves);
+        let enters = match self.crawl {
+            // the start of a cut
+            None if crawl.faster => 0.0,
+            before => before.unwrap_or(0.0) + crawl.enters,
+        };
+        let longest = enters.max(crawl.inside);
         if longest > CRAWLS {
             self.place(timed, PaceKind::Crawl, (longest, feed), 0);
         }
-        if crawl.faster {
-            self.crawl = crawl.leaves;
-        }
+        self.crawl = Some(if crawl.faster { crawl.leaves } else { enters });
         if turns {
             self.swing = Swing::default();
         } else if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {

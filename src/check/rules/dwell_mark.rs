@@ -27,7 +27,7 @@
 //!
 //! # Guarantee
 //! Silence proves nothing. The rule judges the planned speed of feed motions with the spindle on, on machines that declare the accelerations of their axes.
-//! A dwell that the program asks for is not a finding. Consecutive blocks are one finding.
+//! A dwell that the program asks for is not a finding, nor are the start and the end of a cut. Consecutive blocks are one finding.
 //!
 //! # Thresholds
 //! Below 5 % of the programmed feed for more than 0.05 s without a break, in one block or over several.

@@ -178,15 +178,21 @@ mod tests {
         let first = "T1 M6\nS100 M3\nG43 H1 G0 X0. Y0. Z5.\nG1 Z-1. F100.\n";
         for (rest, dialect) in [
             (
-                "G49\nG1 X5. Z-1.\n;^^^^^^^^^^ missing-tool-length: T1 cuts without its length, which was compensated in the cut before\nX6.\nM30\n",
+                "G49\n;^^ not-modelled: not modelled: a tool length that ends\nG1 X5. Z-1.\n;^^^^^^^^^^ missing-tool-length: T1 cuts without its length, which was compensated in the cut before\nX6.\nM30\n",
                 "fanuc-30i",
             ),
             (
                 "G43 H2\nG1 X5. Z-1.\n;^^^^^^^^^^ missing-tool-length: T1 cuts with the length offset H2\nX6.\nM30\n",
                 "fanuc-30i",
             ),
-            ("G49\nG0 Z50.\nM30\n", "fanuc-30i"),
-            ("G49\nG43 H1\nG1 X5.\nM30\n", "fanuc-30i"),
+            (
+                "G49\n;^^ not-modelled: not modelled: a tool length that ends\nG0 Z50.\nM30\n",
+                "fanuc-30i",
+            ),
+            (
+                "G49\n;^^ not-modelled: not modelled: a tool length that ends\nG43 H1\nG1 X5.\nM30\n",
+                "fanuc-30i",
+            ),
         ] {
             assert_drawn(&format!("gcode {dialect}"), &format!("{first}{rest}"));
         }

@@ -255,14 +255,10 @@ impl<'a> Times<'a> {
                 out.push(format!("{what} of {letters}"));
             }
         };
-        say(
-            letters(&|axis| axis.max_acceleration.is_none()),
-            "the acceleration (amax)",
-        );
-        say(
-            letters(&|axis| axis.extra.max_jerk.is_none()),
-            "the jerk (jmax; taken as unlimited)",
-        );
+        let acceleration = letters(&|axis| axis.max_acceleration.is_none());
+        say(acceleration, "the acceleration (amax)");
+        let jerk = letters(&|axis| axis.extra.max_jerk.is_none());
+        say(jerk, "the jerk (jmax; taken as unlimited)");
         let control = &self.machine.control;
         if control.corner_model.is_none() {
             out.push("the model of corners ([control] corner): anything from full speed to a stop".to_owned());

@@ -45,8 +45,12 @@ impl Klartext<'_> {
                 b"STAY" => positioning.swivel = None,
                 b"SEQ" => self.solution(&word, &mut positioning, report),
                 b"FMAX" => positioning.feed = Feed::Rapid,
-                // MAX is the limit of the axis, which is not known here
-                b"MB" => (retract, self.memory.unfollowed) = (Some(self.said(word.value, report)), true),
+                b"MB" => {
+                    self.memory.unfollowed = true;
+                    // MAX is the limit of the axis, which is not known here
+                    let most = word.value == Said::Nothing && words.takes_word("MAX");
+                    retract = Some(if most { None } else { self.said(word.value, report) });
+                }
                 b"DIST" | b"ABST" => (shift, self.memory.unfollowed) = (self.said(word.value, report), true),
                 b"F" | b"COORD" => self.memory.unfollowed = true,
                 b"TABLE" => (positioning.turns_table, self.memory.unfollowed) = (true, true),

@@ -52,7 +52,7 @@ fn judged(name: &str, text: &[u8], settings: &Settings<'_>, path: &Path) -> &'st
         &proved.after,
         settings.dialect,
         machine,
-        &settings.setup,
+        &proved.setup,
     );
     assert!(matches!(again, Outcome::Proved(_)), "{}: {again:?}", place());
     let after = parse(proved.after.clone(), settings.dialect.lex);

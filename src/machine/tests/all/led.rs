@@ -6,7 +6,9 @@ use crate::random::Random;
 use crate::soundness::{Machines, SAMPLES, axes, blocks, circle, ends, follow, joints, strays};
 use trunnion_geometry::math::{cos, sin};
 use trunnion_interp::{Motion, MotionKind, Position};
-use trunnion_machine::{Joints, Leg, Machine, excursions, feed_limit_tight, inverse, linear_travel, tip_deviation};
+use trunnion_machine::{
+    Joints, Leg, Machine, excursions, feed_limit_tight, inverse, linear_travel, passes_singular, tip_deviation,
+};
 
 /// A helix of up to three turns from the start of a motion, every third one with a radius that changes.
 pub(crate) fn with_spiral(random: &mut Random, motion: &Motion) -> Motion {
@@ -172,6 +174,11 @@ pub(crate) fn beyond(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints
     const LEAST: f64 = 1.0;
     let all: Vec<Joints> = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)).collect();
     let found = excursions(machine, leg, LEAST);
+    if passes_singular(machine, leg) {
+        // the axes have no path there, and rules say that it is unknown
+        assert!(found.is_empty(), "{found:?}");
+        return 0;
+    }
     for solved in machine.constants.solved {
         let joint = machine.constants.linear[solved].joint;
         for (sign, upward) in [(1.0, true), (-1.0, false)] {

@@ -8,7 +8,7 @@
 use crate::suppress::has_code;
 use crate::{Diagnostic, Report, Severity, Status, ValueKey};
 use core::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -29,6 +29,9 @@ const NOTED: usize = 8;
 /// The first and the last block of a finding.
 type Span = (u32, u32);
 
+/// Findings of one rule and one axis: their blocks, and their numbers in the list.
+type Spans = Vec<(Span, usize)>;
+
 /// Puts the findings of each event together, and counts anew.
 pub(crate) fn group(program: &Program, report: &mut Report) {
     group_at_poles(program, report);
@@ -48,7 +51,7 @@ fn group_consequences(program: &Program, report: &mut Report) {
     }
     let blocks = Blocks(program);
     let lines = LineIndex::new(program.source());
-    let mut causes: HashMap<(&str, Option<&str>), Vec<(Span, usize)>> = HashMap::new();
+    let mut causes: BTreeMap<(&str, Option<&str>), Spans> = BTreeMap::new();
     for (index, found) in report.diagnostics.iter().enumerate().filter(|(_, found)| fails(found)) {
         let of_rule = causes.entry((found.rule, limiting_axis(found)));
         of_rule.or_default().push((blocks.span(found), index));

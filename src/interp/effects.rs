@@ -22,7 +22,7 @@ use lengths::{in_lengths, may_read_unit, to_mm};
 pub use situation::Situation;
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
-    letter_bit, name_of, said, sort, takes_axes, tells, uncouples,
+    letter_bit, name_of, said, sort, speed_limit, takes_axes, tells, uncouples,
 };
 use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
@@ -73,10 +73,7 @@ impl Iso<'_> {
                 Sort::Held => free &= !crate::unused::letters(found.code),
                 Sort::Setting("speed limit") => {
                     let to = [Argument::code(found.code.id.clone()), said("S", words.speed)];
-                    // G25, G26 and LIMS of a Sinumerik write limits of their own
-                    let of_code = found.code.action == Action::NotFollowed;
-                    let key = format!("speed limit{}", if of_code { &found.code.id } else { "" });
-                    self.core.effects.add(block, Effect::set(key, to));
+                    self.core.effects.add(block, Effect::set(speed_limit(found), to));
                     free = 0;
                     held = u32::MAX;
                 }

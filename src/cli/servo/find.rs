@@ -130,17 +130,20 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
         feeds: [feed(&before)?, feed(&after)?],
         lengths: [before.length, after.length],
         joints,
-        notes: [&before, &after]
-            .into_iter()
-            .filter(|side| side.bends)
-            .map(|side| {
-                format!(
-                    "the motion of line {} is bent, and is taken as its tangent at the corner",
-                    side.line
-                )
-            })
-            .collect(),
+        notes: bent(&[&before, &after]),
     })
+}
+
+/// Notes about legs that are arcs.
+fn bent(sides: &[&Side]) -> Vec<String> {
+    let bent = sides.iter().filter(|side| side.bends);
+    bent.map(|side| {
+        format!(
+            "the motion of line {} is bent, and is taken as its tangent at the corner",
+            side.line
+        )
+    })
+    .collect()
 }
 
 /// `None` where the leg does not move, or its path is not known.

@@ -116,6 +116,12 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
     }
 }
 
+/// What a limit of the spindle's speed sets: G25, G26 and LIMS of a Sinumerik write limits of their own.
+pub(super) fn speed_limit(found: &Found<'_>) -> String {
+    let of_code = found.code.action == Action::NotFollowed;
+    format!("speed limit{}", if of_code { &found.code.id } else { "" })
+}
+
 /// Coolant codes that every dialect here shares: flood, mist, or both off.
 pub(super) fn coolant(code: &trunnion_dialect::Code) -> Option<&'static [(&'static str, bool)]> {
     let listed = matches!(code.group.as_deref(), Some("coolant" | "mist"));

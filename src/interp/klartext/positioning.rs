@@ -43,7 +43,7 @@ impl Klartext<'_> {
                 b"MOVE" => positioning.swivel = Some(Swivel::TipStays),
                 b"TURN" => positioning.swivel = Some(Swivel::AxesStay),
                 b"STAY" => positioning.swivel = None,
-                b"SEQ" => self.solution(&word, &mut positioning, report),
+                b"SEQ" => solution(&word, &mut positioning, report),
                 b"FMAX" => positioning.feed = Feed::Rapid,
                 b"MB" => {
                     self.memory.unfollowed = true;
@@ -86,13 +86,14 @@ impl Klartext<'_> {
         }
         (numbers, positioning)
     }
+}
 
-    fn solution(&self, word: &Word<'_>, positioning: &mut Positioning, report: &mut Report<'_>) {
-        match word.value {
-            Said::Sign(true) => positioning.posture = Posture::Lower,
-            Said::Sign(false) => positioning.posture = Posture::Higher,
-            _ => Self::rejected(Refusal::Syntax, "SEQ needs + or -", report),
-        }
+/// SEQ: which of two solutions.
+fn solution(word: &Word<'_>, positioning: &mut Positioning, report: &mut Report<'_>) {
+    match word.value {
+        Said::Sign(true) => positioning.posture = Posture::Lower,
+        Said::Sign(false) => positioning.posture = Posture::Higher,
+        _ => Klartext::rejected(Refusal::Syntax, "SEQ needs + or -", report),
     }
 }
 

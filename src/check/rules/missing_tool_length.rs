@@ -182,7 +182,7 @@ mod tests {
                 "fanuc-30i",
             ),
             (
-                "G43 H2\nG1 X5. Z-1.\n;^^^^^^^^^^ missing-tool-length: T1 cuts with the length offset H2\nX6.\nM30\n",
+                "G43 H2\n;^^^^^ not-modelled: not modelled: a tool length that ends\nG1 X5. Z-1.\n;^^^^^^^^^^ missing-tool-length: T1 cuts with the length offset H2\nX6.\nM30\n",
                 "fanuc-30i",
             ),
             (

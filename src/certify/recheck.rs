@@ -131,7 +131,9 @@ fn inputs_match(
         ));
     }
     if certificate.setup_sha256 != setup_digest(setup) {
-        return refuse("other tools, work offsets, control parameters or variables");
+        return refuse(
+            "other tools, work offsets, control parameters or variables (values that --assume takes as zero are among them)",
+        );
     }
     Ok(())
 }

@@ -292,7 +292,7 @@ impl<'a> Settings<'a> {
     /// the machine or the dialect says otherwise.
     pub(crate) fn control(&self) -> ControlData {
         let mut control = self.setup.control.clone();
-        // programs are compared with what their own words say alone
+        // not in the setup itself: programs are compared with what their own words say alone
         control.tool_change = self.machine.and_then(|machine| machine.control.tool_change);
         if self.assume.power_on && power_on_state(self.dialect, &control).motion.is_none() {
             control.power_on.get_or_insert_default().push("G0".to_owned());

@@ -118,8 +118,10 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
 
 /// What a limit of the spindle's speed sets: G25, G26 and LIMS of a Sinumerik write limits of their own.
 pub(super) fn speed_limit(found: &Found<'_>) -> String {
-    let of_code = found.code.action == Action::NotFollowed;
-    format!("speed limit{}", if of_code { &found.code.id } else { "" })
+    match found.code.action {
+        Action::NotFollowed => format!("speed limit {}", found.code.id),
+        _ => "speed limit".to_owned(),
+    }
 }
 
 /// Coolant codes that every dialect here shares: flood, mist, or both off.

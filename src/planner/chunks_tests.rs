@@ -42,11 +42,8 @@ fn legs<'m>(machine: &'m Machine, text: &str) -> Vec<Leg> {
 fn times(machine: &Machine, legs: &[Leg], chunk: usize) -> (Vec<Timed>, usize) {
     let mut planner = Planner::new(machine, RotaryFeed::Family);
     let mut times = Vec::new();
-    for (index, leg) in legs.iter().enumerate() {
-        if index == 1 {
-            // the first position is reached
-            planner.plan_in_chunks(chunk);
-        }
+    planner.plan_in_chunks(chunk, 280);
+    for leg in legs {
         planner.leg(leg, PathControl::ByMachine, &mut |timed| times.push(timed));
     }
     // what came out before the end

@@ -9,12 +9,15 @@ mod corner;
 #[cfg(test)]
 mod limits_tests;
 mod linuxcnc;
+mod one_move;
+mod passes;
 mod path;
 mod piece;
 mod pieces;
 mod planner;
 mod run;
 mod sampled;
+mod section;
 mod timed;
 
 pub use clock::{Listener, Modes, time};
@@ -23,5 +26,5 @@ pub use path::{Ramp, s_curve, trapezoid};
 pub use piece::{Bounds, Limit, Piece};
 pub use pieces::bend_limit;
 pub use planner::Planner;
-pub use run::{Begun, Planned, Run};
+pub use run::{Begun, Long, Planned, Run, Smooth};
 pub use timed::Timed;

@@ -227,6 +227,7 @@ fn the_filter_keeps_the_jerk() {
             pieces,
             lookahead: None,
             filter: 0.0,
+            long: None,
             begun: None,
         };
         let planned = run.plan();
@@ -241,7 +242,10 @@ fn the_filter_keeps_the_jerk() {
             }
             let _ = v;
         }
-        let window = (planned.filter / dt).round() as usize;
+        let crate::Smooth::Filter(filter) = planned.smooth[0] else {
+            panic!("{:?}", planned.smooth)
+        };
+        let window = (filter / dt).round() as usize;
         let padded: Vec<f64> = vec![0.0; window]
             .into_iter()
             .chain(speeds)

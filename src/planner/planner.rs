@@ -19,8 +19,6 @@ pub struct Planner<'m> {
     /// The last motion with a path since the last stop.
     last: Option<Box<Course>>,
     motions: u32,
-    /// The longest filter that an axis of the machine may ask for, s.
-    longest: f64,
     /// So many motions since the last stop are worth a look at what is settled.
     enough: usize,
     /// The least of these.
@@ -69,12 +67,12 @@ impl<'m> Planner<'m> {
                 pieces: Vec::new(),
                 lookahead: planning.lookahead,
                 filter: planning.filter_time.unwrap_or(0.0),
+                long: emit::long(machine, CHUNK),
                 begun: None,
             },
             open: Vec::new(),
             last: None,
             motions: 0,
-            longest: emit::longest_filter(machine),
             enough: CHUNK,
             chunk: CHUNK,
             #[cfg(test)]
@@ -82,14 +80,11 @@ impl<'m> Planner<'m> {
         }
     }
 
-    /// For tests: looks at what is settled after so many motions, and takes the filter of long runs for the run that begins.
+    /// For tests: looks at what is settled after so many motions; a section of `long` motions is a long one.
     #[cfg(test)]
-    pub(crate) fn plan_in_chunks(&mut self, chunk: usize) {
+    pub(crate) fn plan_in_chunks(&mut self, chunk: usize, long: usize) {
         (self.chunk, self.enough) = (chunk, chunk);
-        self.run.begun = Some(crate::Begun {
-            speeds: [0.0; 2],
-            filter: self.longest,
-        });
+        self.run.long = emit::long(self.machine, long);
     }
 
     /// The next leg, and what the program says about the corner at its start. Times of earlier legs may come out.

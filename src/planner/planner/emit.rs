@@ -1,8 +1,8 @@
 //! What is planned becomes times: at a stop all of it, and of a long run what is settled.
 use super::{Open, Planner};
-use crate::run::{Begun, WORTH};
+use crate::section::WORTH;
 use crate::timed::Crawl;
-use crate::{Limit, Planned, Run, Timed};
+use crate::{Limit, Long, Planned, Run, Smooth, Timed};
 use trunnion_machine::Machine;
 
 /// Share of F below which a block is slow, and below which it crawls.
@@ -22,8 +22,7 @@ impl Planner<'_> {
         self.enough = self.chunk;
     }
 
-    /// Emits what is settled of a long run, so that neither memory nor the time of a plan grows with it. The filter that limits the jerk is the longest one
-    /// that the machine may need: of many motions it costs too little for a search of a better one.
+    /// Emits what is settled of a long run, so that neither memory nor the time of a plan grows with it.
     pub(super) fn settle(&mut self, out: &mut impl FnMut(Timed)) {
         if self.open.len() < self.enough {
             return;
@@ -31,15 +30,7 @@ impl Planner<'_> {
         self.enough = 2 * self.open.len();
         let count = self.last.as_ref().map_or(0, |last| last.count);
         let most = self.run.pieces.len().saturating_sub(count);
-        let filter = self.run.begun.map_or(self.longest, |begun| begun.filter);
-        if filter > WORTH * self.chunk as f64 {
-            return;
-        }
-        self.run.begun.get_or_insert(Begun {
-            speeds: [0.0; 2],
-            filter,
-        });
-        let Some((settled, begun)) = self.run.settled(filter, most) else {
+        let Some((settled, begun)) = self.run.settled(most) else {
             return;
         };
         let planned = self.run.plan();
@@ -72,13 +63,16 @@ impl Planner<'_> {
     }
 }
 
-/// The filter in which every axis of a machine changes its acceleration within its jerk, s.
-pub(super) fn longest_filter(machine: &Machine) -> f64 {
+/// The filter of long sections: the one in which every axis of a machine changes its acceleration within its jerk. Of many motions it costs too little for
+/// a search of a better one; `None` where it does not.
+pub(super) fn long(machine: &Machine, motions: usize) -> Option<Long> {
     let times = machine
         .axes
         .iter()
         .filter_map(|axis| Some(axis.max_acceleration? / axis.extra.max_jerk?));
-    2.0 * times.fold(0.0, f64::max)
+    let filter = 2.0 * times.fold(0.0, f64::max);
+    let motions = u32::try_from(motions).unwrap_or(u32::MAX);
+    (filter <= WORTH * f64::from(motions)).then_some(Long { motions, filter })
 }
 
 /// Puts the pieces of a motion together.
@@ -96,9 +90,10 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
         lowest = lowest.min(ramp.ends[0]).min(ramp.ends[1]);
         let feed = run.pieces[index].feed;
         if feed.is_finite() {
-            let smooth = planned
-                .one_move
-                .unwrap_or([ramp.top / ramp.acceleration, planned.filter]);
+            let smooth = match planned.smooth[index] {
+                Smooth::OneMove(smooth) => smooth,
+                Smooth::Filter(filter) => [ramp.top / ramp.acceleration, filter],
+            };
             let slow = |speed: f64| (ramp.top >= speed).then(|| ramp.seconds_below(speed, smooth));
             below += slow(SLOW * feed).map_or(own, |[enters, leaves]| enters + leaves);
             match slow(CRAWL * feed) {
@@ -115,7 +110,7 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
     let near = |a: f64, b: f64| a >= b * (1.0 - 1e-6);
     let limit = if near(ramp.top, piece.planned.cap) {
         piece.planned.by
-    } else if planned.one_move.is_some()
+    } else if matches!(planned.smooth[slowest], Smooth::OneMove(_))
         && piece.jerk.is_finite()
         && ramp.top < piece.planned.acceleration * piece.jerk_time
     {

@@ -69,17 +69,38 @@ fn program(random: &mut Random) -> String {
     text + "M2\n"
 }
 
-fn machine(limits: [f64; 3], control: &str) -> Machine {
-    let [v, a, j] = limits;
-    let axis = |letter: &str, share: f64| {
-        format!(
-            "{{letter=\"{letter}\", sign=1, dyn={{vmax={}, amax={}, jmax={}}}}}",
-            v * share,
-            a * share,
-            j * share
-        )
-    };
-    let axes = [axis("X", 1.0), axis("Y", 0.8), axis("Z", 0.5)].join(", ");
+/// Speed, acceleration and jerk of X, Y, Z.
+type Limits = [[f64; 3]; 3];
+
+/// Axes alike but for their size.
+fn alike(random: &mut Random) -> Limits {
+    let limits = [
+        random.between(20.0, 500.0),
+        random.between(100.0, 9000.0),
+        random.between(3000.0, 200_000.0),
+    ];
+    [1.0, 0.8, 0.5].map(|share| limits.map(|limit| limit * share))
+}
+
+/// Each axis by itself: the best filter of one may be the worst of another.
+fn unlike(random: &mut Random) -> Limits {
+    [(); 3].map(|()| {
+        [
+            random.between(20.0, 400.0),
+            random.between(50.0, 5000.0),
+            10.0_f64.powf(random.between(2.5, 5.5)),
+        ]
+    })
+}
+
+fn machine(limits: Limits, control: &str) -> Machine {
+    let axes = ["X", "Y", "Z"]
+        .iter()
+        .zip(limits)
+        .map(|(letter, [speed, acceleration, jerk])| {
+            format!("{{letter=\"{letter}\", sign=1, dyn={{vmax={speed}, amax={acceleration}, jmax={jerk}}}}}")
+        });
+    let axes = axes.collect::<Vec<_>>().join(", ");
     load(
         "m",
         &format!("schema = \"ncmachine/1\"\naxis = [{axes}]\n[control]\nfamily = \"linuxcnc\"\n{control}\n"),
@@ -118,11 +139,7 @@ fn optimistic_is_never_above_planned() {
     for index in 0..count() {
         let text = program(&mut random);
         let control = CONTROLS[index % CONTROLS.len()];
-        let limits = [
-            random.between(20.0, 500.0),
-            random.between(100.0, 9000.0),
-            random.between(3000.0, 200_000.0),
-        ];
+        let limits = alike(&mut random);
         let mode = MODES[(index / CONTROLS.len()) % MODES.len()];
         for timed in plan(&machine(limits, control), &text, mode) {
             if let [Some(optimistic), Some(planned)] = timed.seconds {
@@ -147,15 +164,20 @@ fn a_higher_limit_is_never_slower() {
         if control.contains("g64") {
             continue;
         }
-        let limits = [
-            random.between(20.0, 500.0),
-            random.between(100.0, 9000.0),
-            random.between(3000.0, 200_000.0),
-        ];
         let mode = MODES[(index / CONTROLS.len()) % MODES.len()];
         let which = index % 3;
-        let mut higher = limits;
-        higher[which] *= random.one_of(&[1.05, 1.5, 4.0]);
+        let factor = random.one_of(&[1.05, 1.5, 4.0, 10.0, 30.0, 100.0]);
+        let (limits, higher) = if index % 2 == 0 {
+            let limits = alike(&mut random);
+            let mut higher = limits;
+            higher.iter_mut().for_each(|axis| axis[which] *= factor);
+            (limits, higher)
+        } else {
+            let limits = unlike(&mut random);
+            let mut higher = limits;
+            higher[random.one_of(&[0, 1, 2])][which] *= factor;
+            (limits, higher)
+        };
         let before = plan(&machine(limits, control), &text, mode);
         let after = plan(&machine(higher, control), &text, mode);
         // an arc whose rounded ends do not fit its centre is not run

@@ -111,15 +111,29 @@ fn legend(cuts: &[&Block], planned: bool, top: f64) -> Vec<Entry> {
     if planned {
         let slow = cuts
             .iter()
-            .filter(|block| matches!((block.feed[0], block.planned), (Some(feed), Some([top, _])) if top < 0.8 * feed))
+            .filter(
+                |block| matches!((block.feed[0], block.planned), (Some(feed), Some(plan)) if plan.mean() < 0.8 * feed),
+            )
             .count();
         legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
         legend.push((
             Swatch::Dot(GREEN),
-            format!("below 80 % of F in {}", counted(slow, "block")),
+            format!("mean below 80 % of F in {}", counted(slow, "block")),
         ));
     }
     legend
+}
+
+/// Feeds between two others, at even acceleration: where, 0..=1, and how much.
+fn ramp(before: f64, after: f64) -> [(f64, f64); 3] {
+    [0.1, 0.35, 0.65].map(|way| {
+        (
+            way,
+            (before * before + way * (after * after - before * before))
+                .max(0.0)
+                .sqrt(),
+        )
+    })
 }
 
 /// The planned speed: in each cut from the speed at the end of the block before to the highest one and to that at its own end.
@@ -128,18 +142,24 @@ fn course(record: &Record, height: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let mut course = Vec::new();
     for block in &record.blocks {
         let entry = before.filter(|_| block.joined).unwrap_or(0.0);
-        before = block.planned.map(|[_, end]| end);
-        let (Some([most, end]), false) = (block.planned, block.rapid) else {
+        before = block.planned.map(|plan| plan.end);
+        let (Some(plan), false) = (block.planned, block.rapid) else {
             course.push((f64::NAN, f64::NAN));
             continue;
         };
         let samples = record.of(block);
         let [from, to] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
-        course.extend([
-            (from, height(entry)),
-            (0.5 * (from + to), height(most)),
-            (to, height(end)),
-        ]);
+        let [full, brakes] = plan.even(entry).map(|part| from + part * (to - from));
+        let mut change = |[from, to]: [f64; 2], before: f64, after: f64| {
+            course.push((from, height(before)));
+            if before != after {
+                course.extend(ramp(before, after).map(|(way, feed)| (from + way * (to - from), height(feed))));
+            }
+        };
+        change([from, full], entry, plan.most);
+        change([full, brakes], plan.most, plan.most);
+        change([brakes, to], plan.most, plan.end);
+        course.push((to, height(plan.end)));
     }
     course
 }

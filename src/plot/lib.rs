@@ -22,6 +22,6 @@ pub use feed::feed;
 pub use height_map::height_map;
 pub use joints::{Along, joints};
 pub use path::path;
-pub use record::{Block, Mark, Record, Recorder, Sample};
+pub use record::{Block, Mark, PlannedFeed, Record, Recorder, Sample};
 pub use route::route;
 pub use servo::{ServoSpot, servo};

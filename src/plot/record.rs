@@ -35,10 +35,49 @@ pub struct Block {
     pub deviation: Option<[f64; 2]>,
     /// Programmed feed of the tip, and the highest at which no axis exceeds its speed, mm/min.
     pub feed: [Option<f64>; 2],
-    /// Planned feed: the highest, and that at the end, mm/min; `None` where no plan was added.
-    pub planned: Option<[f64; 2]>,
+    /// `None` where no plan was added.
+    pub planned: Option<PlannedFeed>,
     /// Least angle between tool axis and pole, deg.
     pub pole_angle: f64,
+}
+
+/// How a block is planned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedFeed {
+    /// Highest feed, mm/min.
+    pub most: f64,
+    /// Feed at its end, mm/min.
+    pub end: f64,
+    /// Length of its path, mm.
+    pub length: f64,
+    /// Duration, s.
+    pub seconds: f64,
+}
+
+impl PlannedFeed {
+    /// Its mean feed, mm/min.
+    pub(crate) fn mean(&self) -> f64 {
+        60.0 * self.length / self.seconds
+    }
+
+    /// Where its highest feed is reached and left, 0..=1 of the path, if it enters at this feed, mm/min, and changes it evenly: with the acceleration
+    /// that makes its duration. L/v + ((v - v0)^2 + (v - v1)^2) / (2 a v) = t, from the same trapezoid as docs/kinematics.md#time.
+    pub(crate) fn even(&self, entry: f64) -> [f64; 2] {
+        let [top, before, after] = [self.most, entry, self.end].map(|feed| feed / 60.0);
+        let late = self.seconds - self.length / top;
+        let twice = ((top - before).powi(2) + (top - after).powi(2)) / (top * late);
+        if !(late > 0.0 && twice > 0.0) {
+            return [0.0, 1.0];
+        }
+        let [up, down] = [before, after].map(|end| (top * top - end * end) / twice / self.length);
+        // several accelerations in one block: where the two changes meet
+        let (up, down) = if up + down > 1.0 {
+            (up / (up + down), down / (up + down))
+        } else {
+            (up, down)
+        };
+        [up, 1.0 - down]
+    }
 }
 
 /// A notable block.

@@ -15,6 +15,7 @@ mod lanes;
 mod line_points;
 mod named_blocks;
 mod pieces;
+mod pitch;
 mod polyline;
 mod posed_words;
 mod propose;

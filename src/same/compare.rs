@@ -9,7 +9,7 @@ use crate::cut::{cut, is_idle, may_be_cut};
 use crate::ending::{at_end, stopped};
 use crate::exact;
 use crate::happens::happens;
-use crate::in_effect::in_effect;
+use crate::in_effect::{in_effect, unless_undeclared};
 use crate::item::{Item, Sort, Step};
 use crate::judge::Judge;
 use crate::numbers;
@@ -23,7 +23,7 @@ use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
 use std::collections::VecDeque;
 use trunnion_geometry::abreast::Walked;
-use trunnion_interp::{MotionKind, same_number};
+use trunnion_interp::{Motion, MotionKind, same_number};
 
 /// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same even if values
 /// are unknown in them.
@@ -245,7 +245,9 @@ fn pair(
             if claim.cuts {
                 begin_alike(was, is, claim)?;
             }
-            judge.pair(was, is)?;
+            judge
+                .pair(was, is)
+                .map_err(|found| unless_undeclared(found, was, is, claim))?;
             if !curve::same_piece(&was.motion, &is.motion) {
                 return Err(curve::unlike(was, is));
             }
@@ -299,12 +301,18 @@ pub(crate) fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> 
     };
     if core::mem::discriminant(&a.kind) != core::mem::discriminant(&b.kind) {
         let lost = [a, b].iter().any(|motion| motion.kind == MotionKind::Unknown);
-        let verdict = if lost { Verdict::Unknown } else { Verdict::Differs };
-        return Err(verdict(Difference {
-            before: Some(a.block),
-            after: Some(b.block),
-            what: format!("one is {}, the other {}", kind(&a.kind), kind(&b.kind)),
-        }));
+        let curve = |motion: &Motion| matches!(motion.kind, MotionKind::Linear | MotionKind::Arc(Some(_)));
+        let near = claim.path_only && claim.mm > 0.0 && curve(a) && curve(b);
+        let verdict = if lost || near {
+            Verdict::Unknown
+        } else {
+            Verdict::Differs
+        };
+        let mut what = format!("one is {}, the other {}", kind(&a.kind), kind(&b.kind));
+        if near {
+            what += ": how far they are apart is not judged";
+        }
+        return Err(verdict(place(what)));
     }
     if let (MotionKind::Dwell(from), MotionKind::Dwell(to)) = (&a.kind, &b.kind) {
         let same = match (from, to) {

@@ -42,6 +42,12 @@ fn stays(step: &Step) -> bool {
         && !is_coupled(step)
 }
 
+/// Whether the feed belongs to the speed of the spindle: a tap, a thread, or the tapping mode of a control.
+pub(crate) fn feed_is_a_pitch(step: &Step) -> bool {
+    let mode = step.process.get("path-control").first();
+    is_coupled(step) || mode.is_some_and(|code| code.name == "G63")
+}
+
 /// Whether a cycle or the spindle is coupled to the motion.
 fn is_coupled(step: &Step) -> bool {
     let is_set = |key| !step.process.get(key).is_empty();

@@ -1,5 +1,6 @@
 //! What must be in effect in both programs at two motions.
 use crate::Claim;
+use crate::cut::feed_is_a_pitch;
 use crate::item::Step;
 use crate::process::{motion_difference, unlike};
 use crate::verdict::{Difference, Verdict};
@@ -8,7 +9,7 @@ use trunnion_interp::{MotionKind, Orientation, same_number};
 /// What must be in effect in both programs, whatever the kinds of the two motions.
 pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
-        return Ok(());
+        return same_tip(was, is, claim);
     }
     let (a, b) = (&was.motion, &is.motion);
     let place = |what: String| Difference {
@@ -29,7 +30,8 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
         );
     }
     let held = was.held.difference(&is.held, plane).filter(|_| !claim.across);
-    if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {
+    let feed_counts = !claim.frees_feed || feed_is_a_pitch(was) || feed_is_a_pitch(is);
+    if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, feed_counts)) {
         return differs(format!("{name} differs: {from} and {to}"));
     }
     if let Some(found) = unlike(&was.process, &is.process, claim.across) {
@@ -49,4 +51,50 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
         );
     }
     Ok(())
+}
+
+/// With another length in effect the tip of the tool is elsewhere, whatever is programmed. APT programs the tip itself.
+fn same_tip(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
+    let (a, b) = (&was.motion, &is.motion);
+    let open = a.undeclared.length || b.undeclared.length;
+    if claim.across
+        || same_number(a.tool_length_mm, b.tool_length_mm) && !(open && was.held.length_of != is.held.length_of)
+    {
+        return Ok(());
+    }
+    let said = |step: &Step| {
+        let length = step.motion.tool_length_mm;
+        if length.is_nan() || step.motion.undeclared.length {
+            format!("an undeclared one ({})", step.held.length_of)
+        } else {
+            format!("{length} mm")
+        }
+    };
+    let found = Difference {
+        before: Some(a.block),
+        after: Some(b.block),
+        what: format!("the active tool length differs: {} and {}", said(was), said(is)),
+    };
+    Err(if open || a.tool_length_mm.is_nan() || b.tool_length_mm.is_nan() {
+        Verdict::Unknown(found)
+    } else {
+        Verdict::Differs(found)
+    })
+}
+
+/// A difference of two paths that an undeclared zero point decides: with the right value there may be none.
+pub(crate) fn unless_undeclared(found: Verdict, was: &Step, is: &Step, claim: &Claim) -> Verdict {
+    let undeclared = (was.motion.undeclared.zero | is.motion.undeclared.zero) != 0;
+    match found {
+        Verdict::Differs(mut place) if claim.path_only && undeclared && was.held.work_offset != is.held.work_offset => {
+            let name = |step: &Step| step.held.work_offset.as_deref().unwrap_or("no work offset").to_owned();
+            place.what += &format!(
+                "; but a zero point is not declared ({} and {}), and its value decides",
+                name(was),
+                name(is)
+            );
+            Verdict::Unknown(place)
+        }
+        found => found,
+    }
 }

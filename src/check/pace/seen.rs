@@ -36,8 +36,32 @@ pub(super) struct Seen<'m> {
     /// Planned speed at the end of the last motion, mm/s.
     pub(super) leaves: f64,
     pub(super) swing: Swing,
-    /// For how long the tool crawls without a break, s; `None` before the first block of a cut.
-    pub(super) crawl: Option<f64>,
+    /// For how long the tool crawls without a break, s, and F of the block in which it does so longest; `None` before the first block of a cut.
+    pub(super) crawl: Option<Crawling>,
+}
+
+/// A crawl that may go on.
+#[derive(Clone, Copy)]
+pub(super) struct Crawling {
+    seconds: f64,
+    /// The longest part of it in one block, s, and F there.
+    part: f64,
+    feed: f64,
+}
+
+impl Crawling {
+    /// It goes on in a block.
+    fn goes_on(before: Option<Self>, part: f64, feed: f64) -> Self {
+        let own = Self {
+            seconds: part,
+            part,
+            feed,
+        };
+        before.map_or(own, |before| Self {
+            seconds: before.seconds + part,
+            ..if part > before.part { own } else { before }
+        })
+    }
 }
 
 /// The share of F along the path in feed, as a run of dips.
@@ -119,16 +143,24 @@ impl Seen<'_> {
         }
         // from block to block without a break: it leaves one slowly and enters the next one so
         let crawl = timed.crawl;
-        let enters = match self.crawl {
-            // the start of a cut
-            None if crawl.faster => 0.0,
-            before => before.unwrap_or(0.0) + crawl.enters,
+        // the start of a cut is none
+        let part = if self.crawl.is_none() && crawl.faster {
+            0.0
+        } else {
+            crawl.enters
         };
-        let longest = enters.max(crawl.inside);
-        if longest > CRAWLS {
-            self.place(timed, PaceKind::Crawl, (longest, feed), 0);
+        let enters = Crawling::goes_on(self.crawl, part, feed);
+        let inside = Crawling::goes_on(None, crawl.inside, feed);
+        let longest = if inside.seconds > enters.seconds {
+            inside
+        } else {
+            enters
+        };
+        if longest.seconds > CRAWLS {
+            self.place(timed, PaceKind::Crawl, (longest.seconds, longest.feed), 0);
         }
-        self.crawl = Some(if crawl.faster { crawl.leaves } else { enters });
+        let leaves = Crawling::goes_on(None, crawl.leaves, feed);
+        self.crawl = Some(if crawl.faster { leaves } else { enters });
         if turns {
             self.swing = Swing::default();
         } else if let (Some(reached), Some(leaves), false) = (timed.reached, timed.leaves, timed.turns_only) {

@@ -40,8 +40,16 @@ use trunnion_machine::Machine;
 
 pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Pace(PaceKind::Crawl, report)]).follows_pole_event();
 
-fn report(place: &Place, _: &Machine, out: &mut Reporter<'_>) {
+fn report(place: &Place, machine: &Machine, out: &mut Reporter<'_>) {
     let (unit, keys) = place.unit();
+    let corner = "let the control round the corner (a path tolerance, an arc), or lower F there";
+    let help = if machine.rotary.is_empty() {
+        corner.to_owned()
+    } else {
+        format!(
+            "where rotary axes turn, spread their turn over a longer path, or turn them out of the cut; else {corner}"
+        )
+    };
     out.event(|draft| {
         draft
             .say(format!(
@@ -49,7 +57,7 @@ fn report(place: &Place, _: &Machine, out: &mut Reporter<'_>) {
                 number(place.feed),
                 number((place.value * 1000.0).round() / 1000.0)
             ))
-            .help("spread the turn of the rotary axes over a longer path, or turn them out of the cut")
+            .help(help)
             .value("value_s", place.value)
             .value(keys[0], place.feed)
             .spans(place.count, place.last);
@@ -58,10 +66,10 @@ fn report(place: &Place, _: &Machine, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::ValueKey;
     use crate::fixture::check_on;
+    use crate::{Report, ValueKey};
 
-    fn seconds(dynamics: &str, blocks: &str) -> Vec<f64> {
+    fn mark(dynamics: &str, blocks: &str) -> Report {
         let axis = |letter: &str| format!("{{letter=\"{letter}\", sign=1, dyn={{{dynamics}}}}}");
         let axes = ["X", "Y", "Z"].map(axis).join(", ");
         let text = format!(
@@ -69,7 +77,11 @@ mod tests {
         );
         let machine = trunnion_machine::load("m", &text).expect("valid");
         let program = format!("G21 G17 G90 G94\nG0 X0. Y0. Z0.\nS900 M3\n{blocks}M30\n");
-        let report = check_on(&machine, "fanuc-30i", &program);
+        check_on(&machine, "fanuc-30i", &program)
+    }
+
+    fn seconds(dynamics: &str, blocks: &str) -> Vec<f64> {
+        let report = mark(dynamics, blocks);
         let own = report.findings().filter(|d| d.rule == "dwell-mark");
         let value = |value: &ValueKey| match value {
             ValueKey::Number(value) => *value,
@@ -87,6 +99,17 @@ mod tests {
             panic!("one corner");
         };
         assert!((corner - 2.0 * 0.05 * 31.0 / 60.0).abs() < 1e-3, "{corner}");
+    }
+
+    /// The text names F of the block that is left slowly, not of the one that begins there.
+    #[test]
+    fn a_mark_names_the_feed_of_its_block() {
+        let report = mark("vmax=1000, amax=200", "G1 X500. F31000.\nZ5. F500.\n");
+        let own: Vec<_> = report.findings().filter(|d| d.rule == "dwell-mark").collect();
+        assert!(
+            own.len() == 1 && own[0].message.contains("5 % of 31000 mm/min"),
+            "{own:?}"
+        );
     }
 
     /// With 200 mm/s^3 it takes sqrt(2 5/200) = 0.224 s to get to 5 mm/s, on both sides of a corner.

@@ -5,7 +5,7 @@ use trunnion_check::{Report, Status};
 use trunnion_interp::{ModalState, MotionKind};
 use trunnion_machine::{BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
-use trunnion_plot::{Mark, Record, Recorder};
+use trunnion_plot::{Mark, PlannedFeed, Record, Recorder};
 use trunnion_syntax::LineIndex;
 
 /// The record of the program, or of the blocks between two lines.
@@ -52,7 +52,7 @@ struct Planned<'a> {
     index: LineIndex,
     /// Lines of motions whose time is not known yet; `None`: the motion has no path.
     waiting: VecDeque<Option<u32>>,
-    feeds: BTreeMap<u32, VecDeque<Option<[f64; 2]>>>,
+    feeds: BTreeMap<u32, VecDeque<Option<PlannedFeed>>>,
 }
 
 impl Listener for Planned<'_> {
@@ -68,11 +68,16 @@ impl Listener for Planned<'_> {
             return;
         }
         if let Some(Some(line)) = self.waiting.pop_front() {
-            let feeds = timed.reached.zip(timed.leaves).filter(|_| !timed.turns_only);
-            self.feeds
-                .entry(line)
-                .or_default()
-                .push_back(feeds.map(|(most, end)| [most, end]));
+            let plan = match (timed.reached, timed.leaves, timed.seconds[1]) {
+                (Some(most), Some(end), Some(seconds)) if !timed.turns_only => Some(PlannedFeed {
+                    most,
+                    end,
+                    length: timed.length,
+                    seconds,
+                }),
+                _ => None,
+            };
+            self.feeds.entry(line).or_default().push_back(plan);
         }
     }
 }

@@ -120,6 +120,13 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
     } else {
         Limit::Acceleration(piece.slowest)
     };
+    // it is as fast as F, but not for long
+    let slow = seconds[1] * piece.feed * SLOW > timed.length;
+    let limit = match limit {
+        Limit::Feed if slow && lowest <= 0.0 => Limit::Stop,
+        Limit::Feed if slow => Limit::Corner,
+        limit => limit,
+    };
     let last = planned.ramps[pieces.end - 1].ends[1];
     Timed {
         seconds: [Some(seconds[0]), complete.then_some(seconds[1])],

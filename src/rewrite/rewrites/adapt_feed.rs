@@ -42,7 +42,8 @@
 //!   exists. `fix` applies this rewrite last.
 //! - The acceleration along the path is not considered: a short block may not reach its feed whatever F says. `stats --time` shows where.
 //! - Axes whose acceleration is not declared limit no bend.
-//! - `--feed` makes plunges faster too: name the lines with `--lines`.
+//! - Taps, threads and boring cycles keep their feed: it belongs to the speed of the spindle. `--feed` does not raise the feed of drilling cycles.
+//! - `--feed` makes plunges with G1 faster too: name the lines with `--lines`.
 //! - Where a parameter of the control decides what F means (Fanuc and Haas without tool centre point control while rotary axes move), the feed
 //!   stays until `[control] feed` of the machine file declares it.
 //! - Feeds per revolution, feeds of motions of rotary axes alone, and F words with expressions are left as they are.
@@ -50,12 +51,13 @@
 //! # Sources
 //! docs/kinematics.md#axis-speed-and-feed, docs/kinematics.md#time.
 use super::Body;
+use crate::pitch::Pitches;
 use crate::style::NumberStyle;
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
-use trunnion_dialect::RotaryFeed;
-use trunnion_interp::{Fault, Feed, ModalState, Motion, Sink, run};
+use trunnion_dialect::{Action, RotaryFeed};
+use trunnion_interp::{Fault, Feed, Interpreter, ModalState, Motion, Placed, Sink};
 use trunnion_machine::{Follower, Machine, feed_is_ambiguous, feed_limit_tight, leads_tip, shortest_time, turns};
 use trunnion_planner::bend_limit;
 use trunnion_syntax::{Address, BlockId, Program, TextEdit, TextRange, Value};
@@ -98,12 +100,19 @@ struct Collector<'m> {
     rotary_feed: RotaryFeed,
     assume: Assume,
     asked_mm_min: f64,
+    pitches: Pitches,
     cuts: Vec<Cut>,
 }
 
 impl Sink for Collector<'_> {
-    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
+        if self.pitches.holds(motion.effects) {
+            return;
+        }
+        // the feed of a drill is not that of a path
+        let drills = state.motion.is_some_and(Action::is_hole_cycle);
+        let asked_mm_min = if drills { 0.0 } else { self.asked_mm_min };
         let left = self.assume.leaves(motion.undeclared);
         let missing = if feed_is_ambiguous(self.machine, self.rotary_feed, &leg) {
             Some(MEANING)
@@ -118,7 +127,7 @@ impl Sink for Collector<'_> {
                 inverse: false,
                 feed,
                 limit: feed_limit_tight(self.machine, &leg).map(|limit| limit.feed_mm_min.min(bends)),
-                asked: self.asked_mm_min,
+                asked: asked_mm_min,
                 missing,
             },
             Feed::InverseTime(feed) => Cut {
@@ -128,7 +137,7 @@ impl Sink for Collector<'_> {
                 limit: shortest_time(self.machine, &leg, 0.0)
                     .map(|time| (60.0 / time.seconds).min(bends / leg.length.max(f64::MIN_POSITIVE))),
                 asked: if leg.length > 0.0 {
-                    self.asked_mm_min / leg.length
+                    asked_mm_min / leg.length
                 } else {
                     0.0
                 },
@@ -149,6 +158,9 @@ impl Sink for Collector<'_> {
             None => self.cuts.push(cut),
         }
     }
+    fn effect(&mut self, placed: Placed) {
+        self.pitches.take(&placed);
+    }
     fn fault(&mut self, _: Fault) {}
 }
 
@@ -162,9 +174,12 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         rotary_feed: settings.dialect.advice.rotary_feed,
         assume: settings.assume,
         asked_mm_min: options.feed_mm_min,
+        pitches: Pitches::default(),
         cuts: Vec::new(),
     };
-    run(program, settings.dialect, &settings.setup, &mut collector);
+    let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);
+    interpreter.watch_effects();
+    while interpreter.advance(program, &mut collector).is_some() {}
     let mut writer = Writer::new(program);
     for cut in &collector.cuts {
         writer.cut(cut);

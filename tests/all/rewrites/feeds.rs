@@ -261,3 +261,53 @@ fn a_feed_that_rests_on_an_undeclared_offset_stays() {
     settings.assume = Assume::ALL;
     certified(adapt(&sinumerik(rows), &settings, 0.0));
 }
+
+/// The feed of a tap is the speed of the spindle times the pitch: neither lowered nor raised, and a certificate that frees feeds does not free it.
+#[test]
+fn taps_keep_their_pitch() {
+    let start = "G21 G90 G94 G17 G54\nS10000 M3\nG0 X0. Y0. Z5.\n";
+    let machine = machine::builtin("mill-3axis").expect("built in");
+    for (dialect, tap) in [
+        ("fanuc-30i", "M29 S10000\nG84 X50. Z-5. R1. F16000.\nX60.\nG80\n"),
+        ("fanuc-30i", "G74 X50. Z-5. R1. F16000.\nG80\n"),
+        ("fanuc-30i", "G63\nG1 Z-5. F16000.\nG64\n"),
+        ("fanuc-30i", "G86 X50. Z-5. R1. F16000.\nG80\n"),
+        ("haas-ngc", "G84 X50. Z-5. R1. F16000.\nG80\n"),
+        (
+            "sinumerik-840d",
+            "MCALL CYCLE84(5,0,1,-5,,1,3,,1.6,0,5000,5000)\nX50.\nMCALL\n",
+        ),
+        ("linuxcnc", "G33.1 Z-5. K1.6\n"),
+    ] {
+        let mut settings = settings(dialect, Setup::default());
+        settings.machine = Some(machine);
+        settings.assume = Assume::ALL;
+        let text = format!("{start}{tap}M30\n");
+        for asked in [0.0, 30_000.0] {
+            let found = adapt(&text, &settings, asked).outcome();
+            assert!(matches!(found, Ok(None)), "{dialect} {asked}: {text}");
+        }
+        // a cut beside it is adapted all the same
+        let beside = format!("{start}{tap}G1 X30. F16000.\nM30\n");
+        let found = adapt(&beside, &settings, 0.0);
+        let (after, _) = certified(found);
+        assert_eq!(after, format!("{start}{tap}G1 X30. F15000.\nM30\n"));
+        if tap.contains("F16000") {
+            let changed = text.replace("F16000", "F15000");
+            let claim = Claim::AdaptedFeed {
+                tolerance_mm: 1e-6,
+                tolerance_deg: 1e-6,
+                asked_mm_min: 0.0,
+            };
+            let found = certify(
+                text.as_bytes(),
+                changed.as_bytes(),
+                settings.dialect,
+                machine,
+                &settings.setup,
+                &claim,
+            );
+            assert!(matches!(found, Outcome::Refuted(_)), "{dialect} {text} {found:?}");
+        }
+    }
+}

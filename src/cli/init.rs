@@ -31,6 +31,7 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
     known(global, &folder)?;
     let target = Outputs::new().output("trunnion.toml", &file)?;
     let mut dialects = BTreeMap::<String, usize>::new();
+    let mut certain = true;
     // a folder without programs gets its settings too
     let found = walk::programs(std::slice::from_ref(&folder)).unwrap_or_default();
     for path in &found.files {
@@ -38,9 +39,10 @@ pub(super) fn run(global: &Global, command: &Init) -> Result<Done, Failure> {
             && opened.resolved.foreign.is_none()
         {
             *dialects.entry(opened.resolved.dialect.name.clone()).or_default() += 1;
+            certain &= opened.resolved.dialect_certain;
         }
     }
-    target.write(text(global, &dialects).as_bytes(), None)?;
+    target.write(text(global, &dialects, certain).as_bytes(), None)?;
     let read = if dialects.is_empty() {
         "no program was found there".to_owned()
     } else {
@@ -72,7 +74,8 @@ fn known(global: &Global, folder: &Path) -> Result<(), Failure> {
     }
 }
 
-fn text(global: &Global, dialects: &BTreeMap<String, usize>) -> String {
+/// The text of the settings; `certain`: each program shows its dialect. Where one does not, the machine's control decides, as long as no setting does.
+fn text(global: &Global, dialects: &BTreeMap<String, usize>, certain: bool) -> String {
     let mut out = String::from(
         "# Settings of trunnion for the programs in this folder and below.\n\
          # All keys: `trunnion schema settings`, or docs/settings.md in the source of trunnion.\n\n",
@@ -90,7 +93,7 @@ fn text(global: &Global, dialects: &BTreeMap<String, usize>) -> String {
         (Some(dialect), _) => {
             let _ = writeln!(out, "\ndialect = {}", toml::Value::String(dialect.clone()));
         }
-        (None, 1) => {
+        (None, 1) if certain => {
             let name = dialects.keys().next().map_or("", String::as_str);
             let _ = writeln!(
                 out,

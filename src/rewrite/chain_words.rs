@@ -186,10 +186,13 @@ pub(crate) fn lean(program: &Program, hand: &Hand, chain: &Chain, pieces: &[Piec
         let axis_stays = words.iter().any(|word| is_axis(word) && !repeats(&word))
             || own.0.iter().any(|edit| edit.range.start == edit.range.end);
         if axis_stays {
+            let mut deleted = first.range().start;
             for word in words.iter().filter(repeats) {
                 own.0.retain(|edit| edit.range != word.value_range);
+                let range = with_blanks(program, &first, deleted, word.range);
+                deleted = range.end;
                 own.0.push(TextEdit {
-                    range: with_blanks(program, &first, word.range),
+                    range,
                     new_text: String::new(),
                 });
             }
@@ -205,17 +208,17 @@ pub(crate) fn write_line_code(program: &Program, hand: &Hand, block: BlockId, ed
     write_block(program, hand, &[block], (&[1], &[], [false; 3]), None, edits);
 }
 
-/// The word with the blanks before it; at the start of a block with those after it.
-pub(crate) fn with_blanks(program: &Program, block: &Block<'_>, range: TextRange) -> TextRange {
+/// The word with the blanks before it; at the start of a block with those after it. What is before `deleted` is deleted already.
+pub(crate) fn with_blanks(program: &Program, block: &Block<'_>, deleted: u32, range: TextRange) -> TextRange {
     let source = program.source();
     let is_blank = |byte: &&u8| **byte == b' ' || **byte == b'\t';
-    let (begin, end) = (block.range().start as usize, block.range().end as usize);
+    let (begin, end) = (deleted as usize, block.range().end as usize);
     let before = source[begin..range.start as usize]
         .iter()
         .rev()
         .take_while(is_blank)
         .count() as u32;
-    if range.start - before > block.range().start {
+    if range.start - before > deleted || deleted > block.range().start && before > 0 {
         return TextRange::new(range.start - before, range.end);
     }
     let after = source[range.end as usize..end].iter().take_while(is_blank).count() as u32;

@@ -92,7 +92,7 @@ impl Pen<'_> {
         for word in &words {
             let own_code = word.address == Address::Letter(b'G') && is_number(word, 1);
             if own_code || is_axis(word) && word.range != leading.range {
-                edits.delete(with_blanks(self.program, &block, word.range));
+                edits.delete(with_blanks(self.program, &block, block.range().start, word.range));
             }
         }
         edits.replace(

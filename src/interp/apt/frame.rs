@@ -1,15 +1,16 @@
-//! Coordinate systems of APT records: CSYS, MSYS, TRACUT, TRANS and ORIGIN put points and vectors into the frame of the part.
+//! Coordinate systems of APT records: CSYS, TRACUT, TRANS and ORIGIN put points and vectors into the frame of the part.
 //!
 //! Under TRNTYP/WORLD (SolidWorks CAM) points and vectors are in the part already, and CSYS/ (rows of [R | t], 12 numbers) only says along
 //! which axis the tool is where no vector is written: the third column of R. Without it a point p of a record is at R p in the part; what
-//! t is then, no source says. MSYS/ holds the origin, the x axis and the y axis (9 numbers): R p + t. So do the three rows of [R | t] after
-//! `$$*CATIA0` and a name, and a TRACUT with numbers. TRANS/x,y,z adds, and ORIGIN/x,y,z takes off, what follows them; each replaces the one
-//! before. What `$$-> CSYS` of a Pro/CLfile means for the points is in no source that was found: if it is not the unit frame, they are not
+//! t is then, no source says. MSYS/ of NX says where the machine coordinate system is in the model (origin, x axis, y axis): a post-processor takes it
+//! as a remark, and the points are those of that system, where the program zero is. Another one after points is not followed. The three rows of [R | t] after
+//! `$$*CATIA0` and a name put a point at R p + t, as does a TRACUT with numbers. TRANS/x,y,z adds, and ORIGIN/x,y,z takes off, what follows them; each replaces
+//! the one before. What `$$-> CSYS` of a Pro/CLfile means for the points is in no source that was found: if it is not the unit frame, they are not
 //! known.
 //!
 //! Sources: SolidWorks CAM output with the programs that were posted from it (all places of two set-ups each of two parts, and the tool axes
-//! of seven set-ups); CATIA V5 help, Machining Axis Change (one path written in two systems); NX CLSF; trade knowledge of post-processors for
-//! TRANS and ORIGIN.
+//! of seven set-ups); CATIA V5 help, Machining Axis Change (one path written in two systems); ICAM CAM-POST manual,
+//! MSYS command; trade knowledge of post-processors for TRANS and ORIGIN.
 use crate::apt::{Apt, Args};
 use crate::core::Report;
 use crate::{FaultKind, Orientation};
@@ -20,7 +21,7 @@ use trunnion_syntax::Record;
 const ROUNDING: f64 = 1e-3;
 
 /// A rotation and a shift.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Placed {
     turn: Mat3,
     shift: Vec3,
@@ -39,6 +40,8 @@ impl Default for Placed {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     system: Placed,
+    /// The system of NX in which the points are.
+    msys: Option<Placed>,
     cut: Placed,
     trans: Vec3,
     origin: Vec3,
@@ -56,6 +59,7 @@ impl Default for Frame {
     fn default() -> Self {
         Self {
             system: Placed::default(),
+            msys: None,
             cut: Placed::default(),
             trans: Vec3::zeros(),
             origin: Vec3::zeros(),
@@ -142,12 +146,26 @@ impl Apt<'_> {
             &[x, y, z] => Some(Vec3::new(x, y, z) * unit),
             _ => None,
         };
-        if record.is("CSYS") || record.is("MSYS") {
-            let is_csys = record.is("CSYS");
-            let read = if is_csys { rows } else { origin_and_axes };
-            let placed = read(numbers, unit);
-            let in_part = is_csys && frame.world;
-            let unclear = placed.filter(|placed| is_csys && !in_part && placed.shift != Vec3::zeros());
+        if record.is("MSYS") {
+            let placed = origin_and_axes(numbers, unit);
+            let first = frame.msys.is_none() && self.core.state.position.known & 0b111 == 0;
+            let same = placed.is_some_and(|placed| placed == frame.msys.unwrap_or_default());
+            frame.unread = placed.is_none() || !(first || same);
+            if frame.unread {
+                let why = if placed.is_some() {
+                    ", another one after points: in which of them the next points are"
+                } else {
+                    ""
+                };
+                let what = report.program.text(record.major).to_ascii_uppercase() + why;
+                report.fault(record.range, FaultKind::NotModelled { what });
+            } else {
+                frame.msys = placed;
+            }
+        } else if record.is("CSYS") {
+            let placed = rows(numbers, unit);
+            let in_part = frame.world;
+            let unclear = placed.filter(|placed| !in_part && placed.shift != Vec3::zeros());
             frame.unread = placed.is_none() || unclear.is_some();
             frame.axes = placed
                 .filter(|_| in_part)

@@ -38,6 +38,21 @@ fn init_writes_settings_that_check_reads() {
     );
 }
 
+/// Without a sign in the text the machine's control decides; a setting would take that away.
+#[test]
+fn init_leaves_the_dialect_open_where_no_text_shows_it() {
+    let written = |text: &str| {
+        let folder = TempDir::new().expect("a folder");
+        write(&folder, "a.nc", text);
+        assert_eq!(status(&trunnion(&["init", str(folder.path())])), 0);
+        fs::read_to_string(folder.path().join("trunnion.toml")).expect("written")
+    };
+    let open = written("G21 G90\nG0 X1 Y2\nG1 X5 F100\nM30\n");
+    assert!(!open.contains("\ndialect = "), "{open}");
+    let shown = written("O0001\n#1 = 5\nG21 G90 G54\nG43 H1 Z50.\nIF [#1 GT 3] GOTO 10\nN10 G1 X[#1] F100.\nM30\n%\n");
+    assert!(shown.contains("\ndialect = \"fanuc-30i\""), "{shown}");
+}
+
 #[test]
 fn completions_and_the_manual_page_name_every_command() {
     let man = trunnion(&["man"]);

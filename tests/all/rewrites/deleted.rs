@@ -90,3 +90,27 @@ fn what_repeats_a_block_that_may_be_skipped_stays() {
         assert!(after.contains("/X10.\nX10."), "{after}");
     }
 }
+
+/// A post that writes full lines repeats G1 and the coordinate after it: both go, and the words between them and the rest stay apart.
+#[test]
+fn repeated_words_beside_each_other_are_deleted_together() {
+    for (line, lean) in [
+        ("G1 X1. Y-3.", "Y-3."),
+        ("N40 G1 X1. Y-3.", "N40 Y-3."),
+        ("G1 X1.  Y-3. Z0. F250.", "Y-3."),
+        ("G1X1.Y-3.", "Y-3."),
+    ] {
+        let before = format!("G21 G90 G94 G17 G54\nG0 X1. Y1. Z0. S5000 M3\nG1 Y2. F250.\n{line}\nM30\n");
+        let settings = settings("fanuc-30i");
+        let program = parse(before.clone().into_bytes(), settings.dialect.lex);
+        let found = attempt(
+            rewrite("drop-redundant").expect("known"),
+            &program,
+            &settings,
+            &Options::default(),
+        );
+        let after = found.outcome().expect("proved").expect("changed").after;
+        let expected = before.replace(line, lean);
+        assert_eq!(String::from_utf8_lossy(&after), expected);
+    }
+}

@@ -65,7 +65,7 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
 
 /// Checks all files once.
 fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
-    let found = walk::programs(&command.paths)?;
+    let mut found = walk::programs(&command.paths).unwrap_or_else(walk::Found::failed);
     found.remark(global.quiet, global.verbose);
     if command.baseline.is_none() && command.write_baseline.is_none() {
         for path in found.baselines() {
@@ -84,14 +84,18 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
         }
     });
     let mut outputs = Outputs::new();
-    for file in &found.files {
+    for file in found.files.iter().chain(&command.paths) {
         outputs.input(file);
     }
     let mut output = |option: &str, path: Option<&PathBuf>| path.map(|path| outputs.output(option, path)).transpose();
     let target = output("-o", command.output.as_ref())?;
     let to_baseline = output("--write-baseline", command.write_baseline.as_ref())?;
-    let baseline = command.baseline.as_deref().map(Baseline::read).transpose()?;
-    let cache = command.cache.as_deref().map(Cache::open).transpose()?;
+    // without them nothing is checked; the document says so, for whoever reads no terminal
+    let mut failed = |failure| found = walk::Found::failed(failure);
+    let baseline = command.baseline.as_deref().map(Baseline::read).transpose();
+    let baseline = baseline.unwrap_or_else(|failure| (failed(failure), None).1);
+    let cache = command.cache.as_deref().map(Cache::open).transpose();
+    let cache = cache.unwrap_or_else(|failure| (failed(failure), None).1);
     let job = Job {
         global,
         command,

@@ -27,7 +27,7 @@ pub(super) fn tail(artifacts: &[String], tally: &Tally, statistics: bool) -> Str
     let failed: Vec<Value> = tally
         .not_checked
         .iter()
-        .map(|failed| json!({ "level": "error", "message": { "text": format!("{}: {}", failed.place, failed.message) } }))
+        .map(|failed| json!({ "level": "error", "message": { "text": failed.text() } }))
         .collect();
     let invocation = json!({ "executionSuccessful": failed.is_empty(), "toolExecutionNotifications": failed });
     let mut properties = json!({

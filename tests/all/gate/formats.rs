@@ -1,7 +1,7 @@
 //! SARIF, JUnit and GitHub annotations say what JSON says.
 use super::{check, flip, folder, on_mikron};
 use crate::cli::tools::{json, status, str, text, trunnion, write};
-use serde_json::Value;
+use serde_json::{Value, json as object};
 use std::process::Command;
 use tempfile::TempDir;
 
@@ -229,6 +229,61 @@ fn a_file_that_cannot_be_read_is_in_every_document() {
             text(&output.stdout)
         );
     }
+}
+
+/// Whoever reads no terminal learns from the document that nothing was checked, and why.
+#[test]
+fn what_stops_the_whole_job_is_in_every_document() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("empty")).expect("made");
+    write(&folder, "other.json", "{}");
+    let jobs: [(&[&str], &str); 6] = [
+        (&[".", "--baseline", "nob.json"], "nob.json: does not exist"),
+        (&[".", "--baseline", "other.json"], "this is not a baseline"),
+        (&["empty"], "empty: no program in this directory"),
+        (&[".", "--cache", "good.nc/x"], "good.nc/x: cannot make the folder"),
+        (&[".", "--machine", "mill"], "unknown machine `mill`"),
+        (&[".", "--config", "no.toml"], "no.toml: there is no such file"),
+    ];
+    for (job, reason) in jobs {
+        for format in ["sarif", "junit", "github", "json"] {
+            let mut arguments = job.to_vec();
+            arguments.extend(["--format", format, "-o", "out.txt"]);
+            let output = check(&folder, &arguments);
+            assert_eq!(status(&output), 2, "{format} {job:?}");
+            assert!(text(&output.stderr).contains(reason), "{}", text(&output.stderr));
+            let document = std::fs::read_to_string(folder.path().join("out.txt")).expect("written");
+            match format {
+                "github" => {
+                    let wanted = format!("::error title=not checked::{reason}");
+                    assert!(
+                        document.contains(&wanted) || reason.starts_with("this is"),
+                        "{document}"
+                    );
+                }
+                "junit" => assert!(document.contains("<error type=\"not-checked\""), "{document}"),
+                "json" => {
+                    let document: Value = serde_json::from_str(&document).expect("JSON");
+                    assert_eq!(document["files"], object!([]));
+                    assert_ne!(document["not_checked"], object!([]));
+                }
+                _ => {
+                    let document: Value = serde_json::from_str(&document).expect("JSON");
+                    let run = &document["runs"][0];
+                    assert_eq!(run["results"], object!([]));
+                    assert_eq!(run["invocations"][0]["executionSuccessful"], object!(false));
+                    let said = &run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"];
+                    assert!(said.as_str().expect("text").contains(reason), "{said}");
+                }
+            }
+            std::fs::remove_file(folder.path().join("out.txt")).expect("removed");
+        }
+    }
+    // an output that is an input stays
+    let before = std::fs::read(folder.path().join("good.nc")).expect("read");
+    let output = check(&folder, &["empty", "good.nc", "--format", "sarif", "-o", "good.nc"]);
+    assert_eq!(status(&output), 2);
+    assert_eq!(std::fs::read(folder.path().join("good.nc")).expect("read"), before);
 }
 
 #[test]

@@ -33,6 +33,9 @@ use std::{
 use trunnion_check::Scope;
 use trunnion_files::Outputs;
 
+/// With more files, the lines of those that pass are left out where standard error is no terminal, as in the log of a CI job.
+const MOST_LINES: usize = 300;
+
 /// Files that are checked before the first of them is printed.
 const AT_ONCE: usize = 64;
 
@@ -166,6 +169,7 @@ fn print(
 ) -> Result<(), Failure> {
     let quiet = job.global.quiet;
     let lines = Lines::of(job);
+    let brief = !job.global.verbose && found.files.len() > MOST_LINES && !std::io::stderr().is_terminal();
     for failure in &found.failures {
         failure.print();
         tally.not_checked.push(json::NotChecked::of(failure));
@@ -182,6 +186,7 @@ fn print(
                 failed.get_or_insert(error);
             }
             match lines {
+                _ if brief && file.verdict == "pass" => {}
                 Lines::Last => last_lines.push(file.line),
                 Lines::Here if !quiet => {
                     // standard output keeps its errors for the end
@@ -201,7 +206,12 @@ fn print(
     }
     document.end(tally, job.command.statistics)?;
     if !quiet {
-        last_lines.extend(found.walked.then(|| tally.line()));
+        let note = if brief && tally.pass > 0 {
+            " (-v prints a line for each file that passes too)"
+        } else {
+            ""
+        };
+        last_lines.extend((found.walked || brief).then(|| tally.line() + note));
         match lines {
             Lines::Last | Lines::Here => {
                 for line in &last_lines {

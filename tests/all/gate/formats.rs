@@ -24,6 +24,17 @@ fn sarif_has_rules_results_and_coverage() {
             .iter()
             .all(|rule| rule["help"]["markdown"].as_str().is_some_and(|text| text.len() > 100))
     );
+    let name = |rule: &Value| rule["name"].as_str().expect("a name").to_owned();
+    assert!(
+        rules
+            .iter()
+            .any(|rule| rule["id"] == "axis-limit" && name(rule) == "AxisLimit")
+    );
+    assert!(
+        rules
+            .iter()
+            .all(|rule| name(rule).bytes().all(|b| b.is_ascii_alphanumeric()))
+    );
     let plain = json(&check(&folder, &[".", "--format", "json"]));
     let found: usize = plain["files"]
         .as_array()
@@ -199,6 +210,36 @@ fn an_output_file_holds_what_standard_output_would() {
     }
     let refused = check(&folder, &[".", "-o", "bad.nc"]);
     assert_eq!(status(&refused), 2, "{}", text(&refused.stderr));
+}
+
+/// The log of a CI job shows what does not pass, and the sum.
+#[test]
+fn of_many_files_the_log_names_those_that_do_not_pass() {
+    let folder = folder();
+    for number in 0..300 {
+        write(&folder, &format!("part{number}.nc"), super::GOOD);
+    }
+    for (format, file) in [("short", None), ("sarif", Some("out.sarif")), ("github", None)] {
+        let mut arguments = vec![".", "--format", format];
+        arguments.extend(file.iter().flat_map(|file| ["-o", file]));
+        let output = check(&folder, &arguments);
+        let said = text(&output.stdout) + &text(&output.stderr);
+        let lines = |word: &str| said.lines().filter(|line| line.starts_with(word)).count();
+        assert_eq!((lines("PASS"), lines("FAIL")), (0, 1), "{format}: {said}");
+        assert!(
+            said.contains("302 files: 301 pass, 1 fail, 0 unknown (-v prints"),
+            "{format}: {said}"
+        );
+        arguments.push("-v");
+        let said = text(&check(&folder, &arguments).stdout) + &text(&check(&folder, &arguments).stderr);
+        assert_eq!(
+            said.lines().filter(|line| line.starts_with("PASS")).count(),
+            301,
+            "{format}"
+        );
+    }
+    let quiet = check(&folder, &[".", "-q"]);
+    assert!(text(&quiet.stderr).is_empty(), "{}", text(&quiet.stderr));
 }
 
 #[test]

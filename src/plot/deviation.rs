@@ -87,9 +87,11 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         let place = (0.5 * (from + to), value(*most));
         panel.ring(place.0, place.1, VERMILION, 6.0)?;
         let left = place.0 > 0.5 * (across[0] + across[1]);
+        // a bound is never shown below itself
+        let bound = ((bound * 1e4).floor() + 1.0) / 1e4;
         let text = format!("line {}: {most:.4} mm (proven below {bound:.4})", worst.line);
         let side = if left { HPos::Right } else { HPos::Left };
-        panel.text(place, &text, VERMILION, (side, VPos::Bottom))
+        panel.text(place, &text, VERMILION, (side, VPos::Bottom), 8.0)
     })
 }
 
@@ -100,10 +102,7 @@ fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
         (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
     ];
     if unjudged > 0 {
-        legend.push((
-            Swatch::Dot(VERMILION),
-            format!("unknown in {}", counted(unjudged, "block")),
-        ));
+        legend.push((Swatch::Plain, format!("unknown in {}", counted(unjudged, "block"))));
     }
     legend
 }

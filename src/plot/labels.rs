@@ -24,7 +24,7 @@ impl Labels {
     /// Takes a place on a field of this size: at the side that is asked for, else at another one. The side, and where the text is anchored across; `None`
     /// where there is no room.
     pub(crate) fn take(&self, wish: &Wish, field: (f64, f64)) -> Option<((HPos, VPos), f64)> {
-        let (h, v) = &wish.side;
+        let (h, v) = wish.side;
         let across = match h {
             HPos::Left => HPos::Right,
             HPos::Right => HPos::Left,
@@ -42,12 +42,7 @@ impl Labels {
                 |other: &Place| of[2] <= other[0] || other[2] <= of[0] || of[3] <= other[1] || other[3] <= of[1];
             inside && taken.iter().all(apart)
         };
-        let sides = [
-            (h.clone(), v.clone()),
-            (h.clone(), up.clone()),
-            (across.clone(), v.clone()),
-            (across, up),
-        ];
+        let sides = [(h, v), (h, up), (across, v), (across, up)];
         let (side, anchor, place) = sides
             .into_iter()
             .map(|side| wish.at(side))

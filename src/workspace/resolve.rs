@@ -339,7 +339,7 @@ fn dialect_for(
     ];
     for (name, reason) in choices {
         let Some(name) = name else { continue };
-        let Some(detected) = trunnion_dialect::declared(name, reason, source) else {
+        let Some(detected) = trunnion_dialect::declared(name, reason, source, file_name) else {
             let hint = trunnion_dialect::dialect_hint(name);
             return Err(LoadError::new(format!("unknown dialect `{name}` ({reason}){hint}")));
         };

@@ -1,10 +1,10 @@
 //! A dialect that somebody declares, and what the text says against it.
 use super::seen::{Seen, share_a_language};
-use super::{CONTENT_BYTES, Detected, Foreign, Surroundings, core_dialect, foreign, named};
+use super::{CONTENT_BYTES, Detected, Foreign, Surroundings, core_dialect, extension, foreign, named, owner};
 
 /// The dialect with this name, declared for `reason`. A text that is plainly no program is none whatever is declared. Where the text has
 /// clear signs of a control with another language, the reason says so and is not certain: a wrong declaration gives findings that mean nothing.
-pub fn declared(name: &str, reason: &str, source: &[u8]) -> Option<Detected> {
+pub fn declared(name: &str, reason: &str, source: &[u8], file_name: Option<&str>) -> Option<Detected> {
     let mut detected = named(name, reason.to_owned(), true)?;
     let head = &source[..source.len().min(CONTENT_BYTES)];
     let text = String::from_utf8_lossy(head).to_ascii_uppercase();
@@ -16,7 +16,9 @@ pub fn declared(name: &str, reason: &str, source: &[u8]) -> Option<Detected> {
             foreign: Some(Foreign::NotAProgram(what)),
         });
     }
-    let found = Seen::of(&text).decide(None, Surroundings::default());
+    // an extension of the declared control speaks for it
+    let owner = file_name.and_then(extension).and_then(|extension| owner(&extension));
+    let found = Seen::of(&text).decide(owner, Surroundings::default());
     if let Some(found) = found.filter(|found| found.certain) {
         let other = match found.foreign {
             Some(Foreign::Control(control)) => control.name,
@@ -40,7 +42,7 @@ mod tests {
     const SINUMERIK: &str = "N10 TRAORI\nN20 G1 X1 Y2 A3=0 B3=0 C3=1 F1000\nN30 R1=R2+1\nN40 MSG(\"side\")\nN50 M30\n";
 
     fn reason(name: &str, text: &str) -> (String, bool) {
-        let found = declared(name, "trunnion.toml", text.as_bytes()).expect("known");
+        let found = declared(name, "trunnion.toml", text.as_bytes(), None).expect("known");
         assert_eq!((found.dialect.name.as_str(), found.foreign), (name, None));
         (found.reason, found.certain)
     }
@@ -66,6 +68,14 @@ mod tests {
         for name in ["linuxcnc", "sinumerik-840d", "heidenhain-klartext", "okuma-osp", "apt"] {
             assert_eq!(reason(name, "G21 G90\nG0 X1 Y2\nG1 X3 F100\nM30\n"), plain(), "{name}");
         }
+        // LinuxCNC reads subprograms in the form of a Fanuc
+        let found = |name| declared("linuxcnc", "x", b"O1000\nG21 G90\nG0 X1\nM99\n", Some(name)).expect("known");
+        assert!(found("a.ngc").certain, "{:?}", found("a.ngc"));
+        assert!(
+            found("a.nc").reason.contains("looks like fanuc-30i"),
+            "{:?}",
+            found("a.nc")
+        );
     }
 
     #[test]
@@ -73,7 +83,7 @@ mod tests {
         let prose = "# The clamp of job 12\n\nThis folder holds the programs of the clamp.\nRun them in the order of their names, please.\n\
                      The first one cuts the pocket on the upper side.\n";
         for name in crate::BUILTIN_NAMES {
-            let found = declared(name, "trunnion.toml", prose.as_bytes()).expect("known");
+            let found = declared(name, "trunnion.toml", prose.as_bytes(), None).expect("known");
             assert!(
                 matches!(found.foreign, Some(Foreign::NotAProgram(_))),
                 "{name}: {found:?}"
@@ -86,7 +96,7 @@ mod tests {
                 "PARTNO / A\nLOADTL / 1\nFINI\n",
             ] {
                 assert_eq!(
-                    declared(name, "x", program.as_bytes()).expect("known").foreign,
+                    declared(name, "x", program.as_bytes(), None).expect("known").foreign,
                     None,
                     "{name}"
                 );

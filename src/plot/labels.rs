@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn texts_give_way_to_each_other_and_stay_on_the_field() {
         let labels = Labels::default();
-        let mut take = |x: f64, y: f64| {
+        let take = |x: f64, y: f64| {
             let wish = Wish {
                 point: (x, y),
                 side: (HPos::Right, VPos::Bottom),

@@ -121,6 +121,7 @@ fn with_both(
     report.coverage.not_judged = coverage::not_judged(settings);
     coverage::tell(program, settings, &mut report);
     unread::weigh(program, &mut report);
+    report.causes_first(program);
     Some(report)
 }
 

@@ -244,13 +244,17 @@ impl<'a> Pass<'a> {
         let diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
         let mut summary = self.summary;
         summary.count(&diagnostics);
-        Report {
+        let mut report = Report {
             diagnostics,
             summary,
             cycle_time_s,
             coverage: self.tally.coverage(summary.motions, self.visited, self.last_ran),
             assumptions,
+        };
+        if interpreter.state().coordinates.is_inch() {
+            report.tell_inches();
         }
+        report
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a check found, as plain data: findings, counts and the verdict.
 use crate::coverage::Coverage;
 use crate::{Diagnostic, Severity, Status};
+use trunnion_syntax::Program;
 
 /// The verdict on a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +70,7 @@ impl Summary {
 /// What a check found.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Sorted by place.
+    /// Sorted by place; in a block errors of its text come first.
     pub diagnostics: Vec<Diagnostic>,
     /// Counts.
     pub summary: Summary,
@@ -84,6 +85,19 @@ pub struct Report {
 }
 
 impl Report {
+    /// Puts what is wrong in the text of a block before what follows from it: a word that is no number leaves its axis unknown, and that is
+    /// reported further left.
+    pub(crate) fn causes_first(&mut self, program: &Program) {
+        let is_text = |found: &Diagnostic| {
+            let fails = found.status == Status::Fail && found.severity == Severity::Error;
+            fails && crate::rule(found.rule).is_some_and(|rule| rule.level() == "text")
+        };
+        if self.diagnostics.iter().any(is_text) {
+            self.diagnostics
+                .sort_by_cached_key(|found| (program.block_at(found.range.start), !is_text(found)));
+        }
+    }
+
     /// All findings: those of the list, each followed by the ones that it leads.
     pub fn findings(&self) -> impl Iterator<Item = &Diagnostic> {
         let list = self.diagnostics.iter();

@@ -114,7 +114,7 @@ fn conversion(
     let machine = loaded.resolved.machine.as_ref();
     let name = &certificate.after.dialect.name;
     let Some(dialect) = trunnion_dialect::builtin(name) else {
-        let hint = trunnion_check::or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+        let hint = trunnion_dialect::dialect_hint(name);
         return Err(Failure::new(format!(
             "the certificate names an unknown dialect `{name}`{hint}"
         )));

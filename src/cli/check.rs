@@ -33,6 +33,9 @@ use std::{
 use trunnion_check::Scope;
 use trunnion_files::Outputs;
 
+/// With more files, the lines of those that pass are left out where standard error is no terminal, as in the log of a CI job.
+const MOST_LINES: usize = 300;
+
 /// Files that are checked before the first of them is printed.
 const AT_ONCE: usize = 64;
 
@@ -65,7 +68,7 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
 
 /// Checks all files once.
 fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
-    let found = walk::programs(&command.paths)?;
+    let mut found = walk::programs(&command.paths).unwrap_or_else(walk::Found::failed);
     found.remark(global.quiet, global.verbose);
     if command.baseline.is_none() && command.write_baseline.is_none() {
         for path in found.baselines() {
@@ -84,14 +87,18 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
         }
     });
     let mut outputs = Outputs::new();
-    for file in &found.files {
+    for file in found.files.iter().chain(&command.paths) {
         outputs.input(file);
     }
     let mut output = |option: &str, path: Option<&PathBuf>| path.map(|path| outputs.output(option, path)).transpose();
     let target = output("-o", command.output.as_ref())?;
     let to_baseline = output("--write-baseline", command.write_baseline.as_ref())?;
-    let baseline = command.baseline.as_deref().map(Baseline::read).transpose()?;
-    let cache = command.cache.as_deref().map(Cache::open).transpose()?;
+    // without them nothing is checked; the document says so, for whoever reads no terminal
+    let mut failed = |failure| found = walk::Found::failed(failure);
+    let baseline = command.baseline.as_deref().map(Baseline::read).transpose();
+    let baseline = baseline.unwrap_or_else(|failure| (failed(failure), None).1);
+    let cache = command.cache.as_deref().map(Cache::open).transpose();
+    let cache = cache.unwrap_or_else(|failure| (failed(failure), None).1);
     let job = Job {
         global,
         command,
@@ -162,6 +169,7 @@ fn print(
 ) -> Result<(), Failure> {
     let quiet = job.global.quiet;
     let lines = Lines::of(job);
+    let brief = !job.global.verbose && found.files.len() > MOST_LINES && !std::io::stderr().is_terminal();
     for failure in &found.failures {
         failure.print();
         tally.not_checked.push(json::NotChecked::of(failure));
@@ -178,6 +186,7 @@ fn print(
                 failed.get_or_insert(error);
             }
             match lines {
+                _ if brief && file.verdict == "pass" => {}
                 Lines::Last => last_lines.push(file.line),
                 Lines::Here if !quiet => {
                     // standard output keeps its errors for the end
@@ -197,7 +206,12 @@ fn print(
     }
     document.end(tally, job.command.statistics)?;
     if !quiet {
-        last_lines.extend(found.walked.then(|| tally.line()));
+        let note = if brief && tally.pass > 0 {
+            " (-v prints a line for each file that passes too)"
+        } else {
+            ""
+        };
+        last_lines.extend((found.walked || brief).then(|| tally.line() + note));
         match lines {
             Lines::Last | Lines::Here => {
                 for line in &last_lines {

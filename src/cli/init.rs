@@ -66,8 +66,7 @@ fn known(global: &Global, folder: &Path) -> Result<(), Failure> {
     }
     match &global.dialect {
         Some(name) if trunnion_dialect::builtin(name).is_none() => {
-            let names = trunnion_dialect::BUILTIN_NAMES;
-            let hint = trunnion_check::or_known(name, names, "dialects");
+            let hint = trunnion_dialect::dialect_hint(name);
             Err(Failure::new(format!("unknown dialect `{name}`{hint}")))
         }
         _ => Ok(()),

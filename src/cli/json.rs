@@ -20,6 +20,15 @@ impl NotChecked {
             message: failure.message().to_owned(),
         }
     }
+    /// Both in one text.
+    pub(super) fn text(&self) -> String {
+        let Self { place, message } = self;
+        if place.is_empty() {
+            message.clone()
+        } else {
+            format!("{place}: {message}")
+        }
+    }
 }
 
 /// Writes any document, pretty, with a line end.

@@ -115,7 +115,7 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         remark(
             global.quiet,
             &format!(
-                "{}: not drawn: {} with an unknown path; see `trunnion check`",
+                "{}: not drawn: {} without a known start or end; see `trunnion check`",
                 loaded.name,
                 crate::cli::verdict::counted(count as u64, "motion")
             ),

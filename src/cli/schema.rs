@@ -16,8 +16,20 @@ pub(crate) enum SchemaName {
     Servo,
     /// `stats --format json`.
     Stats,
+    /// `convert --format json`.
+    Convert,
+    /// `diff --format json`.
+    Diff,
+    /// `surface --format json`.
+    Surface,
+    /// `rules --format json`.
+    Rules,
+    /// `parse --format json`, with or without `--tokens`.
+    Parse,
     /// The file of `fix --certificate`.
     Certificate,
+    /// The file of `convert --certificate`.
+    Conversion,
     /// The file of `check --write-baseline`.
     Baseline,
     /// A machine file (TOML).
@@ -34,6 +46,12 @@ impl SchemaName {
             Self::Fix => include_str!("../../grammar/schemas/fix.json"),
             Self::Servo => include_str!("../../grammar/schemas/servo.json"),
             Self::Stats => include_str!("../../grammar/schemas/stats.json"),
+            Self::Convert => include_str!("../../grammar/schemas/convert.json"),
+            Self::Diff => include_str!("../../grammar/schemas/diff.json"),
+            Self::Surface => include_str!("../../grammar/schemas/surface.json"),
+            Self::Rules => include_str!("../../grammar/schemas/rules.json"),
+            Self::Parse => include_str!("../../grammar/schemas/parse.json"),
+            Self::Conversion => include_str!("../../grammar/schemas/conversion.json"),
             Self::Certificate => include_str!("../../grammar/schemas/certificate.json"),
             Self::Baseline => include_str!("../../grammar/schemas/baseline.json"),
             Self::Machine => include_str!("../../grammar/schemas/machine.json"),

@@ -28,6 +28,14 @@ pub(crate) struct Found {
 }
 
 impl Found {
+    /// Nothing, because the job cannot be done.
+    pub(crate) fn failed(failure: Failure) -> Self {
+        Self {
+            failures: vec![failure],
+            ..Self::default()
+        }
+    }
+
     /// Leaves out links to files that were found under their own names: no file is checked, or written, twice.
     fn drop_links_to_found(&mut self, first: usize) {
         let is_link = |path: &PathBuf| fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink());

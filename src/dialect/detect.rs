@@ -1,4 +1,5 @@
 //! Which control a program is written for, and why: signs in its text decide, then its name, then the machine.
+mod declared;
 mod foreign;
 mod others;
 mod seen;
@@ -9,6 +10,7 @@ mod votes;
 
 use crate::unsupported::{Unsupported, unsupported};
 use crate::{BUILTIN_NAMES, Dialect, builtin, modeline};
+pub use declared::declared;
 pub(crate) use foreign::binary;
 use seen::Seen;
 use text::{is_block, lines};

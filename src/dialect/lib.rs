@@ -6,6 +6,7 @@ mod advice;
 mod assemble;
 mod builtin;
 mod code;
+mod control_names;
 mod decisions;
 mod detect;
 mod dialect;
@@ -28,10 +29,11 @@ pub use action::Role;
 pub use advice::{Advice, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
+pub use control_names::dialect_hint;
 pub use decisions::{Expressions, Language, LengthAfterReturn, LengthChange, Macros, ToolWord, WholeNumbers};
 pub use detect::{
-    Detected, Foreign, Surroundings, detect, detect_on, is_program_file_name, looks_like_program, named, not_text,
-    program_extensions,
+    Detected, Foreign, Surroundings, declared, detect, detect_on, is_program_file_name, looks_like_program, named,
+    not_text, program_extensions,
 };
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;

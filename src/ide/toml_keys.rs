@@ -43,7 +43,7 @@ fn unknown_name(config: &Config, text: &str) -> Option<(String, Option<Range<usi
     if let Some(name) = config.dialect.as_deref()
         && trunnion_dialect::named(name, String::new(), true).is_none()
     {
-        let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+        let hint = trunnion_dialect::dialect_hint(name);
         return Some((format!("unknown dialect `{name}`{hint}"), place(name)));
     }
     let name = config.machine.as_deref()?;

@@ -124,11 +124,13 @@ fn draw_marks(
             for block in lines.get(&mark.line).into_iter().flatten() {
                 let Some(end) = record.of(block).last() else { continue };
                 let (x, y) = plane.see(&end.axis);
-                panel.ring(x, y, *colour, 6.0 + 2.5 * place as f64)?;
+                let radius = 6.0 + 2.5 * place as f64;
+                panel.ring(x, y, *colour, radius)?;
                 if written.len() < 24 && !written.contains(&mark.line) {
                     written.push(mark.line);
                     let text = format!("line {}", mark.line);
-                    panel.text((x, y), &text, INK, (HPos::Left, VPos::Bottom))?;
+                    let widest = 6.0 + 2.5 * (rules.len() - 1) as f64;
+                    panel.text((x, y), &text, INK, (HPos::Left, VPos::Bottom), widest)?;
                 }
             }
         }
@@ -229,7 +231,7 @@ impl<'m> Plane<'m> {
         self.label(panel, x, y, widest, step, circles)?;
         if near {
             panel.dots(core::iter::once((0.0, 0.0)), VERMILION, 3.5)?;
-            panel.text((0.0, 0.0), "pole", VERMILION, (HPos::Right, VPos::Top))?;
+            panel.text((0.0, 0.0), "pole", VERMILION, (HPos::Right, VPos::Top), 4.0)?;
         }
         Ok(())
     }
@@ -262,7 +264,7 @@ impl<'m> Plane<'m> {
             }
             labelled.push(last);
             let text = format!("{}{shown}\u{b0}", self.letter(0)).replace('-', "\u{2212}");
-            panel.text(last, &text, RGBColor(50, 105, 155), (HPos::Center, VPos::Center))?;
+            panel.text(last, &text, RGBColor(50, 105, 155), (HPos::Center, VPos::Center), 0.0)?;
         }
         // the values of the circles on the ray with the most room, away from the rays' labels
         let room = |ray: i32| {
@@ -282,6 +284,7 @@ impl<'m> Plane<'m> {
                     &format!("{}{value}\u{b0}", self.letter(1)),
                     GREY,
                     (HPos::Center, VPos::Center),
+                    0.0,
                 )?;
             }
         }

@@ -61,6 +61,8 @@ pub(crate) enum Swatch {
     Dashed(RGBColor),
     Dot(RGBColor),
     Filled(RGBColor),
+    /// A count of what is not drawn: the text alone.
+    Plain,
 }
 
 /// One entry of the legend.
@@ -135,6 +137,7 @@ fn places(legend: &[Entry]) -> Vec<(usize, f64)> {
 fn draw_entry(top: &Area<'_>, (swatch, label): &Entry, (x, y): (i32, i32)) -> Result<(), PlotError> {
     let to = x + px(26.0);
     match swatch {
+        Swatch::Plain => {}
         Swatch::Line(colour) => {
             top.draw(&PathElement::new(
                 vec![(x, y), (to, y)],

@@ -87,10 +87,15 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         let place = (0.5 * (from + to), value(*most));
         panel.ring(place.0, place.1, VERMILION, 6.0)?;
         let left = place.0 > 0.5 * (across[0] + across[1]);
-        let text = format!("line {}: {most:.4} mm (proven below {bound:.4})", worst.line);
+        let text = format!("line {}: {most:.4} mm (proven below {})", worst.line, above(*bound));
         let side = if left { HPos::Right } else { HPos::Left };
-        panel.text(place, &text, VERMILION, (side, VPos::Bottom))
+        panel.text(place, &text, VERMILION, (side, VPos::Bottom), 8.0)
     })
+}
+
+/// A bound with four decimals, never below itself.
+fn above(bound: f64) -> String {
+    format!("{:.4}", ((bound * 1e4).floor() + 1.0) / 1e4)
 }
 
 fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
@@ -100,10 +105,20 @@ fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
         (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
     ];
     if unjudged > 0 {
-        legend.push((
-            Swatch::Dot(VERMILION),
-            format!("unknown in {}", counted(unjudged, "block")),
-        ));
+        legend.push((Swatch::Plain, format!("unknown in {}", counted(unjudged, "block"))));
     }
     legend
+}
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn a_bound_is_above_itself() {
+        assert_eq!(
+            [above(0.0), above(0.00004), above(0.0123)],
+            ["0.0001", "0.0001", "0.0124"]
+        );
+    }
 }

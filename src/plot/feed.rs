@@ -81,11 +81,41 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         };
         panel.line(stairs(1), BLUE, 1.6)?;
         panel.dashed(stairs(0), VERMILION, 1.8)?;
+        let height = |feed: f64| value(feed.min(top)).max(upwards[0]);
+        panel.dots(places(record, not_reached(&cuts), height), VERMILION, 3.0)?;
         if !planned {
             return Ok(());
         }
-        let height = |feed: f64| value(feed.min(top)).max(upwards[0]);
-        panel.line(course(record, height).into_iter(), GREEN, 1.2)
+        panel.line(course(record, height).into_iter(), GREEN, 1.2)?;
+        panel.dots(places(record, slow(&cuts), height), GREEN, 3.0)
+    })
+}
+
+/// Cuts whose programmed feed some axis does not allow, each with what it allows.
+fn not_reached<'b>(cuts: &[&'b Block]) -> impl Iterator<Item = (&'b Block, f64)> {
+    cuts.iter().filter_map(|block| match block.feed {
+        [Some(feed), Some(limit)] if limit < feed => Some((*block, limit)),
+        _ => None,
+    })
+}
+
+/// Cuts whose mean is below 80 % of the programmed feed, each with what it reaches.
+fn slow<'b>(cuts: &[&'b Block]) -> impl Iterator<Item = (&'b Block, f64)> {
+    cuts.iter().filter_map(|block| match (block.feed[0], block.planned) {
+        (Some(feed), Some(plan)) if plan.mean() < 0.8 * feed => Some((*block, plan.most)),
+        _ => None,
+    })
+}
+
+/// The middle of each block at its feed.
+fn places<'b>(
+    record: &Record,
+    blocks: impl Iterator<Item = (&'b Block, f64)>,
+    height: impl Fn(f64) -> f64,
+) -> impl Iterator<Item = (f64, f64)> {
+    blocks.filter_map(move |(block, feed)| {
+        let samples = record.of(block);
+        Some((0.5 * (samples.first()?.way + samples.last()?.way), height(feed)))
     })
 }
 
@@ -96,10 +126,7 @@ fn legend(cuts: &[&Block], planned: bool, top: f64) -> Vec<Entry> {
     } else {
         "highest feed that no axis limits".to_owned()
     };
-    let low = cuts
-        .iter()
-        .filter(|block| matches!(block.feed, [Some(feed), Some(limit)] if limit < feed))
-        .count();
+    let low = not_reached(cuts).count();
     let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), limit),
         (Swatch::Dashed(VERMILION), "programmed feed".into()),
@@ -109,12 +136,7 @@ fn legend(cuts: &[&Block], planned: bool, top: f64) -> Vec<Entry> {
         ),
     ];
     if planned {
-        let slow = cuts
-            .iter()
-            .filter(
-                |block| matches!((block.feed[0], block.planned), (Some(feed), Some(plan)) if plan.mean() < 0.8 * feed),
-            )
-            .count();
+        let slow = slow(cuts).count();
         legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
         legend.push((
             Swatch::Dot(GREEN),

@@ -1,5 +1,6 @@
 //! One field of a picture: axes with ticks and units, and drawing in the units of the data.
 use crate::canvas::{Area, GREY, INK, PALE, PlotError, SCALE, anchored, dashes, font, px};
+use crate::labels::{Labels, Wish};
 use crate::scale::{power, short};
 use crate::thin::thin;
 use plotters::prelude::*;
@@ -32,6 +33,7 @@ pub(crate) struct Panel<'a> {
     y: [f64; 2],
     width: f64,
     height: f64,
+    labels: Labels,
 }
 
 /// Room for the labels at the left and below, pixels.
@@ -104,6 +106,7 @@ impl<'a> Panel<'a> {
             y: frame.y,
             width: f64::from(width),
             height: f64::from(height),
+            labels: Labels::default(),
         })
     }
 
@@ -131,6 +134,7 @@ impl<'a> Panel<'a> {
             y: about(y, height),
             width,
             height,
+            labels: Labels::default(),
         }
     }
 
@@ -330,26 +334,32 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
-    /// A text next to a position; nothing outside of the field.
+    /// A text next to a position, where it covers no other one: if not at the side that is asked for, at another. Left out where there
+    /// is no room, and outside of the field. `symbol`: the radius of what stands at the position, pixels.
     pub(crate) fn text(
         &self,
         (x, y): (f64, f64),
         text: &str,
         colour: RGBColor,
-        (h, v): (HPos, VPos),
+        side: (HPos, VPos),
+        symbol: f64,
     ) -> Result<(), PlotError> {
         let p = self.at(x, y);
-        if self.holds(p) {
-            let style = anchored(13.0, h, v).color(&colour);
-            // next to a symbol, not on it
-            let off = match h {
-                HPos::Left => px(12.0),
-                HPos::Right => -px(12.0),
-                HPos::Center => 0,
-            };
-            let (x, y) = Self::whole(p);
-            self.area.draw(&Text::new(text.to_owned(), (x + off, y), style))?;
+        if !self.holds(p) {
+            return Ok(());
         }
+        let wish = Wish {
+            point: p,
+            side,
+            off: f64::from(px(symbol + 4.0)),
+            size: (f64::from(px(7.2)) * text.chars().count() as f64, f64::from(px(15.0))),
+        };
+        let Some(((h, v), from)) = self.labels.take(&wish, (self.width, self.height)) else {
+            return Ok(());
+        };
+        let style = anchored(13.0, h, v).color(&colour);
+        let at = Self::whole((from, p.1));
+        self.area.draw(&Text::new(text.to_owned(), at, style))?;
         Ok(())
     }
 

@@ -103,7 +103,7 @@ pub fn joints(
             let unit = if axis.kind == AxisKind::Rotary { "deg" } else { "mm" };
             let name = format!("{} / {unit}", char::from(axis.letter));
             let values = record.samples.iter().map(|sample| sample.joints[joint]);
-            let [low, high] = with_limits(range(values, 1e-3), axis);
+            let [low, high] = with_limits(range(values, LEAST), axis);
             // a strip above the curve for the note on limits
             let upwards = [low, high + NOTE_SHARE * (high - low)];
             let panel = Panel::new(
@@ -164,6 +164,9 @@ fn travel(axis: &Axis) -> Option<[f64; 2]> {
         AxisKind::Linear => [low, high],
     })
 }
+
+/// Height of a field of an axis that hardly moves, mm or deg: in a smaller one each number needs more digits than fit.
+const LEAST: f64 = 0.1;
 
 /// Height of the note on limits as a share of a field without it.
 const NOTE_SHARE: f64 = 0.22;

@@ -8,6 +8,7 @@ mod feed;
 mod grid;
 mod height_map;
 mod joints;
+mod labels;
 mod path;
 mod record;
 mod route;

@@ -33,8 +33,11 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     }
     if record.unknown > 0 {
         legend.push((
-            Swatch::Dot(GREY),
-            format!("{} unknown", counted(record.unknown, "motion")),
+            Swatch::Plain,
+            format!(
+                "{} without a known start or end not drawn",
+                counted(record.unknown, "motion")
+            ),
         ));
     }
     let cut = record.blocks.iter().filter(|block| !block.rapid);

@@ -78,6 +78,7 @@ pub fn servo(header: &Header, spots: &[ServoSpot]) -> Result<String, PlotError> 
             &text,
             VERMILION,
             (HPos::Right, VPos::Bottom),
+            8.0,
         )?;
         let span = near.iter().map(|spot| spot.time * 1e3);
         let errors = near.iter().flat_map(|spot| [spot.exact, spot.radial]).chain([0.0]);

@@ -45,6 +45,8 @@ pub struct ToolUse {
 /// Everything counted. Lengths mm along the programmed X Y Z path, times s.
 #[derive(Default)]
 pub struct Tally {
+    /// The program moves in inch.
+    pub inch: bool,
     /// Blocks with content.
     pub blocks: u64,
     /// Blocks that ran, repeated ones each time.
@@ -291,7 +293,8 @@ impl Counting<'_> {
 }
 
 impl Sink for Counting<'_> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.tally.inch |= state.coordinates.is_inch();
         *self.tally.motions.entry(kind(motion)).or_default() += 1;
         self.extents(motion);
         self.joints(motion);

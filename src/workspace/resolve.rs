@@ -147,7 +147,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {
         if trunnion_dialect::builtin(name).is_none() {
-            let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+            let hint = trunnion_dialect::dialect_hint(name);
             return Err(LoadError::new(format!("--port-to {name}: unknown dialect{hint}")));
         }
         port_to.push(name.clone());
@@ -339,8 +339,8 @@ fn dialect_for(
     ];
     for (name, reason) in choices {
         let Some(name) = name else { continue };
-        let Some(detected) = trunnion_dialect::named(name, reason.to_owned(), true) else {
-            let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+        let Some(detected) = trunnion_dialect::declared(name, reason, source, file_name) else {
+            let hint = trunnion_dialect::dialect_hint(name);
             return Err(LoadError::new(format!("unknown dialect `{name}` ({reason}){hint}")));
         };
         return Ok((detected, None));

@@ -22,8 +22,8 @@
 //!
 //! # Guarantee
 //! Sound: a file that is recognised as not being a program gets this finding and no other. A text is taken as prose if hardly any line is
-//! a block and no sign of a control is in it; if the settings or the command line name a dialect, a text is taken as a program
-//! (a picture or a binary is not).
+//! a block and no sign of a control is in it. If the settings or the command line name a dialect, only a text of plain sentences, a document of another
+//! kind or data is taken as no program.
 //!
 //! # Sources
 //! * docs/contract.md#verdicts

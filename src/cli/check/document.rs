@@ -93,8 +93,7 @@ impl<'o> Document<'o> {
             CheckFormat::Github | CheckFormat::Pretty | CheckFormat::Short => {
                 if self.format == CheckFormat::Github {
                     for failed in &tally.not_checked {
-                        self.out
-                            .write_all(github::not_checked(&failed.place, &failed.message).as_bytes())?;
+                        self.out.write_all(github::not_checked(failed).as_bytes())?;
                     }
                 }
                 if statistics {

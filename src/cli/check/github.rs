@@ -3,7 +3,7 @@
 //! Source: GitHub Docs, "Workflow commands for GitHub Actions": setting an error, warning or notice message.
 use crate::cli::{
     failure::shown,
-    json::{File, Item},
+    json::{File, Item, NotChecked},
 };
 use std::fmt::Write;
 
@@ -38,8 +38,8 @@ pub(super) fn annotations(file: &File, denied: impl Fn(&Item) -> bool) -> String
 }
 
 /// A file that could not be checked.
-pub(super) fn not_checked(place: &str, message: &str) -> String {
-    format!("::error title=not checked::{}\n", data(&format!("{place}: {message}")))
+pub(super) fn not_checked(failed: &NotChecked) -> String {
+    format!("::error title=not checked::{}\n", data(&failed.text()))
 }
 
 fn data(text: &str) -> String {

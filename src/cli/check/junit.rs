@@ -97,7 +97,12 @@ pub(super) fn not_checked(all: &[NotChecked]) -> String {
     let count = all.len();
     let mut out = format!("  <testsuite name=\"not checked\" tests=\"{count}\" failures=\"0\" errors=\"{count}\">\n");
     for failed in all {
-        let (place, message) = (escape(&failed.place), escape(&failed.message));
+        let place = if failed.place.is_empty() {
+            "trunnion"
+        } else {
+            &failed.place
+        };
+        let (place, message) = (escape(place), escape(&failed.message));
         let _ = writeln!(
             out,
             "    <testcase classname=\"{place}\" name=\"not checked\"><error type=\"not-checked\" message=\"{message}\"/></testcase>"

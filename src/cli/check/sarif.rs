@@ -27,7 +27,7 @@ pub(super) fn tail(artifacts: &[String], tally: &Tally, statistics: bool) -> Str
     let failed: Vec<Value> = tally
         .not_checked
         .iter()
-        .map(|failed| json!({ "level": "error", "message": { "text": format!("{}: {}", failed.place, failed.message) } }))
+        .map(|failed| json!({ "level": "error", "message": { "text": failed.text() } }))
         .collect();
     let invocation = json!({ "executionSuccessful": failed.is_empty(), "toolExecutionNotifications": failed });
     let mut properties = json!({
@@ -53,6 +53,7 @@ fn tool() -> Value {
             };
             json!({
                 "id": rule.name,
+                "name": pascal(rule.name),
                 "shortDescription": { "text": rule.summary() },
                 "fullDescription": { "text": rule.summary() },
                 "help": { "text": rule.docs, "markdown": rule.docs },
@@ -67,6 +68,12 @@ fn tool() -> Value {
         "semanticVersion": env!("CARGO_PKG_VERSION"),
         "rules": all,
     }})
+}
+
+/// `axis-limit` as `AxisLimit`: the form of names that section 3.49.7 shows.
+fn pascal(name: &str) -> String {
+    let capital = |word: &str| word[..1].to_ascii_uppercase() + &word[1..];
+    name.split('-').filter(|word| !word.is_empty()).map(capital).collect()
 }
 
 fn level(severity: &str) -> &'static str {

@@ -1,6 +1,7 @@
 //! The set-up sheet: tools, offsets, extents and time.
 use crate::cli::load::Loaded;
 use std::collections::BTreeMap;
+use trunnion_check::with_inches;
 use trunnion_interp::{AXIS_LETTERS, Fault, ModalState, Motion, Sink, Tool, ToolShape};
 use trunnion_stats::Tally;
 
@@ -13,7 +14,7 @@ pub(super) struct Table {
 
 /// The tables of a program.
 pub(super) fn tables(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Vec<Table> {
-    vec![
+    let mut tables = vec![
         tools(loaded, tally),
         offsets(loaded),
         extents(tally),
@@ -22,7 +23,12 @@ pub(super) fn tables(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 
             head: vec!["what", "value"],
             rows: times(tally, cycle_time_s),
         },
-    ]
+    ];
+    if tally.inch {
+        let cells = tables.iter_mut().flat_map(|table| &mut table.rows).flatten();
+        cells.for_each(|cell| *cell = with_inches(cell));
+    }
+    tables
 }
 
 /// What is declared about the tools of the motions, by number.

@@ -3,6 +3,7 @@ use crate::cli::{json::tidy, load::Loaded};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
+use trunnion_check::with_inches;
 use trunnion_interp::AXIS_LETTERS;
 use trunnion_stats::{Call, Range, Tally};
 
@@ -66,7 +67,7 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
     let stop = tally.stop.as_ref();
     let stop = stop.map(|(line, why)| format!("from line {line}: {why}; nothing after it is counted"));
     rows(&mut row, "not followed", stop.as_slice());
-    out
+    if tally.inch { with_inches(&out) } else { out }
 }
 
 /// Several rows under one name; more than fit are counted.
@@ -122,7 +123,9 @@ fn path(tally: &Tally) -> String {
 fn time(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> String {
     let mut text = match (cycle_time_s, &loaded.resolved.machine) {
         (Some([low, high]), _) => format!("cycle {} to {}", duration(low), duration(high)),
-        (None, Some(_)) => "cycle unknown: the time of some block is unknown on this machine".to_owned(),
+        (None, Some(_)) => {
+            "cycle unknown: the time of some block is unknown on this machine (`--time` says which)".to_owned()
+        }
         (None, None) => "cycle unknown without --machine".to_owned(),
     };
     let _ = write!(text, "; feed motions at the programmed feed {}", duration(tally.feed_s));

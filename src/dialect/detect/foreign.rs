@@ -52,9 +52,42 @@ fn is_control(byte: u8) -> bool {
 
 /// What a text is, if hardly anything in it is a block: judged by its first lines.
 pub(super) fn prose(text: &str, signs: u32) -> Option<&'static str> {
-    const LOOKED_AT: usize = 400;
+    if let Some(what) = by_beginning(text) {
+        return Some(what);
+    }
+    let count = Count::of(text);
+    // a text about programs contains words of programs
+    if count.reads_like_prose() {
+        return Some(PROSE);
+    }
+    if signs >= 10 || !count.has_few_blocks() {
+        return None;
+    }
+    // a few lines of an unknown kind prove nothing
+    (count.words >= 3 || count.blocks == 0).then_some(if count.has_braces() { DATA } else { PROSE })
+}
+
+/// What a text is that nobody can mean as a program, although a dialect was declared: lines that are only no blocks may be statements of
+/// that dialect.
+pub(super) fn plainly_none(text: &str) -> Option<&'static str> {
+    let by_lines = || {
+        let count = Count::of(text);
+        if count.reads_like_prose() {
+            Some(PROSE)
+        } else {
+            (count.words >= 3 && count.has_few_blocks() && count.has_braces()).then_some(DATA)
+        }
+    };
+    by_beginning(text).or_else(by_lines)
+}
+
+const PROSE: &str = "text that is not a program";
+const DATA: &str = "data or source code";
+
+/// What a text is by its first characters.
+fn by_beginning(text: &str) -> Option<&'static str> {
     let start = text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']);
-    for (begin, what) in [
+    let known = [
         ("<?XML", "an XML document"),
         ("<!DOCTYPE", "an HTML document"),
         ("<HTML", "an HTML document"),
@@ -66,40 +99,54 @@ pub(super) fn prose(text: &str, signs: u32) -> Option<&'static str> {
         ("-----BEGIN", "a key or certificate"),
         ("SOLID ", "an STL model"),
         ("ISO-10303-21", "a STEP model"),
-    ] {
-        if start.starts_with(begin) {
-            return Some(what);
+    ];
+    known
+        .into_iter()
+        .find_map(|(begin, what)| start.starts_with(begin).then_some(what))
+}
+
+/// Lines of a text by their kind.
+#[derive(Default)]
+struct Count {
+    /// Blocks and statements.
+    blocks: u32,
+    /// All others.
+    words: u32,
+    sentences: u32,
+    /// Lines of data or source code.
+    braces: u32,
+}
+
+impl Count {
+    /// Counts the first lines.
+    fn of(text: &str) -> Self {
+        const LOOKED_AT: usize = 400;
+        let mut count = Self::default();
+        for line in lines(text).map(str::trim).take(LOOKED_AT) {
+            let code = strip_comments(line);
+            let code = code.trim();
+            if code.is_empty() || line == "%" || line.starts_with("$$") || line.starts_with("/*") {
+                continue;
+            }
+            if is_block(code) || is_statement(code) {
+                count.blocks += 1;
+            } else {
+                count.words += 1;
+                count.sentences += u32::from(is_sentence(code));
+                count.braces += u32::from(code.ends_with(['{', '}']) || code.starts_with(['{', '}', '<', '"']));
+            }
         }
+        count
     }
-    let (mut blocks, mut words) = (0u32, 0u32);
-    let (mut braces, mut sentences) = (0u32, 0u32);
-    for line in lines(text).map(str::trim).take(LOOKED_AT) {
-        let code = strip_comments(line);
-        let code = code.trim();
-        if code.is_empty() || line == "%" || line.starts_with("$$") || line.starts_with("/*") {
-            continue;
-        }
-        if is_block(code) || is_statement(code) {
-            blocks += 1;
-        } else {
-            words += 1;
-            sentences += u32::from(is_sentence(code));
-            braces += u32::from(code.ends_with(['{', '}']) || code.starts_with(['{', '}', '<', '"']));
-        }
+    fn reads_like_prose(&self) -> bool {
+        self.sentences >= 3 && self.sentences > self.blocks + (self.words - self.sentences) / 2
     }
-    // a text about programs contains words of programs
-    if sentences >= 3 && sentences > blocks + (words - sentences) / 2 {
-        return Some("text that is not a program");
+    fn has_few_blocks(&self) -> bool {
+        self.words > 0 && self.blocks * 4 <= self.words
     }
-    if signs >= 10 || words == 0 || blocks * 4 > words {
-        return None;
+    fn has_braces(&self) -> bool {
+        self.braces * 3 > self.words
     }
-    // a few lines of an unknown kind prove nothing
-    (words >= 3 || blocks == 0).then_some(if braces * 3 > words {
-        "data or source code"
-    } else {
-        "text that is not a program"
-    })
 }
 
 /// Whether a line reads like prose: four plain words or more, and little else.

@@ -55,6 +55,17 @@ const IN_COMMENTS: &[(&str, &str)] = &[
     ("SODICK", "wire-edm"),
 ];
 
+/// Whether programs for one of two controls are read in nearly the same way by the other; which of them is meant, a text rarely shows.
+pub(super) fn share_a_language(one: &str, other: &str) -> bool {
+    // a lathe of a control is in the group of its mill
+    let is_of = |member: &str, name: &str| {
+        let brand = |text: &str| text.split('-').next().map(str::to_owned);
+        member == name || (name.contains("-lathe") && brand(member) == brand(name))
+    };
+    let within = |group: &[&str], name: &str| group.iter().any(|member| is_of(member, name));
+    one == other || GROUPS.iter().any(|group| within(group, one) && within(group, other))
+}
+
 impl Seen {
     /// Signs in an upper-case text.
     pub(super) fn of(text: &str) -> Self {

@@ -42,6 +42,10 @@ impl Coordinates {
     pub fn unit_mm(&self) -> f64 {
         self.unit_mm
     }
+    /// The programmed length unit is the inch.
+    pub fn is_inch(&self) -> bool {
+        self.unit_mm > 1.0
+    }
     /// G17, G18, G19.
     pub fn set_plane(&mut self, plane: Plane) {
         self.plane = plane;

@@ -141,6 +141,65 @@ fn one_cause_is_one_finding() {
 }
 
 /// What is printed and what is counted agree, and the worst are the ones that a limit leaves.
+/// A word that is no number leaves an axis unknown: the word comes first, what follows from it after it.
+#[test]
+fn the_cause_comes_before_what_follows_from_it() {
+    let folder = TempDir::new().expect("works");
+    let program = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X0. Y0. S900 M3\nG43 H1 Z-0.4.\nG1 X10. F100.\nG2 X20. Y5,3 R20.\nM30\n%\n";
+    let found = found(
+        &folder,
+        "a.nc",
+        program,
+        &["--dialect", "fanuc-30i", "--machine", "mill-3axis"],
+    );
+    let on = |line: u64| {
+        let of = found.iter().filter(move |one| one["line"] == line);
+        of.map(|one| one["rule"].as_str().expect("text")).collect::<Vec<_>>()
+    };
+    assert_eq!(on(6)[0], "bad-number", "{found:?}");
+    assert!(
+        on(6).contains(&"not-modelled") && on(6).contains(&"position-unknown"),
+        "{found:?}"
+    );
+    assert_eq!(on(8)[0], "decimal-comma", "{found:?}");
+    // the blocks stay in order
+    assert!(found.is_sorted_by_key(|one| one["line"].as_u64()), "{found:?}");
+}
+
+/// Whoever programs in inch reads inches too, and learns that the settings are in mm. Numbers of the JSON stay mm.
+#[test]
+fn an_inch_program_has_its_lengths_in_inch() {
+    let folder = TempDir::new().expect("works");
+    let program = |unit: &str| {
+        format!(
+            "%\nO1\n{unit} G17 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X0. Y0. S900 M3\nG43 H1 Z1.\nG1 X8. F10.\nX20.\nM30\n%\n"
+        )
+    };
+    let on = ["--dialect", "fanuc-30i", "--machine", "mill-3axis"];
+    let of = |unit: &str| found(&folder, "a.nc", &program(unit), &on);
+    let inch = of("G20");
+    let fits = of_rule(&inch, "axis-limit");
+    let (message, help) = (&fits[0]["message"], fits[0]["help"].as_str().expect("text"));
+    // the travel is -500 mm to 500 mm
+    let wanted = "it fits with X -500 mm (-19.685 in) to -8 mm (-0.315 in)";
+    assert!(message.as_str().expect("text").contains(wanted), "{message}");
+    assert_eq!(fits[0]["values"]["fits_x_max_mm"], -8.0, "{fits:?}");
+    assert!(
+        help.contains("[work_offsets]") && help.ends_with("trunnion.toml is in mm, also for a program in inch"),
+        "{help}"
+    );
+    for found in of("G21") {
+        let said = format!("{found}");
+        assert!(
+            !said.contains(" in)") && !said.contains("also for a program in inch"),
+            "{said}"
+        );
+    }
+    let file = write(&folder, "b.nc", &program("G20"));
+    let stats = text(&trunnion(&[&["stats", str(&file)][..], &on].concat()).stdout);
+    assert!(stats.contains("508.000 mm (20 in)"), "{stats}");
+}
+
 #[test]
 fn the_worst_are_shown_first_and_counted_as_printed() {
     let folder = TempDir::new().expect("works");

@@ -40,6 +40,50 @@ fn lines_are_named_the_same_way_everywhere() {
     }
 }
 
+/// A wrong declaration of the control is named where the text shows another one, and a text that is no program is called that.
+#[test]
+fn a_wrong_dialect_is_named() {
+    let folder = TempDir::new().expect("works");
+    let fanuc = "%\nO0002 (SECOND)\nG21 G17 G40 G49 G80 G90\nT1 M6\nG54 G0 X0. Y0. S900 M3\nG43 H1 Z10.\nG1 Z-1. F100.\nM30\n%\n";
+    let file = write(&folder, "second.nc", fanuc);
+    let looks = "read as sinumerik-840d (named by the user; the text looks like fanuc-30i: ";
+    let said = text(&trunnion(&["check", str(&file), "--dialect", "sinumerik-840d"]).stderr);
+    assert!(said.contains(looks) && said.contains(" on line "), "{said}");
+    let said = text(&trunnion(&["check", str(&file), "--dialect", "haas-ngc"]).stderr);
+    assert!(!said.contains("looks like"), "{said}");
+    write(&folder, "trunnion.toml", "dialect = \"sinumerik-840d\"\n");
+    let document = json(&trunnion(&["check", str(&file), "--format", "json"]));
+    let reason = document["files"][0]["dialect_reason"].as_str().expect("text");
+    assert!(
+        reason.starts_with("trunnion.toml; the text looks like fanuc-30i: "),
+        "{reason}"
+    );
+    let prose = "Read this first.\nThe programs of this folder cut the clamp of job 12.\nRun them in the order of their names, please.\n\
+                 The first one cuts the pocket on the upper side.\n";
+    let file = write(&folder, "notes.nc", prose);
+    let document = json(&trunnion(&["check", str(&file), "--format", "json"]));
+    let found = document["files"][0]["diagnostics"].as_array().expect("a list");
+    let rules: Vec<_> = found.iter().map(|one| one["rule"].as_str().expect("text")).collect();
+    assert_eq!(rules, ["not-a-program"]);
+    assert_eq!(document["files"][0]["verdict"], "unknown");
+}
+
+/// The name of a maker leads to the dialect.
+#[test]
+fn the_name_of_a_maker_leads_to_the_dialect() {
+    let folder = TempDir::new().expect("works");
+    let file = write(&folder, "a.mpf", PART);
+    for (name, hint) in [
+        ("siemens", "did you mean `sinumerik-840d`?"),
+        ("heidenhain", "did you mean `heidenhain-klartext`?"),
+        ("mach3", "there is no dialect for Mach3"),
+    ] {
+        let output = trunnion(&["check", str(&file), "--dialect", name]);
+        assert_eq!(status(&output), 2);
+        assert!(text(&output.stderr).contains(hint), "{}", text(&output.stderr));
+    }
+}
+
 /// A line that the program does not have, and a file that is no surface.
 #[test]
 fn a_line_past_the_end_and_a_wrong_kind_of_file_are_named() {

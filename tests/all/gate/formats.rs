@@ -1,7 +1,7 @@
 //! SARIF, JUnit and GitHub annotations say what JSON says.
 use super::{check, flip, folder, on_mikron};
 use crate::cli::tools::{json, status, str, text, trunnion, write};
-use serde_json::Value;
+use serde_json::{Value, json as object};
 use std::process::Command;
 use tempfile::TempDir;
 
@@ -23,6 +23,17 @@ fn sarif_has_rules_results_and_coverage() {
         rules
             .iter()
             .all(|rule| rule["help"]["markdown"].as_str().is_some_and(|text| text.len() > 100))
+    );
+    let name = |rule: &Value| rule["name"].as_str().expect("a name").to_owned();
+    assert!(
+        rules
+            .iter()
+            .any(|rule| rule["id"] == "axis-limit" && name(rule) == "AxisLimit")
+    );
+    assert!(
+        rules
+            .iter()
+            .all(|rule| name(rule).bytes().all(|b| b.is_ascii_alphanumeric()))
     );
     let plain = json(&check(&folder, &[".", "--format", "json"]));
     let found: usize = plain["files"]
@@ -201,6 +212,36 @@ fn an_output_file_holds_what_standard_output_would() {
     assert_eq!(status(&refused), 2, "{}", text(&refused.stderr));
 }
 
+/// The log of a CI job shows what does not pass, and the sum.
+#[test]
+fn of_many_files_the_log_names_those_that_do_not_pass() {
+    let folder = folder();
+    for number in 0..300 {
+        write(&folder, &format!("part{number}.nc"), super::GOOD);
+    }
+    for (format, file) in [("short", None), ("sarif", Some("out.sarif")), ("github", None)] {
+        let mut arguments = vec![".", "--format", format];
+        arguments.extend(file.iter().flat_map(|file| ["-o", file]));
+        let output = check(&folder, &arguments);
+        let said = text(&output.stdout) + &text(&output.stderr);
+        let lines = |word: &str| said.lines().filter(|line| line.starts_with(word)).count();
+        assert_eq!((lines("PASS"), lines("FAIL")), (0, 1), "{format}: {said}");
+        assert!(
+            said.contains("302 files: 301 pass, 1 fail, 0 unknown (-v prints"),
+            "{format}: {said}"
+        );
+        arguments.push("-v");
+        let said = text(&check(&folder, &arguments).stdout) + &text(&check(&folder, &arguments).stderr);
+        assert_eq!(
+            said.lines().filter(|line| line.starts_with("PASS")).count(),
+            301,
+            "{format}"
+        );
+    }
+    let quiet = check(&folder, &[".", "-q"]);
+    assert!(text(&quiet.stderr).is_empty(), "{}", text(&quiet.stderr));
+}
+
 #[test]
 fn statistics_count_each_rule() {
     let folder = folder();
@@ -229,6 +270,61 @@ fn a_file_that_cannot_be_read_is_in_every_document() {
             text(&output.stdout)
         );
     }
+}
+
+/// Whoever reads no terminal learns from the document that nothing was checked, and why.
+#[test]
+fn what_stops_the_whole_job_is_in_every_document() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("empty")).expect("made");
+    write(&folder, "other.json", "{}");
+    let jobs: [(&[&str], &str); 6] = [
+        (&[".", "--baseline", "nob.json"], "nob.json: does not exist"),
+        (&[".", "--baseline", "other.json"], "this is not a baseline"),
+        (&["empty"], "empty: no program in this directory"),
+        (&[".", "--cache", "good.nc/x"], "good.nc/x: cannot make the folder"),
+        (&[".", "--machine", "mill"], "unknown machine `mill`"),
+        (&[".", "--config", "no.toml"], "no.toml: there is no such file"),
+    ];
+    for (job, reason) in jobs {
+        for format in ["sarif", "junit", "github", "json"] {
+            let mut arguments = job.to_vec();
+            arguments.extend(["--format", format, "-o", "out.txt"]);
+            let output = check(&folder, &arguments);
+            assert_eq!(status(&output), 2, "{format} {job:?}");
+            assert!(text(&output.stderr).contains(reason), "{}", text(&output.stderr));
+            let document = std::fs::read_to_string(folder.path().join("out.txt")).expect("written");
+            match format {
+                "github" => {
+                    let wanted = format!("::error title=not checked::{reason}");
+                    assert!(
+                        document.contains(&wanted) || reason.starts_with("this is"),
+                        "{document}"
+                    );
+                }
+                "junit" => assert!(document.contains("<error type=\"not-checked\""), "{document}"),
+                "json" => {
+                    let document: Value = serde_json::from_str(&document).expect("JSON");
+                    assert_eq!(document["files"], object!([]));
+                    assert_ne!(document["not_checked"], object!([]));
+                }
+                _ => {
+                    let document: Value = serde_json::from_str(&document).expect("JSON");
+                    let run = &document["runs"][0];
+                    assert_eq!(run["results"], object!([]));
+                    assert_eq!(run["invocations"][0]["executionSuccessful"], object!(false));
+                    let said = &run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"];
+                    assert!(said.as_str().expect("text").contains(reason), "{said}");
+                }
+            }
+            std::fs::remove_file(folder.path().join("out.txt")).expect("removed");
+        }
+    }
+    // an output that is an input stays
+    let before = std::fs::read(folder.path().join("good.nc")).expect("read");
+    let output = check(&folder, &["empty", "good.nc", "--format", "sarif", "-o", "good.nc"]);
+    assert_eq!(status(&output), 2);
+    assert_eq!(std::fs::read(folder.path().join("good.nc")).expect("read"), before);
 }
 
 #[test]

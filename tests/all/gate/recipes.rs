@@ -73,6 +73,16 @@ fn the_github_action_fails_on_a_bad_program_and_passes_with_the_baseline() {
     shell(&folder, "trunnion check . --write-baseline known.json", &[]);
     let (status, said) = shell(&folder, &script, &variables("known.json"));
     assert_eq!(status, 0, "{said}");
+    // a baseline that is not there: an annotation, and a file that the next step can upload
+    fs::remove_file(folder.path().join("trunnion.sarif")).expect("removed");
+    let (status, said) = shell(&folder, &script, &variables("wrong.json"));
+    assert_eq!(status, 2, "{said}");
+    assert!(
+        said.contains("::error title=not checked::wrong.json: does not exist"),
+        "{said}"
+    );
+    let written = fs::read_to_string(folder.path().join("trunnion.sarif")).expect("written");
+    assert!(written.contains("\"executionSuccessful\":false"), "{written}");
 }
 
 #[test]

@@ -1,16 +1,23 @@
 //! The published schemas hold for what commands print and for the files of the repository, and refuse what is wrong.
 use super::{check, flip, folder, on_mikron};
-use crate::cli::tools::{json, status, str, text, trunnion};
+use crate::cli::tools::{json, status, str, text, trunnion, write};
 use serde_json::{Value, json};
 use std::{collections::BTreeSet, fs, path::Path};
 use tempfile::TempDir;
 
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 15] = [
     "check",
     "trace",
     "fix",
+    "servo",
     "stats",
+    "convert",
+    "diff",
+    "surface",
+    "rules",
+    "parse",
     "certificate",
+    "conversion",
     "baseline",
     "machine",
     "settings",
@@ -92,6 +99,97 @@ fn outputs_obey_them() {
         "certificate",
         &serde_json::from_slice(&fs::read(&certificate).expect("written")).expect("JSON"),
     );
+}
+
+const APT: &str = "PARTNO / A\nMACHIN / B\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 8000, CLW\nRAPID\nGOTO / 0, 0, 100\nFEDRAT / 500, MMPM\nGOTO / 0, 0, 0\nGOTO / 20, 0, 0\nFINI\n";
+/// A plane 1 mm below the zero.
+const PLANE: &str = "solid plane\nfacet normal 0 0 1\nouter loop\nvertex -100 -100 -1\nvertex 300 -100 -1\nvertex -100 300 -1\nendloop\nendfacet\nendsolid plane\n";
+
+#[test]
+fn conversions_and_comparisons_obey_them() {
+    let folder = TempDir::new().expect("a folder");
+    let apt = write(&folder, "a.apt", APT);
+    let (out, proof) = (folder.path().join("a.mpf"), folder.path().join("proof.json"));
+    let on = ["--machine", "mill-3axis", "--format", "json"];
+    let to = ["convert", str(&apt), "--to", "sinumerik-840d"];
+    let files = ["--machine", "mill-3axis", "-o", str(&out), "--certificate", str(&proof)];
+    trunnion(&[&to[..], &files].concat());
+    let converted = json(&trunnion(&[&to[..], &on].concat()));
+    assert_eq!(converted["proof"]["motions_before"], json!(3), "{converted}");
+    holds("convert", &converted);
+    holds(
+        "conversion",
+        &serde_json::from_slice(&fs::read(&proof).expect("written")).expect("JSON"),
+    );
+
+    // each kind of difference, also in what is no motion, and programs that are not followed
+    let program = |name: &str, text: &str| write(&folder, name, text);
+    let first = program(
+        "b.mpf",
+        "N10 G17 G71 G90 G94 G54\nG0 X0 Y0 Z5\nG1 X10 F500\nMSG(\"a\")\nM8\nX20\nM30\n",
+    );
+    let second = program(
+        "c.mpf",
+        "G17 G71 G90 G94 G54\nG0 X0 Y0 Z5\nG1 X10 Y2 F600\nZ1\nX20 Y0\nG2 X30 I5 J0\nM30\n",
+    );
+    let endless = program("d.mpf", "G17 G71 G90 G94\nA:\nG91 G1 X1 F100\nGOTOB A\n");
+    for pair in [
+        [&first, &second],
+        [&second, &first],
+        [&first, &first],
+        [&endless, &first],
+    ] {
+        holds(
+            "diff",
+            &json(&trunnion(&["diff", str(pair[0]), str(pair[1]), "--format", "json"])),
+        );
+    }
+    let plane = write(&folder, "plane.stl", PLANE);
+    let part = program(
+        "e.mpf",
+        "G17 G71 G90 G94 G54\nS1 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX20 Z-1.25\nM30\n",
+    );
+    let judged = trunnion(
+        &[
+            &["surface", str(&part), "--required", str(&plane), "--lines", "5"][..],
+            &on,
+        ]
+        .concat(),
+    );
+    let judged = json(&judged);
+    assert_eq!(judged["judged"], json!(1), "{judged}");
+    holds("surface", &judged);
+    holds("rules", &json(&trunnion(&["rules", "--format", "json"])));
+}
+
+#[test]
+fn trees_and_tokens_obey_them() {
+    let folder = TempDir::new().expect("a folder");
+    for (name, text) in [
+        (
+            "a.mpf",
+            "N10 G1 X=R1*(2+SIN(R[3])) A3=0 ; side\n/2 MSG(\"a, b\")\nL: CYCLE800(1,\"T\")\n%\n\"\n",
+        ),
+        (
+            "a.nc",
+            "%\nO1 (PART)\nG1 X#1 Y[2+#<_a>/3] Z Z1.2.3\n/G0\nM98 P2\n&?\n%\n",
+        ),
+        ("a.apt", APT),
+        (
+            "a.h",
+            "0 BEGIN PGM A MM\n1 L X+0 Y+Q1 R0 FMAX\n2 LBL 1\n3 FN 0: Q1 = +2\n4 END PGM A MM\n",
+        ),
+    ] {
+        let file = write(&folder, name, text);
+        for more in [&[][..], &["--tokens"]] {
+            holds(
+                "parse",
+                &json(&trunnion(
+                    &[&["parse", str(&file), "--format", "json"][..], more].concat(),
+                )),
+            );
+        }
+    }
 }
 
 fn toml_files(folder: &str) -> Vec<std::path::PathBuf> {

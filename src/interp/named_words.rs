@@ -46,12 +46,17 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// `TCARR=1`: the name of a code is no variable. A code that moves nothing and leaves coordinates as they are takes its value (ADIS, CTOL).
     fn code_with_value(&mut self, stem: &[u8], word: &Word) -> bool {
-        let code = std::str::from_utf8(stem).ok().and_then(|name| self.dialect.name(name));
+        let name = std::str::from_utf8(stem).unwrap_or_default();
+        let declared = self.own.as_ref().is_some_and(|own| own.is_declared(name));
+        let code = self.dialect.name(name).filter(|_| !declared);
         let Some(code) = code.filter(|code| !matches!(code.action, Action::NoMotion | Action::PathMode)) else {
             return false;
         };
         self.words.has_values = true;
-        if matches!(code.action, Action::NotModelled | Action::FrameChange | Action::NotFollowed) {
+        if matches!(
+            code.action,
+            Action::NotModelled | Action::FrameChange | Action::NotFollowed
+        ) {
             self.codes.push(Found {
                 code,
                 range: word.range,

@@ -290,7 +290,8 @@ impl Klartext<'_> {
             self.join(made, report);
         } else {
             let is_lost = self.core.state.zero.is_lost();
-            self.out.push(in_work(motion, self.memory.frames.tilt.as_ref(), is_lost));
+            self.out
+                .push(in_work(motion, self.memory.frames.tilt.as_ref(), is_lost));
         }
     }
 

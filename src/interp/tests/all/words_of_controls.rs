@@ -11,7 +11,11 @@ fn after(dialect: &str, head: &str, words: &str) -> (Vec<String>, String) {
     let motions = lines(dialect, &source).split_off(before);
     let of_head = faults(dialect, head);
     let said: Vec<String> = faults(dialect, &source);
-    let said: Vec<&str> = said.iter().map(String::as_str).filter(|line| !of_head.iter().any(|told| told == line)).collect();
+    let said: Vec<&str> = said
+        .iter()
+        .map(String::as_str)
+        .filter(|line| !of_head.iter().any(|told| told == line))
+        .collect();
     (motions, said.join("\n"))
 }
 
@@ -41,7 +45,8 @@ fn a_code_with_a_value_is_no_variable() {
         // they leave coordinates as they are
         ("ADIS=0.5\nG1 X30 Z1", &["L X30 Y0 Z1 F100"], ""),
         ("G642 CTOL=0.5\nG1 X30 Z1", &["L X30 Y0 Z1 F100"], ""),
-        // a variable of the program with a name of its own
+        // variables of the program
+        ("DEF REAL TOFFL\nTOFFL=3\nG1 X=TOFFL Z1", &["L X3 Y0 Z1 F100"], ""),
         ("DEF REAL WIDTH\nWIDTH=3\nG1 X=WIDTH Z1", &["L X3 Y0 Z1 F100"], ""),
     ];
     check("sinumerik-840d", SINUMERIK, rows);
@@ -68,9 +73,17 @@ fn words_that_change_where_axes_are() {
         ("TRAILON(Y,X,1)\nG1 X30 Y1 Z1", &["L - F100"], "TRAILON"),
         ("TANG(C,X,Y,1)\nTANGON(C,0)\nG1 X30 C1", &["L - F100"], "TANGON"),
         ("DIAMONA[X]\nG1 X30 Y1 Z1", &["L - F100"], "DIAMONA"),
-        ("TOWWCS\nG1 X30 Y1 Z1\nTOWSTD\nG1 X1 Y1 Z1", &["L - F100", "L X1 Y1 Z1 F100"], "TOWWCS"),
+        (
+            "TOWWCS\nG1 X30 Y1 Z1\nTOWSTD\nG1 X1 Y1 Z1",
+            &["L - F100", "L X1 Y1 Z1 F100"],
+            "TOWWCS",
+        ),
         // the contour is read, and does not move
-        ("CTABDEF(Y,X,1,0)\nX0 Y0\nX1 Y1\nCTABEND\nG1 X1 Y1 Z1", &["R -", "R -", "L X1 Y1 Z1 F100"], "CTABDEF"),
+        (
+            "CTABDEF(Y,X,1,0)\nX0 Y0\nX1 Y1\nCTABEND\nG1 X1 Y1 Z1",
+            &["R -", "R -", "L X1 Y1 Z1 F100"],
+            "CTABDEF",
+        ),
     ];
     check("sinumerik-840d", SINUMERIK, rows);
 }
@@ -92,10 +105,22 @@ fn words_that_are_known_and_move_nothing() {
 #[test]
 fn klartext_cycles_that_may_act_where_they_are_defined() {
     let rows: &[Row] = &[
-        ("CYCL DEF 800 ADJUST XZ SYSTEM Q497=+0\nL X+3 Y+4 Z+1", &["L - F100"], "cycle 800"),
+        (
+            "CYCL DEF 800 ADJUST XZ SYSTEM Q497=+0\nL X+3 Y+4 Z+1",
+            &["L - F100"],
+            "cycle 800",
+        ),
         ("CYCL DEF 392 ATC Q240=+3\nL X+3 Y+4 Z+1", &["L - F100"], "cycle 392"),
-        ("CYCL DEF 251 POCKET Q218=+3\nL X+3 Y+4 Z+1", &["L X3 Y4 Z1 C0 F100"], ""),
-        ("CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.05\nL X+3 Y+4 Z+1", &["L X3 Y4 Z1 C0 F100"], ""),
+        (
+            "CYCL DEF 251 POCKET Q218=+3\nL X+3 Y+4 Z+1",
+            &["L X3 Y4 Z1 C0 F100"],
+            "",
+        ),
+        (
+            "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.05\nL X+3 Y+4 Z+1",
+            &["L X3 Y4 Z1 C0 F100"],
+            "",
+        ),
     ];
     check("heidenhain-klartext", KLARTEXT, rows);
 }
@@ -105,12 +130,24 @@ fn klartext_words_that_change_what_coordinates_mean() {
     let rows: &[Row] = &[
         ("FUNCTION PARAXMODE X Y W\nL X+3 Y+4 Z+1", &["L C0 F100"], "PARAXMODE"),
         ("FUNCTION CORRDATA TCS #1\nL X+3 Y+4 Z+1", &["L C0 F100"], "CORRDATA"),
-        ("FUNCTION PARAXCOMP DISPLAY W\nL X+3", &["L X3 Y0 Z5 C0 F100"], "PARAXCOMP"),
-        ("FUNCTION FEED DWELL D-TIME0.5 F-TIME5\nL X+3", &["L X3 Y0 Z5 C0 F100"], "FEED DWELL"),
+        (
+            "FUNCTION PARAXCOMP DISPLAY W\nL X+3",
+            &["L X3 Y0 Z5 C0 F100"],
+            "PARAXCOMP",
+        ),
+        (
+            "FUNCTION FEED DWELL D-TIME0.5 F-TIME5\nL X+3",
+            &["L X3 Y0 Z5 C0 F100"],
+            "FEED DWELL",
+        ),
         ("FN 25: PRESET = X/+5/+0\nL X+3 Y+4 Z+1", &["L C0 F100"], "FN 25"),
         ("FN 17: SYSWRITE ID503 NR1 = +3\nL X+3 Y+4 Z+1", &["L C0 F100"], "FN 17"),
         ("Q20=+5\nFN 23: Q20 = CDATA Q30\nL X+Q20", &["L Y0 Z5 C0 F100"], "FN 23"),
-        ("SPL X+10 Y+3 K3X+1 K2X+2 K1X+3\nL X+3", &["U -", "L X3 F100"], "SPL: a spline"),
+        (
+            "SPL X+10 Y+3 K3X+1 K2X+2 K1X+3\nL X+3",
+            &["U -", "L X3 F100"],
+            "SPL: a spline",
+        ),
         ("GLOBAL DEF 100 GENERAL ~\n Q200=2\nL X+3", &["L X3 Y0 Z5 C0 F100"], ""),
     ];
     check("heidenhain-klartext", KLARTEXT, rows);
@@ -119,12 +156,19 @@ fn klartext_words_that_change_what_coordinates_mean() {
 #[test]
 fn klartext_letters_that_are_those_of_an_m_code() {
     let rows: &[Row] = &[
-        ("L X+3 M138 A C", &["L X3 Y0 Z5 C0 F100"], "M138: which axes tilting turns"),
+        (
+            "L X+3 M138 A C",
+            &["L X3 Y0 Z5 C0 F100"],
+            "M138: which axes tilting turns",
+        ),
         ("L X+3 M94 C", &["L X3 Y0 Z5 F100"], "M94"),
         ("L X+3 M112 T0.01 A10", &["L X3 Y0 Z5 C0 F100"], ""),
     ];
     for (words, _, told) in rows {
-        assert!(!after("heidenhain-klartext", KLARTEXT, words).1.contains("MissingWord"), "{words}: {told}");
+        assert!(
+            !after("heidenhain-klartext", KLARTEXT, words).1.contains("MissingWord"),
+            "{words}: {told}"
+        );
     }
     check("heidenhain-klartext", KLARTEXT, rows);
 }
@@ -132,6 +176,33 @@ fn klartext_letters_that_are_those_of_an_m_code() {
 #[test]
 fn polar_interpolation_by_its_other_numbers() {
     let head = "G21 G17 G90 G94 G54\nG0 X0. Y0. Z5.\nF100.\n";
-    let rows: &[Row] = &[("G112\nG1 X3. C5.\nG113\nG1 X1. Y1. Z1.", &["L - F100", "L X1 Y1 Z1 F100"], "G112")];
+    let rows: &[Row] = &[(
+        "G112\nG1 X3. C5.\nG113\nG1 X1. Y1. Z1.",
+        &["L - F100", "L X1 Y1 Z1 F100"],
+        "G112",
+    )];
+    check("fanuc-30i", head, rows);
+}
+
+#[test]
+fn a_plane_that_is_not_known_says_why() {
+    let head = "G21 G17 G90 G94 G54\nG0 X0. Y0. Z5. A0. C0.\nF100.\n";
+    let rows: &[Row] = &[
+        (
+            "G68.2 P4 X0. Y0. Z0. I30. J20. K0.\nG1 X3. Y1. Z1.",
+            &["L - F100"],
+            "how the angles of P4 turn",
+        ),
+        (
+            "G68.2 P1 X0. Y0. Z0. I30. J20. K0.\nG1 X3. Y1. Z1.",
+            &["L - F100"],
+            "declare roll_pitch_yaw",
+        ),
+        (
+            "G68.2 X0. Y0. Z0. I30. J20. K0. R5.\nG1 X3. Y1. Z1.",
+            &["L - F100"],
+            "how R turns the plane",
+        ),
+    ];
     check("fanuc-30i", head, rows);
 }

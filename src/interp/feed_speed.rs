@@ -20,6 +20,11 @@ impl Iso<'_> {
             self.core.state.feed.set(None);
             self.core.feed_unread = false;
         }
+        if words.other_feed {
+            self.core.state.feed.set(None);
+            self.core.feed_unread = true;
+            return;
+        }
         if !words.feed.is_given() || dwell_reads(codes, "F") {
             return;
         }

@@ -1,9 +1,10 @@
 //! Words whose address is a name, or a letter with a number: `CR=`, `A3=`, `S2=`, `PO[X]=`, variables.
 use crate::FaultKind;
+use crate::codes::Found;
 use crate::reader::Reader;
 use crate::system::{SystemWrite, system_write};
 use crate::words::WordValue;
-use trunnion_dialect::Role;
+use trunnion_dialect::{Action, Role};
 use trunnion_syntax::{TextRange, Word};
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
@@ -28,14 +29,45 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             (Some(Role::NotFollowed), _) => {
                 let what = String::from_utf8_lossy(stem).to_ascii_uppercase();
                 self.words.has_values = true;
+                self.words.other_feed |= matches!(what.as_str(), "FB" | "FD" | "FZ");
+                if what == "SVC" {
+                    self.words.speed = WordValue::Unread;
+                }
                 (self.report)(word.range, FaultKind::NotModelled { what });
             }
             (Some(role), _) => self.role_word(role, b' ', word),
             (None, Some(b',')) if self.corner(stem, word) => {}
             (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
+            _ if variable && self.code_with_value(stem, word) => {}
             _ if variable => self.own_assignment(range, word),
             _ => (self.report)(word.range, FaultKind::UnknownWord),
         }
+    }
+
+    /// `TCARR=1`: the name of a code is no variable. A code that moves nothing and leaves coordinates as they are takes its value (ADIS, CTOL).
+    fn code_with_value(&mut self, stem: &[u8], word: &Word) -> bool {
+        let name = std::str::from_utf8(stem).unwrap_or_default();
+        let declared = self.own.as_ref().is_some_and(|own| own.is_declared(name));
+        let code = self.dialect.name(name).filter(|_| !declared);
+        let Some(code) = code.filter(|code| !matches!(code.action, Action::NoMotion | Action::PathMode)) else {
+            return false;
+        };
+        self.words.has_values = true;
+        if matches!(
+            code.action,
+            Action::NotModelled | Action::FrameChange | Action::NotFollowed
+        ) {
+            self.codes.push(Found {
+                code,
+                range: word.range,
+                with_arguments: true,
+            });
+        } else {
+            // no control takes it so: what it then does is not known
+            self.words.writes_system = true;
+            self.not_modelled(word.range);
+        }
+        true
     }
 
     /// An assignment to a variable of the control.

@@ -30,6 +30,11 @@ fn axis_index(letter: u8) -> Option<usize> {
         .map(|&axis| usize::from(axis))
 }
 
+/// A name without the axis of `DIAMONA[X]`.
+pub(crate) fn without_index(name: &str) -> &str {
+    name.split('[').next().unwrap_or_default().trim_end()
+}
+
 /// Reads one block: fills words and codes, reports what has no meaning.
 pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
     pub(crate) program: &'a Program,
@@ -313,7 +318,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
 
     fn name(&self, range: TextRange) -> Option<&'d Code> {
         let name = std::str::from_utf8(self.program.source().get(range.as_usize())?).ok()?;
-        self.dialect.name(name)
+        self.dialect.name(without_index(name))
     }
 
     /// Text that is neither word nor name: an assignment or condition, unless the syntax has reported it already.

@@ -179,6 +179,8 @@ pub(crate) struct Words {
     pub(crate) positions_spindle: bool,
     /// Zero points or tools of the control are written: from here on coordinates say nothing about the machine.
     pub(crate) writes_system: bool,
+    /// Another feed than F acts in the block: FB, FD, FZ.
+    pub(crate) other_feed: bool,
     /// `,R` or `,C` with its value as written: the corner between this motion and the next is rounded or cut off.
     pub(crate) corner: Option<(u8, Number)>,
     /// The block contains an M code that the builder may have given a meaning.

@@ -186,22 +186,20 @@ impl<'p> Arguments<'p> {
     fn step(&mut self, sink: &mut impl Sink) -> Option<AptArg> {
         loop {
             let at = significant(&self.scan, self.at);
-            let range = if at < self.scan.end {
-                self.scan.range(at)
-            } else {
+            if at >= self.scan.end {
                 return self.finish(at, sink);
-            };
+            }
             self.at = at + 1;
             match self.scan.kind(at) {
                 TokenKind::Newline => return self.finish(at, sink),
                 TokenKind::Comma => {
                     if self.separator.is_some() {
-                        sink.report(SyntaxErrorKind::BadRecord, range);
+                        sink.report(SyntaxErrorKind::BadRecord, self.scan.range(at));
                     }
                     self.separator = Some(TokenKind::Comma);
                 }
                 TokenKind::Slash if self.separator.is_some() => {
-                    sink.report(SyntaxErrorKind::BadRecord, range);
+                    sink.report(SyntaxErrorKind::BadRecord, self.scan.range(at));
                 }
                 _ => {
                     let separated = self.separator.take().is_some();
@@ -281,7 +279,17 @@ impl Iterator for Arguments<'_> {
 }
 
 /// A number, with blanks after its sign if need be.
+#[inline]
 fn number(bytes: &[u8]) -> Option<Decimal> {
+    match Decimal::parse_short(bytes) {
+        Some(number) => Some(number),
+        None => rare_number(bytes),
+    }
+}
+
+/// With an exponent, many digits or blanks.
+#[cold]
+fn rare_number(bytes: &[u8]) -> Option<Decimal> {
     if let Some(number) = Decimal::parse(bytes) {
         return Some(number);
     }

@@ -12,6 +12,7 @@ pub struct AxisLetter(pub u8);
 
 impl AxisLetter {
     /// From a letter, either case; `None` when it names no axis.
+    #[inline]
     pub fn new(letter: u8) -> Option<Self> {
         let upper = letter.to_ascii_uppercase();
         AXIS_LETTERS.iter().position(|&l| l == upper).map(|i| Self(i as u8))

@@ -84,13 +84,34 @@ impl<'d> Iso<'d> {
             clear && adds == outer.is_some() && !self.core.state.zero.is_lost(),
         ) else {
             self.end_tilt(report);
-            self.frame_change(found, words, block, report);
+            let why = (!is_feature && turns.is_none())
+                .then(|| self.why_no_turns(words))
+                .flatten();
+            let Some(why) = why else {
+                self.frame_change(found, words, block, report);
+                return;
+            };
+            let what = format!("{}: {why}", found.code.id);
+            report.fault(found.range, FaultKind::NotModelled { what });
+            self.frame_begins(found, words, block);
             return;
         };
         block.takes_coordinates = true;
         let origin = Vec3::from_fn(|axis, _| self.axis_value(words, axis).unwrap_or(0.0));
         let plane = Tilted::new(origin, &turns);
         self.tilt_to(Some(outer.map_or(plane, |outer| outer.then(&plane))), report);
+    }
+
+    /// What is not known of the turns, where one word is the reason.
+    fn why_no_turns(&self, words: &Words) -> Option<&'static str> {
+        match words.letter(b'P').index() {
+            Some(4) => Some("no source states how the angles of P4 turn"),
+            Some(1) if self.core.setup.control.roll_pitch_yaw.is_none() => {
+                Some("whether P1 turns about fixed or turned axes: declare roll_pitch_yaw under [control]")
+            }
+            _ if words.radius.is_given() => Some("how R turns the plane"),
+            _ => None,
+        }
     }
 
     /// Axis and degrees of the turns that I J K give.

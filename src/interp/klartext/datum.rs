@@ -18,6 +18,8 @@ pub(crate) const PLANE: u8 = 2;
 pub(crate) const SHAPE: u8 = 4;
 /// Turning: X is a diameter.
 pub(crate) const TURNING: u8 = 8;
+/// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.
+pub(crate) const OTHER: u8 = 16;
 
 impl Klartext<'_> {
     /// Coordinates say nothing from here on, for a reason.
@@ -86,7 +88,14 @@ impl Klartext<'_> {
             // tolerance, oriented stop, contour data
             13 | 14 | 20 | 32 | 270..=272 => {}
             220 | 221 => self.pattern_cycle(cycle, words, report),
-            _ => self.define_cycle(cycle, line, words, report),
+            _ => {
+                if line == 0 && !waits_for_its_call(cycle) {
+                    Self::not_modelled(format!("cycle {cycle}: whether it acts where it is defined"), report);
+                    self.core.forget_position();
+                    self.lose(OTHER);
+                }
+                self.define_cycle(cycle, line, words, report);
+            }
         }
     }
 
@@ -323,4 +332,13 @@ impl Klartext<'_> {
             self.old_cycle_line(cycle, line, words, report);
         }
     }
+}
+
+/// Cycles that do nothing where they are defined (TNC 640 cycle manuals, overviews of the cycles: CALL-active; TNC 426 for 1 to 6, 12 and 210 to 215).
+/// Turning systems (800, 801), patterns of codes (224), measurements of the machine (238, 239) and cycles of the machine builder act there.
+fn waits_for_its_call(cycle: u32) -> bool {
+    matches!(
+        cycle,
+        1..=6 | 12 | 15..=18 | 21..=25 | 30 | 200..=215 | 225 | 230..=233 | 240 | 241 | 251..=258 | 262..=265 | 267 | 273..=278
+    )
 }

@@ -52,10 +52,24 @@ impl Klartext<'_> {
                 }
                 self.not_modelled_once(&what, report);
             }
-            15 | 16 | 17 | 26 | 27 | 29 | 37 | 38 => {
+            // what it writes may be the preset, or a tool
+            17 | 25 => {
+                self.not_modelled_once(&format!("FN {number}: what it writes"), report);
+                self.flush(report);
+                self.lose(super::datum::OTHER);
+            }
+            // the centre and the radius of a circle through points, in three parameters
+            23 | 24 => {
+                self.not_modelled_once(&format!("FN {number}: the circle that it computes"), report);
+                self.memory.parameters.lose();
+            }
+            15 | 16 | 26 | 27 | 29 | 37 | 38 => {
                 self.not_modelled_once(&format!("FN {number}: what it writes or sends"), report);
             }
-            _ => Self::not_modelled(format!("FN {number}"), report),
+            _ => {
+                Self::not_modelled(format!("FN {number}"), report);
+                self.memory.parameters.lose();
+            }
         }
         Request::Next
     }

@@ -5,6 +5,7 @@ use super::words::Words;
 use super::{Klartext, Made};
 use crate::arc::plane_axes;
 use crate::core::{LINEAR, ROTARY, Report};
+use crate::frames::Tilted;
 use crate::rotary_way::shorter;
 use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position, Refusal, Swivel, Ways};
 use trunnion_geometry::Vec3;
@@ -281,26 +282,22 @@ impl Klartext<'_> {
 
     /// Gives a motion out, or holds it back for the corner or contour that comes.
     pub(crate) fn emit(&mut self, motion: &Motion, report: &mut Report<'_>) {
-        let made = Made {
-            motion: *motion,
-            tilt: self.memory.frames.tilt,
-        };
         if self.memory.waiting.is_some() || super::corner::comes(report) {
+            let made = Made {
+                motion: *motion,
+                tilt: self.memory.frames.tilt,
+            };
             self.join(made, report);
         } else {
-            self.finish_motion(&made);
+            let is_lost = self.core.state.zero.is_lost();
+            self.out
+                .push(in_work(motion, self.memory.frames.tilt.as_ref(), is_lost));
         }
     }
 
-    /// In the workpiece frame.
     pub(crate) fn finish_motion(&mut self, made: &Made) {
-        let motion = match &made.tilt {
-            Some(tilt) if !made.motion.machine_coordinates && !self.core.state.zero.is_lost() => {
-                tilt.motion_to_work(&made.motion)
-            }
-            _ => made.motion,
-        };
-        self.out.push(motion);
+        let is_lost = self.core.state.zero.is_lost();
+        self.out.push(in_work(&made.motion, made.tilt.as_ref(), is_lost));
     }
 
     /// A motion of which nothing is known.
@@ -341,4 +338,13 @@ pub(super) fn unread(words: &PathWords) -> u16 {
         .filter(|axis| words.values[*axis].is_none())
         .fold(0, |all, axis| all | 1 << axis)
         & words.given
+}
+
+/// The motion in the workpiece frame.
+#[inline]
+fn in_work(motion: &Motion, tilt: Option<&Tilted>, is_lost: bool) -> Motion {
+    match tilt {
+        Some(tilt) if !motion.machine_coordinates && !is_lost => tilt.motion_to_work(motion),
+        _ => *motion,
+    }
 }

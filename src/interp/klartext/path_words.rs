@@ -132,6 +132,8 @@ impl Klartext<'_> {
             {
                 self.no_number(found, report);
             }
+            // the axes that M94 and M138 name, and the angle of M112
+            [letter] if names_axis(*letter, word, found) => {}
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
             b"F" => {
@@ -184,9 +186,9 @@ impl Klartext<'_> {
                 found.back = if most { None } else { self.said(word.value, report) };
                 return true;
             }
-            // distances of M120 LA, M118 X Y Z, M124 T
+            // distances of M120 LA, M118 X Y Z, M112 T, M124 T
             b"LA" => {}
-            b"T" if found.has(124) => {}
+            b"T" if found.has(112) || found.has(124) => {}
             // what a computation that failed has written
             name if is_no_number(name) => self.no_number(found, report),
             b"" if matches!(word.value, Said::Parameter(..)) && found.codes().is_empty() && found.given == 0 => {
@@ -276,6 +278,12 @@ impl Klartext<'_> {
         }
         matches!(code, 103 | 128 | 140)
     }
+}
+
+/// `M94 C` and `M138 A C` name axes; `M112 T0.01 A10` gives a distance and an angle (TNC 426 user's manual, miscellaneous functions).
+fn names_axis(letter: u8, word: &Word<'_>, found: &PathWords) -> bool {
+    let named = (found.has(94) || found.has(138)) && word.value == Said::Nothing;
+    named && AxisLetter::new(letter).is_some() || letter == b'A' && found.has(112)
 }
 
 /// A word whose value is `nan` or `inf`, with or without its letters.

@@ -9,6 +9,9 @@ use crate::core::Report;
 use crate::{FaultKind, FeedMode, Refusal};
 use trunnion_syntax::TextRange;
 
+/// First words of FUNCTION blocks after which coordinates mean what they meant: dwells and pulses, files, the counter, monitoring.
+const LEAVES_COORDINATES: [&str; 7] = ["FEED", "S-PULSE", "DWELL", "FILE", "COUNT", "DCM", "LIFTOFF"];
+
 impl Klartext<'_> {
     /// Runs the words of one block.
     pub(crate) fn sentence(&mut self, text: &[u8], report: &mut Report<'_>) -> Request {
@@ -49,7 +52,15 @@ impl Klartext<'_> {
             }
             b"BLK" => {}
             b"PATTERN" => self.pattern(&mut words, report),
-            b"TCH" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"SPL" | b"DECLARE" => {
+            // values for cycles that say PREDEF, which is unknown where it stands
+            b"GLOBAL" => {}
+            b"SPL" => {
+                self.flush(report);
+                Self::not_modelled("SPL: a spline", report);
+                self.core.forget_position();
+                self.unknown_motion(report);
+            }
+            b"TCH" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"DECLARE" => {
                 self.not_followed(first.name(), report);
             }
             b"IF" | b"ELSE" | b"ELSEIF" | b"END" | b"WHILE" | b"FOR" | b"BREAK" | b"CONTINUE" => {
@@ -129,15 +140,18 @@ impl Klartext<'_> {
             return self.guide_tip(false, report);
         }
         if !has("TCPM") {
+            let what = String::from_utf8_lossy(&text).trim().to_owned();
             if has("MODE") && has("MILL") {
-                self.found(super::datum::TURNING);
-            } else {
-                let what = String::from_utf8_lossy(&text).trim().to_owned();
-                self.not_modelled_once(&format!("FUNCTION {what}"), report);
-                if has("MODE") {
-                    self.flush(report);
-                    self.lose(super::datum::TURNING);
-                }
+                return self.found(super::datum::TURNING);
+            }
+            self.not_modelled_once(&format!("FUNCTION {what}"), report);
+            let first = what.split_ascii_whitespace().next().unwrap_or_default();
+            if first == "MODE" {
+                self.flush(report);
+                self.lose(super::datum::TURNING);
+            } else if !LEAVES_COORDINATES.contains(&first) && !has("OFF") && !has("DISPLAY") {
+                self.flush(report);
+                self.lose(super::datum::OTHER);
             }
             return;
         }
@@ -207,6 +221,7 @@ impl Klartext<'_> {
                     Self::not_modelled(format!("M{code}"), report);
                     self.core.forget_linear();
                 }
+                138 => self.not_modelled_once("M138: which axes tilting turns", report),
                 103 | 109 | 110 | 116 => self.not_modelled_once(&format!("M{code}: the feed"), report),
                 94 => {
                     self.not_modelled_once("M94: the turns of rotary axes after it", report);

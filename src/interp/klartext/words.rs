@@ -3,6 +3,8 @@ use trunnion_syntax::Decimal;
 
 /// Letters of the longest name that is distinguished.
 const LONGEST: usize = 12;
+/// Bytes of the longest number with a comma.
+const LONGEST_NUMBER: usize = 40;
 
 /// A Q parameter by its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -94,6 +96,16 @@ pub fn sentence_words(text: &[u8]) -> impl Iterator<Item = SentenceWord> + '_ {
     })
 }
 
+/// A number that is written with a comma.
+fn with_point(written: &[u8]) -> Option<Decimal> {
+    let mut buffer = [0u8; LONGEST_NUMBER];
+    let number = buffer.get_mut(..written.len())?;
+    for (to, from) in number.iter_mut().zip(written) {
+        *to = if *from == b',' { b'.' } else { *from };
+    }
+    Decimal::parse(number)
+}
+
 /// The words of a text, in order.
 #[derive(Clone)]
 pub(crate) struct Words<'t> {
@@ -159,32 +171,27 @@ impl<'t> Words<'t> {
         }
     }
 
+    /// A number at `start`, where a sign may be, and digits are at this place.
     fn number(&mut self, start: usize) -> Said<'t> {
-        let mut buffer = [0u8; 40];
-        let mut length = 0;
-        self.at = start;
-        while let Some(byte @ (b'0'..=b'9' | b'.' | b',' | b'+' | b'-')) = self.peek() {
-            if matches!(byte, b'+' | b'-') && self.at > start {
-                break;
-            }
-            // a comma that separates
-            if matches!(byte, b'.' | b',') && length > 0 && buffer[..length].contains(&b'.') {
+        let mut point = None;
+        while let Some(byte @ (b'0'..=b'9' | b'.' | b',')) = self.peek() {
+            if !byte.is_ascii_digit() && point.replace(byte).is_some() {
+                // a second point, or a comma that separates
                 self.at += 1;
                 while self.peek().is_some_and(|byte| byte.is_ascii_digit()) {
                     self.at += 1;
                 }
                 return Said::Bad;
             }
-            if let Some(place) = buffer.get_mut(length) {
-                *place = if byte == b',' { b'.' } else { byte };
-                length += 1;
-            }
             self.at += 1;
         }
-        match Decimal::parse(&buffer[..length]) {
-            Some(number) if length < buffer.len() => Said::Number(number.to_f64()),
-            _ => Said::Bad,
-        }
+        let written = &self.text[start..self.at];
+        let number = if point == Some(b',') {
+            with_point(written)
+        } else {
+            Decimal::parse(written)
+        };
+        number.map_or(Said::Bad, |number| Said::Number(number.to_f64()))
     }
 
     /// `Q5`, `QL5`, `QR5`, `QS5` at this very place.

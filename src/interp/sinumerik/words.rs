@@ -8,7 +8,7 @@ use crate::codes::Found;
 use crate::core::Report;
 use crate::flow::{Back, Calling, Transfer, With as Handed, index_of};
 use crate::iso::Iso;
-use crate::reader::Reader;
+use crate::reader::{Reader, without_index};
 use crate::words::Words;
 use std::sync::Arc;
 use trunnion_dialect::Action;
@@ -30,7 +30,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             self.words.declares = true;
             return true;
         }
-        let is_code = std::str::from_utf8(name).is_ok_and(|name| self.dialect.name(name).is_some());
+        let is_code = std::str::from_utf8(name).is_ok_and(|name| self.dialect.name(without_index(name)).is_some());
         if is_code || self.words.forgets_all || own.called.is_some() {
             return false;
         }

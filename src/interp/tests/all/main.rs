@@ -59,3 +59,4 @@ mod threads;
 mod tilted;
 mod tools;
 mod words;
+mod words_of_controls;

@@ -390,6 +390,7 @@ pub(crate) fn is_grave(kind: &FaultKind) -> bool {
         | FaultKind::ToolLengthUnset { .. }
         | FaultKind::ToolDefinedTwice { .. }
         | FaultKind::MissingProgramEnd
+        | FaultKind::CompensationLeft
         | FaultKind::AptVectorMissing
         | FaultKind::UnusedWord
         | FaultKind::UnknownCode { machine_builder: true } => false,

@@ -31,6 +31,8 @@ pub(crate) struct PathWords {
     pub(crate) given: u16,
     pub(crate) incremental: u16,
     pub(crate) values: [Value; 9],
+    /// Axes that M94 names.
+    pub(crate) reduced: u16,
     /// Rotary words that are `+Q120`, `+Q121`, `+Q122` of their letter.
     pub(crate) plane_angles: u16,
     pub(crate) feed: FeedSaid,
@@ -131,6 +133,10 @@ impl Klartext<'_> {
                     && (words.takes_word("NAN") || words.takes_word("INF")) =>
             {
                 self.no_number(found, report);
+            }
+            // M94 C: its axis (HEIDENHAIN TNC 426 user's manual, p. 5-43)
+            [letter @ b'A'..=b'C'] if word.value == Said::Nothing && found.has(94) => {
+                found.reduced |= 1 << (3 + (letter - b'A'));
             }
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),

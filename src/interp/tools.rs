@@ -204,6 +204,7 @@ impl Iso<'_> {
             None => self.core.forget_linear(),
         }
         self.memory.length_open = None;
+        self.memory.cycle.tapped = false;
         self.tcp_at_tool_change(report);
         // a turret that T turns does not concern the spindle
         if self.core.dialect.quirks.tool_change_stops_spindle {

@@ -1,4 +1,5 @@
 //! Canned cycles, expanded into the motions that a control makes of them.
+mod call_levels;
 mod called;
 mod called_feed;
 mod contour;

@@ -232,7 +232,10 @@ impl Iso<'_> {
     /// The offset that the last two digits of T name: it shifts X and Z (FANUC B-64114EN/01, p. 194: the offset vector of the tool), lies in the control, and
     /// nothing declares it. 00 is none.
     fn turret_offset(&mut self, words: &Words, report: &mut Report<'_>) {
-        let number = words.tool.index().and_then(|number| self.core.dialect.quirks.tool_word.offset(number));
+        let number = words
+            .tool
+            .index()
+            .and_then(|number| self.core.dialect.quirks.tool_word.offset(number));
         let before = self.core.state.length.of();
         if number == Some(0) {
             self.set_length(None, LengthOf::Nothing);

@@ -161,7 +161,9 @@ fn the_offset_of_a_lathes_tool_is_undeclared() {
     let found = of(&report, "tool-length-unset");
     assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
     assert!(
-        found[0].message.starts_with("the tool offset that T names is not declared"),
+        found[0]
+            .message
+            .starts_with("the tool offset that T names is not declared"),
         "{}",
         found[0].message
     );
@@ -169,12 +171,21 @@ fn the_offset_of_a_lathes_tool_is_undeclared() {
     // an offset may lead X out of its travel, or back into it
     let far = check("gcode fanuc-30i-lathe-a lathe-2axis", &text.replace("X62.", "X420."));
     assert!(of(&far, "axis-limit").is_empty(), "{:?}", far.diagnostics);
-    let assumed = Fixture::parse("gcode fanuc-30i-lathe-a lathe-2axis", text).check().unwrap();
-    assert!(of(&assumed, "tool-length-unset").is_empty(), "{:?}", assumed.diagnostics);
+    let assumed = Fixture::parse("gcode fanuc-30i-lathe-a lathe-2axis", text)
+        .check()
+        .unwrap();
+    assert!(
+        of(&assumed, "tool-length-unset").is_empty(),
+        "{:?}",
+        assumed.diagnostics
+    );
     // Y of G54 is not written
     assert_eq!(
         assumed.assumptions[1..],
-        ["the tool offset 2 = 0 (not declared)", "the tool offset 3 = 0 (not declared)"]
+        [
+            "the tool offset 2 = 0 (not declared)",
+            "the tool offset 3 = 0 (not declared)"
+        ]
     );
     let none = check(
         "gcode fanuc-30i-lathe-a lathe-2axis",

@@ -38,10 +38,7 @@
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(
-    Error,
-    &[Wake::Refused(Refusal::Compensation, plain), Wake::Fault(left)],
-);
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Compensation, plain), Wake::Fault(left)]);
 
 fn left(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::CompensationLeft {

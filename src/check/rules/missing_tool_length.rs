@@ -111,8 +111,9 @@ fn offset(tool: u32, cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
         _ => "without an offset".to_owned(),
     };
     if !cut.motion.machine_coordinates && out.once(u64::from(tool)) {
-        out.report_block(format!("T{tool} cuts {what}"))
-            .help(format!("write T{tool:02}{tool:02}; if the offset is the tool's own, allow the rule and give that reason"));
+        out.report_block(format!("T{tool} cuts {what}")).help(format!(
+            "write T{tool:02}{tool:02}; if the offset is the tool's own, allow the rule and give that reason"
+        ));
     }
 }
 
@@ -245,7 +246,10 @@ mod tests {
             ("T202", ""),
             ("T0203", ";^^^^^^^^^^^ missing-tool-length: T2 cuts with the offset 3\n"),
             ("T0200", ";^^^^^^^^^^^ missing-tool-length: T2 cuts without an offset\n"),
-            ("T2", ";^^^^^^^^^^^ missing-tool-length: T2 cuts with an offset that is not known\n"),
+            (
+                "T2",
+                ";^^^^^^^^^^^ missing-tool-length: T2 cuts with an offset that is not known\n",
+            ),
         ] {
             assert_drawn(
                 "gcode fanuc-30i-lathe-a",

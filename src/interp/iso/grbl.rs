@@ -62,10 +62,19 @@ impl Iso<'_> {
         } else {
             None
         };
-        let Some((refusal, message, mistake)) = refused else { return false };
+        let Some((refusal, message, mistake)) = refused else {
+            return false;
+        };
         let alarm = self.core.dialect.alarm(mistake).map(|alarm| alarm.number.clone());
         let message = format!("{message}: the whole block is not done");
-        report.fault(report.whole(), FaultKind::Rejected { refusal, message, alarm });
+        report.fault(
+            report.whole(),
+            FaultKind::Rejected {
+                refusal,
+                message,
+                alarm,
+            },
+        );
         true
     }
 

@@ -209,7 +209,10 @@ impl Klartext<'_> {
             match value {
                 None => self.not_modelled_once(&format!("cycle {}: Q{number} is not known", hole.cycle), report),
                 Some(value) if *value < 0.0 => {
-                    let message = format!("cycle {}: Q{number} is negative: it is a distance, 0 or more", hole.cycle);
+                    let message = format!(
+                        "cycle {}: Q{number} is negative: it is a distance, 0 or more",
+                        hole.cycle
+                    );
                     Self::rejected(Refusal::CannedCycle, message, report);
                 }
                 Some(_) => continue,

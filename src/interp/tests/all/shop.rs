@@ -41,7 +41,11 @@ fn a_hole_needs_its_step_and_its_second_clearance() {
             "CYCL DEF {number} DRILLING Q200=2 Q201=-20 Q206=150 Q203=+0 Q211=0 {words}\nL X+1 Y+1 Z+50 R0 FMAX M3\nCYCL CALL\n"
         ))
     };
-    assert_eq!(faults(NAME, &hole(200, "Q202=20 Q204=50")).len(), 1, "the length of the tool");
+    assert_eq!(
+        faults(NAME, &hole(200, "Q202=20 Q204=50")).len(),
+        1,
+        "the length of the tool"
+    );
     for (number, words, wanted) in [
         (200, "Q204=50", "Q202 is not known"),
         (200, "Q202=-8 Q204=50", "Q202 is negative"),
@@ -59,7 +63,8 @@ fn a_hole_needs_its_step_and_its_second_clearance() {
 
 #[test]
 fn a_cycle_at_a_place_and_a_single_axis_behind_m94() {
-    let cycle = "CYCL DEF 200 DRILLING Q200=2 Q201=-10 Q206=100 Q202=10 Q203=+0 Q204=20 Q211=0\nL X+0 Y+0 Z+50 R0 FMAX M3\n";
+    let cycle =
+        "CYCL DEF 200 DRILLING Q200=2 Q201=-10 Q206=100 Q202=10 Q203=+0 Q204=20 Q211=0\nL X+0 Y+0 Z+50 R0 FMAX M3\n";
     let at = |words: &str| program(&format!("{cycle}CYCL CALL POS {words} FMAX\n"));
     assert!(!says(NAME, &at("X+10 Y+10 Z+0"), "all three axes"));
     assert!(says(NAME, &at("X+10 Y+10"), "all three axes"));
@@ -86,7 +91,11 @@ fn grbl_refuses_whole_blocks() {
         ("T300", "38"),
     ] {
         let text = format!("{head}{block}\nG1 X5\n");
-        assert!(says("grbl", &text, &format!("error:{alarm}")), "{block}: {:?}", faults("grbl", &text));
+        assert!(
+            says("grbl", &text, &format!("error:{alarm}")),
+            "{block}: {:?}",
+            faults("grbl", &text)
+        );
         assert_eq!(lines("grbl", &text), ["R X0 Y0 Z5", "L X5 Y0 Z5 F100"], "{block}");
     }
     let fine = format!("{head}N5 G4 P1\nG53 G1 Z0\nG92 X0\nT255\nG28 Z9\nG80 G49\n");
@@ -137,4 +146,21 @@ fn drilling_in_another_plane_of_a_fanuc() {
         let end = run_text("fanuc-30i", &text).motions.last().expect("a motion").end;
         assert_eq!(end.get(2), None, "{plane}");
     }
+}
+
+#[test]
+fn wrong_levels_and_an_address_without_its_sign() {
+    let cycle = |call: &str| format!("G17 G90\nG0 X0 Y0 Z60\nS100 M3 F100\n{call}\nM30\n");
+    let name = "sinumerik-840d";
+    for (call, wanted) in [
+        ("CYCLE81(50,0,2,12)", "the depth 12 is above RFP 0"),
+        ("CYCLE81(-5,0,2,-12)", "RTP -5 is not above RFP 0"),
+        ("CYCLE83(0,0,2,-12,,-5,,1)", "RTP 0 is not above RFP 0"),
+        ("CYCLE81(50,0,2)", "without known levels"),
+        ("G2 X10 Y40 CR10", "write CR=10"),
+    ] {
+        let found = faults(name, &cycle(call));
+        assert!(found.iter().any(|fault| fault.contains(wanted)), "{call}: {found:?}");
+    }
+    assert!(!says(name, &cycle("CYCLE81(50,0,2,-12)"), "CYCLE81"));
 }

@@ -389,9 +389,7 @@ pub(crate) fn is_grave(kind: &FaultKind) -> bool {
         FaultKind::WorkOffsetUnset { .. }
         | FaultKind::ToolLengthUnset { .. }
         | FaultKind::ToolDefinedTwice { .. }
-        | FaultKind::MissingProgramEnd
-        | FaultKind::CompensationLeft
-        | FaultKind::AptVectorMissing
+        | (FaultKind::MissingProgramEnd | FaultKind::CompensationLeft | FaultKind::AptVectorMissing)
         | FaultKind::UnusedWord
         | FaultKind::UnknownCode { machine_builder: true } => false,
         FaultKind::VectorNotUnit { norm } => (norm - 1.0).abs() > 1e-2,

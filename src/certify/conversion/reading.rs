@@ -344,8 +344,7 @@ impl Collector<'_> {
             }
             return motion.tool_length_mm;
         }
-        let declared = state.tool.data();
-        let declared = declared.filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
+        let declared = state.tool.data().filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
         let last = Some(self.length.1).filter(|_| self.length.0 == motion.tool);
         declared.and_then(|tool| tool.length_mm).or(last).unwrap_or(0.0)
     }
@@ -389,7 +388,9 @@ pub(crate) fn is_grave(kind: &FaultKind) -> bool {
         FaultKind::WorkOffsetUnset { .. }
         | FaultKind::ToolLengthUnset { .. }
         | FaultKind::ToolDefinedTwice { .. }
-        | (FaultKind::MissingProgramEnd | FaultKind::CompensationLeft | FaultKind::AptVectorMissing)
+        | FaultKind::MissingProgramEnd
+        | FaultKind::CompensationLeft
+        | FaultKind::AptVectorMissing
         | FaultKind::UnusedWord
         | FaultKind::UnknownCode { machine_builder: true } => false,
         FaultKind::VectorNotUnit { norm } => (norm - 1.0).abs() > 1e-2,

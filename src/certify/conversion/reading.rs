@@ -337,14 +337,14 @@ impl Collector<'_> {
     /// The length of the tool for which a pose is given, mm: the one in effect. Where none is, the tool is still as long as it is: as declared, else as
     /// long as its own length that was in effect before; 0 where that is unknown.
     fn length_of(&mut self, motion: &Motion, state: &ModalState) -> f64 {
-        let own = state.length.of() == LengthOf::Tool(motion.tool);
         if motion.tool_length_mm != 0.0 {
-            if own {
+            if state.length.of() == LengthOf::Tool(motion.tool) {
                 self.length = (motion.tool, motion.tool_length_mm);
             }
             return motion.tool_length_mm;
         }
-        let declared = state.tool.data().filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
+        let declared = state.tool.data();
+        let declared = declared.filter(|tool| self.tells_lengths && motion.tool == Some(tool.number));
         let last = Some(self.length.1).filter(|_| self.length.0 == motion.tool);
         declared.and_then(|tool| tool.length_mm).or(last).unwrap_or(0.0)
     }

@@ -64,6 +64,7 @@ impl Assume {
         Undeclared {
             zero: if self.work_offset { 0 } else { undeclared.zero },
             length: undeclared.length && !self.tool_length,
+            by_turret: if self.tool_length { 0 } else { undeclared.by_turret },
             ..undeclared
         }
     }
@@ -161,7 +162,7 @@ impl Datum {
         let linear = self.axes.iter().fold(0, |mask, axis| mask | axis.bit);
         let offset = (undeclared.zero & linear != 0).then_some(Missing::Offset(in_force.offset));
         let length = undeclared.length.then_some(Missing::Length(in_force.length_of));
-        for missing in offset.into_iter().chain(length) {
+        for missing in offset.into_iter().chain(length).map(Missing::reported) {
             self.open.entry(missing, || Open {
                 missing,
                 block: motion.block,
@@ -186,9 +187,14 @@ impl Datum {
                 self.anchors[axis.joint] = None;
                 continue;
             }
+            let shifted = if undeclared.by_turret == 0 {
+                axis.per_length != 0.0
+            } else {
+                undeclared.by_turret & axis.bit != 0
+            };
             let mut basis = Basis {
                 offset: (undeclared.zero & axis.bit != 0).then_some(in_force.offset),
-                length: (undeclared.length && axis.per_length != 0.0).then_some(in_force.length_of),
+                length: (undeclared.length && shifted).then_some(in_force.length_of),
             };
             let end = joints[axis.joint];
             if self.anchors[axis.joint].is_none() && stands(&leg.motion, axis.bit) {
@@ -299,8 +305,9 @@ impl Datum {
             let Some(axis) = self.axes.iter().find(|axis| axis.joint == span.joint) else {
                 continue;
             };
-            let entry = open.entry(missing, || Open {
-                missing,
+            let reported = missing.reported();
+            let entry = open.entry(reported, || Open {
+                missing: reported,
                 block: span.place.0,
                 chain: span.place.1,
                 fits: Vec::new(),

@@ -281,6 +281,7 @@ mod tests {
                 settings_mm: 2.0,
             },
             FaultKind::MissingProgramEnd,
+            FaultKind::CompensationLeft,
             FaultKind::TcpState(TcpMistake::RotaryWithout),
             FaultKind::TcpState(TcpMistake::NoLength),
             FaultKind::TcpState(TcpMistake::ToolChange),

@@ -190,8 +190,9 @@ impl<'a> LegView<'a> {
         if !self.machine.rotary.is_empty() && self.leads_tip() {
             return true;
         }
-        let zero = AxisLetter::new(axis.letter).is_some_and(|letter| undeclared.zero & (1 << letter.0) != 0);
-        zero || undeclared.length && self.machine.per_length(joint) != 0.0
+        let bit = AxisLetter::new(axis.letter).map_or(0, |letter| 1u16 << letter.0);
+        (undeclared.zero | undeclared.by_turret) & bit != 0
+            || undeclared.length && undeclared.by_turret == 0 && self.machine.per_length(joint) != 0.0
     }
 
     /// Whether the motion of the linear joints, or of the tip, depends on one: a rotary axis turns, and the distance to it is unknown.

@@ -52,6 +52,10 @@ impl ToolWord {
             Self::Changes | Self::ChangesWithOffset => true,
         }
     }
+    /// The offset that a number with its tool selects; `None`: none, or it is not known which (T2 may be tool 2, or offset 2 of tool 0).
+    pub fn offset(self, number: u32) -> Option<u32> {
+        (self == Self::ChangesWithOffset && number >= 100).then_some(number % 100)
+    }
     /// The tool that a number selects.
     pub fn tool(self, number: u32) -> u32 {
         match self {

@@ -37,10 +37,10 @@ impl Iso<'_> {
 
     /// Replaces the words of the block by their meaning.
     #[cold]
-    pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words) {
+    pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words, report: &mut Report<'_>) {
         let has = |action: Action| codes.iter().any(|found| found.code.action == action);
         if self.core.dialect.quirks.diameter {
-            self.increments(words);
+            self.increments(words, report);
         }
         match self.core.setup.control.implicit_decimals {
             Some(ImplicitDecimals::LeastIncrement) => {
@@ -61,14 +61,26 @@ impl Iso<'_> {
         self.core.drawing_words(codes, words);
     }
 
-    /// U, V, W, H are distances of X, Y, Z, C.
-    fn increments(&self, words: &mut Words) {
+    /// U, V, W, H are distances of X, Y, Z, C. Which of both counts in a block with X and U is in no source of this project.
+    fn increments(&self, words: &mut Words, report: &mut Report<'_>) {
         for (letter, axis) in INCREMENTS {
             if self.core.dialect.role(letter) != Some(Role::Increment) {
                 continue;
             }
             let bit = 1 << axis;
-            match words.letter(letter) {
+            let said = words.letter(letter);
+            if said.is_given() && (words.axes.given | words.axes.unread) & bit != 0 {
+                let absolute = char::from(crate::AXIS_LETTERS[axis]);
+                let what = format!(
+                    "{absolute} and {} in one block: which of both counts (write one of them)",
+                    char::from(letter)
+                );
+                report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+                words.axes.given &= !bit;
+                words.axes.unread |= bit;
+                continue;
+            }
+            match said {
                 WordValue::Nothing => {}
                 WordValue::Number(number) => {
                     words.axes.values[axis] = number.value;

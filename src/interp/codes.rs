@@ -7,7 +7,7 @@ use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{WordValue, Words};
 use crate::{FaultKind, LengthOf, TcpMistake};
-use trunnion_dialect::{Action, Code, CodeKind, Plane};
+use trunnion_dialect::{Action, Code, CodeKind, Macros, Plane};
 use trunnion_syntax::TextRange;
 
 /// A code in a block.
@@ -158,6 +158,7 @@ impl<'d> Iso<'d> {
             | Action::Thread
             | Action::VariableThread) => {
                 state.motion = Some(motion);
+                self.memory.cycle.rigid = false;
                 block.motion = Some(motion);
                 if matches!(motion, Action::Thread | Action::VariableThread) {
                     self.memory.cycle.letters = crate::unused::letters(found.code);
@@ -191,6 +192,9 @@ impl<'d> Iso<'d> {
             Action::ProgramEnd => block.end = true,
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";
+            }
+            Action::NoMotion if found.code.id == "M29" && self.core.dialect.quirks.macros == Macros::Fanuc => {
+                self.memory.cycle.rigid = true;
             }
             // S and M3 to M5 are those of another spindle from here on (SINUMERIK Programming Manual, Fundamentals: SETMS)
             Action::NoMotion if found.code.group.as_deref() == Some("master-spindle") => state.spindle.forget(),

@@ -1,4 +1,5 @@
 //! Canned cycles, expanded into the motions that a control makes of them.
+mod call_levels;
 mod called;
 mod called_feed;
 mod contour;
@@ -36,6 +37,10 @@ pub(crate) struct Cycle {
     pub(crate) id: String,
     /// The direction that M3 or M4 programmed last.
     pub(crate) counter_clockwise: Option<bool>,
+    /// M29: the taps that follow are rigid.
+    pub(crate) rigid: bool,
+    /// The spindle turned before a tap, and nothing but taps may have stopped it since.
+    pub(crate) tapped: bool,
     /// Letters that the code reads (A is bit 0).
     pub(crate) letters: u32,
     /// Whether K or L counts the repeats.
@@ -149,6 +154,7 @@ impl<'d> Iso<'d> {
 
     /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in effect then, else the one before.
     pub(crate) fn cycle_off(&mut self, code: &Code) {
+        self.memory.cycle.rigid = false;
         self.memory.cycle.call = None;
         let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();
         if of_motion_group {

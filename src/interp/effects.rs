@@ -41,6 +41,7 @@ pub(crate) fn has_other_effects(kind: &FaultKind) -> bool {
             | FaultKind::UnusedWord
             | FaultKind::TcpState(_)
             | FaultKind::MissingProgramEnd
+            | FaultKind::CompensationLeft
             | FaultKind::AptVectorMissing
             | FaultKind::WorkOffsetUnset { .. }
             | FaultKind::ToolLengthUnset { .. }

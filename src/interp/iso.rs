@@ -1,6 +1,7 @@
 //! ISO blocks to motions.
 
 mod engine;
+mod grbl;
 mod signs;
 mod spindle;
 mod whole;
@@ -60,7 +61,7 @@ impl<'d> Iso<'d> {
             }
             if words.has_content && !self.core.state.ended {
                 if self.core.dialect.quirks.diameter || self.core.setup.control.implicit_decimals.is_some() {
-                    self.adjust(&codes, &mut words);
+                    self.adjust(&codes, &mut words, &mut report);
                 }
                 self.run_block(&mut codes, &words, &mut report)
             } else {
@@ -184,7 +185,7 @@ impl<'d> Iso<'d> {
     }
 
     fn run_block(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> Option<Motion> {
-        if words.declares {
+        if words.declares || self.core.dialect.quirks.dollar_commands && self.grbl_refuses(codes, words, report) {
             return None;
         }
         if let (Some(range), true) = (
@@ -259,6 +260,9 @@ impl<'d> Iso<'d> {
             self.system_changed();
         }
         if block.end {
+            if self.core.state.compensation != 0 {
+                report.fault(report.whole(), FaultKind::CompensationLeft);
+            }
             self.core.state.ended = true;
             self.core.proper_end = true;
         }

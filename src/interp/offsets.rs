@@ -244,7 +244,7 @@ impl<'d> Iso<'d> {
     }
 
     /// Makes a tool's length active, with its name and its tool; if it is not declared it is zero, reported once.
-    fn take_length(
+    pub(crate) fn take_length(
         &mut self,
         tool: Option<Tool>,
         (key, of): (&str, LengthOf),

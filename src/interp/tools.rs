@@ -5,6 +5,7 @@ use crate::reported::Reported;
 use crate::words::{WordValue, Words};
 use crate::{LengthOf, Setup, Tool};
 use std::sync::Arc;
+use trunnion_dialect::ToolWord;
 use trunnion_syntax::Program;
 
 /// The tool that T has selected and M6 will load.
@@ -189,6 +190,9 @@ impl Iso<'_> {
         if self.core.dialect.quirks.tool_word.changes() {
             self.change_tool(words, report);
         }
+        if self.core.dialect.quirks.tool_word == ToolWord::ChangesWithOffset {
+            self.turret_offset(words, report);
+        }
     }
 
     /// Puts the chosen tool into the spindle. The change may move the machine, so X Y Z are not known after it; rotary axes stay.
@@ -200,6 +204,7 @@ impl Iso<'_> {
             None => self.core.forget_linear(),
         }
         self.memory.length_open = None;
+        self.memory.cycle.tapped = false;
         self.tcp_at_tool_change(report);
         // a turret that T turns does not concern the spindle
         if self.core.dialect.quirks.tool_change_stops_spindle {
@@ -221,6 +226,26 @@ impl Iso<'_> {
             (None, _) => {}
             (Some(_), Chosen::Number(0)) => self.set_length(None, LengthOf::Nothing),
             (edge, _) => self.edge_length(edge, report.whole(), report),
+        }
+    }
+
+    /// The offset that the last two digits of T name: it shifts X and Z (FANUC B-64114EN/01, p. 194: the offset vector of the tool), lies in the control, and
+    /// nothing declares it. 00 is none.
+    fn turret_offset(&mut self, words: &Words, report: &mut Report<'_>) {
+        let number = words
+            .tool
+            .index()
+            .and_then(|number| self.core.dialect.quirks.tool_word.offset(number));
+        let before = self.core.state.length.of();
+        if number == Some(0) {
+            self.set_length(None, LengthOf::Nothing);
+        } else {
+            let key = number.map_or_else(|| "offset".to_owned(), |number| format!("offset {number}"));
+            self.take_length(None, (&key, LengthOf::Offset(number)), report.whole(), report);
+        }
+        if before != self.core.state.length.of() {
+            // the axes stand at the same place, or travel the change: how far it is nobody knows
+            self.core.forget_linear();
         }
     }
 }

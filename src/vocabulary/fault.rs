@@ -281,6 +281,8 @@ pub enum FaultKind {
     AmbiguousDecimal,
     /// The program has no end code.
     MissingProgramEnd,
+    /// Cutter compensation is on at the end of the program.
+    CompensationLeft,
 }
 
 /// One fact.

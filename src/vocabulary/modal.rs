@@ -63,6 +63,10 @@ impl ModalState {
         Undeclared {
             zero: self.zero.undeclared(),
             length: self.length.is_undeclared(),
+            by_turret: match self.length.of() {
+                LengthOf::Offset(_) if self.length.is_undeclared() => Undeclared::BY_TURRET,
+                _ => 0,
+            },
             set_here: self.zero.is_set_here(),
         }
     }

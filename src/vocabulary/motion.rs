@@ -156,6 +156,8 @@ pub struct Undeclared {
     pub zero: u16,
     /// The active tool length is not declared.
     pub length: bool,
+    /// Axes that it shifts, where it is the offset of a lathe's tool, bits as in [`Position::known`].
+    pub by_turret: u16,
     /// The zero point was set at the position of the machine (G92).
     pub set_here: bool,
 }
@@ -163,20 +165,26 @@ pub struct Undeclared {
 impl Undeclared {
     /// No zero point is declared.
     pub const ALL_ZEROS: u16 = (1 << AXIS_LETTERS.len()) - 1;
+    /// The linear axes, which the offset of a lathe's tool shifts.
+    pub const BY_TURRET: u16 = 0b1_1100_0111;
     /// Nothing is undeclared.
     pub const NOTHING: Self = Self {
         zero: 0,
         length: false,
+        by_turret: 0,
         set_here: false,
     };
 
-    /// What of it concerns some axes, bits as in [`Position::known`]; a tool length concerns Z.
+    /// What of it concerns some axes, bits as in [`Position::known`]; a tool length concerns Z, the offset of a lathe's tool all linear ones.
     pub fn of_axes(self, axes: u16) -> Self {
         const Z: u16 = 1 << 2;
         let zero = self.zero & axes;
+        let by_turret = self.by_turret & axes;
+        let depends = if self.by_turret == 0 { axes & Z } else { by_turret };
         Self {
             zero,
-            length: self.length && axes & Z != 0,
+            length: self.length && depends != 0,
+            by_turret,
             set_here: self.set_here && zero != 0,
         }
     }

@@ -337,9 +337,8 @@ impl Collector<'_> {
     /// The length of the tool for which a pose is given, mm: the one in effect. Where none is, the tool is still as long as it is: as declared, else as
     /// long as its own length that was in effect before; 0 where that is unknown.
     fn length_of(&mut self, motion: &Motion, state: &ModalState) -> f64 {
-        let own = state.length.of() == LengthOf::Tool(motion.tool);
         if motion.tool_length_mm != 0.0 {
-            if own {
+            if state.length.of() == LengthOf::Tool(motion.tool) {
                 self.length = (motion.tool, motion.tool_length_mm);
             }
             return motion.tool_length_mm;
@@ -390,6 +389,7 @@ pub(crate) fn is_grave(kind: &FaultKind) -> bool {
         | FaultKind::ToolLengthUnset { .. }
         | FaultKind::ToolDefinedTwice { .. }
         | FaultKind::MissingProgramEnd
+        | FaultKind::CompensationLeft
         | FaultKind::AptVectorMissing
         | FaultKind::UnusedWord
         | FaultKind::UnknownCode { machine_builder: true } => false,

@@ -12,6 +12,14 @@ pub(crate) enum Missing {
 }
 
 impl Missing {
+    /// The cause under which it is reported: the offsets of a lathe's tools are one.
+    pub(crate) fn reported(self) -> Self {
+        match self {
+            Self::Length(LengthOf::Offset(_)) => Self::Length(LengthOf::Offset(None)),
+            other => other,
+        }
+    }
+
     /// As a sentence begins or continues: `G54`, `the length of tool 3`.
     pub(crate) fn name(&self, dialect: &Dialect) -> String {
         match self {
@@ -26,6 +34,8 @@ impl Missing {
             },
             Self::Length(LengthOf::Tool(Some(number))) => format!("the length of tool {number}"),
             Self::Length(LengthOf::Tool(None)) => "the length of the tool in use".to_owned(),
+            Self::Length(LengthOf::Offset(Some(number))) => format!("the tool offset {number}"),
+            Self::Length(LengthOf::Offset(None)) => "the tool offset that T names".to_owned(),
             Self::Length(LengthOf::Nothing | LengthOf::Other) => "the active tool length".to_owned(),
         }
     }
@@ -51,6 +61,9 @@ impl Missing {
                     "declare it in trunnion.toml: [work_offsets] {quoted} = {{ X = 0, Y = 0, Z = 0 }}; `--assume work-offset` takes it as zero"
                 )
             }
+            Self::Length(LengthOf::Offset(_)) => "`--assume tool-length` takes the offsets of T as zero: a work offset in trunnion.toml is then the place of the part relative to the tip of \
+                 the tool at machine zero"
+                .to_owned(),
             Self::Length(of) => {
                 let number = match of {
                     LengthOf::Tool(Some(number)) => number.to_string(),

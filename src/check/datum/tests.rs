@@ -152,3 +152,44 @@ fn the_place_of_a_tool_change_is_no_word() {
         assert_eq!(number(found[0], "fits_z_max_mm"), Some(high - 20.0));
     }
 }
+
+/// Two tools with offsets of a lathe: one finding, as both X and Z depend on them; T0300 has none.
+#[test]
+fn the_offset_of_a_lathes_tool_is_undeclared() {
+    let text = "G21 G18 G99 G10 L2 P1 X-200. Z-400.\nG54 G97 S500 M3\nT0202\nG0 X62. Z5.\nG1 Z-40. F0.2\nT0303\nG0 X62. Z5.\nG1 Z-40. F0.2\nM30\n";
+    let report = check("gcode fanuc-30i-lathe-a lathe-2axis", text);
+    let found = of(&report, "tool-length-unset");
+    assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
+    assert!(
+        found[0]
+            .message
+            .starts_with("the tool offset that T names is not declared"),
+        "{}",
+        found[0].message
+    );
+    assert_eq!(found[0].status, Status::Unknown);
+    // an offset may lead X out of its travel, or back into it
+    let far = check("gcode fanuc-30i-lathe-a lathe-2axis", &text.replace("X62.", "X420."));
+    assert!(of(&far, "axis-limit").is_empty(), "{:?}", far.diagnostics);
+    let assumed = Fixture::parse("gcode fanuc-30i-lathe-a lathe-2axis", text)
+        .check()
+        .unwrap();
+    assert!(
+        of(&assumed, "tool-length-unset").is_empty(),
+        "{:?}",
+        assumed.diagnostics
+    );
+    // Y of G54 is not written
+    assert_eq!(
+        assumed.assumptions[1..],
+        [
+            "the tool offset 2 = 0 (not declared)",
+            "the tool offset 3 = 0 (not declared)"
+        ]
+    );
+    let none = check(
+        "gcode fanuc-30i-lathe-a lathe-2axis",
+        &text.replace("T0202", "T0200").replace("T0303", "T0300"),
+    );
+    assert!(of(&none, "tool-length-unset").is_empty(), "{:?}", none.diagnostics);
+}

@@ -32,10 +32,21 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the contours that are modelled; others are reported as not modelled.
+//! Compensation that is still on at the end of the program is a warning. Sound for the contours that are modelled; others are reported as not modelled.
 //!
 //! # Sources
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Compensation, plain)]);
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Compensation, plain), Wake::Fault(left)]);
+
+fn left(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind == FaultKind::CompensationLeft {
+        out.report(
+            fault.range,
+            "cutter compensation is still on at the end of the program: the tool does not reach the last position, but a point beside it",
+        )
+        .severity(Warning)
+        .help("write G40 in the motion that leaves the contour");
+    }
+}

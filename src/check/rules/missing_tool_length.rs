@@ -36,6 +36,7 @@
 //! * Haas 96-8210 (mill operator's manual): setting 15, H and T code agreement.
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
+use trunnion_dialect::ToolWord;
 use trunnion_interp::LengthOf;
 
 pub(super) const RULE: Body = Body::heuristic(
@@ -50,6 +51,9 @@ pub(super) const RULE: Body = Body::heuristic(
 fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     let (motion, in_force) = (cut.motion, cut.in_force);
     let Some(tool @ 1..) = motion.tool else { return };
+    if cut.dialect.quirks.tool_word == ToolWord::ChangesWithOffset {
+        return offset(tool, cut, out);
+    }
     // where a tool change selects its first edge, no length at all means that the program switched it off (D0)
     let by_edge = cut.dialect.quirks.edge_at_tool_change;
     if !(cut.dialect.length_by_code() || by_edge && in_force.tool_length_mm.is_none()) || !out.once(u64::from(tool)) {
@@ -95,6 +99,21 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
             ))
             .help(help);
         }
+    }
+}
+
+/// A cut of a lathe: the last two digits of T are the offset of its tool.
+fn offset(tool: u32, cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
+    let what = match cut.in_force.length_of {
+        LengthOf::Offset(Some(number)) if number == tool => return,
+        LengthOf::Offset(Some(number)) => format!("with the offset {number}, which is that of another tool"),
+        LengthOf::Offset(None) => "with an offset that is not known: T has no two digits for it".to_owned(),
+        _ => "without an offset".to_owned(),
+    };
+    if !cut.motion.machine_coordinates && out.once(u64::from(tool)) {
+        out.report_block(format!("T{tool} cuts {what}")).help(format!(
+            "write T{tool:02}{tool:02}; if the offset is the tool's own, allow the rule and give that reason"
+        ));
     }
 }
 
@@ -218,6 +237,25 @@ mod tests {
         // declared alike
         let both = "(trunnion: tool 5 length 80)\n(trunnion: tool 6 length 80)\n";
         assert_drawn("gcode haas-ngc", &text(both, ""));
+    }
+
+    #[test]
+    fn t_of_a_lathe_names_the_offset_of_its_tool() {
+        for (t, finding) in [
+            ("T0202", ""),
+            ("T202", ""),
+            ("T0203", ";^^^^^^^^^^^ missing-tool-length: T2 cuts with the offset 3\n"),
+            ("T0200", ";^^^^^^^^^^^ missing-tool-length: T2 cuts without an offset\n"),
+            (
+                "T2",
+                ";^^^^^^^^^^^ missing-tool-length: T2 cuts with an offset that is not known\n",
+            ),
+        ] {
+            assert_drawn(
+                "gcode fanuc-30i-lathe-a",
+                &format!("G21 G99 {t}\nG97 S500 M3\nG0 X62. Z5.\nG1 Z-4. F0.2\n{finding}G0 X80.\nM30\n"),
+            );
+        }
     }
 
     #[test]

@@ -19,19 +19,19 @@
 //! zero, use `--assume tool-length` or `assume = ["tool-length"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per tool, at the first motion that depends on its length.
+//! Sound; reported once per tool, at the first motion that depends on its length. The offsets of a lathe's tools are one finding.
 //!
 //! # Sources
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::datum::{Missing, Open};
 use crate::prelude::*;
+use trunnion_interp::LengthOf;
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::Open(check)]);
 
 fn check(open: &Open, out: &mut Reporter<'_>) {
-    if !matches!(open.missing, Missing::Length(_)) {
-        return;
-    }
+    let Missing::Length(of) = open.missing else { return };
+    let by_turret = matches!(of, LengthOf::Offset(_));
     let missing = open.missing.name(out.dialect());
     let help = open.missing.help(out.dialect());
     out.event(|draft| {
@@ -40,9 +40,13 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
             .say(format!(
                 "{missing} is not declared: it is unknown whether the axes that it shifts stay within their travel"
             ))
-            .note("the tool length is measured from the gauge point of the spindle to the tip, in mm")
+            .note(if by_turret {
+                "the last two digits of T name the offset, which shifts X and Z; it lies in the control, and no setting declares it. This covers all tools"
+            } else {
+                "the tool length is measured from the gauge point of the spindle to the tip, in mm"
+            })
             .help(help);
-        for fit in &open.fits {
+        for fit in open.fits.iter().filter(|_| !by_turret) {
             if let Some([low, high]) = fit.range {
                 draft
                     .note(format!(

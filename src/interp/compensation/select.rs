@@ -28,8 +28,8 @@ impl<'d> Iso<'d> {
             return;
         }
         let d = words.letter(b'D');
-        let old = self.memory.compensation.d;
-        if d.is_given() {
+        let (old, given) = (self.memory.compensation.d, d.is_given());
+        if given {
             self.memory.compensation.d = d.index();
         }
         let d = match d {
@@ -50,6 +50,14 @@ impl<'d> Iso<'d> {
                 compensation.stage = Stage::Start;
                 (compensation.side, compensation.radius) = (sign * radius.signum(), radius.abs());
                 compensation.tip = [0.0; 2];
+            }
+            None if d.is_none() && !given => {
+                self.memory.compensation.stage = Stage::Off;
+                let what = format!(
+                    "{} without D, and no block before it has one: which radius counts (write D)",
+                    found.code.id
+                );
+                report.fault(found.range, FaultKind::NotModelled { what });
             }
             None => {
                 self.memory.compensation.stage = Stage::Off;

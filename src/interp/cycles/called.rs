@@ -11,7 +11,7 @@ use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, Effect, FaultKind, Feed, Motion, MotionKind};
+use crate::{Argument, Effect, FaultKind, Feed, Motion, MotionKind, Refusal};
 use std::sync::Arc;
 use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
@@ -82,7 +82,7 @@ pub(crate) struct HoleCall {
     /// It has numbers that have no meaning here.
     further: bool,
     /// The modes at the end that newer posts write.
-    modes: Modes,
+    pub(super) modes: Modes,
     /// The call as it is compared where its motions are not known.
     pub(crate) said: Argument,
 }
@@ -110,25 +110,6 @@ impl HoleCall {
     }
     pub(super) fn number(&self, place: usize) -> Given {
         self.numbers.get(place).copied().unwrap_or(Given::Nothing)
-    }
-    /// Levels of retraction, beginning of the feed and bottom in program units. `None`: one is not known, or they make no hole.
-    pub(super) fn levels(&self) -> Option<[f64; 3]> {
-        let Given::Number(retract) = self.number(0) else {
-            return None;
-        };
-        let (surface, clearance) = (self.number(1).or_zero()?, self.number(2).or_zero()?.abs());
-        let depths = match self.modes {
-            Modes::Depth { incremental: true, .. } => (Given::Nothing, self.number(4)),
-            Modes::Depth { incremental: false, .. } => (self.number(3), Given::Nothing),
-            _ => (self.number(3), self.number(4)),
-        };
-        let bottom = match depths {
-            (Given::Unread, _) | (_, Given::Unread) | (Given::Nothing, Given::Nothing) => return None,
-            (_, Given::Number(depth)) if depth != 0.0 => surface - depth.abs(),
-            (Given::Number(bottom), _) => bottom,
-            (Given::Nothing, Given::Number(_)) => return None,
-        };
-        (retract > surface && bottom < surface).then_some([retract, surface + clearance, bottom])
     }
 }
 
@@ -229,8 +210,20 @@ impl Iso<'_> {
             None
         };
         let Some([retract, begin, bottom]) = call.levels().filter(|_| why.is_none()) else {
-            let what = format!("{} {}", call.id, why.unwrap_or_default());
-            report.fault(TextRange::default(), FaultKind::NotModelled { what });
+            let wrong = call
+                .wrong_level()
+                .filter(|_| !call.further && !other_axis && !other_mode);
+            let kind = match wrong {
+                Some(message) => FaultKind::Rejected {
+                    refusal: Refusal::CannedCycle,
+                    message,
+                    alarm: None,
+                },
+                None => FaultKind::NotModelled {
+                    what: format!("{} {}", call.id, why.unwrap_or_default()),
+                },
+            };
+            report.fault(TextRange::default(), kind);
             let mut motion = self.unknown_motion(&Words::default(), report);
             motion.end.known &= !crate::core::LINEAR;
             self.core.forget_linear();

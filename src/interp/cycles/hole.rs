@@ -5,7 +5,7 @@ use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::{WordValue, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
-use trunnion_dialect::Action;
+use trunnion_dialect::{Action, Macros};
 
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
@@ -29,6 +29,12 @@ impl Iso<'_> {
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         self.store_hole(words, axis);
+        if axis != 2 && self.core.dialect.quirks.macros == Macros::Fanuc && !self.core.dialect.quirks.diameter {
+            self.core.state.position.forget(axis);
+            let why = "a drilling cycle in another plane than G17: which axis drills, Z or that across the plane";
+            self.lost(words, 2, why, report);
+            return;
+        }
         if self.core.state.compensation != 0 {
             self.lost(
                 words,

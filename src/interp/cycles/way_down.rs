@@ -4,7 +4,7 @@ use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::{Effect, FaultKind, Orientation, Refusal};
-use trunnion_dialect::Action;
+use trunnion_dialect::{Action, Macros};
 use trunnion_vocabulary::Spindle;
 
 impl Iso<'_> {
@@ -63,15 +63,32 @@ impl Iso<'_> {
         if !taps || !self.core.dialect.quirks.macro_b() {
             return None;
         }
-        if before.on() != Some(true) {
-            self.core.state.spindle.turn(None);
-        }
+        let fanuc = self.core.dialect.quirks.macros == Macros::Fanuc;
+        let cycle = &self.memory.cycle;
+        let turns = match before.on() {
+            Some(true) => return Some(before),
+            // rigid, a tap turns the spindle itself; else it went on turning after the tap before
+            _ if fanuc && (cycle.rigid || matches!(cycle.id.as_str(), "G84.2" | "G84.3")) => Some(true),
+            None if cycle.tapped => Some(true),
+            Some(false) if fanuc => {
+                let what = format!(
+                    "{} with the spindle off: it turns the spindle itself only where it is a rigid tap, which M29 or a parameter of the control decides \
+                     (write M3 or M4 before it, or M29)",
+                    cycle.id
+                );
+                report.fault(report.whole(), FaultKind::NotModelled { what });
+                None
+            }
+            _ => None,
+        };
+        self.core.state.spindle.turn(turns);
         Some(before)
     }
 
     /// A spindle that turned before a tap of Fanuc's kind may stand after it: rigid tapping ends with a stop, and the parameter decides.
     pub(super) fn tap_ends(&mut self, before: Spindle, report: &Report<'_>) {
         self.core.state.spindle = before;
+        self.memory.cycle.tapped |= before.on() == Some(true);
         self.core.state.spindle.leave_to_machine();
         if self.core.effects.wanted() {
             let block = self.core.main_block(report.block);

@@ -22,6 +22,7 @@ impl Iso<'_> {
     /// After the motion of the block: M5, by ISO 6983-1 (table of miscellaneous functions: M05 begins after the motion of its block), and the
     /// stops of the program.
     pub(super) fn spindle_after(&mut self, block: &BlockCodes) {
+        self.memory.cycle.tapped &= block.stops_program.is_none();
         let stops = self.core.dialect.quirks.program_stop_stops_spindle;
         let spindle = &mut self.core.state.spindle;
         if block.stops_spindle {

@@ -134,6 +134,9 @@ impl Klartext<'_> {
             Self::rejected(Refusal::CannedCycle, message, report);
             return self.work_unknown(report);
         }
+        if self.unclear_steps(hole, report) {
+            return self.work_unknown(report);
+        }
         if depth > 0.0 {
             let what = format!(
                 "cycle {}: a positive depth (Q201), which a machine parameter refuses or runs towards the spindle",
@@ -198,6 +201,27 @@ impl Klartext<'_> {
         }
     }
 
+    /// Q202 of a cycle that drills in steps, and Q204: what is missing or negative is reported.
+    fn unclear_steps(&mut self, hole: &Hole, report: &mut Report<'_>) -> bool {
+        let steps = matches!(hole.cycle, 200 | 203 | 205 | 208);
+        let needed = [(202, hole.peck, steps), (204, hole.second, true)];
+        for (number, value, _) in needed.iter().filter(|needed| needed.2) {
+            match value {
+                None => self.not_modelled_once(&format!("cycle {}: Q{number} is not known", hole.cycle), report),
+                Some(value) if *value < 0.0 => {
+                    let message = format!(
+                        "cycle {}: Q{number} is negative: it is a distance, 0 or more",
+                        hole.cycle
+                    );
+                    Self::rejected(Refusal::CannedCycle, message, report);
+                }
+                Some(_) => continue,
+            }
+            return true;
+        }
+        false
+    }
+
     /// A parameter of the definition that has another value by now.
     fn changed_since(&self, hole: &Hole) -> Option<Parameter> {
         let parameters = &self.memory.parameters;
@@ -208,9 +232,12 @@ impl Klartext<'_> {
     /// Whether the motions of a hole say all about it: nothing else of its definition counts.
     pub(super) fn is_followed(&self, hole: &Hole) -> bool {
         let unit = self.core.state.coordinates.unit_mm();
-        let (Some(depth), Some(_), Some(_)) = (hole.depth, hole.clear, hole.surface) else {
+        let (Some(depth), Some(_), Some(_), Some(_)) = (hole.depth, hole.clear, hole.surface, hole.second) else {
             return false;
         };
+        if hole.peck.is_none() && matches!(hole.cycle, 200 | 203 | 205) {
+            return false;
+        }
         let single = hole.is_single(depth * unit, unit);
         hole.is_by_tip()
             && match hole.cycle {

@@ -31,6 +31,8 @@ pub(crate) struct PathWords {
     pub(crate) given: u16,
     pub(crate) incremental: u16,
     pub(crate) values: [Value; 9],
+    /// Axes that M94 names.
+    pub(crate) reduced: u16,
     /// Rotary words that are `+Q120`, `+Q121`, `+Q122` of their letter.
     pub(crate) plane_angles: u16,
     pub(crate) feed: FeedSaid,
@@ -132,7 +134,11 @@ impl Klartext<'_> {
             {
                 self.no_number(found, report);
             }
-            // the axes that M94 and M138 name, and the angle of M112
+            // M94 C: its axis (HEIDENHAIN TNC 426 user's manual, p. 5-43)
+            [letter @ b'A'..=b'C'] if word.value == Said::Nothing && found.has(94) => {
+                found.reduced |= 1 << (3 + (letter - b'A'));
+            }
+            // the axes that M138 names, and the angle of M112
             [letter] if names_axis(*letter, word, found) => {}
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
@@ -280,9 +286,9 @@ impl Klartext<'_> {
     }
 }
 
-/// `M94 C` and `M138 A C` name axes; `M112 T0.01 A10` gives a distance and an angle (TNC 426 user's manual, miscellaneous functions).
+/// `M138 A C` names axes; `M112 T0.01 A10` gives a distance and an angle (TNC 426 user's manual, miscellaneous functions).
 fn names_axis(letter: u8, word: &Word<'_>, found: &PathWords) -> bool {
-    let named = (found.has(94) || found.has(138)) && word.value == Said::Nothing;
+    let named = found.has(138) && word.value == Said::Nothing;
     named && AxisLetter::new(letter).is_some() || letter == b'A' && found.has(112)
 }
 

@@ -12,7 +12,8 @@ use super::drill::MOST;
 use super::hole::Cycle;
 use super::path_words::{FeedSaid, PathWords};
 use super::words::{Said, Words};
-use crate::core::{LINEAR, Report};
+use crate::core::Report;
+use crate::frames::XYZ;
 use crate::frames::sin_cos_degrees;
 use crate::{MotionKind, Position, Refusal};
 
@@ -20,7 +21,7 @@ impl Klartext<'_> {
     /// CYCL CALL POS X Y Z: the cycle at a place, whose coordinate along the tool axis shifts the cycle's levels (NC-PB/gEdit,
     /// docs/user/transformations.md: "a second datum shift on top of Q203"). In which order the axes go there is not taken from a source.
     pub(super) fn call_at(&mut self, found: &PathWords, report: &mut Report<'_>) {
-        if found.given & LINEAR != LINEAR {
+        if found.given & XYZ != XYZ {
             let message = "CYCL CALL POS needs the coordinates of all three axes";
             Self::rejected(Refusal::MissingWord, message, report);
         }

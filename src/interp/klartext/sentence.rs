@@ -225,7 +225,8 @@ impl Klartext<'_> {
                 103 | 109 | 110 | 116 => self.not_modelled_once(&format!("M{code}: the feed"), report),
                 94 => {
                     self.not_modelled_once("M94: the turns of rotary axes after it", report);
-                    self.core.state.position.known &= !crate::core::ROTARY;
+                    let all = words.reduced == 0;
+                    self.core.state.position.known &= !if all { crate::core::ROTARY } else { words.reduced };
                 }
                 _ => {
                     let known = self.core.dialect.m(code * 10).is_some();

@@ -121,7 +121,11 @@ impl Klartext<'_> {
                 b"VC" => self.core.state.spindle.set_rpm(None),
                 b"F" if word.value == Said::Nothing => {}
                 b"F" => feed = Some(self.said(word.value, report)),
-                b"FU" | b"FZ" => feed = Some(None),
+                b"FU" | b"FZ" => {
+                    let what = "FU or FZ of TOOL CALL: the feed until the next F";
+                    self.not_modelled_once(what, report);
+                    feed = Some(None);
+                }
                 b"DL" => delta = Some(self.said(word.value, report)),
                 _ => {}
             }
@@ -139,12 +143,9 @@ impl Klartext<'_> {
         if let Some(feed) = feed {
             self.memory.tool_feed = feed.map(|feed| feed * self.core.state.feed.unit_mm());
             self.memory.tool_feed_unread = feed.is_none();
-            if self.core.state.feed.value() != self.memory.tool_feed {
-                // whether F of TOOL CALL also replaces that of path blocks is not taken from a source
-                self.core.state.feed.set(None);
-                self.core.feed_unread = true;
-                self.memory.unfollowed = true;
-            }
+            // it holds until the next F in a positioning block or a TOOL CALL (HEIDENHAIN TNC 430 user's manual, p. 108)
+            self.core.state.feed.set(self.memory.tool_feed);
+            self.core.feed_unread = feed.is_none();
         }
         if let Some(chosen) = chosen {
             self.change_tool(chosen, delta.unwrap_or(Some(0.0)), report);

@@ -3,13 +3,13 @@ use super::call::With;
 use super::names::{files, is_statement, program_key};
 use super::statement::Statement;
 use super::text::Text;
-use crate::FaultKind;
 use crate::codes::Found;
 use crate::core::Report;
 use crate::flow::{Back, Calling, Transfer, With as Handed, index_of};
 use crate::iso::Iso;
 use crate::reader::{Reader, without_index};
 use crate::words::Words;
+use crate::{FaultKind, Refusal};
 use std::sync::Arc;
 use trunnion_dialect::Action;
 use trunnion_flow::Key;
@@ -130,6 +130,19 @@ impl<'d> Iso<'d> {
         self.memory.own.pending = Some(pending);
     }
 
+    /// `CR10` as `CR=10`: an address of several letters needs `=` (SINUMERIK Programming Manual, Fundamentals: NC addresses).
+    fn with_equals(&self, text: &str) -> Option<String> {
+        let at = text.find(|character: char| !character.is_ascii_alphabetic())?;
+        let (name, number) = text.split_at_checked(at)?;
+        let is_address = name.len() > 1
+            && self
+                .core
+                .dialect
+                .named_role(name.to_ascii_uppercase().as_bytes())
+                .is_some();
+        (is_address && number.parse::<f64>().is_ok()).then(|| format!("{name}={number}"))
+    }
+
     /// A name that is not a code, or `L20`: a subprogram, if there is one.
     #[cold]
     fn sinumerik_call(
@@ -168,6 +181,15 @@ impl<'d> Iso<'d> {
             let kind = if is_known {
                 FaultKind::NotModelled {
                     what: text.trim().to_owned(),
+                }
+            } else if let Some(written) = self.with_equals(text.trim()) {
+                FaultKind::Rejected {
+                    refusal: Refusal::Syntax,
+                    message: format!(
+                        "{0} needs `=` between its letters and its number: write {written}",
+                        text.trim()
+                    ),
+                    alarm: None,
                 }
             } else {
                 FaultKind::name_lacks(text.trim(), true)

@@ -9,6 +9,8 @@ pub enum LengthOf {
     Nothing,
     /// That of the tool with this number; `None`: of a tool in use whose number is not known.
     Tool(Option<u32>),
+    /// The offset of that number, by T of a lathe (T0202): it shifts X and Z; `None`: its number is not known.
+    Offset(Option<u32>),
     /// One that belongs to no tool (another edge than the first, a sum of several), or whose number could not be read.
     Other,
 }
@@ -19,6 +21,8 @@ impl core::fmt::Display for LengthOf {
             Self::Nothing => f.write_str("none"),
             Self::Tool(Some(number)) => write!(f, "that of tool {number}"),
             Self::Tool(None) => f.write_str("that of the tool in use"),
+            Self::Offset(Some(number)) => write!(f, "that of offset {number}"),
+            Self::Offset(None) => f.write_str("that of an offset that T names"),
             Self::Other => f.write_str("one that belongs to no tool"),
         }
     }

@@ -36,7 +36,8 @@ fn folder(settings: &str, program: &str) -> TempDir {
     folder
 }
 
-const DECLARED: &str = "machine = \"lathe-2axis\"\n[work_offsets]\nG54 = { X = -180, Z = -400 }\n";
+const DECLARED: &str =
+    "assume = [\"tool-length\"]\nmachine = \"lathe-2axis\"\n[work_offsets]\nG54 = { X = -180, Z = -400 }\n";
 
 #[test]
 fn a_plain_lathe_program_with_a_declared_offset_passes() {

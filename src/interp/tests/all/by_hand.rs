@@ -81,29 +81,6 @@ fn cycles_of_fanuc() {
                 ],
             ),
             (
-                "in G18 the drilling axis is Y",
-                "G18G0X0.Y10.Z0.\nG99G81X3.Z4.Y-1.R1.F100.\n",
-                &[
-                    "R X0 Y10 Z0",
-                    "R X3 Y10 Z4",
-                    "R X3 Y1 Z4",
-                    "L X3 Y-1 Z4 F100",
-                    "R X3 Y1 Z4",
-                ],
-            ),
-            (
-                "in G19 the drilling axis is X",
-                "G19G0X10.Y0.Z0.\nG98G82Y3.Z4.X-1.R1.P1500F100.\n",
-                &[
-                    "R X10 Y0 Z0",
-                    "R X10 Y3 Z4",
-                    "R X1 Y3 Z4",
-                    "L X-1 Y3 Z4 F100",
-                    "D1.5 X-1 Y3 Z4",
-                    "R X10 Y3 Z4",
-                ],
-            ),
-            (
                 "a dwell drills nothing",
                 "G0X0.Y0.Z10.\nG99G81Z-1.R1.F100.K0\nG4X1.\nX5.\n",
                 &[

@@ -247,7 +247,7 @@ fn back_boring_cuts_upward() {
 #[test]
 fn the_plane_chooses_the_drilling_axis() {
     // G19: X drills, holes lie in Y Z
-    let got = lines("fanuc-30i", "G0 X9. Y1. Z2.\nG19 G99 G81 Y4. Z5. X-3. R1. F100.\n");
+    let got = lines("haas-ngc", "G0 X9. Y1. Z2.\nG19 G99 G81 Y4. Z5. X-3. R1. F100.\n");
     assert_eq!(got[1..], ["R X9 Y4 Z5", "R X1 Y4 Z5", "L X-3 Y4 Z5 F100", "R X1 Y4 Z5"]);
 }
 

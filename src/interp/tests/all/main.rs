@@ -44,6 +44,7 @@ mod properties;
 mod repeated;
 mod roughing;
 mod roughing_unknown;
+mod shop;
 mod silent;
 mod sinumerik_calls;
 mod sinumerik_examples;

@@ -1,0 +1,166 @@
+//! What shops write that was once read wrongly: words that were dropped, cycles without a number, blocks that the control refuses.
+use crate::klartext::{NAME, program};
+use crate::support::{faults, lines, run_text};
+
+/// Whether the run of a program reports something with this text.
+fn says(dialect: &str, text: &str, wanted: &str) -> bool {
+    faults(dialect, text).iter().any(|fault| fault.contains(wanted))
+}
+
+#[test]
+fn an_axis_by_its_place_and_by_a_distance() {
+    for dialect in ["fanuc-30i-lathe-a", "haas-lathe"] {
+        let text = "G21 G18 G99 T0101\nG0 X62. Z5.\nG1 Z-40. W-10. F0.2\n";
+        assert!(says(dialect, text, "Z and W in one block"), "{dialect}");
+        assert_eq!(run_text(dialect, text).motions[1].end.get(2), None, "{dialect}");
+        assert!(says(dialect, "G0 X62. Z5.\nG1 U4. X40. F0.2\n", "X and U in one block"));
+        assert!(!says(dialect, "G0 X62. Z5.\nG1 X40. W-10. F0.2\n", "in one block"));
+    }
+}
+
+#[test]
+fn the_feed_of_a_tool_call_holds() {
+    let text = "BEGIN PGM T MM\nTOOL CALL 1 Z S1000 F6000\nL X+0 Y+0 Z+5 R0 FMAX M3\nL Z-1\nL X+10 F300\nTOOL CALL S2000 F500\nL X+20\nEND PGM T MM\n";
+    assert_eq!(
+        lines(NAME, text),
+        [
+            "R X0 Y0 Z5",
+            "L X0 Y0 Z-1 F6000",
+            "L X10 Y0 Z-1 F300",
+            "L X20 Y0 Z-1 F500"
+        ]
+    );
+    let per_turn = text.replace("F6000", "FU0.2");
+    assert!(says(NAME, &per_turn, "FU or FZ of TOOL CALL"));
+}
+
+#[test]
+fn a_hole_needs_its_step_and_its_second_clearance() {
+    let hole = |number: u32, words: &str| {
+        program(&format!(
+            "CYCL DEF {number} DRILLING Q200=2 Q201=-20 Q206=150 Q203=+0 Q211=0 {words}\nL X+1 Y+1 Z+50 R0 FMAX M3\nCYCL CALL\n"
+        ))
+    };
+    assert_eq!(
+        faults(NAME, &hole(200, "Q202=20 Q204=50")).len(),
+        1,
+        "the length of the tool"
+    );
+    for (number, words, wanted) in [
+        (200, "Q204=50", "Q202 is not known"),
+        (200, "Q202=-8 Q204=50", "Q202 is negative"),
+        (203, "Q204=50", "Q202 is not known"),
+        (205, "Q204=50", "Q202 is not known"),
+        (200, "Q202=20", "Q204 is not known"),
+        (200, "Q202=20 Q204=-5", "Q204 is negative"),
+        (201, "", "Q204 is not known"),
+        (207, "Q239=1 Q204=-1", "Q204 is negative"),
+    ] {
+        assert!(says(NAME, &hole(number, words), wanted), "{number} {words}");
+    }
+    assert!(!says(NAME, &hole(201, "Q204=50"), "Q202"));
+}
+
+#[test]
+fn a_cycle_at_a_place_and_a_single_axis_behind_m94() {
+    let cycle =
+        "CYCL DEF 200 DRILLING Q200=2 Q201=-10 Q206=100 Q202=10 Q203=+0 Q204=20 Q211=0\nL X+0 Y+0 Z+50 R0 FMAX M3\n";
+    let at = |words: &str| program(&format!("{cycle}CYCL CALL POS {words} FMAX\n"));
+    assert!(!says(NAME, &at("X+10 Y+10 Z+0"), "all three axes"));
+    assert!(says(NAME, &at("X+10 Y+10"), "all three axes"));
+    let text = program("L X+0 Y+0 Z+50 B+10 C+400 FMAX M3\nL M94 C\nL X+5\n");
+    assert!(!says(NAME, &text, "a word has no value"));
+    let end = run_text(NAME, &text).motions.last().expect("a motion").end;
+    assert_eq!((end.get(4), end.get(5)), (Some(10.0), None));
+}
+
+#[test]
+fn grbl_refuses_whole_blocks() {
+    let head = "G21 G90 G94 G17 G54\nM3 S1000\nG0 X0 Y0 Z5\nF100\n";
+    for (block, alarm) in [
+        ("G4 X2", "28"),
+        ("G4", "28"),
+        ("G4 P-1", "4"),
+        ("S-1", "4"),
+        ("F-1", "4"),
+        ("N-5 G1 X1", "4"),
+        ("G28 G1 X1", "24"),
+        ("G49 G1 X1", "24"),
+        ("G53 G2 X1 Y1 I1", "30"),
+        ("G92", "26"),
+        ("T300", "38"),
+    ] {
+        let text = format!("{head}{block}\nG1 X5\n");
+        assert!(
+            says("grbl", &text, &format!("error:{alarm}")),
+            "{block}: {:?}",
+            faults("grbl", &text)
+        );
+        assert_eq!(lines("grbl", &text), ["R X0 Y0 Z5", "L X5 Y0 Z5 F100"], "{block}");
+    }
+    let fine = format!("{head}N5 G4 P1\nG53 G1 Z0\nG92 X0\nT255\nG28 Z9\nG80 G49\n");
+    assert!(!says("grbl", &fine, "error:"), "{:?}", faults("grbl", &fine));
+}
+
+#[test]
+fn taps_turn_the_spindle_where_it_is_known() {
+    let head = "G21 G17 G90 G94 G54\nG0 X0. Y0. Z20. S500 M3\n";
+    let on = |text: &str| {
+        let motions = run_text("fanuc-30i", text).motions;
+        motions
+            .iter()
+            .filter(|motion| motion.is_feed())
+            .map(|motion| motion.spindle_on)
+            .collect::<Vec<_>>()
+    };
+    let two = format!("{head}G84 X10. Z-9. R2. F500.\nX20.\nG80\n");
+    assert_eq!(on(&two), [Some(true); 4]);
+    let off = format!("{head}M5\nG84 X10. Z-9. R2. F500.\nX20.\nG80\n");
+    assert!(says("fanuc-30i", &off, "G84 with the spindle off"));
+    assert_eq!(on(&off), [None; 4]);
+    let rigid = off.replace("G84", "M29 S500\nG84");
+    assert!(!says("fanuc-30i", &rigid, "with the spindle off"));
+    assert_eq!(on(&rigid), [Some(true); 4]);
+    // G80 ends what M29 announced, and a change of the tool what the tap before it says
+    let after = format!("{rigid}M5\nG84 X30. Z-9. R2.\n");
+    assert!(says("fanuc-30i", &after, "G84 with the spindle off"));
+    let changed = format!("{head}G84 X10. Z-9. R2. F500.\nG80\nT2 M6\nG0 X0. Y0. Z20.\nG84 X10. Z-9. R2.\n");
+    assert_eq!(on(&changed)[2..], [None; 2]);
+}
+
+#[test]
+fn compensation_without_d_and_at_the_end() {
+    let text = "G17 G90\nG0 X0. Y0. Z0.\nG41 G1 X10. F100.\nY30.\nG40 X0.\nM30\n";
+    assert!(says("fanuc-30i", text, "G41 without D"));
+    let with = text.replace("G41", "D1\nG41");
+    assert!(!says("fanuc-30i", &with, "without D"));
+    assert!(!says("fanuc-30i", &with, "CompensationLeft"));
+    assert!(says("fanuc-30i", &with.replace("G40", "G1"), "CompensationLeft"));
+}
+
+#[test]
+fn drilling_in_another_plane_of_a_fanuc() {
+    for plane in ["G18", "G19"] {
+        let text = format!("{plane} G90\nG0 X0. Y0. Z20.\nG81 X10. Y30. Z-5. R2. F100.\n");
+        assert!(says("fanuc-30i", &text, "which axis drills"), "{plane}");
+        let end = run_text("fanuc-30i", &text).motions.last().expect("a motion").end;
+        assert_eq!(end.get(2), None, "{plane}");
+    }
+}
+
+#[test]
+fn wrong_levels_and_an_address_without_its_sign() {
+    let cycle = |call: &str| format!("G17 G90\nG0 X0 Y0 Z60\nS100 M3 F100\n{call}\nM30\n");
+    let name = "sinumerik-840d";
+    for (call, wanted) in [
+        ("CYCLE81(50,0,2,12)", "the depth 12 is above RFP 0"),
+        ("CYCLE81(-5,0,2,-12)", "RTP -5 is not above RFP 0"),
+        ("CYCLE83(0,0,2,-12,,-5,,1)", "RTP 0 is not above RFP 0"),
+        ("CYCLE81(50,0,2)", "without known levels"),
+        ("G2 X10 Y40 CR10", "write CR=10"),
+    ] {
+        let found = faults(name, &cycle(call));
+        assert!(found.iter().any(|fault| fault.contains(wanted)), "{call}: {found:?}");
+    }
+    assert!(!says(name, &cycle("CYCLE81(50,0,2,-12)"), "CYCLE81"));
+}

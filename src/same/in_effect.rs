@@ -88,8 +88,9 @@ pub(crate) fn unless_undeclared(found: Verdict, was: &Step, is: &Step, claim: &C
     match found {
         Verdict::Differs(mut place) if claim.path_only && undeclared && was.held.work_offset != is.held.work_offset => {
             let name = |step: &Step| step.held.work_offset.as_deref().unwrap_or("no work offset").to_owned();
-            place.what += &format!(
-                "; but a zero point is not declared ({} and {}), and its value decides",
+            place.what = format!(
+                "{}; but a zero point is not declared ({} and {}), and its value decides",
+                place.what,
                 name(was),
                 name(is)
             );

@@ -148,7 +148,7 @@ impl Apt<'_> {
         };
         if record.is("MSYS") {
             let placed = origin_and_axes(numbers, unit);
-            let first = frame.msys.is_none() && self.core.state.position.known & 0b111 == 0;
+            let first = frame.msys.is_none() && self.core.state.position.known.trailing_zeros() >= 3;
             let same = placed.is_some_and(|placed| placed == frame.msys.unwrap_or_default());
             frame.unread = placed.is_none() || !(first || same);
             if frame.unread {

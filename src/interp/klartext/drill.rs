@@ -114,6 +114,24 @@ impl Klartext<'_> {
         self.drill_as_defined(hole, report);
     }
 
+    /// The feed of the way out of a hole; `None`: in rapid.
+    fn way_out(&mut self, hole: &Hole, feed: Feed, report: &mut Report<'_>) -> Option<Feed> {
+        match hole.cycle {
+            201 | 202 => match hole.back_feed {
+                CycleFeed::Missing | CycleFeed::Value(Some(0.0)) => Some(feed),
+                other => Some(self.cycle_feed(other, report)),
+            },
+            // Q208 = 0 is Q206; 205 goes back in rapid where it is left out
+            203 | 205 => match hole.back_feed {
+                CycleFeed::Missing if hole.cycle == 205 => None,
+                CycleFeed::Missing | CycleFeed::Value(Some(0.0)) => Some(feed),
+                other => Some(self.cycle_feed(other, report)),
+            },
+            206 | 207 | 209 => Some(feed),
+            _ => None,
+        }
+    }
+
     fn drill_as_defined(&mut self, hole: &Hole, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let (Some(clear), Some(depth), Some(surface)) = (hole.clear, hole.depth, hole.surface) else {
@@ -158,20 +176,7 @@ impl Klartext<'_> {
             },
             None => self.cycle_feed(hole.feed, report),
         };
-        let out = match hole.cycle {
-            201 | 202 => match hole.back_feed {
-                CycleFeed::Missing | CycleFeed::Value(Some(0.0)) => Some(feed),
-                other => Some(self.cycle_feed(other, report)),
-            },
-            // Q208 = 0 is Q206; 205 goes back in rapid where it is left out
-            203 | 205 => match hole.back_feed {
-                CycleFeed::Missing if hole.cycle == 205 => None,
-                CycleFeed::Missing | CycleFeed::Value(Some(0.0)) => Some(feed),
-                other => Some(self.cycle_feed(other, report)),
-            },
-            206 | 207 | 209 => Some(feed),
-            _ => None,
-        };
+        let out = self.way_out(hole, feed, report);
         let at = At {
             clear: (surface + clear) * unit,
             bottom: (surface + depth) * unit,

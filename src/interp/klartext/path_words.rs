@@ -118,6 +118,16 @@ impl Klartext<'_> {
         found
     }
 
+    /// F with a number, MAX or AUTO.
+    fn feed_word(&mut self, word: &Word<'_>, words: &mut Words<'_>, report: &mut Report<'_>) -> FeedSaid {
+        match word.value {
+            Said::Nothing if words.takes_word("MAX") => FeedSaid::Rapid,
+            Said::Nothing if words.takes_word("AUTO") => FeedSaid::Auto,
+            Said::Nothing => FeedSaid::Nothing,
+            said => FeedSaid::Value(self.said(said, report)),
+        }
+    }
+
     fn path_word(
         &mut self,
         word: &Word<'_>,
@@ -143,17 +153,8 @@ impl Klartext<'_> {
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
             b"F" => {
-                let feed = match word.value {
-                    Said::Nothing if words.takes_word("MAX") => FeedSaid::Rapid,
-                    Said::Nothing if words.takes_word("AUTO") => FeedSaid::Auto,
-                    Said::Nothing => FeedSaid::Nothing,
-                    said => FeedSaid::Value(self.said(said, report)),
-                };
-                if own_feed {
-                    found.own_feed = feed;
-                } else {
-                    found.feed = feed;
-                }
+                let feed = self.feed_word(word, words, report);
+                *(if own_feed { &mut found.own_feed } else { &mut found.feed }) = feed;
             }
             b"FMAX" if own_feed => found.own_feed = FeedSaid::Rapid,
             b"FMAX" => found.feed = FeedSaid::Rapid,

@@ -50,10 +50,9 @@ impl Klartext<'_> {
                 self.path_block(Path::None, &mut words, report);
                 self.core.state.spindle.switch(false);
             }
-            b"BLK" => {}
             b"PATTERN" => self.pattern(&mut words, report),
-            // values for cycles that say PREDEF, which is unknown where it stands
-            b"GLOBAL" => {}
+            // the blank, and values for cycles that say PREDEF, which is unknown where it stands
+            b"BLK" | b"GLOBAL" => {}
             b"SPL" => {
                 self.flush(report);
                 Self::not_modelled("SPL: a spline", report);

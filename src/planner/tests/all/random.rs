@@ -1,6 +1,7 @@
 //! Random programs: optimistic never above planned, and a higher limit never slower, by more than a servo cycle for each block.
 use crate::programs::plan;
 use std::fmt::Write;
+use trunnion_geometry::math::exp;
 use trunnion_machine::{Machine, load};
 use trunnion_planner::{PathControl, Timed};
 
@@ -88,7 +89,7 @@ fn unlike(random: &mut Random) -> Limits {
         [
             random.between(20.0, 400.0),
             random.between(50.0, 5000.0),
-            10.0_f64.powf(random.between(2.5, 5.5)),
+            exp(random.between(5.8, 12.6)),
         ]
     })
 }
@@ -170,7 +171,9 @@ fn a_higher_limit_is_never_slower() {
         let (limits, higher) = if index % 2 == 0 {
             let limits = alike(&mut random);
             let mut higher = limits;
-            higher.iter_mut().for_each(|axis| axis[which] *= factor);
+            for axis in &mut higher {
+                axis[which] *= factor;
+            }
             (limits, higher)
         } else {
             let limits = unlike(&mut random);

@@ -393,4 +393,6 @@ fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
 }
 
 #[cfg(test)]
+mod path_tests;
+#[cfg(test)]
 mod tests;

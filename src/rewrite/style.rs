@@ -1,6 +1,6 @@
 //! How a program writes its numbers, and numbers written that way.
 use core::ops::RangeInclusive;
-use trunnion_syntax::{Address, Program, Value};
+use trunnion_syntax::{Address, BlockId, Program, Value};
 
 /// How the words of one letter are written in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,6 +154,26 @@ pub(crate) fn add_whole(text: &str, add: i64) -> Option<String> {
         out.push_str(&digits);
     }
     Some(finish(out, text.starts_with('+'), !whole.is_empty()))
+}
+
+/// The byte after the last word of a block.
+pub(crate) fn end_of_words(program: &Program, block: BlockId) -> u32 {
+    let block = program.block(block);
+    block.words().last().map_or(block.range().start, |word| word.range.end)
+}
+
+/// A blank for an F word at `at`, where the program has one before its F words.
+pub(crate) fn blank_before_f(program: &Program, at: u32) -> &'static str {
+    let source = program.source();
+    let line = source[..at as usize]
+        .rsplit(|&byte| byte == b'\n')
+        .next()
+        .unwrap_or_default();
+    if line.contains(&b' ') || source.windows(2).any(|pair| pair == b" F") {
+        " "
+    } else {
+        ""
+    }
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ fn prove(before: &str, after: &str, claim: &Claim) -> Outcome {
     )
 }
 
-fn proved(outcome: Outcome) -> Certificate {
+pub(super) fn proved(outcome: Outcome) -> Certificate {
     match outcome {
         Outcome::Proved(certificate) => *certificate,
         other => panic!("not proved: {other:?}"),
@@ -158,7 +158,7 @@ const PATH: Claim = Claim::SameToolPath {
     tolerance_deg: 1e-6,
 };
 
-fn on(dialect: &str, before: &str, after: &str, claim: &Claim, setup: &Setup) -> Outcome {
+pub(super) fn on(dialect: &str, before: &str, after: &str, claim: &Claim, setup: &Setup) -> Outcome {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
     certify(before.as_bytes(), after.as_bytes(), dialect, machine, setup, claim)
@@ -290,58 +290,6 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
     }
     assert!(matches!(fanuc("G0 X1.", "G0 X1.\nX2.", &setup), Outcome::Refuted(_)));
     assert!(matches!(fanuc("G0 X1.\nX2.", "G0 X1.", &setup), Outcome::Refuted(_)));
-}
-
-/// The path is that of the tip: another active length is another path, and an undeclared length or zero point decides nothing.
-#[test]
-fn the_path_alone_is_that_of_the_tip() {
-    let tool = |number: u32, length: f64| trunnion_interp::Tool {
-        number,
-        shape: None,
-        diameter_mm: None,
-        length_mm: Some(length),
-        holder_mm: None,
-    };
-    let mut values = [0.0; 9];
-    values[2] = -200.0;
-    let mut setup = Setup {
-        tools: vec![tool(2, 60.0), tool(3, 20.0), tool(6, 60.0)],
-        ..Setup::default()
-    };
-    setup.work_offsets.push(trunnion_interp::WorkOffset {
-        name: "G54".into(),
-        values,
-    });
-    let path = Claim::SamePath {
-        tolerance_mm: 0.01,
-        tolerance_deg: 0.01,
-    };
-    let program = |length: &str| format!("G21 G90 G94\nT2 M6\n{length}G0 X0. Y0. Z50.\nG1 Z-1. F100.\nM30\n");
-    let judge = |before: &str, after: &str| on("fanuc-30i", &program(before), &program(after), &path, &setup);
-    for (before, after) in [("G54\nG43 H2\n", "G54\n"), ("G54\nG43 H2\n", "G54\nG43 H3\n")] {
-        let Outcome::Refuted(witness) = judge(before, after) else {
-            panic!("{before} {after} is not refuted")
-        };
-        assert!(witness.message.contains("the active tool length differs"), "{witness}");
-    }
-    for (before, after, why) in [
-        ("G54\nG43 H2\n", "G54\nG43 H4\n", "undeclared"),
-        ("G54\nG43 H5\n", "G54\nG43 H4\n", "undeclared"),
-        ("G54\nG43 H2\n", "G55\nG43 H2\n", "a zero point is not declared"),
-    ] {
-        let Outcome::Unknown(gap) = judge(before, after) else {
-            panic!("{before} {after} is decided")
-        };
-        assert!(gap.message.contains(why), "{gap}");
-    }
-    proved(judge("G54\nG43 H2\n", "G54\nG43 H6\n"));
-    proved(judge("G54\nG43 H4\n", "G54\nG43 H4\n"));
-    // a line and an arc may be near enough
-    let [line, arc] = ["G1 X0.1 F100.\n", "G2 X0.1 R10. F100.\n"].map(|cut| format!("G54\nG17\nG0 X0. Y0. Z0.\n{cut}"));
-    let Outcome::Unknown(gap) = judge(&line, &arc) else {
-        panic!("a line and an arc are decided")
-    };
-    assert!(gap.message.contains("not judged"), "{gap}");
 }
 
 /// Another feed or speed refutes that the programs are the same; the claim of the path alone says how many differ.

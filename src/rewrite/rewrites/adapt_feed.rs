@@ -52,7 +52,7 @@
 //! docs/kinematics.md#axis-speed-and-feed, docs/kinematics.md#time.
 use super::Body;
 use crate::pitch::Pitches;
-use crate::style::NumberStyle;
+use crate::style::{NumberStyle, blank_before_f, end_of_words};
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
@@ -300,10 +300,10 @@ impl<'a> Writer<'a> {
         let edit = match (wanted, own) {
             (Some(value), Some((_, range))) if wanted != before => Some((range, self.text(value))),
             (Some(value), None) if wanted != self.current[1] => {
-                let at = self.end_of_words(cut.block);
+                let at = end_of_words(self.program, cut.block);
                 Some((
                     TextRange::new(at, at),
-                    format!("{}F{}", self.blank(at), self.text(value)),
+                    format!("{}F{}", blank_before_f(self.program, at), self.text(value)),
                 ))
             }
             _ => None,
@@ -369,26 +369,6 @@ impl<'a> Writer<'a> {
             ..self.style
         };
         style.write(value, false)
-    }
-
-    /// The byte after the last word of a block.
-    fn end_of_words(&self, block: BlockId) -> u32 {
-        let block = self.program.block(block);
-        block.words().last().map_or(block.range().start, |word| word.range.end)
-    }
-
-    /// A blank where the program has one before its F words.
-    fn blank(&self, at: u32) -> &'static str {
-        let source = self.program.source();
-        let line = source[..at as usize]
-            .rsplit(|&byte| byte == b'\n')
-            .next()
-            .unwrap_or_default();
-        if line.contains(&b' ') || source.windows(2).any(|pair| pair == b" F") {
-            " "
-        } else {
-            ""
-        }
     }
 }
 

@@ -52,8 +52,10 @@ fn judge(source: &[u8], dialect: usize) {
             );
         }
         assert!(
-            report.diagnostics.is_sorted_by_key(|found| found.range),
-            "not sorted by place"
+            report
+                .diagnostics
+                .is_sorted_by_key(|found| program.block_at(found.range.start)),
+            "not sorted by block"
         );
         assert_eq!(report.diagnostics, check(&program, &settings).diagnostics);
     }

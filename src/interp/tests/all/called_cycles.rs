@@ -100,7 +100,7 @@ fn what_a_cycle_does_not_tell_is_unknown() {
         ),
         ("CYCLE84(10,0,3,-20,,0,3,8)", "the pitch"),
         ("CYCLE81(10,0,3,R7)", "without known levels"),
-        ("CYCLE81(-10,0,3,-20)", "without known levels"),
+        ("CYCLE81(-10,0,3,-20)", "RTP -10 is not above RFP 0"),
         ("CYCLE81(10,0,3,-20,,0,1)", "numbers that select other meanings"),
         (
             "CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0,1)",

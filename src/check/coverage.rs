@@ -3,6 +3,7 @@ mod moves;
 mod sections;
 mod tally;
 
+use crate::program_bounds::is_end;
 use crate::sink::{Reporter, active};
 use crate::suppress::{Suppressions, has_code};
 use crate::visited::Visited;
@@ -150,10 +151,12 @@ impl Coverage {
 
     /// Works out which blocks did not run, once the run is over.
     pub(crate) fn complete(&mut self, program: &Program, dialect: &Dialect) {
+        let ran = self.ran.clone();
         let with_code = || {
             (0..program.block_count() as u32)
                 .map(BlockId)
                 .filter(|&id| has_code(program, id))
+                .filter(|&id| ran.has(id) || !is_end(&program.block(id), dialect))
         };
         let (mut blocks, mut run) = (0, 0);
         for id in with_code() {

@@ -34,6 +34,7 @@ mod pass;
 mod place;
 mod porting;
 mod prelude;
+mod program_bounds;
 mod report;
 mod rule;
 mod rules;

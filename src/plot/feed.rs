@@ -26,7 +26,11 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     }
     // a limit far above what is programmed is of no interest, and not drawn
     let programmed = cuts.iter().filter_map(|block| block.feed[0]).fold(0.0, f64::max);
-    let top = if programmed > 0.0 { 3.0 * programmed } else { most };
+    let top = if programmed > 0.0 {
+        1.1 * values().filter(|feed| *feed <= 3.0 * programmed).fold(0.0, f64::max)
+    } else {
+        most
+    };
     let least = least.min(top);
     let decades = top > 20.0 * least;
     let value = |feed: f64| if decades { decade(feed.max(1e-3)) } else { feed };

@@ -218,7 +218,11 @@ impl Counting<'_> {
             .0
     }
 
+    /// Of what is programmed in the part: machine coordinates (G53, SUPA, M91) are others.
     fn extents(&mut self, motion: &Motion) {
+        if motion.machine_coordinates {
+            return;
+        }
         for (axis, range) in self.tally.axes.iter_mut().enumerate() {
             if let Some(value) = motion.end.get(axis) {
                 widen(range, value);

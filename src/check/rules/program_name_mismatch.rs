@@ -25,6 +25,7 @@
 //! # Sources
 //! * HEIDENHAIN TNC 640 34059x-07 (Klartext programming): program name and unit in both blocks.
 use crate::prelude::*;
+use crate::program_bounds::bound;
 use trunnion_syntax::Format;
 
 pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Program(check)]);
@@ -48,22 +49,6 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
             None => {}
         }
     }
-}
-
-/// BEGIN PGM (true) or END PGM, and what stands behind it.
-fn bound(text: &[u8]) -> Option<(bool, String)> {
-    // most blocks begin otherwise
-    if !matches!(text.first(), Some(b'B' | b'b' | b'E' | b'e')) {
-        return None;
-    }
-    let text = String::from_utf8_lossy(text);
-    let mut words = text.split_whitespace();
-    let first = words.next()?;
-    let begins = first.eq_ignore_ascii_case("BEGIN");
-    if !begins && !first.eq_ignore_ascii_case("END") || !words.next()?.eq_ignore_ascii_case("PGM") {
-        return None;
-    }
-    Some((begins, words.collect::<Vec<_>>().join(" ")))
 }
 
 #[cfg(test)]

@@ -24,6 +24,20 @@ fn a_program_in_numbers() {
     assert_eq!(file["feed"]["mm_min"], serde_json::json!([50.0, 300.0]));
 }
 
+/// A retract in machine coordinates says nothing about the part.
+#[test]
+fn machine_coordinates_are_no_extents() {
+    let folder = TempDir::new().expect("a folder");
+    let program = write(
+        &folder,
+        "a.nc",
+        "G21 G90 G54\nG0 X0. Y0. Z10.\nG1 X50. Z-1. F500.\nG53 G0 Z300.\nM30\n",
+    );
+    let output = trunnion(&["stats", str(&program), "--dialect", "fanuc-30i", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["files"][0]["extents"]["z_mm"], serde_json::json!([-1.0, 10.0]));
+}
+
 #[test]
 fn the_impeller_has_the_extents_of_its_own_footer() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/linuxcnc-5axis/impeller-7bl-xyzac.ngc");

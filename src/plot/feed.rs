@@ -24,13 +24,8 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
             "nothing to draw: the feed of every feed block is unknown".into(),
         ));
     }
-    // a limit far above what is programmed is of no interest, and not drawn
     let programmed = cuts.iter().filter_map(|block| block.feed[0]).fold(0.0, f64::max);
-    let top = if programmed > 0.0 {
-        1.1 * values().filter(|feed| *feed <= 3.0 * programmed).fold(0.0, f64::max)
-    } else {
-        most
-    };
+    let top = top(values(), programmed).unwrap_or(most);
     let least = least.min(top);
     let decades = top > 20.0 * least;
     let value = |feed: f64| if decades { decade(feed.max(1e-3)) } else { feed };
@@ -101,6 +96,12 @@ fn not_reached<'b>(cuts: &[&'b Block]) -> impl Iterator<Item = (&'b Block, f64)>
         [Some(feed), Some(limit)] if limit < feed => Some((*block, limit)),
         _ => None,
     })
+}
+
+/// The top of the picture: a limit far above what is programmed is of no interest, and not drawn. `None`: nothing is programmed.
+fn top(values: impl Iterator<Item = f64>, programmed: f64) -> Option<f64> {
+    let drawn = values.filter(|feed| *feed <= 3.0 * programmed);
+    (programmed > 0.0).then(|| 1.1 * drawn.fold(0.0, f64::max))
 }
 
 /// Cuts whose mean is below 80 % of the programmed feed, each with what it reaches.

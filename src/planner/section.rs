@@ -6,6 +6,8 @@ use crate::{Bounds, Piece, Ramp};
 
 /// How much the time may be above that of the best filter, for each motion, s: half a servo cycle of 1 ms.
 pub(crate) const WORTH: f64 = 0.0005;
+/// Or by this share of it: it bounds the steps of the search where a motion takes more than 500 s.
+const SHARE: f64 = 1e-6;
 
 /// The pieces from one planned stop to the next.
 pub(crate) struct Section<'a> {
@@ -98,7 +100,7 @@ impl Section<'_> {
         }
     }
 
-    /// The plan with the filter that makes the section fastest, to within [`WORTH`] for each motion: the shorter it is, the less may the axes accelerate.
+    /// The plan with the filter that makes the section fastest, to within [`WORTH`] for each motion or [`SHARE`]: the shorter it is, the less may the axes accelerate.
     ///
     /// The time has several valleys, as different axes bind the pieces. But the ramps alone take no less time with a shorter filter: between the lengths
     /// a < b no plan is faster than the ramps of b with the filter a. So the search goes down from the longest filter in the largest steps that cannot pass
@@ -109,15 +111,16 @@ impl Section<'_> {
         }
         let longest = 2.0 * self.pieces.iter().map(|piece| piece.jerk_time).fold(0.0, f64::max);
         let mut best = self.with_filter(longest);
-        let worth = WORTH * f64::from(self.motions());
-        if longest * best.stops <= worth {
+        let worth = (WORTH * f64::from(self.motions())).max(SHARE * best.total);
+        if !best.total.is_finite() || longest * best.stops <= worth {
             return best;
         }
         // a good plan first: it makes the steps longer
         let mut length = 0.5 * longest;
         loop {
             let one = self.with_filter(length);
-            if one.total >= best.total {
+            let is_better = one.total < best.total;
+            if !is_better {
                 break;
             }
             best = one;
@@ -127,6 +130,9 @@ impl Section<'_> {
         length = longest.min(best.total);
         while length > 0.0 {
             let one = self.with_filter(length);
+            if !one.total.is_finite() {
+                break;
+            }
             length -= ((one.total - best.total).max(0.0) + worth) / one.stops.max(1.0);
             if one.total < best.total {
                 best = one;

@@ -1,18 +1,11 @@
 //! The claim of the path alone.
-use super::tests::{on, proved};
+use super::tests::{on, proved, tool};
 use crate::{Claim, Outcome};
 use trunnion_interp::Setup;
 
 /// The path is that of the tip: another active length is another path, and an undeclared length or zero point decides nothing.
 #[test]
 fn the_path_alone_is_that_of_the_tip() {
-    let tool = |number: u32, length: f64| trunnion_interp::Tool {
-        number,
-        shape: None,
-        diameter_mm: None,
-        length_mm: Some(length),
-        holder_mm: None,
-    };
     let mut values = [0.0; 9];
     values[2] = -200.0;
     let mut setup = Setup {

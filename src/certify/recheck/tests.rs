@@ -246,16 +246,19 @@ fn a_zero_that_nobody_knows_is_named() {
     proved(on("linuxcnc", text, text, &PATH, &Setup::default()));
 }
 
-/// Texts may differ in anything, but not in what decides where the tool is or how long it waits.
-#[test]
-fn another_zero_tool_length_or_dwell_is_another_path() {
-    let tool = |number: u32, length: f64| trunnion_interp::Tool {
+pub(super) fn tool(number: u32, length: f64) -> trunnion_interp::Tool {
+    trunnion_interp::Tool {
         number,
         shape: None,
         diameter_mm: None,
         length_mm: Some(length),
         holder_mm: None,
-    };
+    }
+}
+
+/// Texts may differ in anything, but not in what decides where the tool is or how long it waits.
+#[test]
+fn another_zero_tool_length_or_dwell_is_another_path() {
     let offset = |name: &str, x: f64| {
         let mut values = [0.0; 9];
         values[0] = x;

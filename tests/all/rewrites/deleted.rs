@@ -4,7 +4,7 @@ use trunnion::check::{Assume, Settings};
 use trunnion::dialect::builtin;
 use trunnion::interp::Setup;
 use trunnion::machine;
-use trunnion::rewrite::{Options, attempt, rewrite, rewrites};
+use trunnion::rewrite::{Attempt, Options, attempt, rewrite, rewrites};
 use trunnion::syntax::parse;
 
 fn settings(dialect: &str) -> Settings<'static> {
@@ -71,18 +71,18 @@ fn what_is_proved_holds_whether_blocks_are_skipped_or_not() {
     assert!(proofs >= 3, "{proofs}");
 }
 
+fn lean(before: &str, settings: &Settings<'_>) -> Attempt {
+    let program = parse(before.as_bytes().to_vec(), settings.dialect.lex);
+    let rewrite = rewrite("drop-redundant").expect("known");
+    attempt(rewrite, &program, settings, &Options::default())
+}
+
 /// A block that repeats the position moves the tool where the one before it is skipped.
 #[test]
 fn what_repeats_a_block_that_may_be_skipped_stays() {
     let settings = settings("fanuc-30i");
     let (_, before) = &programs()[0];
-    let program = parse(before.clone().into_bytes(), settings.dialect.lex);
-    let found = attempt(
-        rewrite("drop-redundant").expect("known"),
-        &program,
-        &settings,
-        &Options::default(),
-    );
+    let found = lean(before, &settings);
     let reasons = found.reasons().expect("something stays");
     assert!(reasons.contains("where blocks with / are skipped"), "{reasons}");
     if let Ok(Some(proved)) = found.outcome() {
@@ -94,7 +94,7 @@ fn what_repeats_a_block_that_may_be_skipped_stays() {
 /// A post that writes full lines repeats G1 and the coordinate after it: both go, and the words between them and the rest stay apart.
 #[test]
 fn repeated_words_beside_each_other_are_deleted_together() {
-    for (line, lean) in [
+    for (line, rest) in [
         ("G1 X1. Y-3.", "Y-3."),
         ("N40 G1 X1. Y-3.", "N40 Y-3."),
         ("G1 X1.  Y-3. Z0. F250.", "Y-3."),
@@ -102,15 +102,12 @@ fn repeated_words_beside_each_other_are_deleted_together() {
     ] {
         let before = format!("G21 G90 G94 G17 G54\nG0 X1. Y1. Z0. S5000 M3\nG1 Y2. F250.\n{line}\nM30\n");
         let settings = settings("fanuc-30i");
-        let program = parse(before.clone().into_bytes(), settings.dialect.lex);
-        let found = attempt(
-            rewrite("drop-redundant").expect("known"),
-            &program,
-            &settings,
-            &Options::default(),
-        );
-        let after = found.outcome().expect("proved").expect("changed").after;
-        let expected = before.replace(line, lean);
+        let after = lean(&before, &settings)
+            .outcome()
+            .expect("proved")
+            .expect("changed")
+            .after;
+        let expected = before.replace(line, rest);
         assert_eq!(String::from_utf8_lossy(&after), expected);
     }
 }

@@ -244,7 +244,7 @@ impl Iso<'_> {
             self.take_length(None, (&key, LengthOf::Offset(number)), report.whole(), report);
         }
         if before != self.core.state.length.of() {
-            // the axes stand at the same place, or travel the change: how far it is nobody knows
+            // the axes stand still, or travel the change of length, which is unknown
             self.core.forget_linear();
         }
     }

@@ -1,14 +1,14 @@
 //! Which motions have a feed that belongs to the speed of the spindle: taps, threads, and the tapping mode of a control.
 use std::collections::VecDeque;
 use trunnion_interp::{Effect, Placed};
+use trunnion_same::{COUPLING_KEYS, couples_feed};
 
 /// Reads the effects of a run, which must be watched.
 #[derive(Default)]
 pub(crate) struct Pitches {
     effects: u32,
-    /// A cycle or the spindle is coupled to the motions; the control is in tapping mode.
-    coupled: bool,
-    tapping: bool,
+    /// Which setting couples the feed to the spindle.
+    couples: [bool; COUPLING_KEYS.len()],
     /// After so many effects the feed is a pitch, or is none again.
     changes: VecDeque<(u32, bool)>,
     now: bool,
@@ -21,12 +21,11 @@ impl Pitches {
         let Effect::Set { key, to } = &placed.effect else {
             return;
         };
-        match key.as_ref() {
-            "cycle" => self.coupled = !to.is_empty(),
-            "path-control" => self.tapping = to.first().is_some_and(|code| code.name == "G63"),
-            _ => return,
-        }
-        self.changes.push_back((self.effects, self.coupled || self.tapping));
+        let Some(at) = COUPLING_KEYS.iter().position(|known| known == key) else {
+            return;
+        };
+        self.couples[at] = couples_feed(key, to);
+        self.changes.push_back((self.effects, self.couples.contains(&true)));
     }
 
     /// Whether the feed of the next motion is one; `effects`: how many effects come before it.

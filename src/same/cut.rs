@@ -2,7 +2,7 @@
 use crate::Claim;
 use crate::item::Step;
 use trunnion_geometry::arc::Arc;
-use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};
+use trunnion_interp::{Argument, Feed, MotionKind, Orientation, Position, Swivel};
 
 /// A coordinate that differs by no more has not moved, mm or deg: sums of offsets are rounded.
 const STANDS: f64 = 1e-9;
@@ -42,16 +42,26 @@ fn stays(step: &Step) -> bool {
         && !is_coupled(step)
 }
 
-/// Whether the feed belongs to the speed of the spindle: a tap, a thread, or the tapping mode of a control.
+/// The settings that may couple the feed to the speed of the spindle.
+pub const COUPLING_KEYS: [&str; 2] = ["cycle", "path-control"];
+
+/// Whether a setting of [`COUPLING_KEYS`] does: a tap, a thread, a boring cycle, or the tapping mode of a control.
+pub fn couples_feed(key: &str, to: &[Argument]) -> bool {
+    match key {
+        "cycle" => !to.is_empty(),
+        "path-control" => to.first().is_some_and(|code| code.name == "G63"),
+        _ => false,
+    }
+}
+
+/// Whether the feed belongs to the speed of the spindle.
 pub(crate) fn feed_is_a_pitch(step: &Step) -> bool {
-    let mode = step.process.get("path-control").first();
-    is_coupled(step) || mode.is_some_and(|code| code.name == "G63")
+    COUPLING_KEYS.iter().any(|key| couples_feed(key, step.process.get(key)))
 }
 
 /// Whether a cycle or the spindle is coupled to the motion.
 fn is_coupled(step: &Step) -> bool {
-    let is_set = |key| !step.process.get(key).is_empty();
-    is_set("cycle") || is_set("synchronised")
+    !step.process.get("cycle").is_empty()
 }
 
 /// Whether a motion may be made in several pieces without a difference: not if each piece ends with a stop, has its own time, or is coupled

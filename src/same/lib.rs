@@ -42,6 +42,7 @@ pub use change::Change;
 pub use changed::{Apart, compare_changed};
 pub use claim::Claim;
 pub use compare::compare;
+pub use cut::{COUPLING_KEYS, couples_feed};
 pub use exact::Exact;
 pub use input::Input;
 pub use item::{Item, Sort, Step, Stop};

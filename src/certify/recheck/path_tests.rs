@@ -1,7 +1,17 @@
 //! The claim of the path alone.
-use super::tests::{on, proved, tool};
+use super::tests::{on, proved};
 use crate::{Claim, Outcome};
 use trunnion_interp::Setup;
+
+pub(super) fn tool(number: u32, length: f64) -> trunnion_interp::Tool {
+    trunnion_interp::Tool {
+        number,
+        shape: None,
+        diameter_mm: None,
+        length_mm: Some(length),
+        holder_mm: None,
+    }
+}
 
 /// The path is that of the tip: another active length is another path, and an undeclared length or zero point decides nothing.
 #[test]

@@ -1,4 +1,5 @@
 //! Claims about small programs, and certificates that were forged and sealed again.
+use super::path_tests::tool;
 use super::{certify, recheck};
 use crate::{Certificate, Claim, Outcome};
 use trunnion_interp::Setup;
@@ -244,16 +245,6 @@ fn a_zero_that_nobody_knows_is_named() {
     assert!(gap.message.contains("line 3: the zero point is unknown"), "{gap}");
     // whatever is unknown, a program is the same as itself
     proved(on("linuxcnc", text, text, &PATH, &Setup::default()));
-}
-
-pub(super) fn tool(number: u32, length: f64) -> trunnion_interp::Tool {
-    trunnion_interp::Tool {
-        number,
-        shape: None,
-        diameter_mm: None,
-        length_mm: Some(length),
-        holder_mm: None,
-    }
 }
 
 /// Texts may differ in anything, but not in what decides where the tool is or how long it waits.

@@ -1,4 +1,4 @@
-//! Lengths of an inch program as its people know them: each length and feed of a text in mm gets its value in inch behind it.
+//! Lengths of an inch program as its people know them: each length and feed of a text in mm gets its value in inch after it.
 //!
 //! Inside, and in the numbers of the JSON documents, everything is in mm. This is for sentences, rows and pages alone.
 use crate::Report;
@@ -7,7 +7,7 @@ use core::fmt::Write;
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// The text with the value in inch behind each length in mm and each feed per minute or turn: `10 mm (0.3937 in)`.
+/// The text with the value in inch after each length in mm and each feed per minute or turn: `10 mm (0.3937 in)`.
 pub fn with_inches(text: &str) -> String {
     let mut out = String::with_capacity(text.len() * 5 / 4);
     let mut rest = text;

@@ -67,8 +67,8 @@ pub(super) fn prose(text: &str, signs: u32) -> Option<&'static str> {
     (count.words >= 3 || count.blocks == 0).then_some(if count.has_braces() { DATA } else { PROSE })
 }
 
-/// What a text is that nobody can mean as a program, although a dialect was declared: lines that are only no blocks may be statements of
-/// that dialect.
+/// What kind of text it is, if it is plainly no program although a dialect is declared. Lines that are just not blocks may be statements of that
+/// dialect.
 pub(super) fn plainly_none(text: &str) -> Option<&'static str> {
     let by_lines = || {
         let count = Count::of(text);

@@ -62,7 +62,7 @@ fn a_hole_needs_its_step_and_its_second_clearance() {
 }
 
 #[test]
-fn a_cycle_at_a_place_and_a_single_axis_behind_m94() {
+fn a_cycle_at_a_place_and_a_single_axis_after_m94() {
     let cycle =
         "CYCL DEF 200 DRILLING Q200=2 Q201=-10 Q206=100 Q202=10 Q203=+0 Q204=20 Q211=0\nL X+0 Y+0 Z+50 R0 FMAX M3\n";
     let at = |words: &str| program(&format!("{cycle}CYCL CALL POS {words} FMAX\n"));

@@ -95,7 +95,8 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
                 Smooth::Filter(filter) => [ramp.top / ramp.acceleration, filter],
             };
             let slow = |speed: f64| (ramp.top >= speed).then(|| ramp.seconds_below(speed, smooth));
-            below += slow(SLOW * feed).map_or(own, |[enters, leaves]| enters + leaves);
+            // the filter runs on into the next piece: what it adds at a start is part of the time at the stop
+            below += slow(SLOW * feed).map_or(own, |[enters, leaves]| own.min(enters + leaves));
             match slow(CRAWL * feed) {
                 None => crawl.goes_on(own),
                 Some(ends) => crawl.breaks(ends),
@@ -106,6 +107,7 @@ fn finished(open: &Open, run: &Run, planned: &Planned, pieces: core::ops::Range<
         }
     }
     seconds[1] = (seconds[1] - open.overlap).max(seconds[0]);
+    let below = f64::min(below, seconds[1]);
     let (piece, ramp) = (&run.pieces[slowest], &planned.ramps[slowest]);
     let near = |a: f64, b: f64| a >= b * (1.0 - 1e-6);
     let limit = if near(ramp.top, piece.planned.cap) {

@@ -145,6 +145,8 @@ fn optimistic_is_never_above_planned() {
         for timed in plan(&machine(limits, control), &text, mode) {
             if let [Some(optimistic), Some(planned)] = timed.seconds {
                 assert!(planned.is_finite() && optimistic >= 0.0);
+                // no motion is slow for longer than it lasts
+                assert!(timed.below <= planned, "{timed:?}\n{text}");
                 assert!(
                     optimistic <= planned * (1.0 + 1e-9) + 1e-12,
                     "{optimistic} above {planned}, {control} {mode:?}\n{text}"

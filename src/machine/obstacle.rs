@@ -3,6 +3,7 @@
 //! Coordinates are those of the frame that an obstacle moves with, which at home is the machine frame. With `axis` it is the body that this axis
 //! moves. Without, it is the body that carries the workpiece, but does not turn: it stands between the rotary axes of the table and the linear axes.
 mod column;
+mod contact;
 mod frame;
 mod space;
 mod sweep;
@@ -46,6 +47,28 @@ impl Footprint {
         match self {
             Self::Polygon(polygon) => polygon.distance(point),
             Self::Circle { centre, radius } => ((point - centre).norm() - radius).max(0.0),
+        }
+    }
+
+    /// Its point nearest to another point; inside that point.
+    pub fn nearest(&self, point: &Point) -> Point {
+        match self {
+            Self::Polygon(polygon) if polygon.contains(point) => *point,
+            Self::Polygon(polygon) => polygon.nearest_on_rim(point),
+            Self::Circle { centre, radius } => {
+                let arm = point - centre;
+                let far = arm.norm();
+                if far > *radius { centre + arm * (radius / far) } else { *point }
+            }
+        }
+    }
+
+    /// How far a point inside is from the rim, mm; 0 outside.
+    pub fn depth(&self, point: &Point) -> f64 {
+        match self {
+            Self::Polygon(polygon) if polygon.contains(point) => (polygon.nearest_on_rim(point) - point).norm(),
+            Self::Polygon(_) => 0.0,
+            Self::Circle { centre, radius } => (radius - (point - centre).norm()).max(0.0),
         }
     }
 }

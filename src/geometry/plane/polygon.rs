@@ -86,6 +86,15 @@ impl Polygon {
             .fold(f64::INFINITY, f64::min)
     }
 
+    /// The point of its sides nearest to a point.
+    pub fn nearest_on_rim(&self, point: &Point) -> Point {
+        let on_sides = self.sides().map(|(a, b)| nearest_on_segment(point, &a, &b));
+        let distance = |other: &Point| (other - point).norm_squared();
+        on_sides
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap_or(*point)
+    }
+
     /// Distance of a line segment from the polygon, mm; 0 where they touch or cross.
     pub fn segment_distance(&self, from: &Point, to: &Point) -> f64 {
         if self.contains(from) || self.contains(to) {
@@ -127,6 +136,11 @@ pub(super) fn inside(ring: &[Point], point: &Point) -> bool {
 
 /// Distance of a point from a segment, mm.
 pub fn point_distance(point: &Point, from: &Point, to: &Point) -> f64 {
+    (point - nearest_on_segment(point, from, to)).norm()
+}
+
+/// The point of a segment nearest to a point.
+fn nearest_on_segment(point: &Point, from: &Point, to: &Point) -> Point {
     let along = to - from;
     let square = along.norm_squared();
     let share = if square > 0.0 {
@@ -134,7 +148,7 @@ pub fn point_distance(point: &Point, from: &Point, to: &Point) -> f64 {
     } else {
         0.0
     };
-    (point - (from + along * share)).norm()
+    from + along * share
 }
 
 /// Distance between two segments, mm; 0 where they touch or cross.

@@ -3,6 +3,7 @@
 //! The block is cut into pieces of time and the tool into pieces of its length. In the middle of a piece the distance is exact; within the piece
 //! each point of the tool moves by no more than a proven bound, axis by axis: the rate of the axis times the distance from it
 //! (docs/kinematics.md#obstacles).
+use super::contact::{Solid, comes_closer, distance};
 use super::frame::{radii, tool_in_frame};
 use super::{Footprint, Nearness, Obstacle, SLACK_MM, ToolBody};
 use crate::path::joint_path::JointPath;
@@ -10,8 +11,8 @@ use crate::{AxisKind, Joints, Leg, Machine, Pose, RapidPath};
 use trunnion_geometry::Vec3;
 use trunnion_interp::MotionKind;
 
-/// No tool is longer, mm.
-const LONGEST_MM: f64 = 1000.0;
+/// A tool with its holder and the spindle is judged up to this height above its tip, mm.
+const HIGHEST_MM: f64 = 1000.0;
 
 /// Pieces that are looked at for one obstacle and one block.
 const MOST_PIECES: usize = 20_000;
@@ -36,6 +37,8 @@ pub(super) struct Sweep<'a> {
 struct Piece {
     time: [f64; 2],
     height: [f64; 2],
+    /// The middle of this time has not been looked at for contact.
+    new: bool,
 }
 
 /// What is found for a distance to be kept.
@@ -70,12 +73,12 @@ impl<'a> Sweep<'a> {
             .body
             .length_mm
             .or((self.tool_length > 0.0).then_some(self.tool_length));
-        let length = declared.unwrap_or(LONGEST_MM);
-        match self.search(obstacle, keep, length) {
+        // nothing above the tool is narrower than what it carries: as for an upright tool, its column has no upper end
+        match self.search(obstacle, keep, HIGHEST_MM) {
             Found::Clear => Nearness::Clear(keep),
             _ if declared.is_none() => Nearness::Unknown("the length of the tool is not declared"),
             Found::Closer if keep <= SLACK_MM => Nearness::Through,
-            Found::Closer => match self.search(obstacle, 0.0, length) {
+            Found::Closer => match self.search(obstacle, 0.0, HIGHEST_MM) {
                 Found::Closer => Nearness::Through,
                 Found::Clear => Nearness::Near(None),
                 Found::Undecided => Nearness::Unknown("whether the tool only comes near or touches is not decided"),
@@ -83,14 +86,22 @@ impl<'a> Sweep<'a> {
             Found::Undecided if self.independent => {
                 Nearness::Unknown("the machine file does not say that the axes arrive together in a rapid")
             }
+            Found::Undecided
+                if self.body.holder_mm.is_none()
+                    && declared.is_some_and(|length| matches!(self.search(obstacle, keep, length), Found::Clear)) =>
+            {
+                Nearness::Unknown("the tool clears it, but what holds the tool is not declared (`holder` of [[tool]])")
+            }
             Found::Undecided => Nearness::Unknown("the bounds of the tool's motion do not decide it"),
         }
     }
 
     fn search(&self, obstacle: &Obstacle, keep: f64, length: f64) -> Found {
+        let solids = self.solids();
         let mut pieces = vec![Piece {
             time: [0.0, 1.0],
             height: [0.0, length],
+            new: true,
         }];
         let mut looked = 0;
         let mut undecided = false;
@@ -114,10 +125,7 @@ impl<'a> Sweep<'a> {
             if distance - moves - (radius * radius + half * half).sqrt() >= keep {
                 continue;
             }
-            let least = self.radius([middle, middle]);
-            // the nearest point of the obstacle is beside this point of the tool, not beyond one of its ends
-            let beside = middle >= distance && length - middle >= distance;
-            if !self.independent && (distance == 0.0 || beside && distance < least + keep - SLACK_MM) {
+            if piece.new && !self.independent && comes_closer(obstacle, &pose, &solids, middle, keep) {
                 return Found::Closer;
             }
             if self.independent && t1 - t0 >= 1.0 && half <= 0.5 || moves + half <= FINEST_MM {
@@ -129,32 +137,36 @@ impl<'a> Sweep<'a> {
             }
             // what adds more to the bound is cut
             if half >= moves || self.independent {
-                pieces.push(Piece {
-                    height: [low, middle],
-                    ..piece
-                });
-                pieces.push(Piece {
-                    height: [middle, high],
-                    ..piece
-                });
+                // where the holder begins, so that its radius does not count for what is below it
+                let holder = self.body.holder_mm.map(|(_, above)| above);
+                let cut = holder.filter(|above| low < *above && *above < high).unwrap_or(middle);
+                for height in [[low, cut], [cut, high]] {
+                    let new = false;
+                    pieces.push(Piece { height, new, ..piece });
+                }
             } else {
                 let between = f64::midpoint(t0, t1);
-                pieces.push(Piece {
-                    time: [t0, between],
-                    ..piece
-                });
-                pieces.push(Piece {
-                    time: [between, t1],
-                    ..piece
-                });
+                for time in [[t0, between], [between, t1]] {
+                    let new = true;
+                    pieces.push(Piece { time, new, ..piece });
+                }
             }
         }
         if undecided { Found::Undecided } else { Found::Clear }
     }
 
+    /// The cylinders that are certainly there.
+    fn solids(&self) -> Vec<Solid> {
+        let tool = self.body.length_mm.or((self.tool_length > 0.0).then_some(self.tool_length));
+        let holder = self.body.length_mm.and(self.body.holder_mm);
+        let tool = tool.map(|length| Solid::new(self.body.radius_mm, [0.0, length]));
+        let holder = holder.map(|(radius, above)| Solid::new(radius, [above, HIGHEST_MM]));
+        tool.into_iter().chain(holder).collect()
+    }
+
     /// The largest radius of the tool between two heights, mm.
     fn radius(&self, [_, high]: [f64; 2]) -> f64 {
-        let holder = self.body.holder_mm.filter(|(_, above)| high >= *above);
+        let holder = self.body.holder_mm.filter(|(_, above)| high > *above);
         holder.map_or(self.body.radius_mm, |(radius, _)| radius.max(self.body.radius_mm))
     }
 
@@ -253,11 +265,4 @@ fn corners(obstacle: &Obstacle) -> Vec<(Vec3, f64)> {
             .collect(),
         Footprint::Circle { centre, radius } => at(centre.x, centre.y, *radius).to_vec(),
     }
-}
-
-/// Distance of a point from an obstacle, mm; 0 inside.
-fn distance(obstacle: &Obstacle, point: &Vec3) -> f64 {
-    let flat = obstacle.footprint.distance(&point.xy());
-    let beyond = (obstacle.bottom - point.z).max(point.z - obstacle.top).max(0.0);
-    trunnion_geometry::math::hypot(flat, beyond)
 }

@@ -177,8 +177,8 @@ fn independent_axes_may_pass_the_corner() {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
-    /// Tilted, turning, with and without tool centre point control: what is called clear is clear at 60 moments and 40 heights, what is called
-    /// through comes nearer than the radius.
+    /// Tilted, turning, with and without tool centre point control, with and without a holder: what is called clear is clear at 60 moments and many
+    /// points of the bodies, what is called through comes near at one of them.
     #[test]
     fn what_is_proved_holds_at_every_sample(
         name in prop_oneof![Just("mikron-ucp710"), Just("ferrari-bc"), Just("fork-ca")],
@@ -191,6 +191,7 @@ proptest! {
         size in 3.0..25.0,
         axis in any::<bool>(),
         radius in 1.0..8.0,
+        holder in proptest::option::of(8.0..30.0),
     ) {
         let corners = [[-1.0, -1.0], [1.0, -1.0], [0.2, 0.1], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [centre[0] + size * x, centre[1] + size * y]);
         let Some(base) = builtin(name) else { return Ok(()) };
@@ -206,7 +207,7 @@ proptest! {
         let leg = leg(&machine, kind, tcp, [&words(from), &words(end)]);
         prop_assume!(leg.start.is_some() && leg.end.is_ok());
         let keep = 1.0;
-        let tool = body(radius, Some(length));
+        let tool = ToolBody { holder_mm: holder.map(|wide| (wide, length)), ..body(radius, Some(length)) };
         let found = nearness(&machine, &leg, &tool, keep)[0].nearness;
         let path = BlockPath::new(&machine, &leg).expect("a path");
         let frame = machine.obstacles[0].frame(&machine).expect("a frame");
@@ -215,18 +216,73 @@ proptest! {
         for time in 0..=60 {
             let joints = path.at(f64::from(time) / 60.0).joints;
             let pose = tool_in_frame(&machine, &joints, length, frame);
-            for height in 0..=40 {
-                let point: Vec3 = pose.tip + pose.axis * (length * f64::from(height) / 40.0);
-                let flat = obstacle.footprint.distance(&point.xy());
-                let beyond = (obstacle.bottom - point.z).max(point.z - obstacle.top).max(0.0);
-                nearest = nearest.min(trunnion_geometry::math::hypot(flat, beyond));
+            let aside = pose.axis.cross(&Vec3::x()).normalize();
+            for height in 0..=60 {
+                let height = 2.0 * f64::from(height);
+                let wide = if height <= length { radius } else { holder.unwrap_or(0.0) };
+                for (share, turn) in [(0.0, 0), (0.5, 0), (0.5, 2), (0.5, 4), (0.5, 6), (1.0, 1), (1.0, 3), (1.0, 5), (1.0, 7), (1.0, 8)] {
+                    let (sin, cos) = trunnion_geometry::math::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_4);
+                    let across = aside * cos + pose.axis.cross(&aside) * sin;
+                    let point: Vec3 = pose.tip + pose.axis * height + across * (share * wide);
+                    let flat = obstacle.footprint.distance(&point.xy());
+                    let beyond = (obstacle.bottom - point.z).max(point.z - obstacle.top).max(0.0);
+                    nearest = nearest.min(trunnion_geometry::math::hypot(flat, beyond));
+                }
             }
         }
         match found {
-            // a point of the axis is at least the radius from what the cylinder does not touch, but near its ends
-            Nearness::Clear(_) => prop_assert!(nearest > 0.0, "{nearest}"),
-            Nearness::Through => prop_assert!(nearest < radius + 2.5, "{nearest} {radius}"),
+            Nearness::Clear(_) => prop_assert!(nearest >= keep - 1e-6, "{nearest}"),
+            // neighbouring points of the samples are up to this far apart
+            Nearness::Through => prop_assert!(nearest < 2.5 + 0.8 * holder.unwrap_or(radius), "{nearest} {radius}"),
             _ => {}
         }
     }
+}
+
+/// A tilted tool clears a clamp, but the holder above it is inside; or only the rim of its lower face is.
+#[test]
+fn a_tilted_holder_that_touches_is_found() {
+    let clamp = Obstacle {
+        axis: Some(b'C'),
+        ..prism(&[[15.0, -60.0], [60.0, -60.0], [60.0, 20.0], [15.0, 20.0]], -30.0, 60.0)
+    };
+    let machine = with("mikron-ucp710", clamp);
+    let near = |tilt: f64, from: f64, to: f64, holder: Option<f64>| {
+        let word = |x: f64| vec![(b'X', x), (b'Y', 0.0), (b'Z', 0.0), (b'A', tilt), (b'C', 0.0)];
+        let leg = leg(&machine, MotionKind::Linear, true, [&word(from), &word(to)]);
+        let tool = ToolBody {
+            holder_mm: holder.map(|radius| (radius, 50.0)),
+            ..body(3.0, Some(50.0))
+        };
+        nearness(&machine, &leg, &tool, 0.0)[0].nearness
+    };
+    for tilt in [0.001, 5.0, 20.0, 25.0] {
+        assert_eq!(near(tilt, 0.0, 1.0, Some(25.0)), Nearness::Through, "{tilt}");
+        // 12 mm to the tool
+        assert_eq!(near(tilt, 0.0, 1.0, Some(10.0)), Nearness::Clear(0.0), "{tilt}");
+    }
+    assert_eq!(near(-20.0, 0.0, 1.0, Some(25.0)), Nearness::Through);
+    // beyond the clamp
+    assert!(matches!(near(-89.0, -90.0, -80.0, Some(25.0)), Nearness::Clear(_)));
+}
+
+/// What is above the declared length of a tilted tool counts as above an upright one: a holder is there, and without one it is unknown.
+#[test]
+fn what_is_above_a_tilted_tool_counts() {
+    let clamp = Obstacle {
+        axis: Some(b'C'),
+        ..prism(&[[-20.0, -120.0], [20.0, -120.0], [20.0, -70.0], [-20.0, -70.0]], 0.0, 60.0)
+    };
+    let machine = with("mikron-ucp710", clamp);
+    let near = |holder_mm| {
+        let word = |x: f64| vec![(b'X', x), (b'Y', 0.0), (b'Z', 0.0), (b'A', 60.0), (b'C', 0.0)];
+        let leg = leg(&machine, MotionKind::Linear, true, [&word(0.0), &word(5.0)]);
+        let tool = ToolBody {
+            holder_mm,
+            ..body(3.0, Some(50.0))
+        };
+        nearness(&machine, &leg, &tool, 0.0)[0].nearness
+    };
+    assert_eq!(near(Some((25.0, 50.0))), Nearness::Through);
+    assert!(matches!(near(None), Nearness::Unknown(why) if why.contains("not declared")), "{:?}", near(None));
 }

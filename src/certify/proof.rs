@@ -45,8 +45,22 @@ impl Judge for Proof<'_> {
         if before.len() == after.len() && before.iter().zip(after).all(|(was, is)| same_rapid(was, is)) {
             return before.iter().zip(after).try_for_each(|(was, is)| self.pair(was, is));
         }
-        self.changed_rapids(before, after)
-            .map_err(|outcome| self.fail(outcome, &before[0], &after[0]))
+        // what both do alike before and after the part that differs need not be known: a first positioning begins anywhere
+        let most = before.len().min(after.len()) - 1;
+        let alike = |pair: &(&Step, &Step)| same_rapid(pair.0, pair.1);
+        let head = before.iter().zip(after).take(most).take_while(alike).count();
+        let ends = before.iter().rev().zip(after.iter().rev());
+        let tail = ends.take(most - head).take_while(alike).count();
+        let (old, new) = (before.len() - tail, after.len() - tail);
+        let mut leading = before.iter().zip(after).take(head);
+        leading.try_for_each(|(was, is)| self.pair(was, is))?;
+        let (was, is) = (&before[head..old], &after[head..new]);
+        self.changed_rapids(was, is)
+            .map_err(|outcome| self.fail(outcome, &was[0], &is[0]))?;
+        before[old..]
+            .iter()
+            .zip(&after[new..])
+            .try_for_each(|(was, is)| self.pair(was, is))
     }
 
     fn piece(&mut self, before: &Step, after: &Step) -> Result<Option<bool>, Verdict> {
@@ -74,6 +88,10 @@ impl Judge for Proof<'_> {
             Err(crate::pieces::Wrong::Refuted(what)) => Err(Verdict::Differs(difference(what))),
             Err(crate::pieces::Wrong::Unknown(what)) => Err(Verdict::Unknown(difference(what.to_owned()))),
         }
+    }
+
+    fn leaves(&self, before: &Step, after: &Step) -> bool {
+        matches!(self.claim, Claim::InsertedRetracts { .. }) && self.retracts().leaves(before, after)
     }
 
     fn retract(&mut self, before: &Step, after: &[Step]) -> Result<(), Verdict> {

@@ -9,7 +9,7 @@ use crate::{Claim, Outcome};
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::MotionKind;
-use trunnion_machine::{AxisKind, Leg, Machine, RapidPath, Stance, tool_in_frame};
+use trunnion_machine::{Leg, Machine, RapidPath, Stance, linear_steps};
 use trunnion_same::Step;
 
 /// Rotary joints that differ by no more stand still, rad.
@@ -45,7 +45,21 @@ pub(crate) struct Measured {
 }
 
 impl Judge<'_> {
-    /// The rapids that lead away from the part: the first along the tool axis, the others clear of all obstacles. `lines`: of each one.
+    /// Whether a line at feed is not the cut that comes next in the program before, but leads out along the tool axis from where that begins.
+    pub(crate) fn leaves(&self, cut: &Step, step: &Step) -> bool {
+        let (Ok((leg, start, end)), Ok((_, _, own_end))) = (stances(step, 0), stances(cut, 0)) else {
+            return false;
+        };
+        let (mm, degrees) = self.claim.tolerances();
+        let is_cut = end.tip_distance_to(own_end) <= mm && deg(angle_between(&end.axis, &own_end.axis)) <= degrees;
+        leg.motion.kind == MotionKind::Linear
+            && !is_cut
+            && self.same_pose(cut, start, 0).is_ok()
+            && self.stands(leg, 0).is_ok()
+            && self.along(leg, (start, end), 1.0, 0).is_ok()
+    }
+
+    /// The motions that lead away from the part: the first along the tool axis, the others clear of all obstacles. `lines`: of each one.
     pub(crate) fn away(&self, cut: &Step, run: &[Step], lines: &[u32]) -> Result<Vec<Measured>, Outcome> {
         if cut.held.tool.as_ref().is_none_or(|tool| tool.shape.is_none()) {
             // a tool that is wider than its shank would cut on its way out
@@ -200,7 +214,7 @@ impl Judge<'_> {
         }
         let independent = leg.motion.kind == MotionKind::Rapid && self.machine.control.rapid != RapidPath::Synchronous;
         let parts = if independent {
-            self.parts(start, end)
+            linear_steps(self.machine, (&start.joints, &end.joints), end.tool_length, 0).collect()
         } else {
             vec![end.tip - start.tip]
         };
@@ -221,18 +235,6 @@ impl Judge<'_> {
             );
         }
         Ok(())
-    }
-
-    /// What each linear axis adds to the position of the tip, workpiece frame, mm.
-    fn parts(&self, start: &Stance, end: &Stance) -> Vec<Vec3> {
-        let tip = |joints: &trunnion_machine::Joints| tool_in_frame(self.machine, joints, end.tool_length, 0).tip;
-        let linear = (0..self.machine.axes.len()).filter(|&joint| self.machine.axes[joint].kind == AxisKind::Linear);
-        let part = linear.map(|joint| {
-            let mut joints = start.joints;
-            joints[joint] = end.joints[joint];
-            tip(&joints) - tip(&start.joints)
-        });
-        part.collect()
     }
 
     /// The ramp runs above the last cut: at each moment the tool stands where that cut had it, lifted along its axis.

@@ -10,7 +10,7 @@ mod sweep;
 mod verdict;
 
 pub use column::{SLACK_MM, ToolBody, column_distance, corridor_distance};
-pub use frame::tool_in_frame;
+pub use frame::{linear_steps, tool_in_frame};
 pub use space::{NoRoute, Space};
 pub use verdict::{Near, Nearness, nearness, nearness_with_part};
 
@@ -58,7 +58,11 @@ impl Footprint {
             Self::Circle { centre, radius } => {
                 let arm = point - centre;
                 let far = arm.norm();
-                if far > *radius { centre + arm * (radius / far) } else { *point }
+                if far > *radius {
+                    centre + arm * (radius / far)
+                } else {
+                    *point
+                }
             }
         }
     }

@@ -1,10 +1,11 @@
 //! An attempt: what a rewrite proposes is proved and compared with the program before; what cannot be proved at one place is left out there.
 use crate::edited::Edited;
+use crate::no_worse::{cured_errors, no_worse_report, no_worse_turns};
 use crate::{Change, Options, Place, Refusal, Rewrite};
 use core::cell::OnceCell;
 use core::fmt::Write;
 use trunnion_certify::{Certificate, Claim, Outcome, certify};
-use trunnion_check::{Diagnostic, Report, Settings, Severity, Status, check_objections};
+use trunnion_check::{Report, Settings, check_objections};
 use trunnion_interp::Setup;
 use trunnion_machine::Machine;
 use trunnion_same::{Input, assumed, with_zeros};
@@ -139,10 +140,10 @@ fn reasons(places: &[Judged]) -> Option<String> {
 }
 
 /// Why a proof fails.
-struct Failure {
-    reason: String,
+pub(crate) struct Failure {
+    pub(crate) reason: String,
     /// Byte of the text after that it is about.
-    at: Option<usize>,
+    pub(crate) at: Option<usize>,
 }
 
 impl From<String> for Failure {
@@ -188,10 +189,20 @@ pub fn attempt_at(
         before: OnceCell::new(),
         summary: proposal.summary,
     };
+    let proposed = changed(&places);
     let mut tries = 0;
     while let Some(edits) = edits(&places) {
         tries += 1;
         match prover.prove(&edits, &proposal.claim) {
+            // the numbers of the summary are those of all places that were proposed
+            Ok(mut proved) if tries > 1 => {
+                let left = changed(&places);
+                proved.summary = format!(
+                    "{left} of {proposed} places; all {proposed} would be: {}",
+                    proved.summary
+                );
+                return Attempt::of(program, places, Some(proved));
+            }
             Ok(proved) => return Attempt::of(program, places, Some(proved)),
             Err(failure) => {
                 let at = failure.at.map(|at| Edited::new(&edits).before(at));
@@ -200,6 +211,14 @@ pub fn attempt_at(
         }
     }
     Attempt::of(program, places, None)
+}
+
+/// How many places have edits.
+fn changed(places: &[Place]) -> usize {
+    places
+        .iter()
+        .filter(|place| matches!(place.change, Change::Edits(_)))
+        .count()
 }
 
 /// All edits, sorted. `None`: no place has any.
@@ -287,12 +306,24 @@ impl Prover<'_> {
             .before
             .get_or_init(|| check_objections(self.program, self.settings));
         no_worse_report(self.rewrite, was, &is)?;
+        let errors = [was, &is].map(|report| cured_errors(self.rewrite, report));
+        // less in one block and more in the next can be more blocks with errors: people decide whether they want that
+        let spread = if errors[1] > errors[0] {
+            format!(
+                "; {} -> {} errors of {}, each smaller but in more blocks",
+                errors[0],
+                errors[1],
+                self.rewrite.cures.join(", ")
+            )
+        } else {
+            String::new()
+        };
         Ok(Proved {
             edits: edits.to_vec(),
             after,
             certificate,
             setup,
-            summary: self.summary.clone(),
+            summary: format!("{}{spread}", self.summary),
         })
     }
 }
@@ -315,77 +346,6 @@ impl Prover<'_> {
 /// The first byte of a line (from 1).
 fn line_start(text: &[u8], line: u32) -> Option<usize> {
     LineIndex::new(text).offset(text, line, 1).map(|start| start as usize)
-}
-
-/// No rotary axis turns farther in all, nor in a larger step (beyond the rounding of numbers).
-fn no_worse_turns(certificate: &Certificate) -> Result<(), String> {
-    for rotary in &certificate.rotary {
-        let pairs = [
-            ("largest step", rotary.step_before_deg, rotary.step_after_deg),
-            ("travel", rotary.travel_before_deg, rotary.travel_after_deg),
-        ];
-        for (what, before, after) in pairs {
-            if after > before * (1.0 + 1e-6) + 0.01 {
-                return Err(format!(
-                    "the {what} of {} would grow from {before:.3} to {after:.3} deg",
-                    rotary.axis
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn is_error(found: &Diagnostic) -> bool {
-    found.own_severity() == Severity::Error && found.status == Status::Fail
-}
-
-/// No rule reports more errors than before, except those that the rewrite fixes; these report none where they
-/// reported none. No rule leaves more undecided, and the verdict is no worse.
-fn no_worse_report(rewrite: &Rewrite, was: &Report, is: &Report) -> Result<(), Failure> {
-    let at = |found: &Diagnostic| Some(found.range.start as usize);
-    let errors = |report: &Report, rule: &str| -> u64 {
-        let of_rule = report.findings().filter(|d| d.rule == rule && is_error(d));
-        of_rule.map(|d| u64::from(d.count)).sum()
-    };
-    let more = |d: &&Diagnostic| !rewrite.cures.contains(&d.rule) && errors(is, d.rule) > errors(was, d.rule);
-    if let Some(d) = is.findings().filter(|d| is_error(d)).find(more) {
-        return Err(Failure {
-            reason: format!("it would cause an error: {} ({})", d.message, d.rule),
-            at: at(d),
-        });
-    }
-    let sum = |report: &Report| rewrite.cures.iter().map(|rule| errors(report, rule)).sum::<u64>();
-    // what it fixes may move from block to block, but a program without such an error must not get one
-    if sum(was) == 0 && sum(is) > 0 {
-        let cured = |d: &&Diagnostic| rewrite.cures.contains(&d.rule) && errors(is, d.rule) > errors(was, d.rule);
-        let found = is.findings().filter(|d| is_error(d)).find(cured);
-        return Err(Failure {
-            reason: format!(
-                "it would cause an error where there was none ({})",
-                found.map_or("", |d| d.rule)
-            ),
-            at: found.and_then(at),
-        });
-    }
-    let undecided = |report: &Report, rule: &str| {
-        let unknown = report
-            .findings()
-            .filter(|d| d.rule == rule && d.status == Status::Unknown);
-        unknown.count()
-    };
-    let unknown = |d: &&Diagnostic| d.status == Status::Unknown;
-    if let Some(d) = is
-        .findings()
-        .filter(unknown)
-        .find(|d| undecided(is, d.rule) > undecided(was, d.rule))
-    {
-        return Err(Failure {
-            reason: format!("less could be decided after it: {} ({})", d.message, d.rule),
-            at: at(d),
-        });
-    }
-    Ok(())
 }
 
 #[cfg(test)]

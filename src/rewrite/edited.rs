@@ -38,14 +38,16 @@ impl Edited {
     /// The range of the text after that holds what a range of the text before became, with all edits that touch it.
     pub(crate) fn after(&self, before: TextRange) -> TextRange {
         let before = before.as_usize();
-        // edits that start inside belong to the range, and so does one that ends where it starts only if it starts there
+        // edits that start inside belong to the range, and so does what is inserted at its end: the range of a block ends before the line end, so the
+        // next place begins after it
         let shift = |count: usize| match count.checked_sub(1).and_then(|last| self.ranges.get(last)) {
             Some((was, is)) => (was[1], is[1]),
             None => (0, 0),
         };
         let (was, is) = shift(self.ranges.partition_point(|(was, _)| was[0] < before.start));
         let start = is + before.start.saturating_sub(was);
-        let (was, is) = shift(self.ranges.partition_point(|(was, _)| was[0] < before.end));
+        let inside = |was: &[usize; 2]| was[0] < before.end || *was == [before.end; 2];
+        let (was, is) = shift(self.ranges.partition_point(|(was, _)| inside(was)));
         let end = is + before.end.saturating_sub(was);
         TextRange::new(start as u32, end.max(start) as u32)
     }
@@ -67,6 +69,10 @@ mod tests {
         assert_eq!([0, 1, 2, 3, 5, 6].map(|at| map.before(at)), [0, 1, 1, 3, 5, 6]);
         assert_eq!(map.after(TextRange::new(1, 3)), TextRange::new(1, 3));
         assert_eq!(map.after(TextRange::new(3, 6)), TextRange::new(3, 6));
+        // a line is put after another one
+        let after = Edited::new(&[edit(3, 3, "\nZ")]);
+        assert_eq!(after.after(TextRange::new(1, 3)), TextRange::new(1, 5));
+        assert_eq!(after.after(TextRange::new(4, 6)), TextRange::new(6, 8));
         let longer = Edited::new(&[edit(1, 3, "12345")]);
         assert_eq!(longer.before(7), 4);
         assert_eq!(longer.after(TextRange::new(0, 3)), TextRange::new(0, 6));

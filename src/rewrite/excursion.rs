@@ -6,8 +6,8 @@ use core::f64::consts::PI;
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::{MotionKind, Tool};
 use trunnion_machine::{
-    Joints, Leg, Limits, Machine, Nearness, Orientations, Stance, ToolBody, inverse, nearness_with_part, orientations,
-    windings,
+    Joints, Leg, Limits, Machine, Nearness, Orientations, RapidPath, Stance, ToolBody, inverse, linear_steps,
+    nearness_with_part, orientations, windings,
 };
 use trunnion_syntax::Decimal;
 
@@ -61,6 +61,8 @@ pub(crate) struct Excursion {
     pub(crate) ramp: Option<Pose>,
     /// Where the part was left.
     pub(crate) back: Pose,
+    /// The tool leaves the part at rapid; else at feed, where the axes of a rapid may leave the tool's axis.
+    pub(crate) leaves_at_rapid: bool,
     /// The axes turn at rapid; else at feed, where it is not certain what the axes of a rapid pass.
     pub(crate) at_rapid: bool,
     /// Height, mm.
@@ -111,8 +113,13 @@ impl Planner<'_> {
                 if !self.inside(&out.stance) || !self.inside(&turned.stance) {
                     break;
                 }
+                let leaves_at_rapid = self.rapid_keeps_to_axis(start, &out.stance);
+                if kind == MotionKind::Rapid && !leaves_at_rapid {
+                    break;
+                }
                 if self.is_clear(flip, (&out.stance, &turned.stance), &body, kind) {
                     return Ok(Excursion {
+                        leaves_at_rapid,
                         at_rapid: kind == MotionKind::Rapid,
                         out,
                         turned,
@@ -128,6 +135,15 @@ impl Planner<'_> {
             "at no height along the tool axis inside the travel of the axes is it proved that the tool clears all obstacles by {} mm while the axes turn",
             self.machine.tolerances.clearance_mm()
         )))
+    }
+
+    /// Whether a rapid out along the tool axis stays on it, whenever its axes arrive, as `certify` will judge it.
+    fn rapid_keeps_to_axis(&self, start: &Stance, out: &Stance) -> bool {
+        let steps = linear_steps(self.machine, (&start.joints, &out.joints), out.tool_length, 0);
+        let off: f64 = steps
+            .map(|step| (step - start.axis * step.dot(&start.axis)).norm())
+            .sum();
+        self.machine.control.rapid == RapidPath::Synchronous || off <= SHARE * self.tolerance_mm
     }
 
     /// Whether the tool is in the air all along: then it may turn over there.

@@ -14,6 +14,7 @@ mod gains;
 mod lanes;
 mod line_points;
 mod named_blocks;
+mod no_worse;
 mod pieces;
 mod pitch;
 mod polyline;

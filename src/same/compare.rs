@@ -93,7 +93,7 @@ fn walk(
         if judged.retracts
             && let (Item::Motion(cut), Item::Motion(away)) = (&*was, &*is)
             && cut.motion.kind == MotionKind::Linear
-            && rapids::begins(Some(is))
+            && (rapids::begins(Some(is)) || judge.leaves(cut, away))
         {
             let away = away.as_ref().clone();
             b = retracts::excursion(cut, away, after, claim, judge)?;

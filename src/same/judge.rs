@@ -27,7 +27,12 @@ pub trait Judge {
             what: "rapid motions are not judged as a run".to_owned(),
         }))
     }
-    /// Rapid motions of the program after, made before the cut that comes next in both programs.
+    /// Whether a line at feed of the program after is no cut but leads away from the part, made before the cut that comes next in both programs.
+    fn leaves(&self, before: &Step, after: &Step) -> bool {
+        let _ = (before, after);
+        false
+    }
+    /// Rapid motions or one such line of the program after, made before the cut that comes next in both programs.
     fn retract(&mut self, before: &Step, after: &[Step]) -> Result<(), Verdict> {
         Err(Verdict::Unknown(Difference {
             before: Some(before.motion.block),

@@ -10,7 +10,7 @@ pub(crate) fn begins(item: Option<&Item>) -> bool {
     matches!(item, Some(Item::Motion(step)) if is_rapid(step))
 }
 
-fn is_rapid(step: &Step) -> bool {
+pub(crate) fn is_rapid(step: &Step) -> bool {
     step.motion.kind == MotionKind::Rapid && step.motion.tilt.swivel == Swivel::No
 }
 

@@ -1,4 +1,4 @@
-//! Motions that only the program after has: away from the part with rapids, and back with lines at feed, between two cuts.
+//! Motions that only the program after has: away from the part with rapids or a line at feed, and back with lines at feed, between two cuts.
 use crate::Claim;
 use crate::compare::next;
 use crate::in_effect::in_effect;
@@ -26,7 +26,12 @@ pub(crate) fn excursion(
         frees_feed: true,
         ..*claim
     };
-    let (run, mut rest) = rapids::run(away, after, claim);
+    let (run, mut rest) = if rapids::is_rapid(&away) {
+        rapids::run(away, after, claim)
+    } else {
+        in_effect(cut, &away, claim)?;
+        (vec![away], next(after, claim))
+    };
     // all rapids of a run have the same in effect
     in_effect(cut, &run[0], &free)?;
     judge.retract(cut, &run)?;

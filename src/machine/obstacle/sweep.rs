@@ -157,7 +157,10 @@ impl<'a> Sweep<'a> {
 
     /// The cylinders that are certainly there.
     fn solids(&self) -> Vec<Solid> {
-        let tool = self.body.length_mm.or((self.tool_length > 0.0).then_some(self.tool_length));
+        let tool = self
+            .body
+            .length_mm
+            .or((self.tool_length > 0.0).then_some(self.tool_length));
         let holder = self.body.length_mm.and(self.body.holder_mm);
         let tool = tool.map(|length| Solid::new(self.body.radius_mm, [0.0, length]));
         let holder = holder.map(|(radius, above)| Solid::new(radius, [above, HIGHEST_MM]));

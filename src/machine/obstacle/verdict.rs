@@ -1,7 +1,7 @@
 //! How near a tool comes to the obstacles of a machine in one motion.
 use super::column::{Gap, corridor_gap, straight_gap};
 use super::sweep::Sweep;
-use super::{Obstacle, SLACK_MM, ToolBody, tool_in_frame};
+use super::{Obstacle, SLACK_MM, ToolBody, linear_steps, tool_in_frame};
 use crate::{AxisKind, Leg, Machine, RapidPath, Stance};
 use trunnion_geometry::Vec3;
 use trunnion_interp::MotionKind;
@@ -115,7 +115,8 @@ impl One<'_> {
         if !independent || !matches!(judged, Nearness::Clear(_)) {
             return judged;
         }
-        let moves = self.moves(start, end, tool_length);
+        let joints = (&start.joints, &end.joints);
+        let moves: Vec<Vec3> = linear_steps(self.machine, joints, tool_length, self.frame).collect();
         match self.judge(corridor_gap(obstacle, self.body, (&from, &moves), self.keep)) {
             Nearness::Clear(mm) => Nearness::Clear(mm),
             _ if moves.len() < 2 => judged,
@@ -130,17 +131,5 @@ impl One<'_> {
             Some(gap) if gap.mm < self.keep - SLACK_MM => Nearness::Near(Some(gap.mm.max(0.0))),
             Some(gap) => Nearness::Clear(gap.mm),
         }
-    }
-
-    /// What each linear axis that moves adds to the position of the tip, mm.
-    fn moves(&self, start: &Stance, end: &Stance, tool_length: f64) -> Vec<Vec3> {
-        let from = tool_in_frame(self.machine, &start.joints, tool_length, self.frame).tip;
-        let joints = (0..self.machine.axes.len()).filter(|&joint| start.joints[joint] != end.joints[joint]);
-        let step = joints.map(|joint| {
-            let mut joints = start.joints;
-            joints[joint] = end.joints[joint];
-            tool_in_frame(self.machine, &joints, tool_length, self.frame).tip - from
-        });
-        step.filter(|step| step.norm() > 0.0).collect()
     }
 }

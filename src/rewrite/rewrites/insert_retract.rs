@@ -47,6 +47,7 @@
 //! - Shape and diameter of the tool must be declared: a tool that is wider than its shank must not be pulled out along its axis.
 //! - Where the axes of a rapid may arrive at different times, it is often unknown what the tool passes. Then the machine turns at the feed of the cut, and `pole-flip`
 //!   and `branch-swap` report that turn as they would in the cut.
+//!   Where it is unknown whether a rapid keeps to the tool axis (a tilted head), the tool also leaves the part at that feed.
 //! - Where the tool leaves the part it stands still for a moment and may leave a mark.
 //! - Tool vectors, incremental coordinates, tilted planes and inverse time are left alone.
 //!
@@ -241,28 +242,30 @@ fn lines(program: &Program, scheme: Scheme, flip: &Flip, excursion: &Excursion) 
         words[linear..].sort();
         words.join(" ")
     };
-    let mut first = true;
-    let mut feeds = |words: String| {
-        if core::mem::take(&mut first) {
-            format!("G1 {words}{feed}{end}")
-        } else {
-            format!("{words}{end}")
+    let mut text = String::new();
+    let mut active = "";
+    let mut fed = false;
+    let mut write = |rapid: bool, words: String| {
+        let code = if rapid { "G0" } else { "G1" };
+        if code != active {
+            text += code;
+            text.push(' ');
         }
+        text += &words;
+        if !rapid && !core::mem::replace(&mut fed, true) {
+            text += &feed;
+        }
+        text += end;
+        active = code;
     };
-    let mut text = format!("G0 {}{end}", words(&excursion.out, 0..3));
-    let turned = words(&excursion.turned, 0..5);
-    if excursion.at_rapid {
-        text.push_str(&turned);
-        text.push_str(end);
-    } else {
-        text.push_str(&feeds(turned));
-    }
+    write(excursion.leaves_at_rapid, words(&excursion.out, 0..3));
+    write(excursion.at_rapid, words(&excursion.turned, 0..5));
     match &excursion.ramp {
         Some(ramp) => {
-            text += &feeds(words(ramp, 0..3));
-            text += &feeds(words(&excursion.back, 0..5));
+            write(false, words(ramp, 0..3));
+            write(false, words(&excursion.back, 0..5));
         }
-        None => text += &feeds(words(&excursion.back, 0..3)),
+        None => write(false, words(&excursion.back, 0..3)),
     }
     let at = view.range().start;
     TextEdit {

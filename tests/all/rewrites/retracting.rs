@@ -257,3 +257,42 @@ fn what_is_not_declared_is_unknown_to_the_kernel() {
     });
     assert!(!matches!(proves(&after, &clamped, own, claim), Outcome::Proved(_)));
 }
+
+/// On a tilting head a rapid along the tool axis moves several axes. Where they may arrive at different times, the tool leaves at feed.
+#[test]
+fn a_tilted_head_leaves_the_part_at_feed() {
+    let mut machine = machine::builtin("head-table-bc").expect("built in").clone();
+    machine.obstacles = with_part().obstacles;
+    let text = "T1 M6\nTRAORI\nG0 X0 Y0 Z20 B15 C5\nG1 X0 Y0 Z5 B15 C5 S8000 M3 F400\nN30 X4 B15.1 C5.1\nN40 X5 B-15.2 C185.2\nN50 X9 B-15.3 C185.3\nM30\n";
+    let (after, _) = certified(retract(text, &on(&machine)));
+    let line = |at: usize| after.lines().nth(at).unwrap_or_default();
+    assert!(line(5).starts_with("G1 X") && !line(5).contains('B'), "{after}");
+    assert!(line(6).contains("B-15 ") && line(6).starts_with('X'), "{after}");
+    // and at rapid where they arrive together
+    machine.control.rapid = RapidPath::Synchronous;
+    let (after, _) = certified(retract(text, &on(&machine)));
+    assert!(
+        after
+            .lines()
+            .any(|line| line.starts_with("G0 X") && !line.contains('B')),
+        "{after}"
+    );
+    // another line at feed that leaves the tool's axis is not taken for it
+    let claim = Claim::InsertedRetracts {
+        tolerance_mm: 0.001,
+        tolerance_deg: 0.1,
+        clearance_mm: 1.0,
+        assumed_zeros: true,
+    };
+    let stray = text.replace("N40", "G1 X4 Y0 Z12 B15.1 C5.1\nG1 X4 Y0 Z5\nN40");
+    let settings = on(&machine);
+    let outcome = certify(
+        text.as_bytes(),
+        stray.as_bytes(),
+        settings.dialect,
+        &machine,
+        &settings.setup,
+        &claim,
+    );
+    assert!(!matches!(outcome, Outcome::Proved(_)));
+}

@@ -290,3 +290,19 @@ fn proofs_that_were_tampered_with_are_refused() {
     let other = mill(&[(&EXAMPLE[..4], 400.0)], 0.5);
     assert!(!matches!(check(&certificate, &other), Outcome::Proved(_)));
 }
+
+/// The first positioning begins nowhere in particular; it stays as it is, and so does what follows the rerouted motion in the same run.
+#[test]
+fn a_positioning_from_an_unknown_place_beside_it_does_not_matter() {
+    let machine = mill(
+        &[(&[[40.0, -100.0], [60.0, -100.0], [60.0, 100.0], [40.0, 100.0]], 35.0)],
+        1.0,
+    );
+    let settings = on(&machine, 8.0);
+    let (text, certificate) = after("G0 X0 Y0 Z10\nG0 X90\nG0 Y5\nG1 X95 F500\nM30\n", &settings);
+    assert!(text.starts_with("G0 X0 Y0 Z10\nG0 Z36\n"), "{text}");
+    assert_eq!(certificate.rapids.expect("a proof about rapids").runs, 1);
+    // and again after a cut
+    let (text, certificate) = after("G0 X0 Y0 Z10\nG0 X90\nG1 X95 F500\nG0 X0\nM30\n", &settings);
+    assert_eq!(certificate.rapids.expect("a proof about rapids").runs, 2, "{text}");
+}

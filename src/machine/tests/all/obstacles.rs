@@ -271,7 +271,11 @@ fn a_tilted_holder_that_touches_is_found() {
 fn what_is_above_a_tilted_tool_counts() {
     let clamp = Obstacle {
         axis: Some(b'C'),
-        ..prism(&[[-20.0, -120.0], [20.0, -120.0], [20.0, -70.0], [-20.0, -70.0]], 0.0, 60.0)
+        ..prism(
+            &[[-20.0, -120.0], [20.0, -120.0], [20.0, -70.0], [-20.0, -70.0]],
+            0.0,
+            60.0,
+        )
     };
     let machine = with("mikron-ucp710", clamp);
     let near = |holder_mm| {
@@ -284,5 +288,9 @@ fn what_is_above_a_tilted_tool_counts() {
         nearness(&machine, &leg, &tool, 0.0)[0].nearness
     };
     assert_eq!(near(Some((25.0, 50.0))), Nearness::Through);
-    assert!(matches!(near(None), Nearness::Unknown(why) if why.contains("not declared")), "{:?}", near(None));
+    assert!(
+        matches!(near(None), Nearness::Unknown(why) if why.contains("not declared")),
+        "{:?}",
+        near(None)
+    );
 }

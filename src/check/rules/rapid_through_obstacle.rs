@@ -101,7 +101,10 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
             }
             Nearness::Near(by) => {
                 let by = by.filter(|_| declared.is_some());
-                let distance = by.map_or_else(|| "nearer than the clearance".to_owned(), |by| format!("at {}", mm(by)));
+                let distance = by.map_or_else(
+                    || "nearer than the clearance".to_owned(),
+                    |by| format!("at {}, measured horizontally,", mm(by)),
+                );
                 out.finding_as(Warning, leg, Merge::runs(NEAR | key, -by.unwrap_or(0.0)), |draft| {
                     draft
                         .say(format!(
@@ -163,7 +166,7 @@ mod tests {
         assert_drawn(
             "gcode mill-3axis+wall",
             &format!(
-                "{TOOL}G0 G43 H1 X0 Y0 Z36\nG0 X90\nG0 Z35.5\nG0 X0\n;^^^^ rapid-through-obstacle: the tool goes through wall in rapid\nG0 X35.5 Z10\n;^^^^^^^^^^^ rapid-through-obstacle: the tool passes wall at 0.5 mm in rapid; 1 mm is to be kept\nM30\n"
+                "{TOOL}G0 G43 H1 X0 Y0 Z36\nG0 X90\nG0 Z35.5\nG0 X0\n;^^^^ rapid-through-obstacle: the tool goes through wall in rapid\nG0 X35.5 Z10\n;^^^^^^^^^^^ rapid-through-obstacle: the tool passes wall at 0.5 mm, measured horizontally, in rapid; 1 mm is to be kept\nM30\n"
             ),
         );
     }

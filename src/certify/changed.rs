@@ -98,8 +98,11 @@ fn run(programs: [&Program; 2], dialect: &Dialect, setup: &Setup, change: &Chang
     old.watch_faults();
     new.watch_faults();
     let verdict = compare_changed(&mut old, &mut new, change);
+    // an undeclared radius leaves open where the tool is: what differs after it may differ because of that alone
+    let lacks_radius = |fault: &Fault| verdict.is_err() && matches!(fault.kind.lacks(), Some(Lacks::Radius(_)));
     for (after, faults) in [(false, old.take_faults()), (true, new.take_faults())] {
-        if let Some(fault) = faults.into_iter().find(|fault| matters(fault, change)) {
+        let counts = |fault: &Fault| matters(fault, change) || lacks_radius(fault);
+        if let Some(fault) = faults.into_iter().find(counts) {
             let fault = Box::new(fault);
             return Err(Unproved::Fault { after, fault });
         }

@@ -40,7 +40,11 @@ pub(super) const COMMANDS: &[Command] = &[
     json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
     command("trace", "canon", &["canon", "FILE"]),
     command("fmt", "fmt", &["fmt", "--diff", "SHORTER"]),
-    command("fmt", "fmt-renumber", &["fmt", "--check", "--renumber", "10", "SHORTER"]),
+    command(
+        "fmt",
+        "fmt-renumber",
+        &["fmt", "--check", "--renumber", "10", "SHORTER"],
+    ),
     command("diff", "diff-itself", &["diff", "FILE", "FILE"]),
     json_command("diff", "diff-other", &["diff", "--format", "json", "FILE", "OTHER"]),
     command("diff", "certify", &["certify", "FILE", "FILE"]),

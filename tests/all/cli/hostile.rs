@@ -263,7 +263,10 @@ fn lines_over_the_bound_are_refused_whatever_ends_them() {
 #[test]
 fn fmt_reads_smaller_programs_and_says_how_to_read_larger_ones() {
     let folder = TempDir::new().expect("works");
-    let (many, large) = ("G1X1.\n".repeat(400_001), format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(160_001));
+    let (many, large) = (
+        "G1X1.\n".repeat(400_001),
+        format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(160_001),
+    );
     fs::write(folder.path().join("many.nc"), many).expect("writable");
     fs::write(folder.path().join("large.nc"), large).expect("writable");
     for (name, said, option, most) in [

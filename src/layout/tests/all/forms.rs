@@ -206,7 +206,11 @@ fn a_text_of_which_most_is_not_modelled_is_compared_as_far_as_the_bound() {
     let text = "G999X1.\n".repeat(60);
     match laid(&text, 20) {
         Layout::Refused(Refusal::Motions(why)) => {
-            assert!(why.what.contains("more than 60 actions") && why.what.contains("--max-steps"), "{}", why.what);
+            assert!(
+                why.what.contains("more than 60 actions") && why.what.contains("--max-steps"),
+                "{}",
+                why.what
+            );
             assert!(why.before.is_some_and(|block| block.0 < 59), "{:?}", why.before);
         }
         other => panic!("{other:?}"),

@@ -87,7 +87,11 @@ fn zeros_in_front_and_programs_of_one_file() {
 #[test]
 fn a_number_with_many_zeros_gets_no_more_digits_than_the_highest_one() {
     let zeros = "0".repeat(100_000);
-    for (name, first) in [("fanuc-30i", "N00000100"), ("okuma-osp", "N0100"), ("linuxcnc", "N00100")] {
+    for (name, first) in [
+        ("fanuc-30i", "N00000100"),
+        ("okuma-osp", "N0100"),
+        ("linuxcnc", "N00100"),
+    ] {
         let text = format!("N{zeros} G1 X1\nN2 X2\n");
         if let Renumbered::Changed { text, .. } = new(&text, name, 100, 10) {
             let text = String::from_utf8(text).expect("UTF-8");

@@ -63,7 +63,11 @@ pub(super) fn inputs() -> Vec<Input> {
             lines(n / 4, |i| format!("O{}\nN{i} M98 P{}\nM98 P1\nM99 P{i}", i + 1, i + 2)).into()
         }),
         Input::new("numbers-with-zeros", |n| {
-            cut(&format!("N{}1 X1.\n{}", repeat("0", n), lines(n, |i| format!("N{i} X1."))))
+            cut(&format!(
+                "N{}1 X1.\n{}",
+                repeat("0", n),
+                lines(n, |i| format!("N{i} X1."))
+            ))
         }),
         Input::new("enormous-program-number", |n| {
             format!("O{}\nM98 P{}\nM30\n", repeat("9", n), repeat("9", n)).into()

@@ -1,4 +1,5 @@
 //! The command line arguments; docs/commands.md lists the commands.
+mod bounds;
 mod check;
 mod fix;
 pub(crate) mod lines;
@@ -72,12 +73,12 @@ pub(crate) struct Global {
     /// Silence a rule (may be repeated).
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
-    /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory).
-    #[arg(long, global = true, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) max_file_mb: u64,
-    /// Refuse to read a program of more lines than this (every line takes memory, empty ones too).
-    #[arg(long, global = true, value_name = "N", default_value_t = 1_200_000, value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) max_lines: u64,
+    /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory). Default: 64; fmt: 16.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_file_mb: Option<u64>,
+    /// Refuse to read a program of more lines than this (every line takes memory, empty ones too). Default: 1200000; fmt: 400000.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_lines: Option<u64>,
     /// Stop a run that is compared, proved, converted, listed or drawn after this many executed blocks, in addition to one run of each block of the text.
     /// Default: `steps` of [limits] in trunnion.toml, else 500000.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]

@@ -164,7 +164,8 @@ type Source = (Vec<u8>, Option<Seen>);
 
 /// Bytes of a program whose blocks are all held at once: up to nine bytes of memory for each byte of it, so its size is bounded.
 pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Source, Failure> {
-    let most = global.max_file_mb;
+    let bounds = global.text_bounds();
+    let most = bounds.megabytes;
     let source = bytes(path, most.min(MOST_MEGABYTES))?.ok_or_else(|| {
         if most >= MOST_MEGABYTES {
             let text = format!("is larger than {MOST_MEGABYTES} MB, the largest size that can be read; split it");
@@ -182,8 +183,8 @@ pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Source, Failu
     let ends_line = |at: &usize| source.0[*at] == b'\n' || source.0.get(at + 1) != Some(&b'\n');
     let ends = memchr::memchr2_iter(b'\n', b'\r', &source.0).filter(ends_line);
     let lines = ends.count() as u64;
-    if lines > global.max_lines {
-        let most = global.max_lines;
+    if lines > bounds.lines {
+        let most = bounds.lines;
         let text = format!("has {lines} lines, more than {most}, and was not read; `--max-lines N` raises the limit");
         return Err(Failure::file(path, text));
     }

@@ -48,10 +48,11 @@ pub(crate) enum Done {
 
 /// Parses arguments and runs one command. 0: clean, 1: found, 2: the job could not be done.
 pub(crate) fn run() -> ExitCode {
-    let args = match Args::from_arg_matches(&help::command().get_matches()) {
+    let mut args = match Args::from_arg_matches(&help::command().get_matches()) {
         Ok(args) => args,
         Err(error) => error.exit(),
     };
+    args.global.bound_text(&args.command);
     let global = &args.global;
     let result = match &args.command {
         Command::Check(command) => check::run(global, command),

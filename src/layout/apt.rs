@@ -17,6 +17,13 @@ pub(crate) fn stays(program: &Program, block: &Block<'_>) -> bool {
         })
 }
 
+/// Whether a statement ends with `$` and what follows it, so that a line end behind it would belong to that.
+pub(crate) fn continues(program: &Program, block: &Block<'_>) -> bool {
+    let table = program.tokens();
+    let mut kinds = block.tokens().rev().map(|id| table.kind(id));
+    kinds.find(|kind| *kind != TokenKind::Blank) == Some(TokenKind::Continuation)
+}
+
 /// Appends the statement without its line end.
 pub(crate) fn write(program: &Program, block: &Block<'_>, out: &mut Vec<u8>) {
     if stays(program, block) {

@@ -53,8 +53,16 @@ impl Reader<'_, '_> {
                 self.behind_return(&code, pieces.get(at + 1), &place);
             }
         }
+        if texts.is_empty() {
+            return;
+        }
+        let shown = self.shown();
         for text in texts {
-            self.inside_text(text);
+            // neither they nor the texts overlap
+            let before = shown.partition_point(|item| item.start <= text.start);
+            if before == 0 || shown[before - 1].end < text.end {
+                self.inside_text(text);
+            }
         }
     }
 
@@ -127,9 +135,6 @@ impl Reader<'_, '_> {
 
     /// Numbers of blocks in a text: `CYCLE95("N25:N35")`, `EXECSTRING("GOTOF N35")`.
     fn inside_text(&mut self, range: TextRange) {
-        if self.is_shown(range) {
-            return;
-        }
         let text = self.program.bytes(range).to_ascii_uppercase();
         let pieces = pieces(&text);
         let written = self.text(range);
@@ -167,19 +172,22 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Whether a text is a message, or the name of a tool.
-    fn is_shown(&self, text: TextRange) -> bool {
-        self.block.items().any(|item| match item {
-            Item::Call(call) if call.range.start <= text.start && text.end <= call.range.end => {
+    /// Where the texts of the block are messages, or names of tools.
+    fn shown(&self) -> Vec<TextRange> {
+        let shown = |item| match item {
+            Item::Call(call) => {
                 let name = self.text(call.name);
-                SHOWS.iter().any(|shows| name.eq_ignore_ascii_case(shows))
+                let shows = SHOWS.iter().any(|shows| name.eq_ignore_ascii_case(shows));
+                shows.then_some(call.range)
             }
-            Item::Word(word) if word.range.start <= text.start && text.end <= word.range.end => {
-                word.address == Address::Letter(b'T')
-                    || matches!(word.address, Address::Named(name) if self.text(name).eq_ignore_ascii_case("T"))
+            Item::Word(word) => {
+                let is_tool = word.address == Address::Letter(b'T')
+                    || matches!(word.address, Address::Named(name) if self.text(name).eq_ignore_ascii_case("T"));
+                is_tool.then_some(word.range)
             }
-            _ => false,
-        })
+            _ => None,
+        };
+        self.block.items().filter_map(shown).collect()
     }
 }
 

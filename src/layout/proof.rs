@@ -18,7 +18,9 @@ pub fn first_difference(
     let longest = before.blocks().map(|block| block.range().as_usize().len() as u64).max();
     let share = longest.unwrap_or(0).div_ceil(Limits::BYTES_PER_BLOCK).max(1);
     let most_blocks = (steps / share).saturating_add(before.block_count() as u64);
-    // this proof has its own bound, which includes the blocks of the text; actions other than motions have the same
+    // what is refused or not modelled takes long to compare
+    let most_actions = steps.max(before.block_count() as u64);
+    // the interpreters have a larger bound, which includes the blocks of the text
     setup.limits.blocks = steps.saturating_add(before.block_count() as u64).saturating_mul(4);
     setup.limits.steps = setup.limits.blocks;
     let input = |program| Input {
@@ -31,6 +33,7 @@ pub fn first_difference(
         exact: Some(Exact {
             frees_block_numbers: renumbered,
             most_blocks,
+            most_actions,
         }),
         ..Claim::STRICT
     };

@@ -4,7 +4,7 @@ use crate::data_entry::{data_entries, is_data};
 use crate::proof::first_difference;
 use crate::references::{Call, Found, Obstacle, Reference, begins_program, own_number, read};
 use core::ops::Range;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
 use trunnion_same::Difference;
@@ -103,8 +103,6 @@ struct Part {
     name: i64,
     /// Blocks that have the number; more than one where it is there twice. Numbers of data are among them: a search for a number stops there.
     blocks: BTreeMap<i64, Vec<BlockId>>,
-    /// Programs that it calls.
-    calls: Vec<i64>,
 }
 
 /// Everything that refers to block numbers.
@@ -112,6 +110,8 @@ struct Survey {
     parts: Vec<Part>,
     /// The part of each block.
     part_of: Vec<u32>,
+    /// The parts that call a program, by its number.
+    callers: BTreeMap<i64, Vec<usize>>,
     /// Blocks whose number is data.
     data: Vec<Range<u32>>,
     found: Found,
@@ -119,6 +119,13 @@ struct Survey {
 
 /// Gives a program new block numbers.
 pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Numbers) -> Renumbered {
+    if !program.options().format.has_words() {
+        let why = match program.options().format {
+            Format::Klartext => "the control numbers the blocks of a Klartext program itself",
+            Format::Apt | Format::Iso | Format::Osp => "APT statements have no block numbers",
+        };
+        return refused(TextRange::default(), why.to_owned());
+    }
     let survey = Survey::new(program, dialect);
     let (new, blocks) = match new_numbers(program, dialect, numbers, &survey) {
         Ok(new) => new,
@@ -179,16 +186,6 @@ fn new_numbers(
     numbers: Numbers,
     survey: &Survey,
 ) -> Result<(Vec<(BlockId, TextEdit)>, usize), Obstacle> {
-    if !program.options().format.has_words() {
-        return Err(Obstacle {
-            range: TextRange::default(),
-            why: match program.options().format {
-                Format::Klartext => "the control numbers the blocks of a Klartext program itself",
-                Format::Apt | Format::Iso | Format::Osp => "APT statements have no block numbers",
-            }
-            .to_owned(),
-        });
-    }
     let most = match dialect.lex.format {
         Format::Osp => MOST_OSP,
         _ if dialect.lex.blanks_in_numbers => MOST_NGC,
@@ -199,9 +196,10 @@ fn new_numbers(
         .filter(|block| !is_data(&survey.data, block.id().0))
         .filter_map(|block| Some((block.id(), own_number(&block)?.0)))
         .collect();
-    // numbers with leading zeros keep their width
+    // numbers with leading zeros keep their width, but get no more digits than the highest number
     let padded = own.iter().find(|(_, range)| program.bytes(*range).starts_with(b"0"));
-    let width = padded.map_or(0, |(_, range)| (range.end - range.start) as usize);
+    let digits = most.ilog10() + 1;
+    let width = padded.map_or(0, |(_, range)| (range.end - range.start).min(digits) as usize);
     let (mut next, mut part) = (i64::from(numbers.start), None);
     let mut new = Vec::with_capacity(own.len());
     for (block, range) in own {
@@ -229,6 +227,7 @@ impl Survey {
                 ..Part::default()
             }],
             part_of: Vec::with_capacity(program.block_count()),
+            callers: BTreeMap::new(),
             data: data_entries(program, dialect),
             found: Found::default(),
         };
@@ -244,11 +243,14 @@ impl Survey {
             survey.part_of.push(at as u32);
             let calls = survey.found.calls.len();
             read(&block, dialect, &mut survey.found);
-            let part = &mut survey.parts[at];
-            part.calls
-                .extend(survey.found.calls[calls..].iter().map(|call| call.number));
+            for call in &survey.found.calls[calls..] {
+                let callers = survey.callers.entry(call.number).or_default();
+                if callers.last() != Some(&at) {
+                    callers.push(at);
+                }
+            }
             if let Some((_, Some(number))) = own_number(&block) {
-                part.blocks.entry(number).or_default().push(block.id());
+                survey.parts[at].blocks.entry(number).or_default().push(block.id());
             }
         }
         survey
@@ -265,22 +267,21 @@ impl Survey {
 
     /// Places that may name a block of this file and are not followed.
     fn unread(&self) -> impl Iterator<Item = &Obstacle> {
-        let exists = |number: i64| self.parts.iter().any(|part| part.blocks.contains_key(&number));
-        let any = self.parts.iter().any(|part| !part.blocks.is_empty());
+        let numbers = self.parts.iter().flat_map(|part| part.blocks.keys().copied());
+        let numbers: BTreeSet<i64> = numbers.collect();
         let found = self.found.unread.iter();
         found
-            .filter(move |unread| unread.number.map_or(any, exists))
+            .filter(move |unread| {
+                let exists = |number| numbers.contains(&number);
+                unread.number.map_or(!numbers.is_empty(), exists)
+            })
             .map(|unread| &unread.obstacle)
     }
 
     fn target(&self, program: &Program, reference: &Reference) -> Result<BlockId, Obstacle> {
         let own = self.part_of[reference.block.0 as usize] as usize;
-        let callers: Vec<usize> = if reference.of_caller {
-            self.callers(own)
-        } else {
-            Vec::new()
-        };
-        let places = if callers.is_empty() { vec![own] } else { callers };
+        let callers = if reference.of_caller { self.callers(own) } else { &[] };
+        let places = if callers.is_empty() { &[own] } else { callers };
         let number = reference.number;
         let refuse = |what: String| {
             let block = program.text(program.block(reference.block).range()).trim().to_owned();
@@ -290,7 +291,7 @@ impl Survey {
             })
         };
         let mut target = None;
-        for part in &places {
+        for part in places {
             match self.parts[*part].blocks.get(&number).map(Vec::as_slice) {
                 None if reference.of_caller => {
                     return refuse(format!(
@@ -322,14 +323,14 @@ impl Survey {
     }
 
     /// Programs of the file that call a part.
-    fn callers(&self, part: usize) -> Vec<usize> {
-        let name = self.parts[part].name;
-        let calls = |other: &usize| name >= 0 && self.parts[*other].calls.contains(&name);
-        (0..self.parts.len()).filter(calls).collect()
+    fn callers(&self, part: usize) -> &[usize] {
+        let name = Some(self.parts[part].name).filter(|name| *name >= 0);
+        name.and_then(|name| self.callers.get(&name)).map_or(&[], Vec::as_slice)
     }
 
     fn called_outside(&self) -> Vec<i64> {
-        let inside = |number: &i64| self.parts.iter().any(|part| part.name == *number);
+        let names: BTreeSet<i64> = self.parts.iter().map(|part| part.name).collect();
+        let inside = |number: &i64| names.contains(number);
         let mut outside: Vec<i64> = self
             .found
             .calls

@@ -50,7 +50,7 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             apt::write(program, &block, &mut out);
         }
         let stays = || match program.options().format {
-            Format::Apt | Format::Klartext => apt::stays(program, &block),
+            Format::Apt | Format::Klartext => apt::stays(program, &block) || apt::continues(program, &block),
             Format::Iso | Format::Osp => blocks.stays(&block),
         };
         if !(own_ending.is_empty() && stays()) {

@@ -36,7 +36,11 @@ impl Actions {
 
     /// Why the run ends here, if it does.
     pub(crate) fn exceeded(&self) -> Option<String> {
-        let most = self.most;
+        self.beyond(self.most)
+    }
+
+    /// Why a comparison that follows so many ends here, if it does.
+    pub(crate) fn beyond(&self, most: u64) -> Option<String> {
         (self.done > most).then(|| {
             format!(
                 "it does more than {most} actions besides its motions (what is refused, not modelled or missing counts several times); use \

@@ -19,6 +19,8 @@ pub struct Exact {
     /// This many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
     /// larger: empty blocks of one side would make its interpreter stop before the other.
     pub most_blocks: u64,
+    /// A program whose blocks do more actions than that, besides motions, before one of them runs again is not compared to its end.
+    pub most_actions: u64,
 }
 
 /// Replaces an unknown number in comparisons; the interpreters accept no number above 1e12.
@@ -47,6 +49,13 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
     loop {
         if a.blocks.max(b.blocks) >= exact.most_blocks {
             return Ok(());
+        }
+        if let Some(why) = a.does_too_much(exact) {
+            return Err(Verdict::Unknown(Difference {
+                before: Some(reached),
+                after: None,
+                what: format!("the program is not compared to its end: {why}"),
+            }));
         }
         let (left, right) = (a.advance(), b.advance());
         reached = left.unwrap_or(reached);
@@ -113,6 +122,13 @@ impl<'r, 'a> Side<'r, 'a> {
 
     fn is_compared(&self) -> bool {
         self.items.is_empty() && self.faults.is_empty()
+    }
+
+    /// Why the rest of the text is not compared, if it is not. A loop is compared as far as it is followed.
+    fn does_too_much(&self, exact: Exact) -> Option<String> {
+        let loops = self.blocks > self.ordinals.len() as u64;
+        let why = (!loops).then(|| self.steps.run.actions.beyond(exact.most_actions));
+        why.flatten()
     }
 
     /// Runs to the end of the next block with content; `None` at the end.

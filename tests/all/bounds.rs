@@ -192,7 +192,9 @@ fn every_command_ends_on_every_hostile_program() {
                         let path = folder.join(format!("{}.nc", inputs[input].name));
                         let bytes = inputs[input].bytes(form.size);
                         let other = folder.join(commands::other(&format!("{}.nc", inputs[input].name)));
+                        let shorter = folder.join(commands::shorter(&format!("{}.nc", inputs[input].name)));
                         std::fs::write(&other, commands::changed(&bytes)).expect("written");
+                        std::fs::write(&shorter, commands::beginning(&bytes)).expect("written");
                         std::fs::write(&path, bytes).expect("written");
                         for cell in own {
                             let result = run(folder, &form, &inputs, cell);
@@ -204,6 +206,7 @@ fn every_command_ends_on_every_hostile_program() {
                         if kept.is_none() {
                             std::fs::remove_file(path).expect("removed");
                             std::fs::remove_file(other).expect("removed");
+                            std::fs::remove_file(shorter).expect("removed");
                             let scene = folder.join(commands::scene(&format!("{}.nc", inputs[input].name)));
                             let _ = std::fs::remove_file(scene);
                         }

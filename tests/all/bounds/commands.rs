@@ -7,7 +7,7 @@ use std::path::Path;
 pub(super) struct Command {
     /// Its name in the table.
     pub(super) name: &'static str,
-    /// The arguments; `FILE` is the program, `OTHER` a copy in which every second line has another number.
+    /// The arguments; `FILE` is the program, `OTHER` a copy in which every second line has another number, `SHORTER` its beginning.
     arguments: &'static [&'static str],
     /// Standard output is a JSON document.
     pub(super) json: bool,
@@ -39,8 +39,12 @@ pub(super) const COMMANDS: &[Command] = &[
     command("trace", "trace", &["trace", "FILE"]),
     json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
     command("trace", "canon", &["canon", "FILE"]),
-    command("fmt", "fmt", &["fmt", "--diff", "FILE"]),
-    command("fmt", "fmt-renumber", &["fmt", "--check", "--renumber", "10", "FILE"]),
+    command("fmt", "fmt", &["fmt", "--diff", "SHORTER"]),
+    command(
+        "fmt",
+        "fmt-renumber",
+        &["fmt", "--check", "--renumber", "10", "SHORTER"],
+    ),
     command("diff", "diff-itself", &["diff", "FILE", "FILE"]),
     json_command("diff", "diff-other", &["diff", "--format", "json", "FILE", "OTHER"]),
     command("diff", "certify", &["certify", "FILE", "FILE"]),
@@ -117,6 +121,16 @@ pub(super) fn other(file: &str) -> String {
     format!("other-{file}")
 }
 
+/// The name of the beginning of a program.
+pub(super) fn shorter(file: &str) -> String {
+    format!("shorter-{file}")
+}
+
+/// The beginning of a program, as much as `fmt` reads by default.
+pub(super) fn beginning(program: &[u8]) -> &[u8] {
+    super::inputs::cut_off(program, 16_000_000, 400_000)
+}
+
 /// The changed copy: the last digit of every second line is another one.
 pub(super) fn changed(program: &[u8]) -> Vec<u8> {
     let mut copy = program.to_vec();
@@ -131,10 +145,11 @@ pub(super) fn changed(program: &[u8]) -> Vec<u8> {
 impl Command {
     /// The arguments for a program in a dialect.
     pub(super) fn arguments(&self, file: &str, dialect: &str) -> Vec<String> {
-        let other = other(file);
+        let (other, shorter) = (other(file), shorter(file));
         let own = self.arguments.iter().map(|word| match *word {
             "FILE" => file,
             "OTHER" => other.as_str(),
+            "SHORTER" => shorter.as_str(),
             word => word,
         });
         let more: &[&str] = if self.name == "lsp" {

@@ -42,15 +42,22 @@ impl Input {
     /// The program.
     pub(super) fn bytes(&self, size: usize) -> Vec<u8> {
         let mut bytes = (self.make)(size);
-        bytes.truncate(Self::MOST_BYTES);
-        let mut ends = bytes
-            .iter()
-            .enumerate()
-            .filter(|(_, byte)| matches!(byte, b'\n' | b'\r'));
-        if let Some((end, _)) = ends.nth(Self::MOST_LINES - 2) {
-            bytes.truncate(end);
-        }
+        let length = cut_off(&bytes, Self::MOST_BYTES, Self::MOST_LINES).len();
+        bytes.truncate(length);
         bytes
+    }
+}
+
+/// The beginning of a program: no more bytes and lines than that.
+pub(super) fn cut_off(program: &[u8], bytes: usize, lines: usize) -> &[u8] {
+    let program = &program[..program.len().min(bytes)];
+    let mut ends = program
+        .iter()
+        .enumerate()
+        .filter(|(_, byte)| matches!(byte, b'\n' | b'\r'));
+    match ends.nth(lines - 2) {
+        Some((end, _)) => &program[..end],
+        None => program,
     }
 }
 

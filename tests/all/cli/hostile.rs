@@ -260,6 +260,31 @@ fn lines_over_the_bound_are_refused_whatever_ends_them() {
     }
 }
 
+#[test]
+fn fmt_reads_smaller_programs_and_says_how_to_read_larger_ones() {
+    let folder = TempDir::new().expect("works");
+    let (many, large) = (
+        "G1X1.\n".repeat(400_001),
+        format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(160_001),
+    );
+    fs::write(folder.path().join("many.nc"), many).expect("writable");
+    fs::write(folder.path().join("large.nc"), large).expect("writable");
+    for (name, said, option, most) in [
+        ("many.nc", "400001 lines, more than 400000", "--max-lines", "400001"),
+        ("large.nc", "larger than 16 MB", "--max-file-mb", "17"),
+    ] {
+        let refused = run(&folder, &["fmt", "--check", name]);
+        let errors = text(&refused.stderr);
+        assert_eq!(status(&refused), 2, "{errors}");
+        assert!(errors.contains(said) && errors.contains(option), "{errors}");
+        // whatever becomes of it, it is read
+        let read = run(&folder, &["fmt", "--check", name, option, most, "--dialect", "apt"]);
+        assert!(!text(&read.stderr).contains(option), "{}", text(&read.stderr));
+        let parsed = run(&folder, &["parse", name]);
+        assert_eq!(status(&parsed), 0, "{}", text(&parsed.stderr));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn input_without_an_end_is_refused() {

@@ -1,6 +1,7 @@
 //! Form by form: what goes in and what comes out.
-use crate::support::{laid, laid_with};
-use trunnion_layout::{Case, Spacing, Style, Zeros};
+use crate::support::{dialect, laid, laid_with, program};
+use trunnion_interp::Setup;
+use trunnion_layout::{Case, Layout, Refusal, Spacing, Style, Zeros, layout};
 
 #[test]
 fn words_stand_one_blank_apart_and_hold_none() {
@@ -192,4 +193,35 @@ fn a_comma_in_klartext_gets_no_nearer_to_its_number() {
     for text in ["L X+1 ,5 FMAX\n", "L X+1,5 FMAX\n"] {
         assert_eq!(laid(text, "heidenhain-klartext"), text);
     }
+}
+
+#[test]
+fn a_text_of_which_most_is_not_modelled_is_compared_as_far_as_the_bound() {
+    let dialect = dialect("fanuc-30i");
+    let laid = |text: &str, steps| {
+        let mut setup = Setup::default();
+        setup.limits.steps = steps;
+        layout(&program(text.as_bytes(), dialect), dialect, &setup, &Style::default())
+    };
+    let text = "G999X1.\n".repeat(60);
+    match laid(&text, 20) {
+        Layout::Refused(Refusal::Motions(why)) => {
+            assert!(
+                why.what.contains("more than 60 actions") && why.what.contains("--max-steps"),
+                "{}",
+                why.what
+            );
+            assert!(why.before.is_some_and(|block| block.0 < 59), "{:?}", why.before);
+        }
+        other => panic!("{other:?}"),
+    }
+    assert!(matches!(laid(&text, 1000), Layout::Changed(_)));
+    // a loop is compared as far as it is followed
+    let text = "#1=0\nWHILE[#1LT900]DO1\nG999X1.\n#1=#1+1\nEND1\nM30\n";
+    assert!(matches!(laid(text, 20), Layout::Changed(_)));
+}
+
+#[test]
+fn an_apt_text_that_ends_with_a_continuation_gets_no_line_end_in_it() {
+    assert_eq!(laid("GOTO/1,2,3\n$ Y1\r ", "apt"), "GOTO/1,2,3\n$ Y1\r");
 }

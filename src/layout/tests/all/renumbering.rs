@@ -85,6 +85,36 @@ fn zeros_in_front_and_programs_of_one_file() {
 }
 
 #[test]
+fn a_number_with_many_zeros_gets_no_more_digits_than_the_highest_one() {
+    let zeros = "0".repeat(100_000);
+    for (name, first) in [
+        ("fanuc-30i", "N00000100"),
+        ("okuma-osp", "N0100"),
+        ("linuxcnc", "N00100"),
+    ] {
+        let text = format!("N{zeros} G1 X1\nN2 X2\n");
+        if let Renumbered::Changed { text, .. } = new(&text, name, 100, 10) {
+            let text = String::from_utf8(text).expect("UTF-8");
+            assert!(text.starts_with(&format!("{first} ")), "{name}: {}", &text[..20]);
+        }
+    }
+    assert_eq!(
+        changed("N000000000005 X1\nN6 X2\n", "fanuc-30i"),
+        "N00000100 X1\nN00000110 X2\n"
+    );
+}
+
+#[test]
+fn a_program_that_is_called_twice_by_one_returns_there() {
+    assert_eq!(
+        changed("O1\nN1 M98 P2\nM98 P2\nN3 M30\nO2\nM99 P3\n", "fanuc-30i"),
+        "O1\nN100 M98 P2\nM98 P2\nN110 M30\nO2\nM99 P110\n"
+    );
+    let two = "O1\nM98 P2\nN3 M30\nO3\nM98 P2\nN3 M30\nO2\nM99 P3\n";
+    assert!(refused(two, "fanuc-30i").contains("several programs call this one"));
+}
+
+#[test]
 fn what_is_not_certain_is_refused_with_its_reason() {
     for (text, reason) in [
         ("N1 X1\nGOTO#1\n", "computed"),

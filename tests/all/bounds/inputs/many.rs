@@ -59,6 +59,16 @@ pub(super) fn inputs() -> Vec<Input> {
         }),
         Input::new("program-numbers", |n| lines(n, |i| format!("O{i}\nG1 X1.\nM99")).into()),
         Input::new("same-program-number", |n| repeat("O1\nG1 X1.\nM99\n", n).into()),
+        Input::new("programs-that-return", |n| {
+            lines(n / 4, |i| format!("O{}\nN{i} M98 P{}\nM98 P1\nM99 P{i}", i + 1, i + 2)).into()
+        }),
+        Input::new("numbers-with-zeros", |n| {
+            cut(&format!(
+                "N{}1 X1.\n{}",
+                repeat("0", n),
+                lines(n, |i| format!("N{i} X1."))
+            ))
+        }),
         Input::new("enormous-program-number", |n| {
             format!("O{}\nM98 P{}\nM30\n", repeat("9", n), repeat("9", n)).into()
         }),

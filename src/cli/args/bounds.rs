@@ -1,0 +1,43 @@
+//! How large a program a command reads by default.
+use super::{Command, Global};
+
+/// Megabytes and lines of a program.
+#[derive(Clone, Copy)]
+pub(crate) struct TextBounds {
+    /// `--max-file-mb`.
+    pub(crate) megabytes: u64,
+    /// `--max-lines`.
+    pub(crate) lines: u64,
+}
+
+impl TextBounds {
+    const DEFAULT: Self = Self {
+        megabytes: 64,
+        lines: 1_200_000,
+    };
+    /// `fmt` runs the old and the new text, with `--renumber` twice, and compares each step: a line takes it many times as long as `check`.
+    const FMT: Self = Self {
+        megabytes: 16,
+        lines: 400_000,
+    };
+}
+
+impl Global {
+    /// Sets the bounds of the command where none are given.
+    pub(crate) fn bound_text(&mut self, command: &Command) {
+        let most = match command {
+            Command::Fmt(_) => TextBounds::FMT,
+            _ => TextBounds::DEFAULT,
+        };
+        self.max_file_mb.get_or_insert(most.megabytes);
+        self.max_lines.get_or_insert(most.lines);
+    }
+
+    /// How large a program is read.
+    pub(crate) fn text_bounds(&self) -> TextBounds {
+        TextBounds {
+            megabytes: self.max_file_mb.unwrap_or(TextBounds::DEFAULT.megabytes),
+            lines: self.max_lines.unwrap_or(TextBounds::DEFAULT.lines),
+        }
+    }
+}

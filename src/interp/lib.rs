@@ -74,8 +74,8 @@ pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
     FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library,
     Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation, OuterCorner, Placed, Position,
-    Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RotaryTurn, RoughingEscape, Searched, Setup, Sink, Spin, Swivel,
-    TcpCodes, TcpMistake, Tilt, Tool, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left,
+    Posture, ProgramRun, Reach, Refusal, RollPitchYaw, DrillingAxis, RotaryTurn, RoughingEscape, Searched, Setup, Sink, Spin, Swivel,
+    TcpCodes, TcpMistake, Tilt, Tool, ToolOffsets, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left,
     same_number,
 };
 pub use written::canonical_text;

@@ -274,5 +274,16 @@ impl<'d> Iso<'d> {
                 }
             }
         }
+        if !matches!(of, LengthOf::Offset(_)) {
+            self.turret_shifts([0.0; 9]);
+        }
+    }
+
+    /// The offset of a lathe's tool shifts the zero point.
+    pub(crate) fn turret_shifts(&mut self, by: [f64; 9]) {
+        if self.memory.frames.turret != by {
+            self.memory.frames.turret = by;
+            self.refresh_zero();
+        }
     }
 }

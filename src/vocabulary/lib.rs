@@ -28,6 +28,6 @@ pub use motion::{
 };
 pub use setup::{
     ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner, RollPitchYaw,
-    RotaryTurn, RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    DrillingAxis, RotaryTurn, RoughingEscape, Setup, TcpCodes, Tool, ToolOffsets, ToolShape, WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

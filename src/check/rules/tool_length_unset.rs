@@ -41,7 +41,7 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
                 "{missing} is not declared: it is unknown whether the axes that it shifts stay within their travel"
             ))
             .note(if by_turret {
-                "the last two digits of T name the offset, which shifts X and Z; it lies in the control, and no setting declares it. This covers all tools"
+                "the last two digits of T name the offset, which shifts X and Z; it lies in the control. This covers all tools"
             } else {
                 "the tool length is measured from the gauge point of the spindle to the tip, in mm"
             })

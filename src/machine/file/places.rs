@@ -1,6 +1,6 @@
 //! Positions of a machine that its control knows, for people.
 use crate::Control;
-use trunnion_interp::{AXIS_LETTERS, Position, RoughingEscape};
+use trunnion_interp::{AXIS_LETTERS, DrillingAxis, Position, RoughingEscape};
 
 /// Reference points, and the retracts of drilling cycles.
 pub(crate) fn places(control: &Control) -> Vec<String> {
@@ -64,6 +64,13 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         if let Some(value) = value {
             lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
         }
+    }
+    if let Some(axis) = control.drilling_axis {
+        let which = match axis {
+            DrillingAxis::Z => "Z",
+            DrillingAxis::AcrossPlane => "the axis across the plane",
+        };
+        lines.push(format!("in G18 and G19 drilling cycles drill along {which}"));
     }
     if let Some(escape) = control.roughing_escape {
         let how = match escape {

@@ -1,6 +1,6 @@
 //! What shops write that was once read wrongly: words that were dropped, cycles without a number, blocks that the control refuses.
 use crate::klartext::{NAME, program};
-use crate::support::{faults, lines, run_text};
+use crate::support::{faults, line, lines, run_bytes, run_text};
 
 /// Whether the run of a program reports something with this text.
 fn says(dialect: &str, text: &str, wanted: &str) -> bool {
@@ -149,6 +149,40 @@ fn drilling_in_another_plane_of_a_fanuc() {
 }
 
 #[test]
+fn drilling_in_another_plane_follows_the_declared_axis() {
+    let text = "G90 G18\nG0 X0. Y20. Z20.\nG81 X10. Y3. Z-5. R2. F100.\nX20.\nG80\n";
+    let run = |axis| {
+        let mut setup = trunnion_interp::Setup::default();
+        setup.control.drilling_axis = Some(axis);
+        run_bytes("fanuc-30i", text.as_bytes(), &setup).1.motions.iter().map(line).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        run(trunnion_interp::DrillingAxis::Z),
+        [
+            "R X0 Y20 Z20",
+            "R X10 Y3 Z20",
+            "R X10 Y3 Z2",
+            "L X10 Y3 Z-5 F100",
+            "R X10 Y3 Z20",
+            "R X20 Y3 Z20",
+            "R X20 Y3 Z2",
+            "L X20 Y3 Z-5 F100",
+            "R X20 Y3 Z20",
+        ]
+    );
+    assert_eq!(
+        run(trunnion_interp::DrillingAxis::AcrossPlane)[..5],
+        [
+            "R X0 Y20 Z20",
+            "R X10 Y20 Z-5",
+            "R X10 Y2 Z-5",
+            "L X10 Y3 Z-5 F100",
+            "R X10 Y20 Z-5",
+        ]
+    );
+}
+
+#[test]
 fn wrong_levels_and_an_address_without_its_sign() {
     let cycle = |call: &str| format!("G17 G90\nG0 X0 Y0 Z60\nS100 M3 F100\n{call}\nM30\n");
     let name = "sinumerik-840d";
@@ -163,4 +197,30 @@ fn wrong_levels_and_an_address_without_its_sign() {
         assert!(found.iter().any(|fault| fault.contains(wanted)), "{call}: {found:?}");
     }
     assert!(!says(name, &cycle("CYCLE81(50,0,2,-12)"), "CYCLE81"));
+}
+
+/// X is a radius in the setup, and the offset of each tool shifts the zero point.
+#[test]
+fn declared_offsets_of_a_lathes_tools() {
+    let text = "G21 G18 G99 G54\nT0202\nG0 X62. Z5.\nG1 Z-40. F0.2\nT0303\nG0 X62. Z5.\nG10 L10 P3 R0.4\nT0303\nG0 X60. Z4.\nT0200\nG0 X62. Z5.\nM30\n";
+    let mut setup = trunnion_interp::Setup::default();
+    let offset = |x, z| [x, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    setup.tool_offsets.0 = vec![(2, offset(-100.0, -50.0)), (3, offset(-90.0, -70.0))];
+    let log = run_bytes("fanuc-30i-lathe-a", text.as_bytes(), &setup).1;
+    let found: Vec<_> = log
+        .motions
+        .iter()
+        .map(|motion| (motion.zero[0], motion.zero[2], motion.undeclared.length, motion.end.get(2)))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (-100.0, -50.0, false, Some(5.0)),
+            (-100.0, -50.0, false, Some(-40.0)),
+            (-90.0, -70.0, false, Some(5.0)),
+            // the program has written it
+            (0.0, 0.0, true, Some(4.0)),
+            (0.0, 0.0, false, Some(5.0)),
+        ]
+    );
 }

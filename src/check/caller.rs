@@ -1,7 +1,7 @@
 //! Whether a file is a main program or a subprogram: of that, F, S, the spindle and the position may come from the program that calls it.
 use crate::coverage::{Mark, mark};
 use crate::suppress::has_code;
-use trunnion_dialect::{Dialect, Language};
+use trunnion_dialect::{Dialect, Format, Language};
 use trunnion_syntax::{Address, BlockId, Item, Program};
 
 /// What a file is, as far as its text says.
@@ -24,6 +24,14 @@ pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
         Language::UserTask => &["RTS"],
         _ => &["M99"],
     };
+    if dialect.lex.format == Format::Apt {
+        let is_end = |id| {
+            let record = program.block(BlockId(id)).record();
+            record.is_some_and(|record| record.is("FINI") || record.is("END"))
+        };
+        let ends = (0..program.block_count() as u32).rev().any(is_end);
+        return if ends { Part::Main } else { Part::Fragment };
+    }
     if dialect.quirks.language == Language::Linuxcnc && only_defines(program) {
         return Part::Called;
     }

@@ -1,7 +1,8 @@
 //! What a program is run with: tools, work offsets, bounds, parameters of the control, variables.
 use super::{CanonicalV1, Encode};
 use trunnion_interp::{
-    ClampCodes, ControlData, Limits, NamedVariables, Position, Setup, TcpCodes, Tool, ToolOffsets, ToolShape, WorkOffset,
+    ClampCodes, ControlData, Limits, NamedVariables, Position, Setup, TcpCodes, Tool, ToolOffsets, ToolShape,
+    WorkOffset,
 };
 
 // Each called program of the library has its own digest in the certificate.

@@ -5,7 +5,9 @@ use super::{CanonicalV1, Encode};
 use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
-use trunnion_interp::{DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};
+use trunnion_interp::{
+    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape,
+};
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
 

@@ -4,8 +4,8 @@ use crate::digest::{dialect_digest, machine_digest, setup_digest};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{
-    ClampCodes, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape, Setup,
-    TcpCodes, Tool, ToolShape, WorkOffset,
+    ClampCodes, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
+    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 use trunnion_machine::{Criterion, Gantry, Limits, Machine, PoleAction, PostureRule, RapidPath, Wrap};
 

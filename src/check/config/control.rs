@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
-    AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
-    RoughingEscape, TcpCodes,
+    AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position,
+    RollPitchYaw, RoughingEscape, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]

@@ -61,7 +61,10 @@ fn by_axis(values: &ByAxis, what: &str) -> Result<[f64; 9], ConfigError> {
             ));
         };
         if !value.get_ref().is_finite() {
-            return Err(at(value, format!("{what} must be a number in mm or degrees: `X = 0.0`")));
+            return Err(at(
+                value,
+                format!("{what} must be a number in mm or degrees: `X = 0.0`"),
+            ));
         }
         if value.get_ref().abs() > MOST_OFFSET {
             return Err(at(
@@ -80,18 +83,27 @@ pub(super) fn tool_offsets(file: &BTreeMap<Spanned<String>, ByAxis>) -> Result<T
     for (name, values) in file {
         let number = name.get_ref().parse().ok().filter(|number| (1..=999).contains(number));
         let Some(number) = number else {
-            let message = format!("`{}` is no number of a tool offset: write 2 = {{ X = 0, Z = 0 }}", name.get_ref());
+            let message = format!(
+                "`{}` is no number of a tool offset: write 2 = {{ X = 0, Z = 0 }}",
+                name.get_ref()
+            );
             return Err(at(name, message));
         };
         if offsets.iter().any(|(known, _)| *known == number) {
             return Err(at(name, format!("tool offset {number} is declared twice")));
         }
         let has = |axis: &str| values.keys().any(|letter| letter.get_ref() == axis);
-        if let Some(other) = values.keys().find(|letter| !["X", "Y", "Z"].contains(&letter.get_ref().as_str())) {
+        if let Some(other) = values
+            .keys()
+            .find(|letter| !["X", "Y", "Z"].contains(&letter.get_ref().as_str()))
+        {
             return Err(at(other, "a tool offset shifts X, Y and Z: `2 = { X = 0, Z = 0 }`"));
         }
         if !has("X") || !has("Z") {
-            return Err(at(name, "a tool offset needs X, as a radius, and Z: `2 = { X = 0, Z = 0 }`"));
+            return Err(at(
+                name,
+                "a tool offset needs X, as a radius, and Z: `2 = { X = 0, Z = 0 }`",
+            ));
         }
         offsets.push((number, by_axis(values, "a tool offset")?));
     }
@@ -101,4 +113,3 @@ pub(super) fn tool_offsets(file: &BTreeMap<Spanned<String>, ByAxis>) -> Result<T
 
 /// More is a slip of the keyboard, mm or degrees.
 const MOST_OFFSET: f64 = 1e6;
-

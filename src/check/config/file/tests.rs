@@ -186,7 +186,10 @@ fn offsets_of_a_lathes_tools() {
     let config = parse("[tool_offsets]\n12 = { X = -5, Z = 1 }\n2 = { X = -120.5, Y = 1, Z = -60 }\n").unwrap();
     let offsets = &config.setup.tool_offsets;
     assert_eq!(offsets.0.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [2, 12]);
-    assert_eq!(offsets.get(2).map(|values| [values[0], values[1], values[2]]), Some([-120.5, 1.0, -60.0]));
+    assert_eq!(
+        offsets.get(2).map(|values| [values[0], values[1], values[2]]),
+        Some([-120.5, 1.0, -60.0])
+    );
     assert_eq!(offsets.get(3), None);
     for (entry, wrong) in [
         ("T2 = { X = 0, Z = 0 }", "T2"),

@@ -154,7 +154,12 @@ fn drilling_in_another_plane_follows_the_declared_axis() {
     let run = |axis| {
         let mut setup = trunnion_interp::Setup::default();
         setup.control.drilling_axis = Some(axis);
-        run_bytes("fanuc-30i", text.as_bytes(), &setup).1.motions.iter().map(line).collect::<Vec<_>>()
+        run_bytes("fanuc-30i", text.as_bytes(), &setup)
+            .1
+            .motions
+            .iter()
+            .map(line)
+            .collect::<Vec<_>>()
     };
     assert_eq!(
         run(trunnion_interp::DrillingAxis::Z),
@@ -210,7 +215,14 @@ fn declared_offsets_of_a_lathes_tools() {
     let found: Vec<_> = log
         .motions
         .iter()
-        .map(|motion| (motion.zero[0], motion.zero[2], motion.undeclared.length, motion.end.get(2)))
+        .map(|motion| {
+            (
+                motion.zero[0],
+                motion.zero[2],
+                motion.undeclared.length,
+                motion.end.get(2),
+            )
+        })
         .collect();
     assert_eq!(
         found,
@@ -223,4 +235,86 @@ fn declared_offsets_of_a_lathes_tools() {
             (0.0, 0.0, false, Some(5.0)),
         ]
     );
+}
+
+#[test]
+fn what_a_fanuc_does_with_further_numbers() {
+    let name = "fanuc-30i";
+    let head = "G21 G90 G17 G94\nG0 X0. Y0. Z50.\n";
+    let run = |blocks: &str| faults(name, &format!("{head}{blocks}\nG0 X1.\n"));
+    assert!(says(name, "G54.1 P301\n", "1 to 300") && says(name, "G54 P0\n", "1 to 300"));
+    assert!(!says(name, "G54.1 P300\n", "P names") && says("haas-ngc", "G154 P100\n", "1 to 99"));
+    for code in ["G5 P10001", "G50.2", "G51.2 P1 Q1", "G80.4", "G81.4 T20 L1"] {
+        let found = run(code);
+        assert!(
+            found.iter().any(|fault| fault.contains("NotModelled")),
+            "{code}: {found:?}"
+        );
+        assert!(
+            !found.iter().any(|fault| fault.contains("UnknownCode")),
+            "{code}: {found:?}"
+        );
+    }
+    assert!(run("G5 P10000\nG5 P0").is_empty(), "{:?}", run("G5 P10000\nG5 P0"));
+    let end = run_text(name, &format!("{head}G5 P10005\nG1 Y1. F100.\n"))
+        .motions
+        .last()
+        .expect("a motion")
+        .end;
+    assert_eq!((end.get(0), end.get(1)), (None, Some(1.0)));
+}
+
+/// No source says which of them a control takes.
+#[test]
+fn a_jump_to_a_number_that_occurs_twice() {
+    let text = "G90 G21 G17 G94\n#1=0\nN20 #1=#1+1\nG0 X#1\nN20 G0 Y#1\nIF[#1 LT 2]GOTO20\n";
+    for dialect in ["fanuc-30i", "haas-ngc"] {
+        assert!(says(dialect, text, "which of the blocks N20"), "{dialect}");
+        assert!(
+            !says(dialect, &text.replacen("N20", "N21", 1), "which of the blocks"),
+            "{dialect}"
+        );
+    }
+}
+
+/// An undeclared length concerns only the axis along the tool.
+#[test]
+fn positions_with_offsets_across_the_tool() {
+    let text = "G90 G21 G17 G94 G54\nT1 M6\nG43 H1 G0 X1. Y2. Z50.\n#1=#5041\n#2=#5042\nG0 X[#1+1.] Y[#2+1.]\n#3=#5043\nG0 Z#3\n";
+    let log = run_text("fanuc-30i", text);
+    let last = log.motions.last().expect("a motion").end;
+    assert_eq!((last.get(0), last.get(1), last.get(2)), (Some(2.0), Some(3.0), None));
+}
+
+#[test]
+fn mod_of_an_okuma_is_a_function() {
+    let text = "G15 H1\nG90 G17 G94\nVC1=MOD[7,3]\nG0 X=VC1 Y=MOD[VC1+4,2]*3 Z50\n";
+    assert_eq!(lines("okuma-osp", text), ["R X1 Y3 Z50"]);
+    assert!(!says("okuma-osp", text, "MOD"));
+}
+
+/// Where a tool change leaves Z is declared; X and Y stay, and the next tool is 20 mm longer.
+#[test]
+fn a_tool_change_of_a_klartext_program() {
+    let text = "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL X+10 Y+20 Z+100 R0 FMAX M3\nTOOL CALL 2 Z S1000\nL IZ-30 FMAX\nEND PGM T MM\n";
+    let mut setup = trunnion_interp::Setup::default();
+    let mut place = trunnion_interp::Position::default();
+    place.set(2, 300.0);
+    setup.control.tool_change = Some(place);
+    for (number, length) in [(1, 50.0), (2, 70.0)] {
+        setup.tools.push(trunnion_interp::Tool {
+            number,
+            shape: None,
+            diameter_mm: None,
+            length_mm: Some(length),
+            holder_mm: None,
+        });
+    }
+    let ends = |setup: &trunnion_interp::Setup| -> Vec<String> {
+        let log = run_bytes(NAME, text.as_bytes(), setup).1;
+        log.motions.iter().map(line).collect()
+    };
+    assert_eq!(ends(&setup), ["R X10 Y20 Z100", "R X10 Y20 Z200"]);
+    setup.control.tool_change = Some(trunnion_interp::Position::default());
+    assert_eq!(ends(&setup), ["R X10 Y20 Z100", "R X10 Y20 Z50"]);
 }

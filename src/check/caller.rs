@@ -1,8 +1,8 @@
 //! Whether a file is a main program or a subprogram: of that, F, S, the spindle and the position may come from the program that calls it.
 use crate::coverage::{Mark, mark};
 use crate::suppress::has_code;
-use trunnion_dialect::{Dialect, Format, Language};
-use trunnion_syntax::{Address, BlockId, Item, Program};
+use trunnion_dialect::{Dialect, Language};
+use trunnion_syntax::{Address, BlockId, Format, Item, Program};
 
 /// What a file is, as far as its text says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

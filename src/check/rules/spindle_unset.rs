@@ -20,7 +20,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30) are judged: the
+//! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30; FINI of APT) are judged: the
 //! caller of a subprogram may start the spindle. After a code of the machine builder, and after a program that was not found,
 //! the spindle may turn, and feed motions there are not reported. Where the program starts a spindle later, the feed motions
 //! before that are one finding. Feed motions in machine coordinates, and probing, are not judged.
@@ -29,7 +29,7 @@
 //! * docs/contract.md#what-counts-as-a-cut
 use crate::cuts::{Still, StillCuts};
 use crate::prelude::*;
-use trunnion_dialect::Format;
+use trunnion_syntax::Format;
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Still(check)]);
 

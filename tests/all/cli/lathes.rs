@@ -73,18 +73,14 @@ fn a_program_with_declared_tool_offsets_passes() {
     let told = text(&output.stdout) + &text(&output.stderr);
     assert_eq!(status(&output), 0, "{told}");
     assert!(!told.contains("assuming"), "{told}");
-    write(folder.path(), "b.nc", &PLAIN.replace("G1 Z-50.", "G1 Z-50.0"));
+    write(&folder, "b.nc", &PLAIN.replace("G1 Z-50.", "G1 Z-50.0"));
     let output = trunnion_in(folder.path(), &["certify", "a.nc", "b.nc"]);
     assert!(text(&output.stdout).starts_with("PROVED"), "{}", text(&output.stdout));
     // 180 mm from the axis there are 40 mm of radius left; this tool reaches 50 mm less far
-    write(
-        folder.path(),
-        "trunnion.toml",
-        &declared.replace("X = -180", "X = -130"),
-    );
+    write(&folder, "trunnion.toml", &declared.replace("X = -180", "X = -130"));
     let output = trunnion_in(folder.path(), &["check", "a.nc"]);
     assert_eq!(status(&output), 0, "{}", text(&output.stdout));
-    write(folder.path(), "trunnion.toml", &declared.replace("X = -180", "X = -30"));
+    write(&folder, "trunnion.toml", &declared.replace("X = -180", "X = -30"));
     let output = trunnion_in(folder.path(), &["check", "a.nc"]);
     assert!(text(&output.stdout).contains("axis-limit"), "{}", text(&output.stdout));
 }

@@ -195,6 +195,14 @@ impl Apt<'_> {
         if self.core.state.tool_axis.multax() && set.is_none() {
             report.fault(range, FaultKind::AptVectorMissing);
         }
+        if let (true, None, Orientation::Vector(_, tilted)) = (self.kept.axis_fixed, set, self.core.state.orientation)
+            && (tilted - self.kept.frame.tool()).norm() > 1e-6
+        {
+            let what = "a point without a tool axis after MULTAX/OFF: whether the tool stays tilted".to_owned();
+            report.fault(range, FaultKind::NotModelled { what });
+            self.kept.axis_lost = true;
+            return Orientation::Words;
+        }
         match (set, self.core.state.orientation) {
             (Some(orientation), _) => orientation,
             (None, Orientation::Vector(_, vector)) => Orientation::Vector(Some(vector), vector),

@@ -4,8 +4,8 @@ use crate::digest::{dialect_digest, machine_digest, setup_digest};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{
-    ClampCodes, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
-    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    ClampCodes, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape, Setup,
+    TcpCodes, Tool, ToolShape, WorkOffset,
 };
 use trunnion_machine::{Criterion, Gantry, Limits, Machine, PoleAction, PostureRule, RapidPath, Wrap};
 
@@ -221,8 +221,6 @@ fn every_fact_of_a_setup_counts() {
             |s| s.control.increment_adds_frame = Some(false),
             |s| s.control.increment_adds_length = Some(true),
             |s| s.control.increment_adds_length = Some(false),
-            |s| s.control.drilling_axis = Some(DrillingAxis::Z),
-            |s| s.control.drilling_axis = Some(DrillingAxis::AcrossPlane),
             |s| s.control.tcp_codes = Some(TcpCodes::default()),
             |s| s.control.tcp_codes = Some(codes(true, false)),
             |s| s.control.tcp_codes = Some(codes(false, false)),
@@ -231,9 +229,6 @@ fn every_fact_of_a_setup_counts() {
             |s| s.control.clamp_codes[5] = Some(ClampCodes { on: 10, off: 11 }),
             |s| s.control.further_axes = b"UV".to_vec(),
             |s| s.control.length_along = Some([0.0, 0.0, 1.0]),
-            |s| s.tool_offsets.0.push((2, [0.0; 9])),
-            |s| s.tool_offsets.0.push((2, [1.0; 9])),
-            |s| s.tool_offsets.0.push((3, [1.0; 9])),
             |s| s.named_variables.0.push(("R1".to_owned(), 1.0)),
             |s| s.named_variables.0.push(("R1".to_owned(), 2.0)),
             |s| s.named_variables.0.push(("R2".to_owned(), 1.0)),

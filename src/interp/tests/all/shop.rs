@@ -318,3 +318,20 @@ fn a_tool_change_of_a_klartext_program() {
     setup.control.tool_change = Some(trunnion_interp::Position::default());
     assert_eq!(ends(&setup), ["R X10 Y20 Z100", "R X10 Y20 Z50"]);
 }
+
+/// No source says whether the tool stays tilted where the program ends its tool axes.
+#[test]
+fn points_after_the_end_of_tool_axes() {
+    let text = |axis: &str| {
+        format!("UNITS/MM\nMULTAX/ON\nFEDRAT/100\nGOTO/0,0,10,{axis}\nMULTAX/OFF\nGOTO/0,0,0\nGOTO/10,0,0\n")
+    };
+    let wanted = "whether the tool stays tilted";
+    assert!(says("apt", &text("0.6,0,0.8"), wanted));
+    assert!(!says("apt", &text("0,0,1"), wanted));
+    let last = run_text("apt", &text("0.6,0,0.8"))
+        .motions
+        .last()
+        .expect("a motion")
+        .orientation;
+    assert_eq!(last, trunnion_interp::Orientation::Words);
+}

@@ -207,10 +207,7 @@ impl<'d> Iso<'d> {
             Action::PathMode
                 if found.code.id == "G5" && words.p.index().is_some_and(|p| (10001..=10999).contains(&p)) =>
             {
-                let what = "G5 P10001 to P10999: high-speed cycle machining, whose path lies in the control".to_owned();
-                report.fault(found.range, FaultKind::NotModelled { what });
-                block.not_modelled = true;
-                self.core.forget_everything();
+                self.high_speed_cycle(found, block, report);
             }
             Action::FeedInverseTime
             | Action::FeedPerMinute
@@ -220,6 +217,13 @@ impl<'d> Iso<'d> {
             | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
+    }
+
+    fn high_speed_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
+        let what = "G5 P10001 to P10999: high-speed cycle machining, whose path lies in the control".to_owned();
+        report.fault(found.range, FaultKind::NotModelled { what });
+        block.not_modelled = true;
+        self.core.forget_everything();
     }
 
     fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {

@@ -65,13 +65,7 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
         }
     }
-    if let Some(axis) = control.drilling_axis {
-        let which = match axis {
-            DrillingAxis::Z => "Z",
-            DrillingAxis::AcrossPlane => "the axis across the plane",
-        };
-        lines.push(format!("in G18 and G19 drilling cycles drill along {which}"));
-    }
+    lines.extend(control.drilling_axis.map(drills));
     if let Some(escape) = control.roughing_escape {
         let how = match escape {
             RoughingEscape::Feed => "at the feed",
@@ -85,4 +79,13 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// Along which axis drilling cycles drill.
+fn drills(axis: DrillingAxis) -> String {
+    let which = match axis {
+        DrillingAxis::Z => "Z",
+        DrillingAxis::AcrossPlane => "the axis across the plane",
+    };
+    format!("in G18 and G19 drilling cycles drill along {which}")
 }

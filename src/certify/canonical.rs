@@ -43,6 +43,8 @@ mod setup;
 mod tags;
 
 #[cfg(test)]
+mod declared_tests;
+#[cfg(test)]
 mod dialect_tests;
 #[cfg(test)]
 mod golden_tests;

@@ -2,7 +2,7 @@
 use crate::coverage::{Mark, mark};
 use crate::suppress::has_code;
 use trunnion_dialect::{Dialect, Language};
-use trunnion_syntax::{Address, BlockId, Item, Program};
+use trunnion_syntax::{Address, BlockId, Format, Item, Program};
 
 /// What a file is, as far as its text says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +24,14 @@ pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
         Language::UserTask => &["RTS"],
         _ => &["M99"],
     };
+    if dialect.lex.format == Format::Apt {
+        let is_end = |id| {
+            let record = program.block(BlockId(id)).record();
+            record.is_some_and(|record| record.is("FINI") || record.is("END"))
+        };
+        let ends = (0..program.block_count() as u32).rev().any(is_end);
+        return if ends { Part::Main } else { Part::Fragment };
+    }
     if dialect.quirks.language == Language::Linuxcnc && only_defines(program) {
         return Part::Called;
     }

@@ -6,6 +6,7 @@ mod format;
 #[cfg(test)]
 mod message_tests;
 mod nose;
+mod offsets;
 mod tool;
 mod variables;
 

@@ -62,8 +62,10 @@ impl Merge {
 struct Run {
     show: usize,
     everywhere: bool,
-    /// Counter of the last block in it.
+    /// Counter of the last motion in it.
     sequence: u64,
+    /// The block of that motion.
+    block: Option<BlockId>,
     /// Findings with their badness; one for all blocks once `merged`.
     items: Vec<(f64, Diagnostic)>,
     merged: bool,
@@ -119,16 +121,20 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Adds a finding. `sequence` counts blocks: a run continues while it grows by one at most.
+    /// Adds a finding. `sequence` counts motions: a run continues while it grows by one at most, and in one block that makes many (a pecking cycle).
     pub(crate) fn add(&mut self, program: &Program, diagnostic: Diagnostic, merge: Option<Merge>, sequence: u64) {
         let Some(merge) = merge else {
             self.add_event(diagnostic);
             return;
         };
         let place = (diagnostic.rule, merge.key, diagnostic.status == Status::Unknown);
+        let block = program.block_at(diagnostic.range.start);
+        let again = self.again;
+        let same_block = |run: &Run| !again && block.is_some() && run.block == block;
         if let Some(run) = self.open.get_mut(&place)
-            && (merge.everywhere || sequence <= run.sequence + 1)
+            && (merge.everywhere || sequence <= run.sequence + 1 || same_block(run))
         {
+            run.block = block;
             match run.later {
                 Some(slot) => {
                     run.sequence = sequence;
@@ -143,6 +149,7 @@ impl Log {
             show: merge.show,
             everywhere: merge.everywhere,
             sequence,
+            block,
             items: Vec::new(),
             merged: false,
             worst,
@@ -211,9 +218,11 @@ impl Log {
         let Some(run) = self.open.get_mut(&place) else {
             return false;
         };
-        if !(run.everywhere || repeat.sequence <= run.sequence + 1) || !(run.merged || run.show == 1) {
+        let continues = repeat.sequence <= run.sequence + 1 || !self.again && run.block == Some(repeat.block);
+        if !(run.everywhere || continues) || !(run.merged || run.show == 1) {
             return false;
         }
+        run.block = Some(repeat.block);
         if let Some(slot) = run.later {
             run.sequence = repeat.sequence;
             return self.passes.count(slot, repeat.severity);

@@ -8,7 +8,7 @@ use super::{
 use serde_json::{Map, Value, json};
 use std::collections::VecDeque;
 use std::io::{BufWriter, Write};
-use trunnion_interp::{Fault, ModalState};
+use trunnion_interp::{Fault, FaultKind, ModalState};
 use trunnion_machine::{Leg, Machine, Row, row};
 use trunnion_planner::{Listener, Timed, time};
 use trunnion_syntax::{BlockId, LineIndex};
@@ -116,7 +116,12 @@ impl<W: Write> Listener for Tracer<'_, W> {
     }
     fn fault(&mut self, fault: Fault) {
         self.given_up = self.given_up.take().or_else(|| load::not_followed(self.loaded, &fault));
-        self.faults += 1;
+        // an undeclared offset or length is no problem of the program
+        let undeclared = matches!(
+            fault.kind,
+            FaultKind::WorkOffsetUnset { .. } | FaultKind::ToolLengthUnset { .. }
+        );
+        self.faults += usize::from(!undeclared);
     }
 }
 

@@ -35,6 +35,8 @@ pub(crate) struct AptState {
     pub(crate) axis: Option<Orientation>,
     /// The last vector could not be read, so no orientation is in effect.
     pub(crate) axis_lost: bool,
+    /// MULTAX/OFF was programmed while the tool was tilted, and no point came after it.
+    pub(crate) axis_open: bool,
     /// MULTAX/OFF was programmed: tool axes of motions are not expected until MULTAX/ON.
     pub(crate) axis_fixed: bool,
     /// Where the coordinates of the records are in the part.
@@ -184,10 +186,7 @@ impl Apt<'_> {
             b"DELAY" => return Some(self.delay(&args, report)),
             b"FEDRAT" => self.fedrat(&args, report),
             b"UNITS" | b"UNIT" => self.units(&args, report),
-            b"MULTAX" => {
-                self.kept.axis_fixed = args.has(program, "OFF");
-                self.core.state.tool_axis.set_multax(!self.kept.axis_fixed);
-            }
+            b"MULTAX" => self.multax(args.has(program, "OFF")),
             b"TLAXIS" => self.tool_axis(&args, report),
             b"SPINDL" => self.spindl(&args, report),
             b"CUTTER" => self.cutter(&args, report),

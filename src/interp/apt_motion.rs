@@ -79,6 +79,16 @@ impl Apt<'_> {
         }
     }
 
+    /// MULTAX, MULTAX/OFF: whether points have tool axes from here on.
+    pub(crate) fn multax(&mut self, off: bool) {
+        let upright = self.kept.frame.tool();
+        let orientation = self.core.state.orientation;
+        let tilted = matches!(orientation, Orientation::Vector(_, axis) if (axis - upright).norm() > 1e-6);
+        self.kept.axis_fixed = off;
+        self.kept.axis_open = off && tilted;
+        self.core.state.tool_axis.set_multax(!off);
+    }
+
     /// TLAXIS/i,j,k: the vector for what follows.
     pub(crate) fn tool_axis(&mut self, args: &Args, report: &mut Report<'_>) {
         match args.numbers() {
@@ -175,6 +185,7 @@ impl Apt<'_> {
     /// The orientation of a GOTO: its vector, else the one in effect, else straight along Z.
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
         let set = self.kept.axis.take();
+        let axis_open = std::mem::take(&mut self.kept.axis_open);
         if let Some(vector) = vector {
             let now = self.core.unit_vector(vector, true, range, report);
             let is_vector = matches!(now, Orientation::Vector(..));
@@ -194,6 +205,12 @@ impl Apt<'_> {
         }
         if self.core.state.tool_axis.multax() && set.is_none() {
             report.fault(range, FaultKind::AptVectorMissing);
+        }
+        if axis_open && set.is_none() {
+            let what = "a point without a tool axis after MULTAX/OFF: whether the tool stays tilted".to_owned();
+            report.fault(range, FaultKind::NotModelled { what });
+            self.kept.axis_lost = true;
+            return Orientation::Words;
         }
         match (set, self.core.state.orientation) {
             (Some(orientation), _) => orientation,

@@ -203,6 +203,12 @@ impl<'d> Iso<'d> {
             }
             Action::ProgramStop => block.stops_program = Some(found.code.id != "M0"),
             Action::PathMode if found.with_arguments && found.code.id == "CYCLE832" => self.high_speed(found, report),
+            // B-63944EN, high-speed cycle machining: P calls a cycle from P10001 on, whose data lie in the control
+            Action::PathMode
+                if found.code.id == "G5" && words.p.index().is_some_and(|p| (10001..=10999).contains(&p)) =>
+            {
+                self.high_speed_cycle(found, block, report);
+            }
             Action::FeedInverseTime
             | Action::FeedPerMinute
             | Action::FeedPerRevolution
@@ -211,6 +217,13 @@ impl<'d> Iso<'d> {
             | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }
+    }
+
+    fn high_speed_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
+        let what = "G5 P10001 to P10999: high-speed cycle machining, whose path lies in the control".to_owned();
+        report.fault(found.range, FaultKind::NotModelled { what });
+        block.not_modelled = true;
+        self.core.forget_everything();
     }
 
     fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {

@@ -8,7 +8,7 @@ use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::values::number;
 use crate::words::{Number, WordValue, Words};
-use crate::{Argument, Effect, FaultKind, Motion, MotionKind, Position, Refusal};
+use crate::{Argument, Effect, FaultKind, Feed, Motion, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
@@ -23,6 +23,8 @@ struct Waiting {
     letter: u8,
     /// mm.
     size: f64,
+    /// FRC: the feed of the corner alone, in the unit of F.
+    feed: Option<f64>,
 }
 
 /// See the module.
@@ -30,6 +32,8 @@ struct Waiting {
 pub(crate) struct Corners {
     /// The corner word of the current block: letter and mm.
     pub(crate) word: Option<(u8, f64)>,
+    /// FRC of the current block.
+    feed: Option<f64>,
     waiting: Option<Box<Waiting>>,
     /// Why the motion that now ends at a corner begins at an unknown point: the corner before it is not followed.
     lost: Option<String>,
@@ -50,6 +54,8 @@ pub(crate) struct Cut {
     pub(crate) by: f64,
     /// A lathe: no word moves the third axis.
     no_height: bool,
+    /// The feed of the corner, where it is not that of the motion before.
+    feed: Option<Feed>,
 }
 
 /// A position in the plane; an unknown height is taken as 0, like Y of a lathe that has none.
@@ -138,9 +144,16 @@ impl Iso<'_> {
             self.cut_corner(*waiting, &mut pending, on, report);
         }
         let tolerant = self.core.dialect.quirks.declares_names();
+        let feed = self.memory.corners.feed.take();
         match self.memory.corners.word.take() {
             Some((letter, size)) if motion.is_feed() || tolerant => {
-                self.memory.corners.waiting = Some(Box::new(Waiting { pending, letter, size }));
+                let waiting = Waiting {
+                    pending,
+                    letter,
+                    size,
+                    feed,
+                };
+                self.memory.corners.waiting = Some(Box::new(waiting));
             }
             word => {
                 if word.is_some() {
@@ -173,6 +186,7 @@ impl Iso<'_> {
         let modal = (rounding != 0.0 && words.axes.any()).then_some((b'R', rounding));
         let word = own.map(|(letter, size)| (letter, size * unit)).or(modal);
         self.memory.corners.word = word.filter(|(_, size)| *size != 0.0 && !words.forgets_all);
+        self.memory.corners.feed = self.memory.own.path.corner_feed();
     }
 
     fn no_corner(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
@@ -205,8 +219,17 @@ impl Iso<'_> {
         let ways = flat(&before.0, axes).zip(flat(&next.0, axes));
         let lathe = self.core.dialect.quirks.diameter && axes[2] == 1;
         let no_height = lathe && before.0.end.get(1).is_none() && next.0.end.get(1).is_none();
+        let unit = before.1.feed.unit_mm();
+        let feed = waiting.feed.and_then(|feed| match before.0.feed {
+            Feed::PerMinute(_) => Some(Feed::PerMinute(feed * unit)),
+            Feed::PerRevolution(_) => Some(Feed::PerRevolution(feed * unit)),
+            _ => None,
+        });
+        // without its own feed it is not told which of both blocks gives it
+        let fed = feed.is_some() || waiting.feed.is_none() && before.0.feed == next.0.feed;
         let cut = ways.map(|(first, second)| Cut {
             no_height,
+            feed,
             ..Cut::new(axes, first, second, waiting.letter, waiting.size)
         });
         let fits = cut.as_ref().zip(ways).map(|(cut, (first, second))| {
@@ -216,7 +239,7 @@ impl Iso<'_> {
             Some(true)
                 if tolerant
                     && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
-                    && !self.is_plain_corner(&before.0, &next.0, report) =>
+                    && !(fed && self.is_plain_corner(&before.0, &next.0, report)) =>
             {
                 Some("whose feed or settings are those of another block")
             }
@@ -262,7 +285,7 @@ impl Iso<'_> {
         on.push(before);
     }
 
-    /// Whether it does not matter which of the two blocks of a corner gives it its feed and settings, and no block is between them: which
+    /// Whether it does not matter which of the two blocks of a corner gives it its settings, and no block is between them: which
     /// one does is machine data (20201 CHFRND_MODE_MASK), and how many may be between (20200 CHFRND_MAXNUM_DUMMY_BLOCKS).
     fn is_plain_corner(&self, before: &Motion, next: &Motion, report: &Report<'_>) -> bool {
         let words = report.program.block(report.block);
@@ -270,8 +293,7 @@ impl Iso<'_> {
             Address::Letter(letter) => matches!(letter, b'N' | b'G' | b'X' | b'Y' | b'Z' | b'F' | b'I' | b'J' | b'K'),
             Address::Indexed(..) | Address::Named(_) => true,
         };
-        before.feed == next.feed
-            && next.block.0 == before.block.0 + 1
+        next.block.0 == before.block.0 + 1
             && !self.memory.own.path.sets_rounding()
             && words.words().all(|word| plain(&word))
     }
@@ -294,6 +316,7 @@ impl Cut {
             turn,
             by,
             no_height: false,
+            feed: None,
         }
     }
     pub(crate) fn apply(
@@ -318,6 +341,7 @@ impl Cut {
         on.push(before);
         link.0.start = link.0.end;
         link.0.end = next.0.start;
+        link.0.feed = self.feed.unwrap_or(link.0.feed);
         link.0.kind = if round {
             let mut normal = Vec3::zeros();
             normal[self.axes[2]] = 1.0;

@@ -111,8 +111,8 @@ impl<'d> Iso<'d> {
             }
             let position = self.core.state.position;
             let here = self.memory.frames.programmed(&position);
-            let axis = crate::arc::plane_axes(self.core.state.coordinates.plane())[2];
-            self.memory.cycle.hole = Hole::from(here.get(axis));
+            let initial = self.drilling_axis().and_then(|axis| here.get(axis));
+            self.memory.cycle.hole = Hole::from(initial);
         }
         if action.is_pass_cycle() && self.core.state.motion != Some(action) {
             self.memory.cycle.pass = [Stored::Nothing; 3];

@@ -70,6 +70,8 @@ pub(crate) struct Frames {
     pub(crate) local: [f64; 9],
     /// Offset of all zero points, written by G10 L2 P0.
     pub(crate) external: [f64; 9],
+    /// Declared offset of a lathe's tool.
+    pub(crate) turret: [f64; 9],
     /// Work offsets that the program has written, by name.
     pub(crate) written: Vec<(Box<str>, OffsetValues)>,
     /// Tool offsets that the program has written.
@@ -169,7 +171,7 @@ impl Frames {
     }
     /// Everything that is added to the selected zero point.
     pub(crate) fn added(&self, axis: usize) -> f64 {
-        self.external[axis] + self.shift[axis] + self.local[axis]
+        self.external[axis] + self.shift[axis] + self.local[axis] + self.turret[axis]
     }
 }
 

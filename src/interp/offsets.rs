@@ -5,7 +5,7 @@ use crate::frames::OffsetValues;
 use crate::iso::Iso;
 use crate::tools::Chosen;
 use crate::words::{WordValue, Words};
-use crate::{FaultKind, LengthOf, Tool, Undeclared};
+use crate::{FaultKind, LengthOf, Refusal, Tool, Undeclared};
 use std::sync::Arc;
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
@@ -23,7 +23,22 @@ impl<'d> Iso<'d> {
             let code = self
                 .additional_offsets()
                 .filter(|code| code.split('.').next() == Some(&name));
-            name = format!("{} P{p}", code.unwrap_or(&name));
+            let code = code.unwrap_or(&name);
+            // Series 30i operator's manual, additional workpiece coordinate systems: P1 to P48, or to P300; Haas 96-8210, G154
+            let most = if code == "G154" { 99 } else { 300 };
+            if !(1..=most).contains(&p) {
+                let message = format!("{code} P{p}: P names an additional work offset, 1 to {most}");
+                let kind = FaultKind::Rejected {
+                    refusal: Refusal::Other,
+                    message,
+                    alarm: None,
+                };
+                report.fault(found.range, kind);
+                self.set_zero(None, OffsetValues::default());
+                self.core.forget_position();
+                return;
+            }
+            name = format!("{code} P{p}");
         }
         let zero = self.offset_values(&name);
         if zero.is_none() && self.core.offsets_reported.first(&name) {
@@ -273,6 +288,17 @@ impl<'d> Iso<'d> {
                     *value -= change * along;
                 }
             }
+        }
+        if !matches!(of, LengthOf::Offset(_)) {
+            self.turret_shifts([0.0; 9]);
+        }
+    }
+
+    /// The offset of a lathe's tool shifts the zero point.
+    pub(crate) fn turret_shifts(&mut self, by: [f64; 9]) {
+        if self.memory.frames.turret != by {
+            self.memory.frames.turret = by;
+            self.refresh_zero();
         }
     }
 }

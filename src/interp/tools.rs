@@ -229,8 +229,8 @@ impl Iso<'_> {
         }
     }
 
-    /// The offset that the last two digits of T name: it shifts X and Z (FANUC B-64114EN/01, p. 194: the offset vector of the tool), lies in the control, and
-    /// nothing declares it. 00 is none.
+    /// The offset that the last two digits of T name: it shifts X and Z (FANUC B-64114EN/01, p. 194: the offset vector of the tool). It lies in the
+    /// control: the setup declares it, unless the program writes it. 00 is none.
     fn turret_offset(&mut self, words: &Words, report: &mut Report<'_>) {
         let number = words
             .tool
@@ -240,8 +240,17 @@ impl Iso<'_> {
         if number == Some(0) {
             self.set_length(None, LengthOf::Nothing);
         } else {
-            let key = number.map_or_else(|| "offset".to_owned(), |number| format!("offset {number}"));
-            self.take_length(None, (&key, LengthOf::Offset(number)), report.whole(), report);
+            let of = LengthOf::Offset(number);
+            let written = number.is_some_and(|number| self.tool_offset(number).is_some());
+            let declared = number.and_then(|number| self.core.setup.tool_offsets.get(number));
+            let declared = declared.filter(|_| !written);
+            self.turret_shifts(declared.unwrap_or_default());
+            if declared.is_some() {
+                self.set_length(Some(0.0), of);
+            } else {
+                let key = number.map_or_else(|| "offset".to_owned(), |number| format!("offset {number}"));
+                self.take_length(None, (&key, of), report.whole(), report);
+            }
         }
         if before != self.core.state.length.of() {
             // the axes stand still, or travel the change of length, which is unknown

@@ -124,7 +124,10 @@ impl Scan<'_> {
             TokenKind::Hash => self.parameter(at, sink),
             TokenKind::BracketOpen | TokenKind::ParenOpen => self.group(at, sink),
             TokenKind::Word | TokenKind::Letter => self.index(at + 1, sink),
-            TokenKind::Name if !is_one_of(self.text(at), &BINARY) => {
+            // MOD of an Okuma is a function
+            TokenKind::Name
+                if !is_one_of(self.text(at), &BINARY) || self.is_osp() && is_one_of(self.text(at), &["MOD"]) =>
+            {
                 let end = self.name_end(at);
                 let bracket = self.skip_blank(end);
                 match self.kind(bracket) {

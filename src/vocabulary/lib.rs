@@ -27,7 +27,7 @@ pub use motion::{
     Ways,
 };
 pub use setup::{
-    ControlData, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner, RollPitchYaw,
-    RotaryTurn, RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner,
+    RollPitchYaw, RotaryTurn, RoughingEscape, Setup, TcpCodes, Tool, ToolOffsets, ToolShape, WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

@@ -110,6 +110,15 @@ pub enum RoughingEscape {
     Rapid,
 }
 
+/// The axis along which drilling cycles of a Fanuc drill in another plane than G17 (parameter FXY).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrillingAxis {
+    /// Always Z.
+    Z,
+    /// That across the plane: Y under G18, X under G19.
+    AcrossPlane,
+}
+
 /// How cutter compensation goes around an outer corner (Fanuc parameter 19607.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OuterCorner {
@@ -194,6 +203,8 @@ pub struct ControlData {
     /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and in which direction (1 or -1), Q moves the stopped tool off the wall (Fanuc
     /// parameter 5148, Haas setting 27); `None`: not declared, X Y are unknown while it is off the wall.
     pub bore_shift: Option<(usize, f64)>,
+    /// Which axis drills in G18 and G19 on a Fanuc mill; `None`: not declared, such cycles are unknown.
+    pub drilling_axis: Option<DrillingAxis>,
     /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short motion is unknown.
     pub roughing_escape: Option<RoughingEscape>,
     /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: unknown.
@@ -255,6 +266,8 @@ pub struct Setup {
     pub tools: Vec<Tool>,
     /// Declared work offsets.
     pub work_offsets: Vec<WorkOffset>,
+    /// Declared offsets of the tools of a lathe.
+    pub tool_offsets: ToolOffsets,
     /// Bounds of the run. Blocks of the program itself, each once, are always within them.
     pub limits: Limits,
     /// Programs that this one may call.
@@ -277,6 +290,19 @@ pub struct Setup {
 /// (Klartext), `V1`, `VC1` (Okuma), `#<_name>` (LinuxCNC). Each language reads its own. In program units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NamedVariables(pub Vec<(String, f64)>);
+
+/// Offsets that T of a lathe names with its last two digits, sorted by number, each once: by how much the axes stand further than the
+/// coordinates say, mm in the order of `AXIS_LETTERS`, X as a radius as in [`WorkOffset`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ToolOffsets(pub Vec<(u32, [f64; 9])>);
+
+impl ToolOffsets {
+    /// That of a number, where it is declared.
+    pub fn get(&self, number: u32) -> Option<[f64; 9]> {
+        let found = self.0.iter().find(|(known, _)| *known == number);
+        found.map(|(_, values)| *values)
+    }
+}
 
 impl Setup {
     /// A declared work offset by its name, in either case.

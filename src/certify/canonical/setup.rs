@@ -1,13 +1,15 @@
 //! What a program is run with: tools, work offsets, bounds, parameters of the control, variables.
 use super::{CanonicalV1, Encode};
 use trunnion_interp::{
-    ClampCodes, ControlData, Limits, NamedVariables, Position, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    ClampCodes, ControlData, Limits, NamedVariables, Position, Setup, TcpCodes, Tool, ToolOffsets, ToolShape,
+    WorkOffset,
 };
 
 // Each called program of the library has its own digest in the certificate.
 record! {
     Setup {
         tools = 1, work_offsets = 2, limits = 3, control = 4, variables = 5, named_variables = 6,
+        tool_offsets = 34,
     } without {
         // no proof asks for the others
         library, unnamed_stand, enter_definitions,
@@ -52,7 +54,7 @@ record! {
         tcp_codes = 11, clamp_codes = 12, further_axes = 13, length_along = 14, reference_points = 15,
         absent_axis = 16, roughing_retract_mm = 17, thread_least_cut_mm = 18, thread_finish_mm = 19,
         tool_change = 20, power_on = 21, spline_arcs_mm = 22, frame_angles = 23, increment_adds_frame = 26,
-        increment_adds_length = 27,
+        increment_adds_length = 27, drilling_axis = 34,
     } without {
         // of the machine, which is encoded as a whole
         has_rotary, axes_declared, rotary_turns, x_diameter,
@@ -61,6 +63,15 @@ record! {
 
 /// Left out where there are none, as in older versions.
 impl Encode for NamedVariables {
+    fn encode(&self, out: &mut CanonicalV1) {
+        self.0.encode(out);
+    }
+    fn is_nothing(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl Encode for ToolOffsets {
     fn encode(&self, out: &mut CanonicalV1) {
         self.0.encode(out);
     }

@@ -5,7 +5,9 @@ use super::{CanonicalV1, Encode};
 use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
-use trunnion_interp::{FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape};
+use trunnion_interp::{
+    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape,
+};
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
 
@@ -49,6 +51,7 @@ tags! { PostureRule { Generic = 1, Shortest = 2, Fanuc = 3, Mitsubishi = 4, Heid
 tags! { ImplicitDecimals { LeastIncrement = 1, Calculator = 2 } }
 tags! { LengthUnit { Millimetre = 1, Inch = 2 } }
 tags! { RoughingEscape { Feed = 1, Rapid = 2 } }
+tags! { DrillingAxis { Z = 1, AcrossPlane = 2 } }
 tags! { OuterCorner { Lines = 1, Arc = 2 } }
 tags! { RollPitchYaw { Fixed = 1, Turned = 2 } }
 

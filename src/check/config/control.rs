@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
-    AxisLetter, ControlData, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw,
-    RoughingEscape, TcpCodes,
+    AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position,
+    RollPitchYaw, RoughingEscape, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -51,6 +51,13 @@ enum Escape {
     Rapid,
 }
 
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Drilling {
+    Z,
+    AcrossPlane,
+}
+
 /// `tcp_codes = { on = ["M428"], off = ["M429"] }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -72,6 +79,7 @@ pub(super) struct FileControl {
     chip_break_retract: Option<Spanned<f64>>,
     peck_clearance: Option<Spanned<f64>>,
     bore_shift: Option<Spanned<String>>,
+    drilling_axis: Option<Drilling>,
     roughing_escape: Option<Escape>,
     thread_pull_out: Option<Spanned<f64>>,
     roughing_retract: Option<Spanned<f64>>,
@@ -136,6 +144,10 @@ impl FileControl {
             chip_break_retract_mm: length("chip_break_retract", self.chip_break_retract.as_ref())?,
             peck_clearance_mm: length("peck_clearance", self.peck_clearance.as_ref())?,
             bore_shift: self.bore_shift.as_ref().map(bore_shift).transpose()?,
+            drilling_axis: self.drilling_axis.map(|axis| match axis {
+                Drilling::Z => DrillingAxis::Z,
+                Drilling::AcrossPlane => DrillingAxis::AcrossPlane,
+            }),
             roughing_escape: self.roughing_escape.map(|escape| match escape {
                 Escape::Feed => RoughingEscape::Feed,
                 Escape::Rapid => RoughingEscape::Rapid,
@@ -273,7 +285,7 @@ mod tests {
 
     #[test]
     fn a_whole_section_is_read() {
-        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
+        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
                     outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
@@ -281,6 +293,7 @@ mod tests {
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
         assert_eq!(control.bore_shift, Some((1, -1.0)));
+        assert_eq!(control.drilling_axis, Some(trunnion_interp::DrillingAxis::AcrossPlane));
         assert_eq!(control.roughing_escape, Some(RoughingEscape::Rapid));
         assert_eq!(control.thread_pull_out, Some(1.2));
         assert_eq!(control.outer_corner, OuterCorner::Arc);
@@ -308,6 +321,7 @@ mod tests {
             ("[control]\nunits = \"cm\"", "\"cm\""),
             ("[control]\npeck_clearance = -1", "-1"),
             ("[control]\nbore_shift = \"X\"", "\"X\""),
+            ("[control]\ndrilling_axis = \"y\"", "\"y\""),
             ("[control]\nroughing_escape = \"slow\"", "\"slow\""),
             ("[control]\nthread_pull_out = -0.1", "-0.1"),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),

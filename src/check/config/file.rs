@@ -1,11 +1,11 @@
 //! The text of `trunnion.toml`: every unknown key, unknown name and value out of range is an error with its place.
 use super::control::KnownDialect;
-use super::{Config, ConfigError, RuleLevel, TOLERANCES, nose, tool};
+use super::{Config, ConfigError, RuleLevel, TOLERANCES, nose, offsets, tool};
 use crate::{Severity, did_you_mean, or_known};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
-use trunnion_interp::{AXIS_LETTERS, AxisLetter, Tool, WorkOffset};
+use trunnion_interp::Tool;
 
 /// More executed blocks than these are not allowed: at some millions a second they take an hour.
 const MOST_BLOCKS: u64 = 10_000_000_000;
@@ -45,7 +45,9 @@ struct File {
     #[serde(default)]
     fix: super::fix::FileFix,
     #[serde(default)]
-    work_offsets: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<f64>>>,
+    work_offsets: BTreeMap<Spanned<String>, offsets::ByAxis>,
+    #[serde(default)]
+    tool_offsets: BTreeMap<Spanned<String>, offsets::ByAxis>,
 }
 
 #[derive(Default, Deserialize)]
@@ -142,8 +144,9 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         config.offset_axes.extend(axes);
         let given = values.keys().filter_map(|axis| axis.get_ref().bytes().next()).collect();
         config.offsets.push((name.span(), name.get_ref().clone(), given));
-        config.setup.work_offsets.push(work_offset(&name, &values)?);
+        config.setup.work_offsets.push(offsets::work_offset(&name, &values)?);
     }
+    config.setup.tool_offsets = offsets::tool_offsets(&file.tool_offsets)?;
     Ok(config)
 }
 
@@ -316,73 +319,6 @@ fn holder(written: Option<&Spanned<toml::Value>>) -> Result<Option<f64>, ConfigE
         )),
     }
 }
-
-/// Whether some dialect has a settable work offset of this name, as the interpreter spells it.
-fn is_work_offset(name: &str) -> bool {
-    let name = name.to_ascii_uppercase();
-    let number = |text: &str| -> Option<u32> {
-        let digits = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()) && !text.starts_with('0');
-        if digits { text.parse().ok() } else { None }
-    };
-    if let Some(preset) = name.strip_prefix("PRESET ") {
-        return preset == "0" || number(preset).is_some();
-    }
-    let Some(code) = name.strip_prefix('G') else {
-        return false;
-    };
-    if let Some(system) = code.strip_prefix("15 H") {
-        return number(system).is_some();
-    }
-    if let Some(further) = code.strip_prefix("54.1 P").or_else(|| code.strip_prefix("154 P")) {
-        return number(further).is_some();
-    }
-    matches!(code, "59.1" | "59.2" | "59.3")
-        || number(code).is_some_and(|code| matches!(code, 54..=59 | 110..=129 | 500 | 505..=599))
-}
-
-fn work_offset(
-    name: &Spanned<String>,
-    values: &BTreeMap<Spanned<String>, Spanned<f64>>,
-) -> Result<WorkOffset, ConfigError> {
-    if !is_work_offset(name.get_ref()) {
-        let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599, G500, of a Haas G110 to G129 and G154 P1 and so on, of a HEIDENHAIN \
-                     \"preset 1\" and so on, of an Okuma \"G15 H1\" and so on";
-        return Err(at(
-            name,
-            format!("`{}` is not a work offset; known are {known}", name.get_ref()),
-        ));
-    }
-    let mut offset = WorkOffset {
-        name: name.get_ref().clone(),
-        values: [0.0; AXIS_LETTERS.len()],
-    };
-    for (letter, value) in values {
-        let axis = match letter.get_ref().as_bytes() {
-            [letter] => AxisLetter::new(*letter),
-            _ => None,
-        };
-        let Some(axis) = axis else {
-            return Err(at(
-                letter,
-                format!("`{}` is not an axis; the axes are X Y Z A B C U V W", letter.get_ref()),
-            ));
-        };
-        if !value.get_ref().is_finite() {
-            return Err(at(value, "a work offset must be a number in mm or degrees: `X = 0.0`"));
-        }
-        if value.get_ref().abs() > MOST_OFFSET {
-            return Err(at(
-                value,
-                "a work offset must be at most 1000000 mm or degrees: no machine is larger",
-            ));
-        }
-        offset.values[usize::from(axis.0)] = *value.get_ref();
-    }
-    Ok(offset)
-}
-
-/// More is a slip of the keyboard, mm or degrees.
-const MOST_OFFSET: f64 = 1e6;
 
 #[cfg(test)]
 mod tests;

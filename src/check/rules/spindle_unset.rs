@@ -20,7 +20,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30) are judged: the
+//! Sound; one finding per program, at the first feed motion. Only programs with a program end (M2, M30; FINI of APT) are judged: the
 //! caller of a subprogram may start the spindle. After a code of the machine builder, and after a program that was not found,
 //! the spindle may turn, and feed motions there are not reported. Where the program starts a spindle later, the feed motions
 //! before that are one finding. Feed motions in machine coordinates, and probing, are not judged.
@@ -29,18 +29,23 @@
 //! * docs/contract.md#what-counts-as-a-cut
 use crate::cuts::{Still, StillCuts};
 use crate::prelude::*;
+use trunnion_syntax::Format;
 
 pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Still(check)]);
 
 fn check(still: &StillCuts, out: &mut Reporter<'_>) {
+    let start = match out.dialect().lex.format {
+        Format::Apt => "SPINDL",
+        _ => "S and M3",
+    };
     match still.why {
         Still::NeverStarted => out
             .report_block("nothing in the program starts a spindle, and this feed motion needs one unless its tool does not turn")
-            .help("write S and M3 before the first cut; for a pen, a laser or a drag knife, allow the rule and give that reason"),
+            .help(format!("write {start} before the first cut; for a pen, a laser or a drag knife, allow the rule and give that reason")),
         Still::StartedLater => out
             .report_block("no spindle is started before this feed motion; the program starts one later")
             .note("the spindle stands still here, unless the operator or the previous program has started it")
-            .help("write S and M3 before the first cut; if the tool does not turn, allow the rule and give that reason"),
+            .help(format!("write {start} before the first cut; if the tool does not turn, allow the rule and give that reason")),
         Still::SpeedUnsaid if out.once(0) => out
             .report_block("the spindle was started without a speed: the program gives no S before this feed motion")
             .note("the control uses the S of the previous program, or none")
@@ -90,6 +95,13 @@ mod tests {
                 true,
             ),
             ("iso-6983", "G21 G0 X0\nG1 X10 F100\n", false),
+            ("apt", "UNITS/MM\nFEDRAT/100\nGOTO/0,0,9\nGOTO/0,0,0\nFINI\n", true),
+            ("apt", "UNITS/MM\nFEDRAT/100\nGOTO/0,0,9\nGOTO/0,0,0\n", false),
+            (
+                "apt",
+                "UNITS/MM\nSPINDL/900,CLW\nFEDRAT/100\nGOTO/0,0,9\nGOTO/0,0,0\nFINI\n",
+                false,
+            ),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nG1 X10 F100\nM2\n", true),
             ("linuxcnc", "G21 G0 X0 Y0 Z0\nM101\nG1 X10 F100\nM2\n", false),
             ("sinumerik-840d", "G71 G0 X0\nG1 X10 F100\nM30\n", true),

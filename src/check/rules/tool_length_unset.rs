@@ -15,8 +15,9 @@
 //! ```
 //!
 //! # Use instead
-//! Declare it in `trunnion.toml`: `[[tool]] number = 5, length = 120.5`, in mm. To take all undeclared lengths as
-//! zero, use `--assume tool-length` or `assume = ["tool-length"]`: the verdict lists it.
+//! Declare it in `trunnion.toml`: `[[tool]] number = 5, length = 120.5`, in mm; the offset that T0202 of a lathe names:
+//! `[tool_offsets] 2 = { X = -120.5, Z = -60 }`, X as a radius. To take all undeclared lengths as zero, use
+//! `--assume tool-length` or `assume = ["tool-length"]`: the verdict lists it.
 //!
 //! # Guarantee
 //! Sound; reported once per tool, at the first motion that depends on its length. The offsets of a lathe's tools are one finding.
@@ -41,7 +42,7 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
                 "{missing} is not declared: it is unknown whether the axes that it shifts stay within their travel"
             ))
             .note(if by_turret {
-                "the last two digits of T name the offset, which shifts X and Z; it lies in the control, and no setting declares it. This covers all tools"
+                "the last two digits of T name the offset, which shifts X and Z; it lies in the control. This covers all tools"
             } else {
                 "the tool length is measured from the gauge point of the spindle to the tip, in mm"
             })

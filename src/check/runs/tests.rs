@@ -106,3 +106,23 @@ fn a_file_of_noise_is_not_listed_to_its_end() {
     assert_eq!(rest.count, 5);
     assert!(rest.message.starts_with("5 more findings"), "{}", rest.message);
 }
+
+/// A hole that is too deep is one finding, though the tool comes out after each step.
+#[test]
+fn a_pecking_cycle_is_told_once() {
+    let text = "G21 G90 G17 G94\nG0 X0. Y0. Z50.\nG83 X1. Y0. Z-700. R2. Q5. F100.\nG80\nM30\n";
+    let report = crate::fixture::Fixture::parse("gcode fanuc-30i mill-3axis", text)
+        .check()
+        .expect("a report");
+    let found: Vec<_> = report
+        .diagnostics
+        .iter()
+        .filter(|found| found.rule == "axis-limit")
+        .collect();
+    assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
+    assert!(
+        found[0].count > 50 && found[0].message.contains("-700"),
+        "{:?}",
+        found[0]
+    );
+}

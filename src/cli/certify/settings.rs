@@ -51,6 +51,9 @@ fn unlike(old: &Setup, new: &Setup) -> Vec<String> {
             what.push(name);
         }
     }
+    if old.tool_offsets != new.tool_offsets {
+        what.push("tool offsets".to_owned());
+    }
     if old.control != new.control {
         what.push("what they say of the control".to_owned());
     }

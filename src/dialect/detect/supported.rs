@@ -152,6 +152,12 @@ fn sinumerik(code: &str, votes: &mut Votes) {
             votes.add("sinumerik-840d", 6, name);
         }
     }
+    // G110 and G111 are work offsets of a Haas
+    for name in ["AP=", "RP="] {
+        if has_word(code, name) {
+            votes.add("sinumerik-840d", 8, name);
+        }
+    }
     if assigned(code) && !code.contains('#') {
         votes.add("sinumerik-840d", 4, "a word with `=`");
     }

@@ -328,3 +328,13 @@ fn programs_of_known_origin() {
         wrong.len()
     );
 }
+
+/// G110 and G111 are work offsets of a Haas, and poles of a Sinumerik, which has AP= and RP= after them.
+#[test]
+fn poles_are_those_of_a_sinumerik() {
+    let poles = "G17 G90 G54 G71\nG0 X0 Y0 Z50\nG111 X10 Y10\nG1 AP=30 RP=20 F100\nG110 X5 Y0\nG1 AP=30 RP=20\nM30\n";
+    for name in [None, Some("a.mpf")] {
+        assert_eq!(named(name, poles, None).0, "sinumerik-840d");
+    }
+    assert_eq!(content("%\nO1\nG110 X0. Y0.\nG111 X0. Y0.\nM30\n").0, "haas-ngc");
+}

@@ -5,7 +5,7 @@ use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::{WordValue, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
-use trunnion_dialect::{Action, Macros};
+use trunnion_dialect::Action;
 
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
@@ -27,11 +27,14 @@ pub(super) struct Plan {
 impl Iso<'_> {
     /// Runs the cycle in effect at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.core.state.coordinates.plane())[2];
+        let across = plane_axes(self.core.state.coordinates.plane())[2];
+        let declared = self.drilling_axis();
+        let axis = declared.unwrap_or(across);
         self.store_hole(words, axis);
-        if axis != 2 && self.core.dialect.quirks.macros == Macros::Fanuc && !self.core.dialect.quirks.diameter {
-            self.core.state.position.forget(axis);
-            let why = "a drilling cycle in another plane than G17: which axis drills, Z or that across the plane";
+        if declared.is_none() {
+            self.core.state.position.forget(across);
+            let why = "a drilling cycle in another plane than G17: which axis drills, Z or that across the plane \
+                       (declare [control] drilling_axis as parameter FXY says)";
             self.lost(words, 2, why, report);
             return;
         }
@@ -281,11 +284,11 @@ impl Iso<'_> {
             }
             Action::FineBoreCycle => {
                 self.wait(dwell, report);
-                let aside = self.aside(report);
+                let aside = self.aside(plan, report);
                 self.with_spindle_off(|interpreter| {
-                    interpreter.shift(aside, 1.0, report);
+                    interpreter.shift(plan, aside, 1.0, report);
                     interpreter.down(plan, MotionKind::Rapid, plan.back, report);
-                    interpreter.shift(aside, -1.0, report);
+                    interpreter.shift(plan, aside, -1.0, report);
                 });
             }
             _ => self.down(plan, MotionKind::Rapid, plan.back, report),
@@ -302,16 +305,16 @@ impl Iso<'_> {
         self.core.state.spindle = before;
     }
 
-    /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and
+    /// How far the tool moves off the wall, along both axes across the hole; `None`: a parameter of the control decides the direction, and
     /// it is not declared, or turned by a frame.
-    fn aside(&self, report: &mut Report<'_>) -> Option<[f64; 2]> {
+    fn aside(&self, plan: &Plan, report: &mut Report<'_>) -> Option<[f64; 2]> {
         let hole = &self.memory.cycle.hole;
         if let [i, j, _] = hole.ijk
             && (i.is_some() || j.is_some())
         {
             return Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]);
         }
-        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
+        let [a, b] = plan.across();
         let declared = self
             .core
             .setup
@@ -333,8 +336,8 @@ impl Iso<'_> {
     }
 
     /// Moves the tool off the wall (1) or back (-1).
-    fn shift(&mut self, aside: Option<[f64; 2]>, sign: f64, report: &Report<'_>) {
-        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
+    fn shift(&mut self, plan: &Plan, aside: Option<[f64; 2]>, sign: f64, report: &Report<'_>) {
+        let [a, b] = plan.across();
         let position = self.core.state.position;
         let mut place = self.memory.frames.programmed(&position);
         let kept = self.memory.cycle.hole_place;
@@ -364,19 +367,19 @@ impl Iso<'_> {
 
     /// G87: shifted and stopped to R below, back to the axis of the hole, feed up, shifted and stopped to the initial level.
     fn back_bore(&mut self, plan: &Plan, report: &mut Report<'_>) {
-        let aside = self.aside(report);
+        let aside = self.aside(plan, report);
         let dwell = self.memory.cycle.dwell();
         self.with_spindle_off(|interpreter| {
-            interpreter.shift(aside, 1.0, report);
+            interpreter.shift(plan, aside, 1.0, report);
             interpreter.down(plan, MotionKind::Rapid, plan.r, report);
-            interpreter.shift(aside, -1.0, report);
+            interpreter.shift(plan, aside, -1.0, report);
         });
         self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
         self.wait(dwell, report);
         self.with_spindle_off(|interpreter| {
-            interpreter.shift(aside, 1.0, report);
+            interpreter.shift(plan, aside, 1.0, report);
             interpreter.down(plan, MotionKind::Rapid, plan.initial, report);
-            interpreter.shift(aside, -1.0, report);
+            interpreter.shift(plan, aside, -1.0, report);
         });
     }
 

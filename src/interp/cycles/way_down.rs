@@ -1,13 +1,34 @@
 //! What drilling cycles need before they go down: levels in order, and for taps a spindle.
-use super::hole::MOST_MOTIONS;
+use super::hole::{MOST_MOTIONS, Plan};
+use crate::arc::plane_axes;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Effect, FaultKind, Orientation, Refusal};
+use crate::{DrillingAxis, Effect, FaultKind, Orientation, Refusal};
 use trunnion_dialect::{Action, Macros};
 use trunnion_vocabulary::Spindle;
 
+impl Plan {
+    /// Both axes across the hole, in the order of a plane.
+    pub(super) fn across(&self) -> [usize; 2] {
+        [(self.axis + 1) % 3, (self.axis + 2) % 3]
+    }
+}
+
 impl Iso<'_> {
+    /// Along which axis cycles drill: that across the plane. On a Fanuc mill it may be Z in each plane (parameter FXY); `None`: that is not declared.
+    pub(crate) fn drilling_axis(&self) -> Option<usize> {
+        let across = plane_axes(self.core.state.coordinates.plane())[2];
+        let quirks = &self.core.dialect.quirks;
+        if across == 2 || quirks.macros != Macros::Fanuc || quirks.diameter {
+            return Some(across);
+        }
+        self.core.setup.control.drilling_axis.map(|axis| match axis {
+            DrillingAxis::Z => 2,
+            DrillingAxis::AcrossPlane => across,
+        })
+    }
+
     /// Whether holes go down along Z: on a lathe, in a frame that may mirror, along another axis, and back boring they go in either direction.
     pub(super) fn drills_down(&self, axis: usize) -> bool {
         axis == 2

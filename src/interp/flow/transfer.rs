@@ -79,6 +79,12 @@ impl Iso<'_> {
             }
             return;
         };
+        let several = search == Search::ForwardThenStart && index.all(&label.key, section).nth(1).is_some();
+        if let (true, Key::Number(number)) = (several, &label.key) {
+            let what = format!("which of the blocks N{number} a jump leads to: this program has several");
+            self.tell_of_flow(running, from, (label.range, FaultKind::NotDecided { what }), sink);
+            return self.stop();
+        }
         if let Some(kind) = self.wrong_target(&index, &label.key, (from, to)) {
             self.tell_of_flow(running, from, (label.range, kind), sink);
             return self.stop();

@@ -81,7 +81,8 @@ impl<'d> Iso<'d> {
         // under a length offset the coordinates are those of the point before it
         let named = |(axis, along): (usize, f64)| along != 0.0 && words.axes.get(axis).is_some();
         let acts = self.core.state.length.is_open() || self.core.state.length.mm().is_some_and(|length| length != 0.0);
-        let length = acts && self.core.setup.length_along().into_iter().enumerate().any(named);
+        let length = acts && self.core.setup.length_along().into_iter().enumerate().any(named)
+            || self.memory.frames.turret != [0.0; 9];
         if !known || length || !self.shifts_plainly(words) || self.core.state.zero.is_lost() {
             self.frame_change(found, words, block, report);
             return;

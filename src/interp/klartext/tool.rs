@@ -3,7 +3,7 @@ use super::Klartext;
 use super::words::{Said, Words};
 use crate::core::Report;
 use crate::tools::Chosen;
-use crate::{FaultKind, LengthOf, Refusal, TcpMistake, Tool};
+use crate::{FaultKind, LengthOf, Refusal, TcpMistake, Tool, ToolLength};
 use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
 
@@ -169,12 +169,17 @@ impl Klartext<'_> {
             report.fault(TextRange::default(), FaultKind::TcpState(TcpMistake::ToolChange));
         }
         // the change may move the linear axes; M128 ends with it
-        match self.core.setup.control.tool_change {
-            Some(place) if !self.core.state.tool_axis.tcp() && self.memory.frames.tilt.is_none() => {
-                self.stands_at(&place);
-            }
-            _ => self.core.forget_linear(),
+        let plain = !self.core.state.tool_axis.tcp() && self.memory.frames.tilt.is_none();
+        let declared = self.core.setup.control.tool_change.filter(|_| plain);
+        let before = self.core.state.length;
+        self.load_tool(chosen, delta, report);
+        match declared {
+            Some(place) => self.stands_at(&place, &before),
+            None => self.core.forget_linear(),
         }
+    }
+
+    fn load_tool(&mut self, chosen: Chosen, delta: Option<f64>, report: &mut Report<'_>) {
         // whether the spindle stops where the tool is in it already is left to the machine
         let stays = matches!(chosen, Chosen::Number(_) | Chosen::Named(_)) && *self.core.tools.in_spindle() == chosen;
         if !stays {
@@ -206,20 +211,23 @@ impl Klartext<'_> {
         self.core.state.length.set_declared(length, LengthOf::Tool(number));
     }
 
-    /// The machine is at a place in machine coordinates.
-    fn stands_at(&mut self, place: &crate::Position) {
+    /// The axes that have a value are at that place in machine coordinates, the others stay; the tool may be longer or shorter than before.
+    fn stands_at(&mut self, place: &crate::Position, before: &ToolLength) {
         let zero = self.core.state.zero.values();
-        let length = self.core.state.length.mm().unwrap_or(0.0);
+        let length = self.core.state.length;
+        let grows = length.mm().unwrap_or(0.0) - before.mm().unwrap_or(0.0);
+        let unclear = length.is_undeclared() || before.is_undeclared();
         let along = self.core.setup.length_along();
         for axis in 0..3 {
-            match place.get(axis).filter(|_| !self.core.state.zero.is_lost()) {
-                Some(value) => self
-                    .core
-                    .state
-                    .position
-                    .set(axis, value - zero[axis] - length * along[axis]),
-                None => self.core.state.position.forget(axis),
+            let position = &mut self.core.state.position;
+            match place.get(axis) {
+                Some(value) => position.set(axis, value - zero[axis] - length.mm().unwrap_or(0.0) * along[axis]),
+                None if unclear && along[axis] != 0.0 => position.forget(axis),
+                None => position.values[axis] -= grows * along[axis],
             }
+        }
+        if self.core.state.zero.is_lost() {
+            self.core.forget_linear();
         }
     }
 }

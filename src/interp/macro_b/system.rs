@@ -185,10 +185,15 @@ impl Known<'_> {
 
     fn length(&self, axis: usize) -> Option<f64> {
         let shifted = self.frames.active || self.state.zero.is_lost() || self.state.compensation != 0;
-        if self.state.length.is_open() || self.state.tool_axis.tcp() || shifted || self.state.length.is_undeclared() {
+        // of a lathe's tool the sources do not say which variables contain its offset
+        let shifted = shifted || matches!(self.state.length.of(), LengthOf::Offset(_));
+        if self.state.tool_axis.tcp() || shifted {
             return None;
         }
         let along = self.setup.length_along().get(axis).copied().unwrap_or(0.0);
+        if along != 0.0 && (self.state.length.is_open() || self.state.length.is_undeclared()) {
+            return None;
+        }
         Some(self.state.length.mm().unwrap_or(0.0) * along)
     }
 
@@ -200,6 +205,7 @@ impl Known<'_> {
         }
         let mm = match (length.mm(), length.of()) {
             (None, LengthOf::Nothing) => 0.0,
+            (_, LengthOf::Offset(_)) => return None,
             (Some(mm), _) if !length.is_undeclared() => mm,
             _ => return None,
         };

@@ -43,6 +43,8 @@ pub(crate) struct PathWords {
     frame: Option<f64>,
     /// CHF (F), CHR (C) or RND (R).
     corner: Option<(u8, f64)>,
+    /// FRC: the feed of this corner.
+    corner_feed: Option<f64>,
     /// RNDM.
     modal_corner: Option<f64>,
 }
@@ -58,6 +60,10 @@ impl PathWords {
     /// CHF (`F`), CHR (`C`) or RND (`R`) and its size.
     pub(crate) fn corner(&self) -> Option<(u8, f64)> {
         self.corner
+    }
+    /// FRC, if it is there.
+    pub(crate) fn corner_feed(&self) -> Option<f64> {
+        self.corner_feed
     }
     /// Whether RNDM is in the block.
     pub(crate) fn sets_rounding(&self) -> bool {
@@ -152,6 +158,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                     "AR" => &mut path.opening,
                     "ANG" => &mut path.angle,
                     "RPL" => &mut path.frame,
+                    "FRC" => &mut path.corner_feed,
                     "RNDM" => &mut path.modal_corner,
                     _ => {
                         let letter = match name {
@@ -232,6 +239,9 @@ impl Iso<'_> {
         if let Some((_, size)) = path.corner {
             let moves = words.axes.any() && !block.dwell && !block.machine_coordinates;
             (size >= 0.0 && moves).then_some(())?;
+        }
+        if let Some(feed) = path.corner_feed {
+            (feed > 0.0 && path.corner.is_some()).then_some(())?;
         }
         Some(())
     }

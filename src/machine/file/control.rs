@@ -8,7 +8,7 @@ use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, Planning, PoleAction, PostureRule, RapidPath};
 use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
-use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
+use trunnion_interp::{AxisLetter, DrillingAxis, LengthUnit, Position, RoughingEscape, TcpCodes};
 
 /// Names that `family` may have (docs/contract.md#machine-files).
 const FAMILIES: &[&str] = &[
@@ -66,6 +66,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         reference_points: reference_points(raw, axes)?,
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
+        drilling_axis: drilling_axis(raw.drilling_axis.as_ref())?,
         roughing_escape: roughing_escape(raw.roughing_escape.as_ref())?,
         thread_pull_out: non_negative("thread_pull_out", raw.thread_pull_out.as_ref())?,
         roughing_retract_mm: non_negative("roughing_retract", raw.roughing_retract.as_ref())?,
@@ -113,6 +114,14 @@ fn units(word: Option<&Word>) -> Result<Option<LengthUnit>, Fault> {
     Ok(unit.map(|unit| match unit.as_str() {
         "inch" => LengthUnit::Inch,
         _ => LengthUnit::Millimetre,
+    }))
+}
+
+fn drilling_axis(word: Option<&Word>) -> Result<Option<DrillingAxis>, Fault> {
+    let axis = one_of("drilling_axis", word, &["z", "across-plane"])?;
+    Ok(axis.map(|axis| match axis.as_str() {
+        "z" => DrillingAxis::Z,
+        _ => DrillingAxis::AcrossPlane,
     }))
 }
 

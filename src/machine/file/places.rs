@@ -1,6 +1,6 @@
 //! Positions of a machine that its control knows, for people.
 use crate::Control;
-use trunnion_interp::{AXIS_LETTERS, Position, RoughingEscape};
+use trunnion_interp::{AXIS_LETTERS, DrillingAxis, Position, RoughingEscape};
 
 /// Reference points, and the retracts of drilling cycles.
 pub(crate) fn places(control: &Control) -> Vec<String> {
@@ -65,6 +65,7 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
         }
     }
+    lines.extend(control.drilling_axis.map(drills));
     if let Some(escape) = control.roughing_escape {
         let how = match escape {
             RoughingEscape::Feed => "at the feed",
@@ -78,4 +79,13 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// Along which axis drilling cycles drill.
+fn drills(axis: DrillingAxis) -> String {
+    let which = match axis {
+        DrillingAxis::Z => "Z",
+        DrillingAxis::AcrossPlane => "the axis across the plane",
+    };
+    format!("in G18 and G19 drilling cycles drill along {which}")
 }

@@ -197,6 +197,8 @@ pub struct Control {
     pub peck_clearance_mm: Option<f64>,
     /// How far G73 retracts to break the chip, mm; `None`: not declared.
     pub chip_break_retract_mm: Option<f64>,
+    /// Which axis drilling cycles of a Fanuc drill along in G18 and G19; `None`: not declared.
+    pub drilling_axis: Option<trunnion_interp::DrillingAxis>,
     /// How a turning tool leaves the cuts of a roughing cycle; `None`: not declared.
     pub roughing_escape: Option<trunnion_interp::RoughingEscape>,
     /// How many leads before its end the tool leaves a thread of one pass; `None`: not declared.

@@ -64,6 +64,27 @@ fn a_plain_lathe_program_with_a_declared_offset_passes() {
     );
 }
 
+/// Two tools whose offsets are declared: no assumption is left, a longer reach is a collision with the travel, and proofs hold.
+#[test]
+fn a_program_with_declared_tool_offsets_passes() {
+    let declared = "machine = \"lathe-2axis\"\n[work_offsets]\nG54 = { X = 0, Z = -300 }\n[tool_offsets]\n1 = { X = -180, Z = -100 }\n";
+    let folder = folder(declared, PLAIN);
+    let output = trunnion_in(folder.path(), &["check", "--strict", "a.nc"]);
+    let told = text(&output.stdout) + &text(&output.stderr);
+    assert_eq!(status(&output), 0, "{told}");
+    assert!(!told.contains("assuming"), "{told}");
+    write(&folder, "b.nc", &PLAIN.replace("G1 Z-50.", "G1 Z-50.0"));
+    let output = trunnion_in(folder.path(), &["certify", "a.nc", "b.nc"]);
+    assert!(text(&output.stdout).starts_with("PROVED"), "{}", text(&output.stdout));
+    // 180 mm from the axis there are 40 mm of radius left; this tool reaches 50 mm less far
+    write(&folder, "trunnion.toml", &declared.replace("X = -180", "X = -130"));
+    let output = trunnion_in(folder.path(), &["check", "a.nc"]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stdout));
+    write(&folder, "trunnion.toml", &declared.replace("X = -180", "X = -30"));
+    let output = trunnion_in(folder.path(), &["check", "a.nc"]);
+    assert!(text(&output.stdout).contains("axis-limit"), "{}", text(&output.stdout));
+}
+
 #[test]
 fn trace_plot_and_stats_have_the_path_and_the_time() {
     let folder = folder(DECLARED, PLAIN);

@@ -1,4 +1,5 @@
 //! Texts of `trunnion.toml`, read whole and broken.
+use super::super::offsets::is_work_offset;
 use super::*;
 use trunnion_interp::ToolShape;
 
@@ -178,4 +179,28 @@ fn a_work_offset_gives_all_linear_axes_of_the_machine() {
     assert_eq!(lathe.check_offsets(machine("lathe-2axis")), Ok(()));
     let whole = parse("[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }").unwrap();
     assert_eq!(whole.check_offsets(machine("mikron-ucp710")), Ok(()));
+}
+
+#[test]
+fn offsets_of_a_lathes_tools() {
+    let config = parse("[tool_offsets]\n12 = { X = -5, Z = 1 }\n2 = { X = -120.5, Y = 1, Z = -60 }\n").unwrap();
+    let offsets = &config.setup.tool_offsets;
+    assert_eq!(offsets.0.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [2, 12]);
+    assert_eq!(
+        offsets.get(2).map(|values| [values[0], values[1], values[2]]),
+        Some([-120.5, 1.0, -60.0])
+    );
+    assert_eq!(offsets.get(3), None);
+    for (entry, wrong) in [
+        ("T2 = { X = 0, Z = 0 }", "T2"),
+        ("0 = { X = 0, Z = 0 }", "0"),
+        ("2 = { X = 0 }", "2"),
+        ("2 = { X = 0, Z = 0, C = 0 }", "C"),
+        ("2 = { X = 0, Z = inf }", "inf"),
+        ("2 = { X = 0, Z = 0 }\n02 = { X = 0, Z = 0 }", "2"),
+    ] {
+        let text = format!("[tool_offsets]\n{entry}\n");
+        let error = parse(&text).expect_err(entry);
+        assert_eq!(&text[error.span.clone().expect("a place")], wrong, "{error}");
+    }
 }

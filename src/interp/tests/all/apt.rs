@@ -26,7 +26,7 @@ fn vectors() {
         [
             "L X0 Y0 Z0 F100 tcp <0 0.6 0.8>",
             "L X1 Y0 Z0 F100 tcp <0 0.6 0.8>",
-            "L X2 Y0 Z0 F100 tcp <0 0.6 0.8>",
+            "L X2 Y0 Z0 F100 tcp",
             "L X3 Y0 Z0 F100 tcp",
             "L X4 Y0 Z0 F100 tcp <1 0 0>",
             "L X5 Y0 Z0 F100 tcp",
@@ -37,6 +37,7 @@ fn vectors() {
         faults("apt", source),
         [
             "4: 1,0,0: AptVectorMissing",
+            "6: 2,0,0: NotModelled { what: \"a point without a tool axis after MULTAX/OFF: whether the tool stays tilted\" }",
             "7: 3,0,0,0,0,2: VectorNotUnit { norm: 2.0 }",
             "7: 3,0,0,0,0,2: NotModelled { what: \"a tool axis after MULTAX/OFF: whether the postprocessor follows it\" }",
             "10: 5,0,0,0,0,0: VectorNotUnit { norm: 0.0 }",

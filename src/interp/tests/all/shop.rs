@@ -1,6 +1,6 @@
 //! What shops write that was once read wrongly: words that were dropped, cycles without a number, blocks that the control refuses.
 use crate::klartext::{NAME, program};
-use crate::support::{faults, lines, run_text};
+use crate::support::{faults, line, lines, run_bytes, run_text};
 
 /// Whether the run of a program reports something with this text.
 fn says(dialect: &str, text: &str, wanted: &str) -> bool {
@@ -149,6 +149,45 @@ fn drilling_in_another_plane_of_a_fanuc() {
 }
 
 #[test]
+fn drilling_in_another_plane_follows_the_declared_axis() {
+    let text = "G90 G18\nG0 X0. Y20. Z20.\nG81 X10. Y3. Z-5. R2. F100.\nX20.\nG80\n";
+    let run = |axis| {
+        let mut setup = trunnion_interp::Setup::default();
+        setup.control.drilling_axis = Some(axis);
+        run_bytes("fanuc-30i", text.as_bytes(), &setup)
+            .1
+            .motions
+            .iter()
+            .map(line)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        run(trunnion_interp::DrillingAxis::Z),
+        [
+            "R X0 Y20 Z20",
+            "R X10 Y3 Z20",
+            "R X10 Y3 Z2",
+            "L X10 Y3 Z-5 F100",
+            "R X10 Y3 Z20",
+            "R X20 Y3 Z20",
+            "R X20 Y3 Z2",
+            "L X20 Y3 Z-5 F100",
+            "R X20 Y3 Z20",
+        ]
+    );
+    assert_eq!(
+        run(trunnion_interp::DrillingAxis::AcrossPlane)[..5],
+        [
+            "R X0 Y20 Z20",
+            "R X10 Y20 Z-5",
+            "R X10 Y2 Z-5",
+            "L X10 Y3 Z-5 F100",
+            "R X10 Y20 Z-5",
+        ]
+    );
+}
+
+#[test]
 fn wrong_levels_and_an_address_without_its_sign() {
     let cycle = |call: &str| format!("G17 G90\nG0 X0 Y0 Z60\nS100 M3 F100\n{call}\nM30\n");
     let name = "sinumerik-840d";
@@ -163,4 +202,136 @@ fn wrong_levels_and_an_address_without_its_sign() {
         assert!(found.iter().any(|fault| fault.contains(wanted)), "{call}: {found:?}");
     }
     assert!(!says(name, &cycle("CYCLE81(50,0,2,-12)"), "CYCLE81"));
+}
+
+/// X is a radius in the setup, and the offset of each tool shifts the zero point.
+#[test]
+fn declared_offsets_of_a_lathes_tools() {
+    let text = "G21 G18 G99 G54\nT0202\nG0 X62. Z5.\nG1 Z-40. F0.2\nT0303\nG0 X62. Z5.\nG10 L10 P3 R0.4\nT0303\nG0 X60. Z4.\nT0200\nG0 X62. Z5.\nM30\n";
+    let mut setup = trunnion_interp::Setup::default();
+    let offset = |x, z| [x, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    setup.tool_offsets.0 = vec![(2, offset(-100.0, -50.0)), (3, offset(-90.0, -70.0))];
+    let log = run_bytes("fanuc-30i-lathe-a", text.as_bytes(), &setup).1;
+    let found: Vec<_> = log
+        .motions
+        .iter()
+        .map(|motion| {
+            (
+                motion.zero[0],
+                motion.zero[2],
+                motion.undeclared.length,
+                motion.end.get(2),
+            )
+        })
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (-100.0, -50.0, false, Some(5.0)),
+            (-100.0, -50.0, false, Some(-40.0)),
+            (-90.0, -70.0, false, Some(5.0)),
+            // the program has written it
+            (0.0, 0.0, true, Some(4.0)),
+            (0.0, 0.0, false, Some(5.0)),
+        ]
+    );
+}
+
+#[test]
+fn what_a_fanuc_does_with_further_numbers() {
+    let name = "fanuc-30i";
+    let head = "G21 G90 G17 G94\nG0 X0. Y0. Z50.\n";
+    let run = |blocks: &str| faults(name, &format!("{head}{blocks}\nG0 X1.\n"));
+    assert!(says(name, "G54.1 P301\n", "1 to 300") && says(name, "G54 P0\n", "1 to 300"));
+    assert!(!says(name, "G54.1 P300\n", "P names") && says("haas-ngc", "G154 P100\n", "1 to 99"));
+    for code in ["G5 P10001", "G50.2", "G51.2 P1 Q1", "G80.4", "G81.4 T20 L1"] {
+        let found = run(code);
+        assert!(
+            found.iter().any(|fault| fault.contains("NotModelled")),
+            "{code}: {found:?}"
+        );
+        assert!(
+            !found.iter().any(|fault| fault.contains("UnknownCode")),
+            "{code}: {found:?}"
+        );
+    }
+    assert!(run("G5 P10000\nG5 P0").is_empty(), "{:?}", run("G5 P10000\nG5 P0"));
+    let end = run_text(name, &format!("{head}G5 P10005\nG1 Y1. F100.\n"))
+        .motions
+        .last()
+        .expect("a motion")
+        .end;
+    assert_eq!((end.get(0), end.get(1)), (None, Some(1.0)));
+}
+
+/// No source says which of them a control takes.
+#[test]
+fn a_jump_to_a_number_that_occurs_twice() {
+    let text = "G90 G21 G17 G94\n#1=0\nN20 #1=#1+1\nG0 X#1\nN20 G0 Y#1\nIF[#1 LT 2]GOTO20\n";
+    for dialect in ["fanuc-30i", "haas-ngc"] {
+        assert!(says(dialect, text, "which of the blocks N20"), "{dialect}");
+        assert!(
+            !says(dialect, &text.replacen("N20", "N21", 1), "which of the blocks"),
+            "{dialect}"
+        );
+    }
+}
+
+/// An undeclared length concerns only the axis along the tool.
+#[test]
+fn positions_with_offsets_across_the_tool() {
+    let text = "G90 G21 G17 G94 G54\nT1 M6\nG43 H1 G0 X1. Y2. Z50.\n#1=#5041\n#2=#5042\nG0 X[#1+1.] Y[#2+1.]\n#3=#5043\nG0 Z#3\n";
+    let log = run_text("fanuc-30i", text);
+    let last = log.motions.last().expect("a motion").end;
+    assert_eq!((last.get(0), last.get(1), last.get(2)), (Some(2.0), Some(3.0), None));
+}
+
+#[test]
+fn mod_of_an_okuma_is_a_function() {
+    let text = "G15 H1\nG90 G17 G94\nVC1=MOD[7,3]\nG0 X=VC1 Y=MOD[VC1+4,2]*3 Z50\n";
+    assert_eq!(lines("okuma-osp", text), ["R X1 Y3 Z50"]);
+    assert!(!says("okuma-osp", text, "MOD"));
+}
+
+/// Where a tool change leaves Z is declared; X and Y stay, and the next tool is 20 mm longer.
+#[test]
+fn a_tool_change_of_a_klartext_program() {
+    let text = "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL X+10 Y+20 Z+100 R0 FMAX M3\nTOOL CALL 2 Z S1000\nL IZ-30 FMAX\nEND PGM T MM\n";
+    let mut setup = trunnion_interp::Setup::default();
+    let mut place = trunnion_interp::Position::default();
+    place.set(2, 300.0);
+    setup.control.tool_change = Some(place);
+    for (number, length) in [(1, 50.0), (2, 70.0)] {
+        setup.tools.push(trunnion_interp::Tool {
+            number,
+            shape: None,
+            diameter_mm: None,
+            length_mm: Some(length),
+            holder_mm: None,
+        });
+    }
+    let ends = |setup: &trunnion_interp::Setup| -> Vec<String> {
+        let log = run_bytes(NAME, text.as_bytes(), setup).1;
+        log.motions.iter().map(line).collect()
+    };
+    assert_eq!(ends(&setup), ["R X10 Y20 Z100", "R X10 Y20 Z200"]);
+    setup.control.tool_change = Some(trunnion_interp::Position::default());
+    assert_eq!(ends(&setup), ["R X10 Y20 Z100", "R X10 Y20 Z50"]);
+}
+
+/// No source says whether the tool stays tilted where the program ends its tool axes.
+#[test]
+fn points_after_the_end_of_tool_axes() {
+    let text = |axis: &str| {
+        format!("UNITS/MM\nMULTAX/ON\nFEDRAT/100\nGOTO/0,0,10,{axis}\nMULTAX/OFF\nGOTO/0,0,0\nGOTO/10,0,0\n")
+    };
+    let wanted = "whether the tool stays tilted";
+    assert!(says("apt", &text("0.6,0,0.8"), wanted));
+    assert!(!says("apt", &text("0,0,1"), wanted));
+    let last = run_text("apt", &text("0.6,0,0.8"))
+        .motions
+        .last()
+        .expect("a motion")
+        .orientation;
+    assert_eq!(last, trunnion_interp::Orientation::Words);
 }

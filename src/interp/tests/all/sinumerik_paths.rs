@@ -112,6 +112,14 @@ fn corners_of_two_lines() {
         after_zero("RNDM=2\nG1 X10\nY10\nZ5\nRNDM=0"),
         [&round[..], &["L X10 Y10 Z5 F100"]].concat()
     );
+    // FRC is the feed of the corner alone
+    let fed = |lines: &[&str]| -> Vec<String> {
+        let mut lines: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        lines[1] = lines[1].replace("F100", "F40");
+        lines
+    };
+    assert_eq!(after_zero("G1 X10 CHF=2.8284271247 FRC=40\nY10"), fed(&cut));
+    assert_eq!(after_zero("G1 X10 RND=2 FRC=40\nY10"), fed(&round));
     // a motion along Z has no corner in the plane
     assert_eq!(after_zero("G1 X10 RND=2\nZ5"), ["L X10 Y0 Z0 F100", "L X10 Y0 Z5 F100"]);
     for blocks in [
@@ -122,6 +130,8 @@ fn corners_of_two_lines() {
         "G1 X10 RND=2\nG0 Y10",
         "G1 X10 RND=2\nG2 X20 Y10 I10 J0",
         "G1 X10 RND=2 CHR=2\nY10",
+        "G1 X10 RND=2 FRC=0\nY10",
+        "G1 X10 FRC=40\nY10",
         "G1 X10 RND=-2\nY10",
         "G1 X10 RND=R1\nY10",
         "RNDM=2\nG1 X10\nRNDM=0\nY10",

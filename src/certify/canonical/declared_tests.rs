@@ -1,0 +1,31 @@
+//! What settings and machine files declare of lathes and of drilling in other planes counts.
+use crate::digest::{machine_digest, setup_digest};
+use std::collections::BTreeSet;
+use trunnion_interp::{DrillingAxis, Setup, ToolOffsets};
+
+#[test]
+fn tool_offsets_and_the_drilling_axis_count() {
+    let offsets = |number: u32, value: f64| Setup {
+        tool_offsets: ToolOffsets(vec![(number, [value; 9])]),
+        ..Setup::default()
+    };
+    let drills = |axis| {
+        let mut setup = Setup::default();
+        setup.control.drilling_axis = Some(axis);
+        setup
+    };
+    let setups = [
+        Setup::default(),
+        offsets(2, 0.0),
+        offsets(2, 1.0),
+        offsets(3, 1.0),
+        drills(DrillingAxis::Z),
+        drills(DrillingAxis::AcrossPlane),
+    ];
+    let digests: BTreeSet<_> = setups.iter().map(setup_digest).collect();
+    assert_eq!(digests.len(), setups.len());
+    let mut machine = trunnion_machine::builtin("mill-3axis").expect("built in").clone();
+    let plain = machine_digest(&machine);
+    machine.control.drilling_axis = Some(DrillingAxis::Z);
+    assert_ne!(machine_digest(&machine), plain);
+}

@@ -139,11 +139,8 @@ const EXAMPLES: &[(&str, &[[&str; 2]])] = &[
 /// The examples of a command as its help shows them.
 pub(super) fn of(command: &str) -> Option<String> {
     let (_, examples) = EXAMPLES.iter().find(|(name, _)| *name == command)?;
-    let width = examples
-        .iter()
-        .map(|[written, _]| written.len())
-        .max()
-        .unwrap_or_default();
+    let told = examples.iter().filter(|[_, what]| !what.is_empty());
+    let width = told.map(|[written, _]| written.len()).max().unwrap_or_default();
     let lines = examples.iter().map(|[written, what]| {
         let line = format!("  trunnion {written:width$}    {what}");
         line.trim_end().to_owned()

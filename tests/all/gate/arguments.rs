@@ -29,7 +29,11 @@ fn wrong_arguments_are_in_every_document() {
             arguments.extend(wrong);
             let output = check(&folder, &arguments);
             assert_eq!(status(&output), 2, "{format} {wrong:?}");
-            assert!(text(&output.stderr).contains("Usage:"), "{}", text(&output.stderr));
+            assert!(
+                text(&output.stderr).contains("try '--help'"),
+                "{}",
+                text(&output.stderr)
+            );
             let document = std::fs::read_to_string(folder.path().join("out.txt")).expect("written");
             let said = match format {
                 "github" => document.trim_start_matches("::error title=not checked::").to_owned(),

@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
-use crate::scale::{counted, decade, range};
+use crate::scale::{Height, counted, range};
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Draws it; `tolerance` in mm.
@@ -28,15 +28,13 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         .count();
     // far above the tolerance a linear scale would hide it
     let decades = *most > 20.0 * tolerance;
-    let floor = 1e-4_f64.min(tolerance / 10.0);
     let unit = record.unit;
-    let value = |mm: f64| {
-        if decades {
-            decade(unit.of_mm(mm.max(floor)))
-        } else {
-            unit.of_mm(mm)
-        }
+    let height = Height {
+        unit,
+        decades,
+        floor: 1e-4_f64.min(tolerance / 10.0),
     };
+    let value = |mm: f64| height.of(mm);
     let way = |block: &Block| {
         let samples = record.of(block);
         (
@@ -47,16 +45,12 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
     let across = range(record.samples.iter().map(|sample| record.way(sample)), 1e-3);
     let across = [across[0].max(0.0), across[1]];
     let upwards = if decades {
-        [value(floor), value(bound.max(tolerance)) + 0.3]
+        [value(0.0), value(bound.max(tolerance)) + 0.3]
     } else {
         [0.0, 1.15 * value(bound.max(tolerance))]
     };
     let legend = legend(&unit.declared(tolerance), unjudged);
-    let name = format!(
-        "deviation of the tip from the programmed segment / {}{}",
-        unit.name(),
-        if decades { " (log)" } else { "" }
-    );
+    let name = height.name("deviation of the tip from the programmed segment", "");
     sheet(header, &legend, |body| {
         let panel = Panel::new(
             body,
@@ -65,14 +59,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
                 y: upwards,
                 x_name: Some(unit.travel()),
                 y_name: &name,
-                labels: [
-                    10,
-                    if decades {
-                        (upwards[1] - upwards[0]).ceil() as usize + 1
-                    } else {
-                        8
-                    },
-                ],
+                labels: [10, height.labels(upwards)],
                 decades,
                 right: 0.0,
             },

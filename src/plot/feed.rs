@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, GREEN, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
-use crate::scale::{counted, decade, range};
+use crate::scale::{Height, counted, range};
 use crate::unit::Unit;
 
 /// Draws it, on a logarithmic scale where the limit is far below what is programmed.
@@ -30,13 +30,12 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     let least = least.min(top);
     let decades = top > 20.0 * least;
     let unit = record.unit;
-    let value = |feed: f64| {
-        if decades {
-            decade(unit.of_mm(feed.max(1e-3)))
-        } else {
-            unit.of_mm(feed)
-        }
+    let scale = Height {
+        unit,
+        decades,
+        floor: 1e-3,
     };
+    let value = |feed: f64| scale.of(feed);
     let upwards = if decades {
         [value(least) - 0.2, value(top) + 0.1]
     } else {
@@ -52,25 +51,14 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     let across = [across[0].max(0.0), across[1]];
     let planned = cuts.iter().any(|block| block.planned.is_some());
     let legend = legend(&cuts, planned, (top, unit));
-    let name = format!(
-        "feed of the tip / {}/min{}",
-        unit.name(),
-        if decades { " (log)" } else { "" }
-    );
+    let name = scale.name("feed of the tip", "/min");
     sheet(header, &legend, |body| {
         let frame = Frame {
             x: across,
             y: upwards,
             x_name: Some(unit.travel()),
             y_name: &name,
-            labels: [
-                10,
-                if decades {
-                    (upwards[1] - upwards[0]).ceil() as usize + 1
-                } else {
-                    8
-                },
-            ],
+            labels: [10, scale.labels(upwards)],
             decades,
             right: 0.0,
         };

@@ -61,14 +61,7 @@ pub fn route(
             .flatten()
             .chain(outlines.iter().flat_map(|(_, corners)| corners));
         let all: Vec<Point> = known().map(Vec3::xy).chain(corners.copied()).collect();
-        let range = |axis: usize| {
-            let values = all.iter().map(|point| unit.of_mm(point[axis]));
-            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
-            let room = 0.05 * (high - low).max(unit.of_mm(1.0));
-            [low - room, high + room]
-        };
+        let range = |axis: usize| about(all.iter().map(|point| unit.of_mm(point[axis])), unit.of_mm(1.0));
         let (x, y) = equal(range(0), range(1), body.dim_in_pixel(), 0.0);
         let frame = Frame {
             x,
@@ -122,6 +115,15 @@ fn legend(compared: bool) -> Vec<Entry> {
         legend.push((Swatch::Line(GREEN), "rapid after".into()));
     }
     legend
+}
+
+/// A range about values, with room around them; `least`: a width below which it has the same room.
+fn about(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let room = 0.05 * (high - low).max(least);
+    [low - room, high + room]
 }
 
 /// A point in mm as it is shown.

@@ -49,7 +49,7 @@ fn last(arguments: &[String], long: &str, short: Option<&str>) -> Option<(usize,
         };
         Some((at, glued.to_owned()))
     };
-    words.iter().enumerate().filter_map(value).last()
+    words.iter().enumerate().filter_map(value).next_back()
 }
 
 /// What the command may read: each file that a word but that of the output names, or that lies in a folder that one names.

@@ -105,7 +105,7 @@ const EXAMPLES: &[(&str, &[[&str; 2]])] = &[
                 "certify part.mpf new.mpf --certificate new.json",
                 "checks a proof again",
             ],
-            ["certify part.nc new.nc", "proves or refutes that both do the same"],
+            ["certify part.nc new.nc", "whether both do the same"],
         ],
     ),
     (

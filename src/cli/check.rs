@@ -5,6 +5,7 @@ mod document;
 mod github;
 mod junit;
 mod one;
+pub(super) mod refused;
 mod sarif;
 mod statistics;
 mod watch;
@@ -89,6 +90,9 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
     let mut outputs = Outputs::new();
     for file in found.files.iter().chain(&command.paths) {
         outputs.input(file);
+    }
+    if command.output.is_none() {
+        outputs.standard("the result");
     }
     let mut output = |option: &str, path: Option<&PathBuf>| path.map(|path| outputs.output(option, path)).transpose();
     let target = output("-o", command.output.as_ref())?;

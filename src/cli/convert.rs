@@ -74,7 +74,7 @@ pub(crate) struct Convert {
     /// Write the certificate (JSON) to this file: `certify BEFORE AFTER --certificate FILE.json` checks it again.
     #[arg(long, value_name = "FILE.json", conflicts_with = "insert_is_remark")]
     certificate: Option<PathBuf>,
-    /// Print the program as text, or one JSON document with program and proof.
+    /// On standard output: the program, or one JSON document with program and proof. `-o` writes the program in both cases.
     #[arg(long, value_enum, default_value = "text")]
     format: ListFormat,
 }
@@ -99,6 +99,11 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
     }
     let mut outputs = loaded.outputs();
     command.target.files().for_each(|file| outputs.input(file));
+    match command.format {
+        ListFormat::Json => outputs.standard("the JSON document"),
+        ListFormat::Text if command.output.is_none() => outputs.standard("the program"),
+        ListFormat::Text => {}
+    }
     let output = command
         .output
         .as_ref()
@@ -138,11 +143,12 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         .is_some()
         .then(|| certified(&loaded, loaded.program.source(), target_machine, &converted))
         .transpose()?;
-    let text = match command.format {
-        ListFormat::Text => converted.text.clone(),
-        ListFormat::Json => document(&loaded, target_machine, &converted),
-    };
-    load::put(output.as_ref(), text.as_bytes())?;
+    if output.is_some() || command.format == ListFormat::Text {
+        load::put(output.as_ref(), converted.text.as_bytes())?;
+    }
+    if command.format == ListFormat::Json {
+        load::put(None, document(&loaded, target_machine, &converted).as_bytes())?;
+    }
     // after the program: a certificate next to an old program names the digest that does not fit
     if let (Some(target), Some(json)) = (&certificate, certified) {
         target.write(json.as_bytes(), None)?;

@@ -152,6 +152,10 @@ pub(super) fn run(global: &Global, command: &EditProgram) -> Result<Done, Failur
         remark(false, &loaded.explanation());
     }
     let mut outputs = loaded.outputs();
+    let shows_diff = command.diff || !(command.write || command.output.is_some());
+    if shows_diff {
+        outputs.standard("the diff");
+    }
     let output = command.output.as_ref();
     let output = output.map(|path| outputs.output("-o", path)).transpose()?;
     let backup = command
@@ -183,7 +187,7 @@ pub(super) fn run(global: &Global, command: &EditProgram) -> Result<Done, Failur
         }
     };
     let before = loaded.program.source();
-    if command.diff || !(command.write || output.is_some()) {
+    if shows_diff {
         print_diff(&loaded.name, before, &edited.text)?;
     }
     if let Some(target) = &output {

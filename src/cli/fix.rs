@@ -61,6 +61,12 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     retarget::fits(command)?;
     let mut outputs = loaded.outputs();
     command.target.files().for_each(|file| outputs.input(file));
+    let shows_diff = command.diff || !(command.write || command.output.is_some());
+    match command.format {
+        ListFormat::Json => outputs.standard("the JSON document"),
+        ListFormat::Text if shows_diff => outputs.standard("the diff"),
+        ListFormat::Text => {}
+    }
     let output = command
         .output
         .as_ref()
@@ -101,7 +107,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         ListFormat::Json => report::print_json(&loaded, &outcome)?,
         ListFormat::Text => {
             report::print_gains(global.quiet, &loaded, &outcome);
-            if command.diff || !(command.write || command.output.is_some()) {
+            if shows_diff {
                 print_diff(&loaded.name, &before, &outcome.after)?;
             }
         }

@@ -70,6 +70,11 @@ struct Outcome {
 
 /// Runs `fmt`. A file whose new layout cannot be proved is not changed, and makes the exit status 2.
 pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
+    if command.write && command.paths.iter().any(|path| load::is_stdin(path)) {
+        return Err(Failure::new(
+            "--write needs files, because standard input cannot be replaced; without --write the new text goes to standard output",
+        ));
+    }
     let mut found = walk::programs(&command.paths)?;
     found.remark(global.quiet, global.verbose);
     let paths = std::mem::take(&mut found.files);

@@ -6,6 +6,7 @@ mod check;
 mod convert;
 mod diff;
 mod edit;
+mod examples;
 mod explain;
 mod failure;
 mod fix;
@@ -46,11 +47,29 @@ pub(crate) enum Done {
     Found,
 }
 
+/// Help and the version, or what is wrong with the arguments. A document that they ask for says it too.
+fn refused(error: &clap::Error) -> ExitCode {
+    // a closed standard error must not stop the program
+    let _ = error.print();
+    let arguments: Vec<String> = std::env::args_os()
+        .skip(1)
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
+    if error.use_stderr()
+        && help::named(&arguments) == Some("check")
+        && let Err(failure) = check::refused::write(&arguments, &help::what(error))
+    {
+        failure.print();
+    }
+    ExitCode::from(error.exit_code() as u8)
+}
+
 /// Parses arguments and runs one command. 0: clean, 1: found, 2: the job could not be done.
 pub(crate) fn run() -> ExitCode {
-    let mut args = match Args::from_arg_matches(&help::command().get_matches()) {
+    let parsed = help::command().try_get_matches();
+    let mut args = match parsed.and_then(|matches| Args::from_arg_matches(&matches)) {
         Ok(args) => args,
-        Err(error) => error.exit(),
+        Err(error) => return refused(&error),
     };
     args.global.bound_text(&args.command);
     let global = &args.global;

@@ -130,6 +130,8 @@ struct Part {
     pictures: Vec<(&'static str, Result<String, String>)>,
     replay: Option<String>,
     sheet: Vec<sheet::Table>,
+    /// The program moves in inch: its pictures are in inch.
+    inch: bool,
 }
 
 impl Part {
@@ -178,11 +180,10 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         Some(machine) if readable => drawn(&loaded, machine, &report),
         _ => (Vec::new(), None),
     };
-    let sheet = if readable {
-        sheet::tables(&loaded, &Tally::of(loaded.input()), report.cycle_time_s)
-    } else {
-        Vec::new()
-    };
+    let tally = readable.then(|| Tally::of(loaded.input()));
+    let sheet = tally
+        .as_ref()
+        .map_or_else(Vec::new, |tally| sheet::tables(&loaded, tally, report.cycle_time_s));
     let part = Part {
         verdict,
         judged_in,
@@ -194,6 +195,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         pictures,
         replay,
         sheet,
+        inch: tally.is_some_and(|tally| tally.inch),
         name: loaded.name,
     };
     Ok((part, denied))

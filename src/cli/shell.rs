@@ -3,6 +3,7 @@ use super::{
     Done,
     args::{Args, Completions},
     failure::Failure,
+    help,
     out::Out,
 };
 use clap::CommandFactory;
@@ -19,8 +20,7 @@ pub(super) fn completions(command: &Completions) -> Result<Done, Failure> {
 /// Prints the manual page of `trunnion` with all its commands.
 pub(super) fn man() -> Result<Done, Failure> {
     let mut out = Out::standard();
-    let mut command = Args::command();
-    command.build();
+    let command = help::command();
     clap_mangen::Man::new(command.clone()).render(&mut out)?;
     for sub in command
         .get_subcommands()
@@ -30,6 +30,7 @@ pub(super) fn man() -> Result<Done, Failure> {
         let page = clap_mangen::Man::new(sub.clone());
         page.render_description_section(&mut out)?;
         page.render_options_section(&mut out)?;
+        page.render_extra_section(&mut out)?;
     }
     Ok(Done::Clean)
 }

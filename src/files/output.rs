@@ -67,6 +67,15 @@ impl Outputs {
         });
     }
 
+    /// Standard output, where `what` goes: no output option may name it too.
+    pub fn standard(&mut self, what: &str) {
+        self.used.push(Used {
+            identity: None,
+            place: PathBuf::from("-"),
+            role: format!("also where {what} goes"),
+        });
+    }
+
     /// The file next to `original` that keeps it, named as it is with `.bak` behind; `option` asked for it.
     ///
     /// # Errors
@@ -85,8 +94,12 @@ impl Outputs {
     pub fn output(&mut self, option: &str, path: &Path) -> Result<Target, FileError> {
         let target = Target::new(path)?;
         let clash = |what: &str| {
+            let shown = match target.kind {
+                Kind::Standard => Path::new("standard output"),
+                _ => path,
+            };
             FileError::new(
-                path,
+                shown,
                 format!("{option} names a file that is {what}; nothing was written, name another file"),
             )
         };

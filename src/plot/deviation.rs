@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
-use crate::scale::{counted, decade, range};
+use crate::scale::{Height, counted, range};
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Draws it; `tolerance` in mm.
@@ -28,43 +28,38 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         .count();
     // far above the tolerance a linear scale would hide it
     let decades = *most > 20.0 * tolerance;
-    let floor = 1e-4_f64.min(tolerance / 10.0);
-    let value = |v: f64| if decades { decade(v.max(floor)) } else { v };
+    let unit = record.unit;
+    let height = Height {
+        unit,
+        decades,
+        floor: 1e-4_f64.min(tolerance / 10.0),
+    };
+    let value = |mm: f64| height.of(mm);
     let way = |block: &Block| {
         let samples = record.of(block);
         (
-            samples.first().map_or(0.0, |s| s.way),
-            samples.last().map_or(0.0, |s| s.way),
+            samples.first().map_or(0.0, |s| record.way(s)),
+            samples.last().map_or(0.0, |s| record.way(s)),
         )
     };
-    let across = range(record.samples.iter().map(|sample| sample.way), 1e-3);
+    let across = range(record.samples.iter().map(|sample| record.way(sample)), 1e-3);
     let across = [across[0].max(0.0), across[1]];
     let upwards = if decades {
-        [decade(floor), decade(bound.max(tolerance)) + 0.3]
+        [value(0.0), value(bound.max(tolerance)) + 0.3]
     } else {
-        [0.0, 1.15 * bound.max(tolerance)]
+        [0.0, 1.15 * value(bound.max(tolerance))]
     };
-    let legend = legend(tolerance, unjudged);
+    let legend = legend(&unit.declared(tolerance), unjudged);
+    let name = height.name("deviation of the tip from the programmed segment", "");
     sheet(header, &legend, |body| {
         let panel = Panel::new(
             body,
             &Frame {
                 x: across,
                 y: upwards,
-                x_name: Some("travel of the tool tip / mm"),
-                y_name: if decades {
-                    "deviation of the tip from the programmed segment / mm (log)"
-                } else {
-                    "deviation of the tip from the programmed segment / mm"
-                },
-                labels: [
-                    10,
-                    if decades {
-                        (upwards[1] - upwards[0]).ceil() as usize + 1
-                    } else {
-                        8
-                    },
-                ],
+                x_name: Some(unit.travel()),
+                y_name: &name,
+                labels: [10, height.labels(upwards)],
                 decades,
                 right: 0.0,
             },
@@ -87,22 +82,28 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         let place = (0.5 * (from + to), value(*most));
         panel.ring(place.0, place.1, VERMILION, 6.0)?;
         let left = place.0 > 0.5 * (across[0] + across[1]);
-        let text = format!("line {}: {most:.4} mm (proven below {})", worst.line, above(*bound));
+        let text = format!(
+            "line {}: {} (proven below {})",
+            worst.line,
+            unit.text(*most, 4),
+            above(unit.of_mm(*bound), unit.digits(4))
+        );
         let side = if left { HPos::Right } else { HPos::Left };
         panel.text(place, &text, VERMILION, (side, VPos::Bottom), 8.0)
     })
 }
 
-/// A bound with four decimals, never below itself.
-fn above(bound: f64) -> String {
-    format!("{:.4}", ((bound * 1e4).floor() + 1.0) / 1e4)
+/// A bound with some decimals, never below itself.
+fn above(bound: f64, digits: usize) -> String {
+    let parts = (0..digits).fold(1.0, |parts, _| parts * 10.0);
+    format!("{:.digits$}", ((bound * parts).floor() + 1.0) / parts)
 }
 
-fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
+fn legend(tolerance: &str, unjudged: usize) -> Vec<Entry> {
     let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), "largest in the block".into()),
         (Swatch::Filled(SKY), "proven bound".into()),
-        (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
+        (Swatch::Dashed(VERMILION), format!("tolerance {tolerance}")),
     ];
     if unjudged > 0 {
         legend.push((Swatch::Plain, format!("unknown in {}", counted(unjudged, "block"))));
@@ -117,8 +118,13 @@ mod tests {
     #[test]
     fn a_bound_is_above_itself() {
         assert_eq!(
-            [above(0.0), above(0.00004), above(0.0123)],
-            ["0.0001", "0.0001", "0.0124"]
+            [
+                above(0.0, 4),
+                above(0.00004, 4),
+                above(0.0123, 4),
+                above(0.000_001_1, 6)
+            ],
+            ["0.0001", "0.0001", "0.0124", "0.000002"]
         );
     }
 }

@@ -2,7 +2,8 @@
 use crate::canvas::{BLUE, Entry, GREEN, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
-use crate::scale::{counted, decade, range};
+use crate::scale::{Height, counted, range};
+use crate::unit::Unit;
 
 /// Draws it, on a logarithmic scale where the limit is far below what is programmed.
 ///
@@ -28,38 +29,36 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     let top = top(values(), programmed).unwrap_or(most);
     let least = least.min(top);
     let decades = top > 20.0 * least;
-    let value = |feed: f64| if decades { decade(feed.max(1e-3)) } else { feed };
+    let unit = record.unit;
+    let scale = Height {
+        unit,
+        decades,
+        floor: 1e-3,
+    };
+    let value = |feed: f64| scale.of(feed);
     let upwards = if decades {
-        [decade(least) - 0.2, decade(top) + 0.1]
+        [value(least) - 0.2, value(top) + 0.1]
     } else {
-        [0.0, top]
+        [0.0, value(top)]
     };
     // the cuts alone: a rapid to a far tool change would leave no room for them
     let across = range(
-        cuts.iter().flat_map(|block| record.of(block)).map(|sample| sample.way),
+        cuts.iter()
+            .flat_map(|block| record.of(block))
+            .map(|sample| record.way(sample)),
         1e-3,
     );
     let across = [across[0].max(0.0), across[1]];
     let planned = cuts.iter().any(|block| block.planned.is_some());
-    let legend = legend(&cuts, planned, top);
+    let legend = legend(&cuts, planned, (top, unit));
+    let name = scale.name("feed of the tip", "/min");
     sheet(header, &legend, |body| {
         let frame = Frame {
             x: across,
             y: upwards,
-            x_name: Some("travel of the tool tip / mm"),
-            y_name: if decades {
-                "feed of the tip / mm/min (log)"
-            } else {
-                "feed of the tip / mm/min"
-            },
-            labels: [
-                10,
-                if decades {
-                    (upwards[1] - upwards[0]).ceil() as usize + 1
-                } else {
-                    8
-                },
-            ],
+            x_name: Some(unit.travel()),
+            y_name: &name,
+            labels: [10, scale.labels(upwards)],
             decades,
             right: 0.0,
         };
@@ -69,7 +68,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
             cuts.iter().flat_map(move |block| {
                 let samples = record.of(block);
                 let [from, to] =
-                    [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+                    [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| record.way(sample)));
                 // nothing is drawn across a rapid, nor above the picture
                 let gap = (from - core::mem::replace(&mut last, to)).abs() > 1e-6;
                 let feed = block.feed[which].filter(|feed| *feed <= top * (1.0 + 1e-9));
@@ -120,14 +119,20 @@ fn places<'b>(
 ) -> impl Iterator<Item = (f64, f64)> {
     blocks.filter_map(move |(block, feed)| {
         let samples = record.of(block);
-        Some((0.5 * (samples.first()?.way + samples.last()?.way), height(feed)))
+        Some((
+            0.5 * (record.way(samples.first()?) + record.way(samples.last()?)),
+            height(feed),
+        ))
     })
 }
 
-fn legend(cuts: &[&Block], planned: bool, top: f64) -> Vec<Entry> {
+fn legend(cuts: &[&Block], planned: bool, (top, unit): (f64, Unit)) -> Vec<Entry> {
     let above = |block: &&&Block| block.feed[1].is_some_and(|feed| feed > top * (1.0 + 1e-9));
     let limit = if cuts.iter().any(|block| above(&block)) {
-        format!("highest feed that no axis limits, where it is below {top:.0} mm/min")
+        format!(
+            "highest feed that no axis limits, where it is below {}/min",
+            unit.text(top, 0)
+        )
     } else {
         "highest feed that no axis limits".to_owned()
     };
@@ -175,7 +180,8 @@ fn course(record: &Record, height: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
             continue;
         };
         let samples = record.of(block);
-        let [from, to] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.way));
+        let [from, to] =
+            [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| record.way(sample)));
         let [full, brakes] = plan.even(entry).map(|part| from + part * (to - from));
         let mut change = |[from, to]: [f64; 2], before: f64, after: f64| {
             course.push((from, height(before)));

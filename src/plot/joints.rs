@@ -3,6 +3,7 @@ use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError,
 use crate::grid::{Frame, Panel};
 use crate::record::{Mark, Record, Sample};
 use crate::scale::range;
+use crate::unit::Unit;
 use plotters::prelude::RGBColor;
 use trunnion_geometry::deg;
 use trunnion_machine::{Axis, AxisKind, Limits, Machine};
@@ -17,15 +18,15 @@ pub enum Along {
 }
 
 impl Along {
-    fn of(self, sample: &Sample) -> f64 {
+    fn of(self, record: &Record, sample: &Sample) -> f64 {
         match self {
-            Self::Way => sample.way,
+            Self::Way => record.way(sample),
             Self::Time => sample.time,
         }
     }
-    fn name(self) -> &'static str {
+    fn name(self, unit: Unit) -> &'static str {
         match self {
-            Self::Way => "travel of the tool tip / mm",
+            Self::Way => unit.travel(),
             Self::Time => "time at programmed feed / s",
         }
     }
@@ -72,10 +73,15 @@ pub fn joints(
             "nothing to draw: the axis positions are unknown in every motion".into(),
         ));
     }
-    let across = range(record.samples.iter().map(|sample| along.of(sample)), 1e-3);
+    let across = range(record.samples.iter().map(|sample| along.of(record, sample)), 1e-3);
     // no empty room before the start
     let across = [across[0].max(0.0), across[1]];
-    if across[1] <= across[0] || record.samples.iter().all(|sample| !along.of(sample).is_finite()) {
+    if across[1] <= across[0]
+        || record
+            .samples
+            .iter()
+            .all(|sample| !along.of(record, sample).is_finite())
+    {
         return Err(PlotError(
             "the time of every motion is unknown: draw over the travel instead".into(),
         ));
@@ -100,10 +106,20 @@ pub fn joints(
             let top = each * joint as i32;
             let bottom = if last { height as i32 } else { top + each };
             let field = body.clone().shrink((0, top), (width, (bottom - top) as u32));
-            let unit = if axis.kind == AxisKind::Rotary { "deg" } else { "mm" };
-            let name = format!("{} / {unit}", char::from(axis.letter));
-            let values = record.samples.iter().map(|sample| sample.joints[joint]);
-            let [low, high] = with_limits(range(values, LEAST), axis);
+            let sign = match axis.kind {
+                AxisKind::Rotary => "deg",
+                AxisKind::Linear => record.unit.name(),
+            };
+            let name = format!("{} / {sign}", char::from(axis.letter));
+            let at = |sample: &Sample| shown(record.unit, axis, sample.joints[joint]);
+            let values = range(record.samples.iter().map(at), shown(record.unit, axis, LEAST));
+            let limits = travel(record.unit, axis);
+            let [low, high] = with_limits(values, limits);
+            let digits = match axis.kind {
+                AxisKind::Rotary => 0,
+                AxisKind::Linear => record.unit.digits(0),
+            };
+            let spot = |sample: &Sample| (along.of(record, sample), at(sample));
             // a strip above the curve for the note on limits
             let upwards = [low, high + NOTE_SHARE * (high - low)];
             let panel = Panel::new(
@@ -111,17 +127,17 @@ pub fn joints(
                 &Frame {
                     x: across,
                     y: upwards,
-                    x_name: last.then_some(along.name()),
+                    x_name: last.then_some(along.name(record.unit)),
                     y_name: &name,
                     labels: [10, (each / 350).clamp(2, 6) as usize],
                     decades: false,
                     right: 0.0,
                 },
             )?;
-            draw_limits(&panel, axis, across, upwards)?;
-            draw_marks(&panel, record, marks, &rules, along, joint)?;
+            draw_limits(&panel, (limits, digits), across, upwards)?;
+            draw_marks(&panel, record, marks, &rules, spot)?;
             for rapid in [true, false] {
-                let points = curve(record, along, joint, rapid);
+                let points = curve(record, rapid, spot);
                 panel.line(
                     points.into_iter(),
                     if rapid { GREY } else { BLUE },
@@ -134,19 +150,14 @@ pub fn joints(
 }
 
 /// The samples of rapids (or feeds), parted where others lie between.
-fn curve(record: &Record, along: Along, joint: usize, rapid: bool) -> Vec<(f64, f64)> {
+fn curve(record: &Record, rapid: bool, spot: impl Fn(&Sample) -> (f64, f64)) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for block in &record.blocks {
         if block.rapid == rapid {
             if !block.joined {
                 points.push((f64::NAN, f64::NAN));
             }
-            points.extend(
-                record
-                    .of(block)
-                    .iter()
-                    .map(|sample| (along.of(sample), sample.joints[joint])),
-            );
+            points.extend(record.of(block).iter().map(&spot));
         } else {
             points.push((f64::NAN, f64::NAN));
         }
@@ -154,14 +165,22 @@ fn curve(record: &Record, along: Along, joint: usize, rapid: bool) -> Vec<(f64, 
     points
 }
 
-/// Travel of an axis, mm or deg.
-fn travel(axis: &Axis) -> Option<[f64; 2]> {
+/// A position of an axis, mm or deg, as it is shown.
+fn shown(unit: Unit, axis: &Axis, value: f64) -> f64 {
+    match axis.kind {
+        AxisKind::Rotary => value,
+        AxisKind::Linear => unit.of_mm(value),
+    }
+}
+
+/// Travel of an axis as it is shown.
+fn travel(unit: Unit, axis: &Axis) -> Option<[f64; 2]> {
     let Limits::Range(low, high) = axis.limits else {
         return None;
     };
     Some(match axis.kind {
         AxisKind::Rotary => [deg(low), deg(high)],
-        AxisKind::Linear => [low, high],
+        AxisKind::Linear => [low, high].map(|limit| unit.of_mm(limit)),
     })
 }
 
@@ -172,10 +191,10 @@ const LEAST: f64 = 0.1;
 const NOTE_SHARE: f64 = 0.22;
 
 /// The range with those limits that lie near it.
-fn with_limits(range: [f64; 2], axis: &Axis) -> [f64; 2] {
+fn with_limits(range: [f64; 2], limits: Option<[f64; 2]>) -> [f64; 2] {
     let span = range[1] - range[0];
     let near = |limit: f64| limit > range[0] - span && limit < range[1] + span;
-    travel(axis)
+    limits
         .into_iter()
         .flatten()
         .filter(|limit| near(*limit))
@@ -184,12 +203,17 @@ fn with_limits(range: [f64; 2], axis: &Axis) -> [f64; 2] {
         })
 }
 
-fn draw_limits(panel: &Panel<'_>, axis: &Axis, across: [f64; 2], upwards: [f64; 2]) -> Result<(), PlotError> {
-    let note = match travel(axis) {
+fn draw_limits(
+    panel: &Panel<'_>,
+    (limits, digits): (Option<[f64; 2]>, usize),
+    across: [f64; 2],
+    upwards: [f64; 2],
+) -> Result<(), PlotError> {
+    let note = match limits {
         None => "no limits".to_owned(),
-        Some([low, high]) => format!("limits {low:.0} to {high:.0}").replace('-', "\u{2212}"),
+        Some([low, high]) => format!("limits {low:.digits$} to {high:.digits$}").replace('-', "\u{2212}"),
     };
-    for limit in travel(axis).into_iter().flatten() {
+    for limit in limits.into_iter().flatten() {
         if limit > upwards[0] && limit < upwards[1] {
             panel.dashed(across.map(|x| (x, limit)).into_iter(), VERMILION, 1.4)?;
         }
@@ -202,8 +226,7 @@ fn draw_marks(
     record: &Record,
     marks: &[Mark],
     rules: &[(String, RGBColor, usize)],
-    along: Along,
-    joint: usize,
+    spot: impl Fn(&Sample) -> (f64, f64),
 ) -> Result<(), PlotError> {
     let lines = record.by_line();
     // the rarest on top, each a little smaller
@@ -212,7 +235,7 @@ fn draw_marks(
         for mark in marks.iter().filter(|mark| mark.rule == *rule) {
             for block in lines.get(&mark.line).into_iter().flatten() {
                 if let Some(end) = record.of(block).last() {
-                    dots.push((along.of(end), end.joints[joint]));
+                    dots.push(spot(end));
                 }
             }
         }

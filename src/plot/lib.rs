@@ -15,6 +15,7 @@ mod route;
 mod scale;
 mod servo;
 mod thin;
+mod unit;
 
 pub use axis_plane::axis_plane;
 pub use canvas::{Header, PlotError};
@@ -26,3 +27,4 @@ pub use path::path;
 pub use record::{Block, Mark, PlannedFeed, Record, Recorder, Sample};
 pub use route::route;
 pub use servo::{ServoSpot, servo};
+pub use unit::Unit;

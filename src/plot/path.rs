@@ -3,6 +3,7 @@ use crate::canvas::{BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, V
 use crate::grid::Panel;
 use crate::record::{Block, Record};
 use crate::scale::{counted, short};
+use crate::unit::Unit;
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::Vec3;
@@ -28,7 +29,11 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     if straying > 0 {
         legend.push((
             Swatch::Line(VERMILION),
-            format!("deviates more than {tolerance} mm ({})", counted(straying, "block")),
+            format!(
+                "deviates more than {} ({})",
+                record.unit.declared(tolerance),
+                counted(straying, "block")
+            ),
         ));
     }
     if record.unknown > 0 {
@@ -62,7 +67,7 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
             (tip - held).norm() < 0.35 * size
         });
         let flat = Panel::bare(body, corners.chain(near.map(|tip| see(&tip))));
-        draw_box(&flat, &low, &high)?;
+        draw_box(&flat, record.unit, &low, &high)?;
         draw_axes(&flat, record, size)?;
         for rapid in [true, false] {
             let mut points = Vec::new();
@@ -104,7 +109,7 @@ fn extent(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
 }
 
 /// The floor of the box about the cut, with ticks along X and Y in front and along Z at the left.
-fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
+fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
     let at = |x: f64, y: f64, z: f64| see(&Vec3::new(x, y, z));
     let floor = [
         at(low.x, low.y, low.z),
@@ -120,7 +125,8 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
         1.0,
     )?;
     let size = (high - low).max().max(1e-3);
-    let step = step(size / 6.0);
+    let shown = unit.of_mm(size);
+    let step = unit.to_mm(step(shown / 6.0));
     for axis in 0..3 {
         let letter = ['X', 'Y', 'Z'][axis];
         let span = high[axis] - low[axis];
@@ -144,7 +150,7 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
             let from = place(value);
             let to = from + beside;
             flat.line([see(&from), see(&to)].into_iter(), FLOOR, 1.0)?;
-            let text = short(value, size);
+            let text = short(unit.of_mm(value), shown);
             flat.write(
                 see(&(to + beside * 0.3)),
                 &text,
@@ -154,7 +160,7 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
         let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
         flat.write(
             see(&middle),
-            &format!("{letter} / mm"),
+            &format!("{letter} / {}", unit.name()),
             anchored(15.0, anchor.0, anchor.1).color(&INK),
         )?;
     }

@@ -1,4 +1,5 @@
 //! The record of a run for pictures: samples along the real path, block by block.
+use crate::unit::Unit;
 use core::ops::Range;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
@@ -100,12 +101,18 @@ pub struct Record {
     pub unknown: usize,
     /// The first line whose block is drawn by its ends alone, because the record holds as many samples as are kept.
     pub coarse_from: Option<u32>,
+    /// In what people read its lengths.
+    pub unit: Unit,
 }
 
 impl Record {
     /// Samples of a block.
     pub fn of(&self, block: &Block) -> &[Sample] {
         &self.samples[block.samples.clone()]
+    }
+    /// Travel at a sample, as it is shown.
+    pub(crate) fn way(&self, sample: &Sample) -> f64 {
+        self.unit.of_mm(sample.way)
     }
     /// Blocks by their lines: those of a line in the order of the run.
     pub(crate) fn by_line(&self) -> BTreeMap<u32, Vec<&Block>> {

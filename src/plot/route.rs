@@ -2,6 +2,7 @@
 use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, INK, PlotError, Swatch, VERMILION, anchored, sheet};
 use crate::grid::{Frame, Panel, equal};
 use crate::record::Record;
+use crate::unit::Unit;
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::plane::Point;
@@ -22,6 +23,7 @@ pub fn route(
     record: &Record,
     after: Option<&Record>,
 ) -> Result<String, PlotError> {
+    let unit = record.unit;
     let ways = |record: &Record, rapid: bool| -> Vec<Vec3> {
         let blocks = record.blocks.iter().filter(move |block| block.rapid == rapid);
         let points = blocks.flat_map(|block| {
@@ -51,36 +53,31 @@ pub fn route(
         .map(|obstacle| (obstacle.name.clone(), outline(&obstacle.footprint)))
         .collect();
     let legend = legend(after.is_some());
+    let names = ["X in the frame of the obstacles", "Y"].map(|name| format!("{name} / {}", unit.name()));
+    let flat = |point: &Point| shown(unit, point);
     sheet(header, &legend, |body| {
         let corners = barriers
             .iter()
             .flatten()
             .chain(outlines.iter().flat_map(|(_, corners)| corners));
         let all: Vec<Point> = known().map(Vec3::xy).chain(corners.copied()).collect();
-        let range = |axis: usize| {
-            let values = all.iter().map(|point| point[axis]);
-            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
-            let room = 0.05 * (high - low).max(1.0);
-            [low - room, high + room]
-        };
+        let range = |axis: usize| about(all.iter().map(|point| unit.of_mm(point[axis])), unit.of_mm(1.0));
         let (x, y) = equal(range(0), range(1), body.dim_in_pixel(), 0.0);
         let frame = Frame {
             x,
             y,
-            x_name: Some("X in the frame of the obstacles / mm"),
-            y_name: "Y / mm",
+            x_name: Some(&names[0]),
+            y_name: &names[1],
             labels: [10, 8],
             decades: false,
             right: 0.0,
         };
         let panel = Panel::new(body, &frame)?;
         for ring in &barriers {
-            panel.fill(ring.iter().map(flat), AROUND, 1.0)?;
+            panel.fill(ring.iter().map(&flat), AROUND, 1.0)?;
         }
         for (name, corners) in &outlines {
-            panel.fill(corners.iter().map(flat), BODY, 1.0)?;
+            panel.fill(corners.iter().map(&flat), BODY, 1.0)?;
             let middle = corners.iter().sum::<Point>() / corners.len().max(1) as f64;
             panel.write(
                 flat(&middle),
@@ -94,7 +91,7 @@ pub fn route(
             panel.line(then.iter().map(|point| flat(&point.xy())), GREEN, 2.0)?;
             panel.dots(then.iter().map(|point| flat(&point.xy())), GREEN, 3.0)?;
         }
-        let heights = format!("barriers at Z {lowest:.3} mm");
+        let heights = format!("barriers at Z {}", unit.text(lowest, 3));
         panel.write(
             (x[0] + 0.01 * (x[1] - x[0]), y[1]),
             &heights,
@@ -120,8 +117,18 @@ fn legend(compared: bool) -> Vec<Entry> {
     legend
 }
 
-fn flat(point: &Point) -> (f64, f64) {
-    (point.x, point.y)
+/// A range about values, with room around them; `least`: a width below which it has the same room.
+fn about(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let room = 0.05 * (high - low).max(least);
+    [low - room, high + room]
+}
+
+/// A point in mm as it is shown.
+fn shown(unit: Unit, point: &Point) -> (f64, f64) {
+    (unit.of_mm(point.x), unit.of_mm(point.y))
 }
 
 /// Joints of a sample in mm and rad.

@@ -1,4 +1,5 @@
 //! Ranges of values and how numbers are written on an axis.
+use crate::unit::Unit;
 
 /// A range that holds all values, a little wider; never empty.
 pub(crate) fn range(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
@@ -12,6 +13,40 @@ pub(crate) fn range(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
     }
     let more = (0.06 * (high - low)).max(0.5 * (least - (high - low)).max(0.0));
     [low - more, high + more]
+}
+
+/// How high a length or a feed in mm stands on an axis: in a unit, and by its logarithm where the values are far apart.
+#[derive(Clone, Copy)]
+pub(crate) struct Height {
+    pub(crate) unit: Unit,
+    /// By its logarithm.
+    pub(crate) decades: bool,
+    /// With logarithms, lower values stand here, mm.
+    pub(crate) floor: f64,
+}
+
+impl Height {
+    /// Where a value in mm stands.
+    pub(crate) fn of(&self, mm: f64) -> f64 {
+        if self.decades {
+            decade(self.unit.of_mm(mm.max(self.floor)))
+        } else {
+            self.unit.of_mm(mm)
+        }
+    }
+    /// The name of the axis; `per`: what follows the unit of length.
+    pub(crate) fn name(&self, what: &str, per: &str) -> String {
+        let log = if self.decades { " (log)" } else { "" };
+        format!("{what} / {}{per}{log}", self.unit.name())
+    }
+    /// How many labels it has.
+    pub(crate) fn labels(&self, [low, high]: [f64; 2]) -> usize {
+        if self.decades {
+            (high - low).ceil() as usize + 1
+        } else {
+            8
+        }
+    }
 }
 
 /// `1 block`, `2 blocks`.

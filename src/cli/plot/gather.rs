@@ -5,18 +5,26 @@ use trunnion_check::{Report, Status};
 use trunnion_interp::{ModalState, MotionKind};
 use trunnion_machine::{BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
-use trunnion_plot::{Mark, PlannedFeed, Record, Recorder};
+use trunnion_plot::{Mark, PlannedFeed, Record, Recorder, Unit};
 use trunnion_syntax::LineIndex;
 
 /// The record of the program, or of the blocks between two lines.
 pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
     let index = LineIndex::new(loaded.program.source());
     let mut recorder = Recorder::new(machine);
-    let given_up = each_leg(loaded, machine, &index, lines, |leg, line, _| recorder.leg(leg, line));
+    let mut inch = false;
+    let given_up = each_leg(loaded, machine, &index, lines, |leg, line, state| {
+        inch |= state.coordinates.is_inch();
+        recorder.leg(leg, line);
+    });
     if let Some(why) = given_up {
         remark(false, &format!("{why}; the picture ends there"));
     }
-    recorder.finish()
+    let mut record = recorder.finish();
+    if inch {
+        record.unit = Unit::Inch;
+    }
+    record
 }
 
 /// Adds the planned feeds to the blocks of a record.

@@ -109,11 +109,16 @@ pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n\
-         <header><h1>{}</h1><p>Report of trunnion {}. Distances in mm, angles in degrees.</p></header>\n",
+         <header><h1>{}</h1><p>Report of trunnion {}. {}, angles in degrees.</p></header>\n",
         escape(&title),
         include_str!("page.css"),
         escape(&title),
         env!("CARGO_PKG_VERSION"),
+        if parts.iter().any(|part| part.inch) {
+            "Distances in mm, pictures of programs in inch in inch"
+        } else {
+            "Distances in mm"
+        },
     );
     if parts.len() != 1 || !failures.is_empty() {
         overview(&mut out, parts, failures);
@@ -235,7 +240,7 @@ fn program(out: &mut String, at: usize, part: &Part) {
         out.push_str("<section class=\"sheet\"><h3>Set-up sheet</h3>\n");
     }
     for table in part.sheet.iter().filter(|table| !table.rows.is_empty()) {
-        let _ = write!(out, "<h4>{}</h4><table><tr>", table.title);
+        let _ = write!(out, "<h4>{}</h4><div class=\"wide\"><table><tr>", table.title);
         for cell in &table.head {
             let _ = write!(out, "<th>{cell}</th>");
         }
@@ -247,7 +252,7 @@ fn program(out: &mut String, at: usize, part: &Part) {
             }
             out.push_str("</tr>\n");
         }
-        out.push_str("</table>\n");
+        out.push_str("</table></div>\n");
     }
     if !part.sheet.is_empty() {
         out.push_str("</section>\n");
@@ -264,7 +269,7 @@ fn replay(out: &mut String, data: &str) {
          <button type=\"button\" data-do=\"iso\">Iso</button><button type=\"button\" data-do=\"front\">Front</button>\
          <button type=\"button\" data-do=\"right\">Right</button><button type=\"button\" data-do=\"top\">Top</button></div>\n\
          <p class=\"state\"></p><pre class=\"now\"></pre>\n\
-         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Red squares: findings about axes. Drag to turn, scroll to zoom, shift and drag to move.</p>\n\
+         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Orange: run so far. Red squares: findings about axes. Drag to turn, scroll to zoom, shift and drag to move.</p>\n\
          <script type=\"application/json\">{data}</script></section>"
     );
 }

@@ -98,11 +98,11 @@ for (const section of document.querySelectorAll(".replay")) {
       if (Math.hypot(x - foot[0], y - foot[1]) > 6) pen.fillText(name, x + 4, y - 2);
     });
     const time = data.points[at * width + 6];
-    const joints = data.letters.map((name, k) => `${name} ${data.joints[at * data.letters.length + k].toFixed(3)}`);
+    const joints = data.letters.map((name, k) => `${name} ${data.joints[at * data.letters.length + k].toFixed(data.rotary[k] ? 3 : data.digits)}`);
     const rule = marked.has(data.lines[at]) ? `; finding: ${marked.get(data.lines[at])}` : "";
     section.querySelector(".state").textContent =
       `Line ${data.lines[at]}, ${data.kinds[at] & 1 ? "rapid" : "feed"}, ${time < 0 ? "time unknown" : time.toFixed(2) + " s"}; ` +
-      `tip ${tip.map((value) => value.toFixed(3)).join(", ")}; joints ${joints.join(", ")}${rule}`;
+      `tip ${tip.map((value) => value.toFixed(data.digits)).join(", ")} ${data.unit}; joints ${joints.join(", ")}${rule}`;
     section.querySelector(".now").textContent = data.texts[data.lines[at]];
     slider.value = String(Math.round(at / Math.max(count - 1, 1) * 1000));
   };

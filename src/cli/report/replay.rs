@@ -1,8 +1,8 @@
 //! The data of the replay: points along the path with time, joints and line.
 use crate::cli::load::Loaded;
 use serde_json::json;
-use trunnion_machine::Machine;
-use trunnion_plot::{Mark, Record};
+use trunnion_machine::{AxisKind, Machine};
+use trunnion_plot::{Mark, Record, Unit};
 use trunnion_syntax::LineIndex;
 
 /// So many points are kept: what a browser turns smoothly.
@@ -15,6 +15,7 @@ pub(super) fn data(loaded: &Loaded, machine: &Machine, record: &Record, marks: &
     if record.samples.len() < 2 {
         return None;
     }
+    let unit = record.unit;
     let every = record.samples.len().div_ceil(MOST).max(1);
     let (mut points, mut joints, mut lines, mut kinds) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for block in &record.blocks {
@@ -29,18 +30,21 @@ pub(super) fn data(loaded: &Loaded, machine: &Machine, record: &Record, marks: &
             }
             let time = if sample.time.is_finite() { sample.time } else { -1.0 };
             points.extend(
-                [
-                    sample.tip.x,
-                    sample.tip.y,
-                    sample.tip.z,
-                    sample.axis.x,
-                    sample.axis.y,
-                    sample.axis.z,
-                ]
-                .map(round),
+                sample
+                    .tip
+                    .iter()
+                    .map(|mm| unit.of_mm(*mm))
+                    .chain(sample.axis.iter().copied())
+                    .chain([time])
+                    .map(|value| round(value, unit)),
             );
-            points.push(round(time));
-            joints.extend(machine.own_axes().map(|(index, _)| round(sample.joints[index])));
+            joints.extend(machine.own_axes().map(|(index, axis)| {
+                let value = sample.joints[index];
+                match axis.kind {
+                    AxisKind::Linear => round(unit.of_mm(value), unit),
+                    AxisKind::Rotary => round(value, unit),
+                }
+            }));
             lines.push(block.line);
             // 0 feed, 1 rapid; 2 more: not joined to the point before
             let gap = at == 0 && !block.joined;
@@ -59,9 +63,14 @@ pub(super) fn data(loaded: &Loaded, machine: &Machine, record: &Record, marks: &
         .own_axes()
         .map(|(_, axis)| char::from(axis.letter).to_string())
         .collect();
+    let rotary: Vec<bool> = machine
+        .own_axes()
+        .map(|(_, axis)| axis.kind == AxisKind::Rotary)
+        .collect();
     let marked: Vec<_> = marks.iter().map(|mark| json!([mark.line, mark.rule])).collect();
     let document = json!({
         "points": points, "joints": joints, "letters": letters, "lines": lines, "kinds": kinds, "texts": texts, "marks": marked,
+        "unit": unit.name(), "digits": unit.digits(3), "rotary": rotary,
     });
     // nothing in the text of a program ends the script
     Some(
@@ -73,8 +82,12 @@ pub(super) fn data(loaded: &Loaded, machine: &Machine, record: &Record, marks: &
     )
 }
 
-fn round(value: f64) -> f64 {
-    let rounded = (value * 1e4).round() / 1e4 + 0.0;
+fn round(value: f64, unit: Unit) -> f64 {
+    let parts = match unit {
+        Unit::Mm => 1e4,
+        Unit::Inch => 1e6,
+    };
+    let rounded = (value * parts).round() / parts + 0.0;
     if rounded.is_finite() { rounded } else { 0.0 }
 }
 

@@ -8,25 +8,35 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
 
 /// Words of a line: letter and number as written.
 pub(super) fn words(code: &str) -> impl Iterator<Item = (u8, &str)> {
-    code.char_indices()
-        .filter(|(_, c)| c.is_ascii_uppercase())
-        .map(|(at, letter)| {
-            let rest = code[at + 1..].trim_start();
-            let end = rest
-                .find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-' || c == '+'))
-                .unwrap_or(rest.len());
-            (letter as u8, &rest[..end])
-        })
+    // every line of every program passes here many times: bytes are enough, because an ASCII byte is no part of another character
+    let letters = code.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_uppercase());
+    letters.map(|(at, letter)| (letter, number_after(code, at)))
+}
+
+/// The numbers of the words with a letter, as written.
+fn numbers(code: &str, letter: u8) -> impl Iterator<Item = &str> {
+    let places = code.bytes().enumerate().filter(move |(_, byte)| *byte == letter);
+    places.map(|(at, _)| number_after(code, at))
+}
+
+/// The number behind the letter at a byte.
+fn number_after(code: &str, at: usize) -> &str {
+    let rest = code[at + 1..].trim_start();
+    let end = rest
+        .bytes()
+        .position(|byte| !(byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+')))
+        .unwrap_or(rest.len());
+    &rest[..end]
 }
 
 /// Whether a line holds the code of a letter and number, leading zeros left out: `G50`, `M97`.
 pub(super) fn has(code: &str, letter: u8, number: &str) -> bool {
-    words(code).any(|(known, digits)| known == letter && digits.trim_start_matches('0') == number)
+    numbers(code, letter).any(|digits| digits.trim_start_matches('0') == number)
 }
 
 /// Whether a line holds a letter with a number.
 pub(super) fn word(code: &str, letter: u8) -> bool {
-    words(code).any(|(known, digits)| known == letter && !digits.is_empty())
+    numbers(code, letter).any(|digits| !digits.is_empty())
 }
 
 /// Whether `word` occurs in `code` and is not part of a longer name. Words may be packed: `N10G710`.

@@ -97,6 +97,51 @@ fn two_outputs_of_one_command_are_two_files() {
     assert!(!out.exists());
 }
 
+/// The program goes into the file of `-o`, a document or a diff to standard output, and never both to one place.
+#[test]
+fn standard_output_holds_one_thing() {
+    let folder = folder();
+    let program = write(&folder, "p.nc", FLIP);
+    let out = folder.path().join("out.nc");
+    let on = ["--machine", MACHINE, "--dialect", "fanuc-30i"];
+    let run = |command: &[&str]| trunnion(&[&[command[0], str(&program)], &command[1..], &on].concat());
+    let convert = ["convert", "--to", "sinumerik-840d", "--format", "json"];
+    let output = run(&[&convert[..], &["-o", str(&out)]].concat());
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(document["program"], content(&out));
+    assert!(content(&out).contains("TRAORI"), "{}", content(&out));
+    let output = run(&["fix", "--format", "json", "-o", str(&out)]);
+    serde_json::from_slice::<serde_json::Value>(&output.stdout).expect("JSON");
+    assert!(content(&out).starts_with("(trunnion: tool 1"), "{}", content(&out));
+    for (command, what) in [
+        (&[&convert[..], &["-o", "-"]].concat()[..], "the JSON document"),
+        (&[&convert[..3], &["--certificate", "-"]].concat(), "the program"),
+        (&["fix", "--format", "json", "-o", "-"], "the JSON document"),
+        (&["fix", "--diff", "-o", "-"], "the diff"),
+        (&["fix", "--certificate", "-"], "the diff"),
+        (&["edit", "--mirror", "X", "--diff", "-o", "-"], "the diff"),
+        (&["check", "--write-baseline", "-"], "the result"),
+    ] {
+        let output = run(command);
+        let said = text(&output.stderr);
+        assert_eq!(
+            (status(&output), text(&output.stdout).as_str()),
+            (2, ""),
+            "{command:?}: {said}"
+        );
+        assert!(said.contains(&format!("also where {what} goes")), "{command:?}: {said}");
+    }
+    let output = run(&["fmt", "-", "--write"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        text(&output.stderr).contains("standard input cannot be replaced"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(content(&program), FLIP);
+}
+
 #[test]
 fn devices_and_fifos_are_not_replaced_and_not_waited_for() {
     let folder = folder();

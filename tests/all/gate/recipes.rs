@@ -125,3 +125,34 @@ fn the_hook_after_posting_reports_what_it_found() {
     shell(&folder, "trunnion check . --write-baseline known.json", &[]);
     assert_eq!(run("bad.nc", "--baseline known.json").0, 0);
 }
+
+/// The job of the page for GitLab, as it stands there.
+#[test]
+fn the_gitlab_job_fails_on_a_bad_program_and_passes_with_the_baseline() {
+    let page = fs::read_to_string(root().join("docs/ci.md")).expect("read");
+    let job = page.split("## GitLab").nth(1).and_then(|rest| rest.split("```").nth(1));
+    let script: Vec<&str> = job
+        .expect("a job")
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("- "))
+        .collect();
+    assert_eq!(script.len(), 1, "{script:?}");
+    let folder = folder();
+    let programs = folder.path().join("programs");
+    fs::create_dir(&programs).expect("made");
+    fs::rename(folder.path().join("bad.nc"), programs.join("bad.nc")).expect("moved");
+    // nothing is accepted yet
+    shell(&folder, "trunnion check good.nc --write-baseline baseline.json", &[]);
+    let (status, said) = shell(&folder, script[0], &[]);
+    assert_eq!(status, 1, "{said}");
+    let report = fs::read_to_string(folder.path().join("trunnion.xml")).expect("written");
+    assert!(report.contains("<failure"), "{report}");
+    shell(&folder, "trunnion check programs --write-baseline baseline.json", &[]);
+    let (status, said) = shell(&folder, script[0], &[]);
+    assert_eq!(status, 0, "{said}");
+    // a mistake in the job: the report says so
+    let (status, _) = shell(&folder, &script[0].replace("--baseline", "--base-line"), &[]);
+    assert_eq!(status, 2);
+    let report = fs::read_to_string(folder.path().join("trunnion.xml")).expect("written");
+    assert!(report.contains("<error type=\"not-checked\""), "{report}");
+}

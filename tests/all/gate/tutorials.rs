@@ -1,6 +1,12 @@
 //! The pages of the site as a new user follows them: each command runs in an empty folder, a page says which of them end with status 1, and
 //! what it shows as output is what they print.
-use std::{fmt::Write, fs, path::Path, process::Command};
+use std::{
+    collections::BTreeMap,
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
 use tempfile::TempDir;
 
 /// Commands of a page.
@@ -176,6 +182,108 @@ fn every_page_with_commands_is_followed() {
             if !followed.contains(&name.as_str()) && !installing.contains(&name.as_str()) {
                 assert!(!text.contains("```sh"), "{name} has commands that no test runs");
             }
+        }
+    }
+}
+
+/// The Markdown and Rust files below a folder.
+fn texts(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("read").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            texts(&path, found);
+        } else if path.extension().is_some_and(|end| end == "md" || end == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// A command in a sentence of a page, of a message or of a help text that the program does not know would send a reader astray. Each is parsed with
+/// `--help` behind, which ends with status 0 where the command and its options exist.
+#[test]
+fn commands_in_sentences_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = vec![
+        root.join("README.md"),
+        root.join("CONTRIBUTING.md"),
+        root.join("action.yml"),
+    ];
+    for folder in ["docs", "src"] {
+        texts(&root.join(folder), &mut files);
+    }
+    let mut commands = BTreeMap::new();
+    for file in files
+        .iter()
+        .filter(|file| !file.components().any(|part| part.as_os_str() == "decisions"))
+    {
+        let text = fs::read_to_string(file).expect("read");
+        let spans = text.split("`trunnion ").skip(1).filter_map(|rest| rest.split_once('`'));
+        for (command, _) in spans {
+            // a value of the moment in a message, several commands in one span
+            let is_whole = !command.contains(['\n', '{', '|']);
+            if is_whole && !command.starts_with("COMMAND") && !command.starts_with("help ") {
+                commands.entry(command.trim().to_owned()).or_insert(file);
+            }
+        }
+    }
+    assert!(commands.len() > 40, "{commands:?}");
+    for (command, file) in commands {
+        let Err(said) = help_of(&command) else { continue };
+        // an option is named without its value, or with the name of its value
+        let mut words = command.split(' ');
+        let is_named = said.contains("a value is required for")
+            || words.any(|word| word == word.to_uppercase() && said.contains(&format!("invalid value '{word}'")));
+        assert!(is_named, "{}: `trunnion {command}`: {said}", file.display());
+    }
+}
+
+/// What a command prints with `--help` behind; what is wrong with it where it does not exist.
+fn help_of(command: &str) -> Result<String, String> {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_trunnion"));
+    let words = command.split_whitespace().take_while(|word| *word != ">");
+    let output = run.args(words).arg("--help").output().expect("runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    if output.status.success() {
+        Ok(text(&output.stdout))
+    } else {
+        Err(text(&output.stderr))
+    }
+}
+
+/// The help of each command that takes arguments ends with examples, which are commands.
+#[test]
+fn the_help_of_a_command_has_examples() {
+    let help = help_of("").expect("help");
+    let names = help
+        .split("Commands:\n")
+        .nth(1)
+        .and_then(|rest| rest.split("\n\n").next());
+    let names = names.expect("a list of commands").lines();
+    let names: Vec<&str> = names
+        .filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')))
+        .filter_map(|line| line.split(' ').next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert!(names.len() > 20, "{help}");
+    for name in names {
+        let help = help_of(name).expect("a command");
+        let examples: Vec<&str> = help
+            .lines()
+            .filter_map(|line| line.strip_prefix("  trunnion "))
+            .collect();
+        let without = ["rules", "man", "lsp"];
+        assert_eq!(examples.is_empty(), without.contains(&name), "{name}: {help}");
+        // none is so long that it is wrapped
+        let shown = help.split("Example").nth(1).unwrap_or_default().lines().skip(1);
+        assert_eq!(
+            shown.take_while(|line| !line.is_empty()).count(),
+            examples.len(),
+            "{help}"
+        );
+        for example in examples {
+            let command = example.split("    ").next().unwrap_or_default();
+            help_of(command).unwrap_or_else(|said| panic!("{name}: {command}: {said}"));
+            assert!(command.starts_with(name), "{name}: {command}");
         }
     }
 }

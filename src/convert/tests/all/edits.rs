@@ -232,8 +232,13 @@ fn a_mirror_image_turns_arcs_and_compensation() {
 /// Without the radius it is unknown where the tool is: that is the reason, not what follows from it.
 #[test]
 fn an_undeclared_radius_is_the_reason_for_a_refusal() {
-    let text = "G21 G90 G17 G40\nG54 M3 S1000\nG0 X-20. Y0. Z5.\nG1 Z-1. F100.\nG41 X0. Y10. D1\nY40.\nG40 X60. Y60.\nM30\n";
-    for shape in [Edit::Shape(Shape::Mirror(1)), shift(1.0, 0.0, 0.0), Edit::Shape(Shape::Scale(2.0))] {
+    let text =
+        "G21 G90 G17 G40\nG54 M3 S1000\nG0 X-20. Y0. Z5.\nG1 Z-1. F100.\nG41 X0. Y10. D1\nY40.\nG40 X60. Y60.\nM30\n";
+    for shape in [
+        Edit::Shape(Shape::Mirror(1)),
+        shift(1.0, 0.0, 0.0),
+        Edit::Shape(Shape::Scale(2.0)),
+    ] {
         refused("fanuc-30i", text, shape, "the radius of D1 is not declared");
     }
 }

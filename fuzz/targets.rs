@@ -71,6 +71,8 @@ impl Sink for Inside {
 fn setup(blocks: u64, depth: u32) -> Setup {
     let limits = Limits {
         blocks,
+        // two texts are compared as far as this: an endless loop must not end the search
+        steps: blocks,
         depth,
         ..Limits::default()
     };

@@ -184,7 +184,10 @@ mod tests {
         };
         assert_eq!(names(TomlFile::Settings, "[limits]\nbl|"), ["blocks"]);
         assert_eq!(names(TomlFile::Settings, "mach|"), ["machine", "machine_path"]);
-        assert_eq!(names(TomlFile::Settings, "[[to|"), ["tolerances", "tool"]);
+        assert_eq!(
+            names(TomlFile::Settings, "[[to|"),
+            ["tolerances", "tool", "tool_offsets"]
+        );
         assert_eq!(
             names(TomlFile::Machine, "[[axis]]\nletter = \"X\"\ndyn = { vmax = 1, am|"),
             ["amax"]

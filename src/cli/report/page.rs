@@ -115,7 +115,7 @@ pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
         escape(&title),
         env!("CARGO_PKG_VERSION"),
         if parts.iter().any(|part| part.inch) {
-            "Distances in mm, pictures of programs in inch in inch"
+            "Distances in mm, on pictures of inch programs in inch"
         } else {
             "Distances in mm"
         },

@@ -69,10 +69,7 @@ impl<'a> Sweep<'a> {
 
     /// How near the tool comes to an obstacle.
     pub(super) fn nearness(&self, obstacle: &Obstacle, keep: f64) -> Nearness {
-        let declared = self
-            .body
-            .length_mm
-            .or((self.tool_length > 0.0).then_some(self.tool_length));
+        let declared = self.length();
         // nothing above the tool is narrower than what it carries: as for an upright tool, its column has no upper end
         match self.search(obstacle, keep, HIGHEST_MM) {
             Found::Clear => Nearness::Clear(keep),
@@ -125,7 +122,9 @@ impl<'a> Sweep<'a> {
             if distance - moves - (radius * radius + half * half).sqrt() >= keep {
                 continue;
             }
-            if piece.new && !self.independent && comes_closer(obstacle, &pose, &solids, middle, keep) {
+            let touches = self.touches(middle, distance, keep)
+                || piece.new && comes_closer(obstacle, &pose, &solids, middle, keep);
+            if touches && !self.independent {
                 return Found::Closer;
             }
             if self.independent && t1 - t0 >= 1.0 && half <= 0.5 || moves + half <= FINEST_MM {
@@ -155,16 +154,29 @@ impl<'a> Sweep<'a> {
         if undecided { Found::Undecided } else { Found::Clear }
     }
 
-    /// The cylinders that are certainly there.
+    /// How far the tool reaches above its tip, where that is known, mm.
+    fn length(&self) -> Option<f64> {
+        let compensated = (self.tool_length > 0.0).then_some(self.tool_length);
+        self.body.length_mm.or(compensated)
+    }
+
+    /// The cylinders that are certainly there. The end of the tool may be round or pointed, so its own begins at the height of its radius.
     fn solids(&self) -> Vec<Solid> {
-        let tool = self
-            .body
-            .length_mm
-            .or((self.tool_length > 0.0).then_some(self.tool_length));
+        let radius = self.body.radius_mm;
+        let tool = self.length().filter(|length| *length > radius);
         let holder = self.body.length_mm.and(self.body.holder_mm);
-        let tool = tool.map(|length| Solid::new(self.body.radius_mm, [0.0, length]));
+        let tool = tool.map(|length| Solid::new(radius, [radius, length]));
         let holder = holder.map(|(radius, above)| Solid::new(radius, [above, HIGHEST_MM]));
         tool.into_iter().chain(holder).collect()
+    }
+
+    /// Whether a point of the tool's axis is so near to the obstacle that the tool, even one with a ball end, is inside it or nearer than `keep`, mm: the
+    /// sphere about the point that reaches the obstacle is inside the tool.
+    fn touches(&self, height: f64, distance: f64, keep: f64) -> bool {
+        self.length().is_some_and(|length| {
+            let beside = height >= distance && length - height >= distance;
+            height <= length && distance == 0.0 || beside && distance < self.body.radius_mm + keep - SLACK_MM
+        })
     }
 
     /// The largest radius of the tool between two heights, mm.

@@ -294,3 +294,31 @@ fn what_is_above_a_tilted_tool_counts() {
         near(None)
     );
 }
+
+/// The corner of a flat end would touch, the ball does not: nobody says here which one it is, so contact is not proved.
+#[test]
+fn a_ball_end_is_not_taken_for_a_flat_one() {
+    let step = Obstacle {
+        axis: Some(b'C'),
+        ..prism(
+            &[[-20.0, -30.0], [20.0, -30.0], [20.0, -4.5], [-20.0, -4.5]],
+            -10.0,
+            0.5,
+        )
+    };
+    let machine = with("mikron-ucp710", step);
+    // the tip is at Y0 Z0, 60 mm below the gauge point; the tool leans by 5 deg, and the centre of its ball is at about Y-0.4 Z5: 6 mm from the step
+    let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(5.0));
+    let word = |x: f64| {
+        vec![
+            (b'X', x),
+            (b'Y', -60.0 * sin),
+            (b'Z', 60.0 * cos),
+            (b'A', 5.0),
+            (b'C', 0.0),
+        ]
+    };
+    let leg = leg(&machine, MotionKind::Linear, true, [&word(0.0), &word(1.0)]);
+    let found = nearness(&machine, &leg, &body(5.0, Some(60.0)), 0.0)[0].nearness;
+    assert!(matches!(found, Nearness::Unknown(_)), "{found:?}");
+}

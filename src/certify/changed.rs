@@ -141,19 +141,22 @@ fn with_levels(mut setup: Setup) -> Setup {
     let control = &mut setup.control;
     control.peck_clearance_mm = control.peck_clearance_mm.or(Some(0.731));
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(Some(0.417));
+    let place = |number: u32| Position {
+        values: core::array::from_fn(|axis| {
+            let linear = !(3..6).contains(&axis);
+            if linear {
+                f64::from(number) * 61.7 + axis as f64 * 13.3 + 211.9
+            } else {
+                0.0
+            }
+        }),
+        known: 0b1_1111_1111,
+    };
     if control.reference_points.is_empty() {
-        let place = |number: u32| Position {
-            values: core::array::from_fn(|axis| {
-                let linear = !(3..6).contains(&axis);
-                if linear {
-                    f64::from(number) * 61.7 + axis as f64 * 13.3 + 211.9
-                } else {
-                    0.0
-                }
-            }),
-            known: 0b1_1111_1111,
-        };
         control.reference_points = (0..4).map(place).collect();
     }
+    // FP counts to 4: more need other machine data
+    let fixed = control.fixed_points.take();
+    control.fixed_points = Some(fixed.unwrap_or_else(|| (4..8).map(place).collect()));
     setup
 }

@@ -214,7 +214,11 @@ fn moves_itself(action: Action) -> bool {
         || action.is_pass_cycle()
         || matches!(
             action,
-            Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom | Action::NotModelled
+            Action::ReferenceReturn
+                | Action::ReferenceReturnOther
+                | Action::ReferenceFrom
+                | Action::FixedPoint
+                | Action::NotModelled
         )
 }
 

@@ -271,7 +271,7 @@ pub(crate) fn wording(program: &Program, fault: &Fault) -> String {
         }
         FaultKind::NotModelled { what } => {
             let remedy = match fault.kind.lacks() {
-                Some(Lacks::ReferencePoint) => "; declare `reference_points` in [control] of the machine file or of trunnion.toml",
+                Some(Lacks::ReferencePoint) => "; declare `reference_points` (G75: `fixed_points`) in [control] of the machine file or of trunnion.toml",
                 Some(Lacks::Caller(_)) => "; convert the program that calls it",
                 Some(Lacks::Radius(_)) => "; declare the radius in a comment or as a [[tool]] of trunnion.toml",
                 Some(Lacks::Meaning(_)) | None => "",

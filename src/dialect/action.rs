@@ -29,6 +29,8 @@ pub enum Role {
     PostureStatus,
     /// TU=: bits that choose the turn of each rotary axis in a point-to-point motion.
     PostureTurn,
+    /// FP=: the number of a fixed point.
+    FixedPoint,
     /// Feed F.
     Feed,
     /// Spindle speed S.

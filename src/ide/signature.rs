@@ -78,6 +78,7 @@ pub(crate) fn meaning(dialect: &Dialect, word: &str) -> String {
         Some(Role::ToolVector) => "component of the tool vector",
         Some(Role::PostureStatus) => "which posture",
         Some(Role::PostureTurn) => "which turn of the rotary axes",
+        Some(Role::FixedPoint) => "number of the fixed point",
         Some(Role::Feed) => "feed",
         Some(Role::Speed) => "spindle speed",
         Some(Role::Tool) => "tool",

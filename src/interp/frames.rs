@@ -216,7 +216,11 @@ impl<'d> Iso<'d> {
             Action::PolarOff => self.polar(false),
             Action::DataEntry => self.data_entry(found, words, block, report),
             Action::DataEntryEnd => self.memory.frames.entering_data = false,
-            Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom => {
+            Action::ReferenceCheck
+            | Action::ReferenceReturn
+            | Action::ReferenceReturnOther
+            | Action::ReferenceFrom
+            | Action::FixedPoint => {
                 block.returns = Some((Return::of(found, words), found.range));
             }
             Action::ReferenceStore => self.store_reference(0),

@@ -209,6 +209,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Role::Tool => self.words.tool = self.kept(letter, word),
             Role::LengthOffset => self.words.length_offset = self.kept(letter, word),
             Role::EdgeOffset => self.words.edge = self.kept(letter, word),
+            Role::FixedPoint => self.words.p = self.kept(letter, word),
             Role::Parameter if letter == b'P' => self.words.p = self.kept(letter, word),
             // the others must not be read: what is not evaluated is not reported
             Role::Parameter | Role::Increment => {

@@ -159,7 +159,7 @@ pub(crate) struct Words {
     pub(crate) tool: WordValue,
     pub(crate) length_offset: WordValue,
     pub(crate) edge: WordValue,
-    /// P: dwell, turns of an arc, number of a work offset.
+    /// P: dwell, turns of an arc, number of a work offset; FP= of a Sinumerik.
     pub(crate) p: WordValue,
     /// Words by letter: parameters of codes (L, P, Q, R, K ...) and all others that are no axes.
     pub(crate) by_letter: Letters,

@@ -219,6 +219,8 @@ actions! {
     ReferenceStoreOther = "reference-store-other",
     /// G30: rapid to another reference point (P).
     ReferenceReturnOther = "reference-return-other",
+    /// G75 of a Sinumerik: rapid of the named axes to a fixed point of the machine (FP).
+    FixedPoint = "fixed-point",
     /// G29: rapid back from the reference point through the last intermediate point.
     ReferenceFrom = "reference-from",
     /// G33, G32: line coupled to the spindle, F is the lead.

@@ -86,6 +86,7 @@ impl Action {
                     | Self::ReferenceCheck
                     | Self::ReferenceReturn
                     | Self::ReferenceReturnOther
+                    | Self::FixedPoint
                     | Self::ReferenceFrom
                     | Self::CirclePocket
                     | Self::BoltCircle

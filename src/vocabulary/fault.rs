@@ -66,7 +66,7 @@ pub enum TcpMistake {
 /// What of the machine or the tool a program rests on and nothing declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lacks<'a> {
-    /// The position of a reference point.
+    /// The position of a reference point or a fixed point.
     ReferencePoint,
     /// The radius of a tool, by its number as written: `D1`.
     Radius(&'a str),
@@ -98,6 +98,12 @@ impl FaultKind {
     /// Nothing declares the position of a reference point.
     pub fn reference_lacks(number: u32) -> Self {
         let what = format!("reference point {number}{REFERENCE_LACKS}");
+        Self::NotModelled { what }
+    }
+
+    /// Nothing declares the position of a fixed point (G75 of a Sinumerik).
+    pub fn fixed_point_lacks(number: u32) -> Self {
+        let what = format!("fixed point {number}{REFERENCE_LACKS}");
         Self::NotModelled { what }
     }
 

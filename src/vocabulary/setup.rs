@@ -252,6 +252,9 @@ pub struct ControlData {
     pub rotary_turns: Option<Vec<RotaryTurn>>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
     pub reference_points: Vec<crate::Position>,
+    /// Fixed points of a Sinumerik in machine coordinates, mm and degrees: G75 goes to the first, G75 FP=2 to the second;
+    /// `None`: not declared.
+    pub fixed_points: Option<Vec<crate::Position>>,
     /// Where the axes are after a tool change (M6), in machine coordinates, mm and degrees; those without a value stay where they are.
     /// `None`: not declared, X Y Z are unknown after it.
     pub tool_change: Option<crate::Position>,

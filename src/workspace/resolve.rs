@@ -201,6 +201,9 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
         control.reference_points.clone_from(points);
     }
+    if control.fixed_points.is_none() {
+        control.fixed_points.clone_from(&of.fixed_points);
+    }
     if control.power_on.is_none() {
         control.power_on.clone_from(&of.power_on);
     }

@@ -64,7 +64,7 @@ tags! {
         BlockNumber = 1, ProgramNumber = 2, G = 3, M = 4, Axis = 5, ArcCentre = 6, ArcRadius = 7, ArcTurns = 8, ToolVector = 9,
         PostureStatus = 10, PostureTurn = 11, Feed = 12, Speed = 13, Tool = 14, LengthOffset = 15, EdgeOffset = 16,
         Parameter = 17, Increment = 18, Variable = 19, NotFollowed = 20, NotModelled = 21, PathWord = 22,
-        FeedOverride = 23, RapidOverride = 24,
+        FeedOverride = 23, RapidOverride = 24, FixedPoint = 25,
     }
 }
 
@@ -90,6 +90,6 @@ tags! {
         CycleOff = 102, ConstantSurfaceSpeed = 103, ConstantSpindleSpeed = 104, SubprogramCall = 105, OrientationAxes = 106,
         OrientationVector = 107, PointToPoint = 108, PointToPointRapid = 109, ContinuousPath = 110,
         ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114, WorkSystem = 115,
-        WorkSystemOnce = 116, Polynomial = 117, ReturnLevel = 118, ReturnToLevel = 119,
+        WorkSystemOnce = 116, Polynomial = 117, ReturnLevel = 118, ReturnToLevel = 119, FixedPoint = 120,
     }
 }

@@ -238,6 +238,7 @@ fn every_fact_of_a_setup_counts() {
                 point.set(2, 0.0);
                 s.control.reference_points.push(point);
             },
+            |s| s.control.fixed_points = Some(vec![Position::default()]),
         ],
     );
 }
@@ -342,6 +343,7 @@ fn every_fact_of_a_machine_counts() {
             |m| m.control.posture_words.solutions.push((1, sign())),
             |m| m.control.units = None,
             |m| m.control.reference_points = Some(vec![]),
+            |m| m.control.fixed_points = Some(vec![]),
             |m| m.control.peck_clearance_mm = Some(1.0),
             |m| m.control.chip_break_retract_mm = Some(1.0),
             |m| m.tolerances.tip_mm += 1.0,

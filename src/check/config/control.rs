@@ -95,6 +95,7 @@ pub(super) struct FileControl {
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
+    fixed_points: Option<Vec<BTreeMap<Spanned<String>, Spanned<f64>>>>,
     power_on: Option<Vec<Spanned<String>>>,
 }
 
@@ -128,10 +129,7 @@ impl KnownDialect<'static> {
 impl FileControl {
     /// As the interpreter wants it.
     pub(super) fn data(&self, known: KnownDialect<'_>) -> Result<ControlData, ConfigError> {
-        let mut reference_points = Vec::new();
-        for point in &self.reference_points {
-            reference_points.push(position(point)?);
-        }
+        let points = |points: &[_]| points.iter().map(position).collect::<Result<Vec<_>, _>>();
         Ok(ControlData {
             units: self.units.map(|unit| match unit {
                 Unit::Mm => LengthUnit::Millimetre,
@@ -185,7 +183,8 @@ impl FileControl {
             length_along: None,
             x_diameter: false,
             rotary_turns: None,
-            reference_points,
+            reference_points: points(&self.reference_points)?,
+            fixed_points: self.fixed_points.as_deref().map(points).transpose()?,
             tool_change: None,
             power_on: self
                 .power_on
@@ -286,7 +285,7 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
-                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
@@ -312,6 +311,15 @@ mod tests {
             .map(|p| (p.get(0), p.get(1), p.get(2)))
             .collect();
         assert_eq!(points, [(Some(0.0), None, Some(400.0)), (None, None, Some(300.0))]);
+        assert_eq!(
+            control
+                .fixed_points
+                .unwrap_or_default()
+                .iter()
+                .map(|p| (p.get(0), p.get(2)))
+                .collect::<Vec<_>>(),
+            [(None, Some(0.0))]
+        );
     }
 
     #[test]

@@ -126,6 +126,7 @@ fn action_moves(action: Action) -> bool {
             | Action::HoleCall
             | Action::ReferenceReturn
             | Action::ReferenceReturnOther
+            | Action::FixedPoint
             | Action::SwivelCycle
             | Action::TiltedPlaneTurn
             | Action::TiltedPlaneTurnTip

@@ -104,7 +104,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             "this move goes to a position of the machine that is not declared",
         )
         .note("positions after it are unknown until the program sets them again")
-        .help("to check it, name the machine: --machine NAME or FILE, with reference_points in its [control]")
+        .help("to check it, name the machine: --machine NAME or FILE, with reference_points (G75: fixed_points) in its [control]")
         .merge(Merge::once(0));
         return;
     }

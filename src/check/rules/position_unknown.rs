@@ -84,7 +84,7 @@ fn not_positioned(letters: &str, lost: &LegView<'_>, out: &mut Reporter<'_>) {
             (
                 format!("end position of this rapid is unknown: {names} {verb} not determined"),
                 "it depends on a value that only the machine knows, on an undeclared reference point, or on a position that was already unknown",
-                format!("program {names} as numbers, or declare what is missing ([control] reference_points, [variables])"),
+                format!("program {names} as numbers, or declare what is missing ([control] reference_points or fixed_points, [variables])"),
             )
         } else {
             (

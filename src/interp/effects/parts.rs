@@ -12,7 +12,11 @@ impl Iso<'_> {
         let reference = |action| {
             matches!(
                 action,
-                Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom
+                Action::ReferenceCheck
+                    | Action::ReferenceReturn
+                    | Action::ReferenceReturnOther
+                    | Action::ReferenceFrom
+                    | Action::FixedPoint
             )
         };
         let mut to = Vec::new();
@@ -21,6 +25,9 @@ impl Iso<'_> {
             if found.code.action == Action::ReferenceReturnOther {
                 // without P it is the second
                 to.push(Argument::number("P", words.p.number().map_or(2.0, |p| p.value)));
+            }
+            if found.code.action == Action::FixedPoint {
+                to.push(Argument::number("FP", words.p.number().map_or(1.0, |p| p.value)));
             }
         }
         let checks = codes.iter().any(|found| found.code.action == Action::ReferenceCheck);

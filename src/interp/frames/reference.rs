@@ -1,4 +1,4 @@
-//! G27 to G30: returns to reference points.
+//! G27 to G30: returns to reference points; G75 of a Sinumerik: to fixed points.
 use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
@@ -16,6 +16,8 @@ pub(crate) enum Return {
     To(u32),
     /// G29.
     From,
+    /// G75: number of the fixed point, from 1; `None`: not read.
+    Fixed(Option<u32>),
 }
 
 impl Return {
@@ -23,6 +25,8 @@ impl Return {
         match found.code.action {
             Action::ReferenceCheck => Self::Check,
             Action::ReferenceFrom => Self::From,
+            Action::FixedPoint if words.p.is_given() => Self::Fixed(words.p.index()),
+            Action::FixedPoint => Self::Fixed(Some(1)),
             Action::ReferenceReturnOther => Self::To(words.p.index().unwrap_or(2)),
             _ => Self::To(1),
         }
@@ -39,6 +43,7 @@ impl Iso<'_> {
         match what {
             Return::Check => self.rapid_to(point, report),
             Return::From => self.leave_reference(named, point, report),
+            Return::Fixed(number) => self.reach_fixed(named, number, range, report),
             Return::To(number) => {
                 if named != 0 {
                     // a distance from an unknown place leads to another unknown place
@@ -56,7 +61,10 @@ impl Iso<'_> {
                 } else {
                     return;
                 }
-                self.reach_reference(named, number, range, report);
+                let place = (number.max(1) - 1) as usize;
+                let stored = self.memory.frames.stored_reference.get(place).copied().flatten();
+                let declared = stored.or_else(|| self.core.setup.control.reference_points.get(place).copied());
+                self.reach(named, declared, (FaultKind::reference_lacks(number), range), report);
                 if number == 1 && self.core.dialect.quirks.length_after_return == LengthAfterReturn::CancelledByG28 {
                     self.set_length(None, LengthOf::Nothing);
                 }
@@ -93,11 +101,33 @@ impl Iso<'_> {
         self.rapid_to(point, report);
     }
 
-    /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, otherwise to an unknown position.
-    fn reach_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
-        let place = (number.max(1) - 1) as usize;
-        let stored = self.memory.frames.stored_reference.get(place).copied().flatten();
-        let declared = stored.or_else(|| self.core.setup.control.reference_points.get(place).copied());
+    /// G75: the values of the axes do not count, and neither do frames and the tool's length (SINUMERIK ONE, NC programming, 12/2019, p. 361).
+    fn reach_fixed(&mut self, named: u16, number: Option<u32>, range: TextRange, report: &mut Report<'_>) {
+        let transformed = self.core.state.tool_axis.tcp() || self.memory.frames.tilt.is_some();
+        let number = number.filter(|number| *number > 0 && !transformed);
+        let points = self.core.setup.control.fixed_points.as_deref().unwrap_or_default();
+        let declared = number.and_then(|number| points.get(number as usize - 1).copied());
+        let lacks = number.map_or_else(
+            || FaultKind::NotModelled {
+                what: if transformed {
+                    "G75 while a transformation is active".to_owned()
+                } else {
+                    "G75: the number of the fixed point".to_owned()
+                },
+            },
+            FaultKind::fixed_point_lacks,
+        );
+        self.reach(named, declared, (lacks, range), report);
+    }
+
+    /// Rapid of the named axes to a place in machine coordinates where it is declared, otherwise to an unknown position.
+    fn reach(
+        &mut self,
+        named: u16,
+        declared: Option<Position>,
+        (lacks, range): (FaultKind, TextRange),
+        report: &mut Report<'_>,
+    ) {
         let mut start = self.core.state.position;
         self.to_machine(&mut start, 1.0);
         let mut end = start;
@@ -124,7 +154,7 @@ impl Iso<'_> {
             return;
         }
         if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
-            report.fault(range, FaultKind::reference_lacks(number));
+            report.fault(range, lacks);
         }
         let start = self.core.state.position;
         self.core.state.position.known &= !named;

@@ -63,7 +63,8 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
         posture_words: posture_words(&raw.posture_words, axes)?,
         units: units(raw.units.as_ref())?,
-        reference_points: reference_points(raw, axes)?,
+        reference_points: points("reference_points", raw.reference_points.as_ref(), axes)?,
+        fixed_points: points("fixed_points", raw.fixed_points.as_ref(), axes)?,
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
         drilling_axis: drilling_axis(raw.drilling_axis.as_ref())?,
@@ -184,13 +185,14 @@ pub(crate) fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<
     })
 }
 
-/// Where G28, G30 P2, ... end: mm and degrees, by letters of axes.
-fn reference_points(raw: &RawControl, axes: &[Axis]) -> Result<Option<Vec<Position>>, Fault> {
-    let Some(points) = &raw.reference_points else {
-        return Ok(None);
-    };
-    let points = points.iter().map(|point| position("reference_points", point, axes));
-    points.collect::<Result<_, _>>().map(Some)
+/// Where G28, G30 P2, ... (G75, G75 FP=2, ...) end: mm and degrees, by letters of axes.
+fn points(
+    key: &str,
+    points: Option<&Vec<BTreeMap<Word, Number>>>,
+    axes: &[Axis],
+) -> Result<Option<Vec<Position>>, Fault> {
+    let places = |points: &Vec<_>| points.iter().map(|point| position(key, point, axes)).collect();
+    points.map(places).transpose()
 }
 
 /// Where a tool change leaves the axes that it moves.

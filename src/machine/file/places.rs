@@ -10,12 +10,13 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         let known = axes.filter_map(|(axis, letter)| Some(format!("{}{}", char::from(*letter), point.get(axis)?)));
         known.collect::<Vec<_>>().join(" ")
     };
-    for (index, point) in control.reference_points.iter().flatten().enumerate() {
-        lines.push(format!(
-            "reference point {} is {} (mm and deg)",
-            index + 1,
-            place(point)
-        ));
+    for (kind, points) in [
+        ("reference", &control.reference_points),
+        ("fixed", &control.fixed_points),
+    ] {
+        for (index, point) in points.iter().flatten().enumerate() {
+            lines.push(format!("{kind} point {} is {} (mm and deg)", index + 1, place(point)));
+        }
     }
     if let Some(point) = &control.tool_change {
         let moves = if point.known == 0 {

@@ -183,6 +183,7 @@ pub(crate) struct RawControl {
     pub(crate) posture_words: RawPostureWords,
     pub(crate) units: Option<Word>,
     pub(crate) reference_points: Option<Vec<BTreeMap<Word, Number>>>,
+    pub(crate) fixed_points: Option<Vec<BTreeMap<Word, Number>>>,
     pub(crate) peck_clearance: Option<Number>,
     pub(crate) chip_break_retract: Option<Number>,
     pub(crate) drilling_axis: Option<Word>,

@@ -193,6 +193,8 @@ pub struct Control {
     pub units: Option<trunnion_interp::LengthUnit>,
     /// Reference points of G28, G30 P2, ... in the order of their numbers: machine coordinates, mm and deg; `None`: not declared.
     pub reference_points: Option<Vec<trunnion_interp::Position>>,
+    /// Fixed points of G75, G75 FP=2, ... of a Sinumerik, in the same form.
+    pub fixed_points: Option<Vec<trunnion_interp::Position>>,
     /// Where the rapid back into a hole ends, above the last depth (G83), mm; `None`: not declared.
     pub peck_clearance_mm: Option<f64>,
     /// How far G73 retracts to break the chip, mm; `None`: not declared.

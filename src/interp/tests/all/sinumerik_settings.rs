@@ -257,3 +257,63 @@ fn a_feed_profile_another_spindle_and_an_alarm_do_not_pass_in_silence() {
     let alarm = faults("sinumerik-840d", &format!("{head}SETAL(65000)\nX10\n"));
     assert!(alarm.len() == 1 && alarm[0].contains("SETAL"), "{alarm:?}");
 }
+
+/// G75: the values of the axes do not count, and neither do zero points, frames and the tool's length (SINUMERIK ONE, NC programming, 12/2019, p. 361).
+#[test]
+fn fixed_points_are_reached_in_machine_coordinates() {
+    let mut setup = Setup::default();
+    let mut first = trunnion_interp::Position::default();
+    for (axis, value) in [(0, -500.0), (1, -400.0), (2, 300.0)] {
+        first.set(axis, value);
+    }
+    let mut second = trunnion_interp::Position::default();
+    second.set(2, 250.0);
+    setup.control.fixed_points = Some(vec![first, second]);
+    setup.work_offsets = vec![WorkOffset {
+        name: "G54".to_owned(),
+        values: [10.0, 20.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    }];
+    let run = |text: &str| {
+        let (program, log) = run_bytes("sinumerik-840d", text.as_bytes(), &setup);
+        let motions: Vec<_> = log.motions.iter().map(crate::support::line).collect();
+        let faults = log.faults.iter().map(|fault| fault_line(&program, fault));
+        (
+            motions,
+            faults.filter(|fault| fault.contains("NotModelled")).collect::<Vec<_>>(),
+        )
+    };
+    let head = "G54 G90 G1 F100\nG0 X1 Y2 Z3\n";
+    for (turned, block, ends) in [
+        ("", "G75 Z0", ["R X11 Y22 Z300 machine", "L X4 Y2 Z270 F100"]),
+        (
+            "",
+            "G75 FP=1 X0 Y0",
+            ["R X-500 Y-400 Z33 machine", "L X4 Y-420 Z3 F100"],
+        ),
+        ("", "G75 FP=2 Z99", ["R X11 Y22 Z250 machine", "L X4 Y2 Z220 F100"]),
+        ("G91", "G75 Z-5", ["R X11 Y22 Z300 machine", "L X5 Y2 Z270 F100"]),
+        ("TRANS Z7", "G75 Z0", ["R X11 Y22 Z300 machine", "L X4 Y2 Z263 F100"]),
+    ] {
+        let (motions, faults) = run(&format!("{head}{turned}\n{block}\nG1 X4\nM30\n"));
+        let own: Vec<_> = motions.iter().rev().take(2).rev().cloned().collect();
+        assert_eq!(
+            (own, faults),
+            (ends.map(str::to_owned).to_vec(), vec![]),
+            "{turned} {block}"
+        );
+    }
+    // what is not declared, or cannot be so: the axes that are named are unknown, the others are not
+    for (block, why) in [
+        ("G75 FP=3 Z0", "fixed point 3: its position is not declared"),
+        ("G75 FP=2 X0", "fixed point 2: its position is not declared"),
+        ("G75 FP=0 Z0", "the number of the fixed point"),
+        ("G75 FP=1.5 Z0", "the number of the fixed point"),
+        ("TRAORI\nG75 Z0", "while a transformation is active"),
+    ] {
+        let (motions, faults) = run(&format!("{head}{block}\nG1 X4 Y5\nM30\n"));
+        assert!(faults.len() == 1 && faults[0].contains(why), "{block}: {faults:?}");
+        let lost = &motions[motions.len() - 2];
+        let axis = if block.contains('Z') { 'Z' } else { 'X' };
+        assert!(lost.starts_with('U') && !lost.contains(axis), "{block}: {motions:?}");
+    }
+}

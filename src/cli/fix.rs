@@ -16,7 +16,9 @@ use std::io::IsTerminal;
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_certify::{Chain, ChainStep};
-use trunnion_rewrite::{Attempt, Options, Place, ProgrammedPoint, Rewrite, attempt_at, gains, rewrite, rewrites};
+use trunnion_rewrite::{
+    Attempt, Options, Place, ProgrammedPoint, Rewrite, Straight, attempt_at, gains, rewrite, rewrites,
+};
 use trunnion_syntax::{LineIndex, parse};
 
 /// Which point of a ball X Y Z are.
@@ -223,6 +225,7 @@ fn apply_all(
     let mut program = loaded.program.clone();
     let bar = progress(global.quiet, chosen.len());
     let mut only_in_g_code = Vec::new();
+    let mut straight = Straight::default();
     for rewrite in chosen {
         bar.set_message(rewrite.name);
         let index = LineIndex::new(program.source());
@@ -236,7 +239,7 @@ fn apply_all(
                 .lines
                 .is_none_or(|(first, last)| line(ends.0) <= last && first <= line(ends.1))
         };
-        let attempt = attempt_at(rewrite, &program, &settings, options, touches);
+        let attempt = attempt_at(rewrite, &program, &settings, options, touches, &straight);
         match rewrite.only_in_g_code(&program) {
             Some(writes) => only_in_g_code.push(format!("{} ({writes})", rewrite.name)),
             None => bar.suspend(|| say(global.quiet, &loaded.name, rewrite.name, &attempt)),
@@ -250,6 +253,7 @@ fn apply_all(
             }
             outcome.after.clone_from(&proved.after);
             program = after;
+            straight = Straight::default();
         }
         outcome.steps.push(Step {
             rewrite: rewrite.name,

@@ -154,22 +154,30 @@ impl From<String> for Failure {
 
 /// Proposes at all places and proves; see [`attempt_at`].
 pub fn attempt(rewrite: &Rewrite, program: &Program, settings: &Settings<'_>, options: &Options) -> Attempt {
-    attempt_at(rewrite, program, settings, options, |_| true)
+    attempt_at(rewrite, program, settings, options, |_| true, &Straight::default())
 }
+
+/// Whether a program runs each block once and in order, found when it is first asked for: for several attempts at one program under the same settings.
+#[derive(Debug, Default)]
+pub struct Straight(OnceCell<Result<(), String>>);
 
 /// Proposes, and proves what is proposed at the places that are `wanted`. A place where the proof fails is refused, and the rest is
 /// proved again. Refused too: a change after which a rotary axis turns farther or in larger steps, a rule that the rewrite does not
 /// claim to fix reports more errors or leaves more undecided, or the verdict on the program is worse. (Findings that it fixes may spread: less in one block,
-/// a little more in the next.)
+/// a little more in the next.) `straight`: of this program.
 pub fn attempt_at(
     rewrite: &Rewrite,
     program: &Program,
     settings: &Settings<'_>,
     options: &Options,
     wanted: impl Fn(&Place) -> bool,
+    straight: &Straight,
 ) -> Attempt {
-    if let Err(reason) = crate::survey::runs_straight(program, settings) {
-        return Attempt::whole(program, Change::Refused(reason));
+    if let Err(reason) = straight
+        .0
+        .get_or_init(|| crate::survey::runs_straight(program, settings))
+    {
+        return Attempt::whole(program, Change::Refused(reason.clone()));
     }
     let proposal = match rewrite.propose(program, settings, options) {
         Ok(Some(proposal)) => proposal,

@@ -36,7 +36,7 @@ mod taut_string;
 mod unwrap;
 mod whole_circle;
 
-pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
+pub use attempt::{Attempt, Judged, Proved, State, Straight, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};
 pub use propose::{Change, Options, Place, ProgrammedPoint, Proposal, Proposed, Refusal, Rewrite};
 pub use rewrites::{rewrite, rewrites};

@@ -11,7 +11,7 @@ host=$(rustc -vV | sed -n 's/^host: //p')
 rest=()
 
 cargo build --locked --profile "$profile" --bin trunnion
-built=${CARGO_TARGET_DIR:-target}
+built=$(realpath "${CARGO_TARGET_DIR:-target}")
 folder=$built/$profile
 [ "$profile" != dev ] || folder=$built/debug
 name=trunnion-$version-$host
@@ -38,7 +38,7 @@ else
   rest+=("npm package: needs npm and the target wasm32-unknown-unknown (rustup target add wasm32-unknown-unknown)")
 fi
 if command -v npm >/dev/null; then
-  (cd vscode-extension && npm ci --no-audit --no-fund >/dev/null && npm run --silent package >/dev/null) &&
+  (cd vscode-extension && npm ci --no-audit --no-fund >/dev/null && TRUNNION_BIN=$folder/trunnion npm run --silent package >/dev/null) &&
     cp vscode-extension/*.vsix "$out/" || rest+=("VS Code package: npm failed in vscode-extension")
 else
   rest+=("VS Code package: npm is not installed")

@@ -144,6 +144,9 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     Done::Clean
 }
 
+/// Largest file of grids and patches: reading one takes up to 60 times as much memory.
+const MOST_GRIDS_MIB: usize = 16;
+
 fn read(path: &Path, close: f64) -> Result<Required, Failure> {
     let kind = path
         .extension()
@@ -157,6 +160,11 @@ fn read(path: &Path, close: f64) -> Result<Required, Failure> {
         ));
     }
     let bytes = load::read(path)?;
+    if kind != "stl" && bytes.len() > MOST_GRIDS_MIB << 20 {
+        let what =
+            format!("is larger than {MOST_GRIDS_MIB} MiB, the most for grids and patches; give the surface as an STL");
+        return Err(Failure::file(path, what));
+    }
     let read = if kind == "stl" {
         required_stl(&bytes)
     } else {

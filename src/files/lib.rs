@@ -12,6 +12,6 @@ mod temporary;
 pub use error::FileError;
 #[cfg(not(target_family = "wasm"))]
 pub use output::{Outputs, Target, unless_closed};
-pub use read::{Input, Seen, read, read_text};
+pub use read::{Input, Seen, read, read_settings, read_text};
 #[cfg(not(target_family = "wasm"))]
 pub use temporary::{sweep_beside, write_kept};

@@ -76,19 +76,33 @@ pub fn read(path: &Path, most: u64) -> Result<Option<Input>, FileError> {
     Ok(Some(Input { bytes, seen }))
 }
 
-/// Largest text of settings, machines, posts, tables and certificates, bytes.
-const MOST_TEXT: u64 = 64 << 20;
+/// Largest text of posts, tables of tools and certificates, MiB.
+const MOST_TEXT: u64 = 64;
 
-/// Reads a text file (settings, machine, post, certificate) of at most 64 MiB.
+/// Largest text of settings, machines and dialect tables, MiB: what is read of them takes up to 60 times as much memory, and each entry is compared
+/// with others. People write them; 2 MiB are 30 000 tools.
+const MOST_SETTINGS: u64 = 2;
+
+/// Reads a text file (post, certificate) of at most 64 MiB.
 ///
 /// # Errors
 /// As [`read`]; the file is larger, or is not UTF-8, with the byte where that shows.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
-    let Some(input) = read(path, MOST_TEXT)? else {
-        return Err(FileError::new(
-            path,
-            "is larger than 64 MiB, the largest size for a file of this kind; it was not read",
-        ));
+    text_up_to(path, MOST_TEXT)
+}
+
+/// Reads settings, a machine or a dialect table of at most 2 MiB.
+///
+/// # Errors
+/// As [`read_text`].
+pub fn read_settings(path: &Path) -> Result<String, FileError> {
+    text_up_to(path, MOST_SETTINGS)
+}
+
+fn text_up_to(path: &Path, most: u64) -> Result<String, FileError> {
+    let Some(input) = read(path, most << 20)? else {
+        let what = format!("is larger than {most} MiB, the largest size for a file of this kind; it was not read");
+        return Err(FileError::new(path, what));
     };
     String::from_utf8(input.bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to() + 1;
@@ -109,6 +123,19 @@ mod tests {
         let input = read(&path, 6).expect("readable").expect("small enough");
         assert_eq!(input.bytes, b"G0 X1\n");
         assert!(read(&path, 5).expect("readable").is_none());
+    }
+
+    #[test]
+    fn settings_are_small() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("trunnion.toml");
+        let text = "#".repeat(2 << 20);
+        fs::write(&path, &text).expect("written");
+        assert_eq!(read_settings(&path).expect("small enough").len(), text.len());
+        fs::write(&path, text + "#").expect("written");
+        let error = read_settings(&path).expect_err("too large");
+        assert!(error.message.starts_with("is larger than 2 MiB"), "{error}");
+        assert!(read_text(&path).is_ok());
     }
 
     #[test]

@@ -22,7 +22,7 @@ impl Texts {
     pub(crate) fn read(&self, path: &Path) -> Result<String, LoadError> {
         match self.0.get(path) {
             Some(text) => Ok(text.clone()),
-            None => Ok(trunnion_files::read_text(path)?),
+            None => Ok(trunnion_files::read_settings(path)?),
         }
     }
 }

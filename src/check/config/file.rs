@@ -123,9 +123,10 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     for (name, value) in file.tolerances {
         config.tolerances.push(tolerance(&name, &value)?);
     }
+    let mut numbers = std::collections::HashSet::new();
     for entry in file.tool {
         let tool = declared_tool(&entry)?;
-        if config.setup.tools.iter().any(|known| known.number == tool.number) {
+        if !numbers.insert(tool.number) {
             return Err(at(
                 &entry.get_ref().number,
                 format!("tool {} is declared twice", tool.number),

@@ -15,8 +15,8 @@ impl TextBounds {
         megabytes: 64,
         lines: 1_200_000,
     };
-    /// `fmt` runs the old and the new text, with `--renumber` twice, and compares each step: a line takes it many times as long as `check`.
-    const FMT: Self = Self {
+    /// What changes programs runs the old and the new text, some of it several times, and compares each step: a line takes many times as long as in `check`.
+    const CHANGES: Self = Self {
         megabytes: 16,
         lines: 400_000,
     };
@@ -26,7 +26,7 @@ impl Global {
     /// Sets the bounds of the command where none are given.
     pub(crate) fn bound_text(&mut self, command: &Command) {
         let most = match command {
-            Command::Fmt(_) => TextBounds::FMT,
+            Command::Fmt(_) | Command::Fix(_) | Command::Edit(_) => TextBounds::CHANGES,
             _ => TextBounds::DEFAULT,
         };
         self.max_file_mb.get_or_insert(most.megabytes);

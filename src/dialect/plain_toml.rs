@@ -28,6 +28,10 @@ pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option
         let known: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();
         return complaint.unknown_value(given, &known);
     }
+    let written = complaint.span.clone().and_then(|span| text.get(span));
+    if let (true, Some(key)) = (message == "duplicate key", written) {
+        return format!("`{key}` is declared twice: keep one of them, with all that belongs to it");
+    }
     let expected = ["invalid type: ", "invalid value: ", "invalid length "];
     // one of several words
     if message == "wanted string or table" {

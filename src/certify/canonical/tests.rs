@@ -254,8 +254,7 @@ fn tool(shape: Option<ToolShape>) -> Tool {
 }
 
 fn offset(name: &str, x: f64) -> WorkOffset {
-    let mut values = [0.0; 9];
-    values[0] = x;
+    let values = core::array::from_fn(|axis| if axis == 0 { x } else { 0.0 });
     WorkOffset {
         name: name.into(),
         values,

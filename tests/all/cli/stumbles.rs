@@ -214,6 +214,14 @@ fn a_wrong_key_or_value_gets_a_line_that_is_right() {
             "trunnion.toml:3:1: unknown key `tip` in [limits]: it belongs in [tolerances]",
         ),
         (
+            "[work_offsets]\nG54 = { X = 0 }\n\n[work_offsets]\nG55 = { X = 0 }\n",
+            "trunnion.toml:4:2: `work_offsets` is declared twice: keep one of them, with all that belongs to it",
+        ),
+        (
+            "[work_offsets]\nG54 = { X = 0 }\nG54 = { X = 1 }\n",
+            "trunnion.toml:3:1: `G54` is declared twice",
+        ),
+        (
             "dialect = \"sinumerik-840d\"\n[variables]\n\"#500\" = 1\n",
             "trunnion.toml:3:1: `#500` is no variable of sinumerik-840d that can be declared: write `R1 = 12.5`",
         ),

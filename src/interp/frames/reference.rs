@@ -103,6 +103,13 @@ impl Iso<'_> {
 
     /// G75: the values of the axes do not count, and neither do frames and the tool's length (SINUMERIK ONE, NC programming, 12/2019, p. 361).
     fn reach_fixed(&mut self, named: u16, number: Option<u32>, range: TextRange, report: &mut Report<'_>) {
+        if named == 0 {
+            // it may name them as axes of the machine (Z1=0)
+            let what = "G75 without X, Y, Z or another axis of the program: which axes move".to_owned();
+            report.fault(range, FaultKind::NotModelled { what });
+            self.core.state.position.known = 0;
+            return;
+        }
         let transformed = self.core.state.tool_axis.tcp() || self.memory.frames.tilt.is_some();
         let number = number.filter(|number| *number > 0 && !transformed);
         let points = self.core.setup.control.fixed_points.as_deref().unwrap_or_default();

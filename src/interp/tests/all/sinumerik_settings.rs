@@ -302,6 +302,9 @@ fn fixed_points_are_reached_in_machine_coordinates() {
             "{turned} {block}"
         );
     }
+    let (motions, faults) = run(&format!("{head}G75 FP=2\nG1 X4\nM30\n"));
+    assert_eq!(motions.last().map(String::as_str), Some("L X4 F100"), "{motions:?}");
+    assert!(faults.len() == 1 && faults[0].contains("without X, Y, Z"), "{faults:?}");
     // what is not declared, or cannot be so: the axes that are named are unknown, the others are not
     for (block, why) in [
         ("G75 FP=3 Z0", "fixed point 3: its position is not declared"),

@@ -74,9 +74,13 @@ fn unknown_keys_and_values() {
 #[test]
 fn duplicates() {
     let row = "{ action = \"rapid\", doc = \"x\" }";
-    refused_with(&format!("[codes]\nG0 = {row}\nG0 = {row}\n"), "duplicate", "G0");
+    refused_with(
+        &format!("[codes]\nG0 = {row}\nG0 = {row}\n"),
+        "`G0` is declared twice",
+        "G0",
+    );
     refused_with(&format!("[codes]\nG0 = {row}\nG00 = {row}\n"), "leading zero", "G00");
-    refused_with("[roles]\nX = \"axis\"\nX = \"axis\"\n", "duplicate", "X");
+    refused_with("[roles]\nX = \"axis\"\nX = \"axis\"\n", "`X` is declared twice", "X");
 }
 
 #[test]

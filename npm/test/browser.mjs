@@ -83,6 +83,11 @@ export class Browser {
     const ended = new Promise((resolve) => this.#process.once("exit", resolve));
     this.#process.kill();
     await ended;
-    rmSync(this.#profile, { recursive: true, force: true, maxRetries: 5 });
+    // its own processes may still write there for a moment; what stays is a folder of temporary files
+    try {
+      rmSync(this.#profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
+    } catch (error) {
+      console.warn(`not removed: ${this.#profile}: ${error.code}`);
+    }
   }
 }

@@ -88,7 +88,7 @@ const MOST_SETTINGS: u64 = 2;
 /// # Errors
 /// As [`read`]; the file is larger, or is not UTF-8, with the byte where that shows.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
-    text_up_to(path, MOST_TEXT)
+    text_up_to(path, MOST_TEXT, "")
 }
 
 /// Reads settings, a machine or a dialect table of at most 2 MiB.
@@ -96,12 +96,13 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
 /// # Errors
 /// As [`read_text`].
 pub fn read_settings(path: &Path) -> Result<String, FileError> {
-    text_up_to(path, MOST_SETTINGS)
+    text_up_to(path, MOST_SETTINGS, ": keep in it only what these programs need")
 }
 
-fn text_up_to(path: &Path, most: u64) -> Result<String, FileError> {
+fn text_up_to(path: &Path, most: u64, remedy: &str) -> Result<String, FileError> {
     let Some(input) = read(path, most << 20)? else {
-        let what = format!("is larger than {most} MiB, the largest size for a file of this kind; it was not read");
+        let what =
+            format!("is larger than {most} MiB, the largest size for a file of this kind; it was not read{remedy}");
         return Err(FileError::new(path, what));
     };
     String::from_utf8(input.bytes).map_err(|error| {

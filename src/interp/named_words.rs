@@ -106,6 +106,8 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Some(Role::Speed) => self.words.speed = WordValue::Unread,
             Some(Role::Tool) => self.words.tool = WordValue::Unread,
             Some(Role::M) => self.words.other_spindle = true,
+            // an axis by its name in the machine (Z1=0): which axis moves is not known
+            Some(Role::Axis) => self.words.forgets_all = true,
             Some(Role::ArcRadius | Role::Parameter | Role::Variable) => {
                 self.words.has_values = true;
                 return;

@@ -193,7 +193,7 @@ fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>)
     if !what.starts_with("cutter radius compensation") && !what.starts_with("tool nose radius compensation") {
         return (
             "everything that depends on it is unknown and not checked, until the program sets it anew",
-            None,
+            (kind.lacks() == Some(Lacks::ReferencePoint)).then(|| POINTS.to_owned()),
         );
     }
     let note = "the tool runs beside the programmed path, and the programmed path is the one that was checked";
@@ -206,6 +206,9 @@ fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>)
     };
     (note, Some(remedy))
 }
+
+const POINTS: &str =
+    "declare `reference_points` (G75: `fixed_points`) in [control] of the machine file or of trunnion.toml";
 
 /// What to do where no setting helps.
 const BY_HAND: &str = "inspect by hand what depends on it, or run the program on the machine without a part";

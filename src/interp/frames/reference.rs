@@ -105,7 +105,8 @@ impl Iso<'_> {
     fn reach_fixed(&mut self, named: u16, number: Option<u32>, range: TextRange, report: &mut Report<'_>) {
         if named == 0 {
             // it may name them as axes of the machine (Z1=0)
-            let what = "G75 without X, Y, Z or another axis of the program: which axes move".to_owned();
+            let what = "G75 without an axis of the program, so it is open which axes move (write `G75 X=0 Y=0 Z=0`)"
+                .to_owned();
             report.fault(range, FaultKind::NotModelled { what });
             self.core.state.position.known = 0;
             return;
@@ -117,9 +118,9 @@ impl Iso<'_> {
         let lacks = number.map_or_else(
             || FaultKind::NotModelled {
                 what: if transformed {
-                    "G75 while a transformation is active".to_owned()
+                    "G75 while a transformation is active (switch it off first: TRAFOOF)".to_owned()
                 } else {
-                    "G75: the number of the fixed point".to_owned()
+                    "G75: FP is not a whole number from 1 that is known here (write `FP=1`)".to_owned()
                 },
             },
             FaultKind::fixed_point_lacks,
@@ -160,7 +161,9 @@ impl Iso<'_> {
             self.memory.out.push(motion);
             return;
         }
-        if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
+        // one declaration helps all of them
+        let declarable = lacks.lacks().is_some();
+        if !(declarable && std::mem::replace(&mut self.memory.frames.reference_said, true)) {
             report.fault(range, lacks);
         }
         let start = self.core.state.position;

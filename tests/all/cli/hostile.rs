@@ -261,7 +261,7 @@ fn lines_over_the_bound_are_refused_whatever_ends_them() {
 }
 
 #[test]
-fn fmt_reads_smaller_programs_and_says_how_to_read_larger_ones() {
+fn what_changes_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
     let folder = TempDir::new().expect("works");
     let (many, large) = (
         "G1X1.\n".repeat(400_001),
@@ -273,15 +273,58 @@ fn fmt_reads_smaller_programs_and_says_how_to_read_larger_ones() {
         ("many.nc", "400001 lines, more than 400000", "--max-lines", "400001"),
         ("large.nc", "larger than 16 MB", "--max-file-mb", "17"),
     ] {
-        let refused = run(&folder, &["fmt", "--check", name]);
-        let errors = text(&refused.stderr);
-        assert_eq!(status(&refused), 2, "{errors}");
-        assert!(errors.contains(said) && errors.contains(option), "{errors}");
+        for command in [&["fmt", "--check"][..], &["fix"], &["edit", "--unit", "inch"]] {
+            let refused = run(&folder, &[command, &[name]].concat());
+            let errors = text(&refused.stderr);
+            assert_eq!(status(&refused), 2, "{errors}");
+            assert!(
+                errors.contains(said) && errors.contains(option),
+                "{command:?}: {errors}"
+            );
+        }
         // whatever becomes of it, it is read
         let read = run(&folder, &["fmt", "--check", name, option, most, "--dialect", "apt"]);
         assert!(!text(&read.stderr).contains(option), "{}", text(&read.stderr));
         let parsed = run(&folder, &["parse", name]);
         assert_eq!(status(&parsed), 0, "{}", text(&parsed.stderr));
+    }
+}
+
+#[test]
+fn settings_and_surfaces_have_a_size() {
+    let folder = TempDir::new().expect("works");
+    fs::write(folder.path().join("a.nc"), "G0 X1.\nM30\n").expect("writable");
+    fs::write(folder.path().join("s.toml"), "#".repeat((2 << 20) + 1)).expect("writable");
+    fs::write(folder.path().join("grids.toml"), "#".repeat((16 << 20) + 1)).expect("writable");
+    for (command, said) in [
+        (
+            &["check", "a.nc", "--config", "s.toml"][..],
+            "s.toml: is larger than 2 MiB",
+        ),
+        (
+            &["check", "a.nc", "--machine", "s.toml"],
+            "s.toml: is larger than 2 MiB",
+        ),
+        (&["machine", "show", "s.toml"], "s.toml: is larger than 2 MiB"),
+        (
+            &[
+                "surface",
+                "a.nc",
+                "--machine",
+                "mikron-ucp710",
+                "--required",
+                "grids.toml",
+            ],
+            "grids.toml: is larger than 16 MiB, the most for grids and patches; give the surface as an STL",
+        ),
+    ] {
+        let output = run(&folder, command);
+        assert_eq!(status(&output), 2, "{command:?}");
+        assert!(
+            text(&output.stderr).contains(said),
+            "{command:?}: {}",
+            text(&output.stderr)
+        );
     }
 }
 

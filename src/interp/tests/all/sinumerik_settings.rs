@@ -304,13 +304,13 @@ fn fixed_points_are_reached_in_machine_coordinates() {
     }
     let (motions, faults) = run(&format!("{head}G75 FP=2\nG1 X4\nM30\n"));
     assert_eq!(motions.last().map(String::as_str), Some("L X4 F100"), "{motions:?}");
-    assert!(faults.len() == 1 && faults[0].contains("without X, Y, Z"), "{faults:?}");
+    assert!(faults.len() == 1 && faults[0].contains("without an axis"), "{faults:?}");
     // what is not declared, or cannot be so: the axes that are named are unknown, the others are not
     for (block, why) in [
         ("G75 FP=3 Z0", "fixed point 3: its position is not declared"),
         ("G75 FP=2 X0", "fixed point 2: its position is not declared"),
-        ("G75 FP=0 Z0", "the number of the fixed point"),
-        ("G75 FP=1.5 Z0", "the number of the fixed point"),
+        ("G75 FP=0 Z0", "FP is not a whole number"),
+        ("G75 FP=1.5 Z0", "FP is not a whole number"),
         ("TRAORI\nG75 Z0", "while a transformation is active"),
     ] {
         let (motions, faults) = run(&format!("{head}{block}\nG1 X4 Y5\nM30\n"));
@@ -319,4 +319,10 @@ fn fixed_points_are_reached_in_machine_coordinates() {
         let axis = if block.contains('Z') { 'Z' } else { 'X' };
         assert!(lost.starts_with('U') && !lost.contains(axis), "{block}: {motions:?}");
     }
+    // both reasons are said, and an axis by its name in the machine moves no less
+    let (_, faults) = run(&format!("{head}G75 FP=3 Z0\nG75 FP=4 Z0\nTRAORI\nG75 Z0\nM30\n"));
+    assert!(faults.len() == 2 && faults[1].contains("transformation"), "{faults:?}");
+    let (motions, faults) = run(&format!("{head}G75 X0 Z1=0\nG1 X4\nM30\n"));
+    assert!(faults.iter().any(|fault| fault.contains("Z1=0")), "{faults:?}");
+    assert_eq!(motions.last().map(String::as_str), Some("L X4 F100"), "{motions:?}");
 }

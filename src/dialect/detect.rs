@@ -1,6 +1,8 @@
 //! Which control a program is written for, and why: signs in its text decide, then its name, then the machine.
+mod brother;
 mod declared;
 mod foreign;
+mod num;
 mod others;
 mod seen;
 mod shape;

@@ -32,6 +32,14 @@ pub const UNSUPPORTED: &[Unsupported] = &[
         title: "Fagor",
     },
     Unsupported {
+        name: "num",
+        title: "NUM (1020, 1040, 1060, Flexium)",
+    },
+    Unsupported {
+        name: "brother",
+        title: "Brother (CNC-B00, C00, D00)",
+    },
+    Unsupported {
         name: "sinumerik-iso",
         title: "SINUMERIK in an ISO dialect (G291)",
     },

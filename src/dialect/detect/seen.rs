@@ -2,7 +2,7 @@
 use super::shape::{Lathe, Shape};
 use super::text::{has_word, lines, strip_comments};
 use super::votes::Votes;
-use super::{Detected, Surroundings, named, others, supported};
+use super::{Detected, Surroundings, brother, named, num, others, supported};
 
 /// The weight of an extension that one control owns, compared with signs in the text.
 const EXTENSION: u32 = 9;
@@ -20,7 +20,7 @@ const HAAS: &[&str] = &["haas-ngc", supported::HAAS_HINT];
 
 /// Controls that share their language; inside the first group brand and kind of machine decide.
 const GROUPS: &[&[&str]] = &[
-    &["fanuc-30i", "haas-ngc"],
+    &["fanuc-30i", "haas-ngc", "brother"],
     &["linuxcnc"],
     &["sinumerik-840d"],
     &["apt", "apt-source"],
@@ -31,6 +31,7 @@ const GROUPS: &[&[&str]] = &[
     &["centroid"],
     &["eding"],
     &["fagor"],
+    &["num"],
     &["sinumerik-iso"],
     &["wire-edm"],
     &["marlin"],
@@ -50,6 +51,7 @@ const IN_COMMENTS: &[(&str, &str)] = &[
     ("CENTROID", "centroid"),
     ("EDINGCNC", "eding"),
     ("FAGOR", "fagor"),
+    ("SPEEDIO", "brother"),
     ("MARLIN", "marlin"),
     ("ROBOFIL", "wire-edm"),
     ("SODICK", "wire-edm"),
@@ -82,6 +84,7 @@ impl Seen {
             }
             supported::raw(line, votes);
             others::raw(line, votes);
+            num::raw(line, votes);
             let stripped = strip_comments(line);
             let code = stripped.trim();
             if code.len() < line.len() {
@@ -104,6 +107,8 @@ impl Seen {
             let plain = code.strip_prefix('/').map_or(code, str::trim_start);
             supported::code(plain, votes);
             others::code(plain, votes);
+            num::code(plain, votes);
+            brother::code(plain, votes);
             seen.okuma.0 |= others::okuma_turns(plain);
             seen.okuma.1 |= others::okuma_mills(plain);
             seen.shape.look(plain, at + 1);
@@ -189,6 +194,7 @@ impl Seen {
     ) -> Option<(&'static str, String)> {
         let strongest = |of: &[&'static str]| self.votes.strongest(of).map(|vote| vote.sign.clone());
         match group[0] {
+            FANUC if self.votes.weight(&["brother"]) >= 10 => Some(("brother", strongest(&["brother"])?)),
             FANUC => {
                 let enough = if known.family == Some(FANUC) { 9 } else { 6 };
                 let by_text = self.votes.weight(HAAS) >= enough;

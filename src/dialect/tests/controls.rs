@@ -40,6 +40,22 @@ fn controls_that_are_not_read() {
             "#CS DEF [1] [MODE 1,0,0,0,0,30,0]\nG90 G0 X0\n$FOR P1=1,5,1\nG1 X[P1]\n$ENDFOR\nM30\n",
             "fagor",
         ),
+        (
+            "%101\nN10 G0 G52 Z0\nN20 G16 R+\nN50 L1=10 L2=L1*2\nN60 G0 X-50 Y0\nN80 G77 N200 N240 S3\nN90 G79 L1>0 N60\nN110 M2\nN200 G91 Z-2\n",
+            "num",
+        ),
+        (
+            "%1234\nN10 E80000=5\nN20 $0 OUTIL SUIVANT\nN30 G0 X10 Y10\nN40 G77 H567\nN50 G81 X0 Y0 Z-10 ER2 F100\nN60 M02\n",
+            "num",
+        ),
+        (
+            "%\nO1000(PART)\nG0G90G54G17G40G49G80\nG100T1X0.Y0.Z50.G43H1S8000M3L2\nG81X0.Y0.Z-5.R2.F500.\nM30\n%\n",
+            "brother",
+        ),
+        (
+            "O1\nG91 G28 Z0\nG54 G90 G43 H2 Z50.\nG77 Z-10. R3. I1. S1000\nM30\n",
+            "brother",
+        ),
         ("G291\nO0010\nG90 G21 G54\nG43 H1 Z100.\nM30\n", "sinumerik-iso"),
         (";FLAVOR:Marlin\nM104 S200\nG28\nG92 E0\nG1 X5 E0.2 F1200\n", "marlin"),
     ] {

@@ -254,6 +254,8 @@ pub struct Settings<'a> {
     pub port_to: Vec<String>,
     /// How much is judged, if somebody says so. Default: all that the machine allows, and without a machine the motions.
     pub scope: Option<Scope>,
+    /// The dialect is declared, or the text shows it. Where it is the core for want of better, a code of another control is no mistake.
+    pub control_known: bool,
     /// The text is not for a control that is supported: it gets one finding and is not read.
     pub foreign: Option<Foreign>,
     /// What is taken as zero although it is not declared.
@@ -270,6 +272,7 @@ impl<'a> Settings<'a> {
             rules: Vec::new(),
             port_to: Vec::new(),
             scope: None,
+            control_known: true,
             foreign: None,
             assume: Assume::default(),
         }

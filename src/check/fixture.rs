@@ -132,6 +132,7 @@ impl Fixture {
                 rules,
                 port_to: self.port_to.clone(),
                 scope: None,
+                control_known: true,
                 foreign,
                 assume: Assume {
                     work_offset: !self.undeclared,

@@ -19,6 +19,7 @@ mod coverage;
 mod cuts;
 mod datum;
 mod diagnostic;
+mod elsewhere;
 mod event;
 mod facts;
 mod finding;

@@ -85,7 +85,8 @@ impl<'a> Pass<'a> {
         };
         Self {
             reporter: Reporter::new(program, settings.dialect, suppressions)
-                .judging_machine(settings.judged_machine().is_some()),
+                .judging_machine(settings.judged_machine().is_some())
+                .knowing_control(settings.control_known),
             dialect: settings.dialect,
             rules,
             motions: waiting(motions),

@@ -63,6 +63,7 @@ pub(crate) struct Reporter<'a> {
     continues: bool,
     part: OnceCell<Part>,
     judges_machine: bool,
+    control_known: bool,
     /// Findings of legs that are no errors are left out.
     objections_only: bool,
     /// Where words with a letter O for a zero begin, each reported once.
@@ -94,6 +95,7 @@ impl<'a> Reporter<'a> {
             continues: false,
             part: OnceCell::new(),
             judges_machine: false,
+            control_known: true,
             objections_only: false,
             slips: BTreeSet::new(),
             near: NearCodes::new(dialect),
@@ -108,11 +110,6 @@ impl<'a> Reporter<'a> {
     /// The dialect that the program is read in.
     pub(crate) fn dialect(&self) -> &'a Dialect {
         self.dialect
-    }
-
-    /// The code that a text resembles.
-    pub(crate) fn near_code(&mut self, text: &str) -> Option<String> {
-        self.near.of(text)
     }
 
     /// The text of a range to be quoted: its first 40 characters, and `...` where there are more.

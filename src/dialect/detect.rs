@@ -2,6 +2,7 @@
 mod brother;
 mod declared;
 mod foreign;
+mod kernels;
 mod num;
 mod others;
 mod seen;

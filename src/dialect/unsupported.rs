@@ -40,6 +40,22 @@ pub const UNSUPPORTED: &[Unsupported] = &[
         title: "Brother (CNC-B00, C00, D00)",
     },
     Unsupported {
+        name: "isg",
+        title: "an ISG kernel (Beckhoff and others)",
+    },
+    Unsupported {
+        name: "planetcnc",
+        title: "PlanetCNC",
+    },
+    Unsupported {
+        name: "fluidnc",
+        title: "FluidNC",
+    },
+    Unsupported {
+        name: "sender-macro",
+        title: "a sender (gSender, CNCjs), which works out the macro before grbl reads it",
+    },
+    Unsupported {
         name: "sinumerik-iso",
         title: "SINUMERIK in an ISO dialect (G291)",
     },
@@ -53,7 +69,7 @@ pub const UNSUPPORTED: &[Unsupported] = &[
     },
     Unsupported {
         name: "marlin",
-        title: "Marlin and other 3D printers",
+        title: "Marlin, RepRapFirmware and other 3D printers",
     },
 ];
 

@@ -42,6 +42,8 @@ struct SavedCaller {
 pub(crate) struct Store {
     /// Index = number; 0 is not used.
     numbers: Vec<f64>,
+    /// Those that the program has set, by number.
+    assigned: Vec<bool>,
     /// Names that begin with `_`: global.
     globals: Names,
     /// Other names: local to the current call.
@@ -87,6 +89,7 @@ impl Store {
         }
         Self {
             numbers,
+            assigned: vec![false; LAST + 1],
             globals,
             locals: Names::default(),
             aside: Vec::new(),
@@ -138,6 +141,11 @@ impl Store {
     /// Writes a parameter for the program.
     pub(crate) fn set(&mut self, slot: Slot, value: f64) {
         self.numbers[slot.0] = value;
+        self.assigned[slot.0] = true;
+    }
+    /// Whether the program has set a parameter.
+    pub(crate) fn is_assigned(&self, index: i64) -> bool {
+        usize::try_from(index).is_ok_and(|index| self.assigned.get(index).copied().unwrap_or_default())
     }
     /// A parameter with an unknown number was set: all that a program may set become unknown.
     pub(crate) fn forget(&mut self) {

@@ -369,8 +369,13 @@ impl Special<'_> {
     fn semicolon(&mut self) -> usize {
         let line_end = self.line_end();
         if !self.options.semicolon_comment {
-            if self.source[self.end..line_end].trim_ascii().is_empty() {
-                // The end-of-block mark of a printed listing.
+            let rest = self.source[self.end..line_end].trim_ascii();
+            let is_comment = || {
+                rest.strip_prefix(b"(")
+                    .is_some_and(|rest| rest.iter().position(|&byte| byte == b')') == rest.len().checked_sub(1))
+            };
+            if rest.is_empty() || is_comment() {
+                // The end-of-block mark of a printed listing; a comment may follow it.
                 self.push(TokenKind::Blank);
                 return self.end;
             }

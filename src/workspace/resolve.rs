@@ -92,6 +92,7 @@ impl Resolved {
             rules: self.rules.clone(),
             port_to: self.port_to.clone(),
             scope: None,
+            control_known: self.dialect_certain || self.dialect.name != "iso-6983",
             foreign: self.foreign,
             assume: self.assume,
         }

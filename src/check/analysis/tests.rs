@@ -13,6 +13,7 @@ fn settings(rules: &[(&str, RuleLevel)]) -> Settings<'static> {
         rules: rules.iter().map(|(name, level)| ((*name).to_owned(), *level)).collect(),
         port_to: Vec::new(),
         scope: None,
+        control_known: true,
         foreign: None,
         assume: crate::Assume::ALL,
     }

@@ -36,6 +36,7 @@
 //! * Haas 96-8210 (mill operator's manual): setting 15, H and T code agreement.
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
+use crate::view::InForce;
 use trunnion_dialect::ToolWord;
 use trunnion_interp::LengthOf;
 
@@ -68,6 +69,13 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
         format!("write G43 H{tool} with the first Z move after the tool change")
     };
     match (in_force.tool_length_mm, motion.other_length(in_force.own_length_mm)) {
+        // G43 H0: the length of nothing
+        (Some(_), None) if by_nothing(in_force) => {
+            out.report_block(format!(
+                "T{tool} cuts without its length: the compensation that is active has length zero (H0)"
+            ))
+            .help(help);
+        }
         (Some(active), Some(own)) if !motion.undeclared.length => {
             out.report_block(format!(
                 "T{tool} is {} long, but cuts with an active length compensation of {}",
@@ -102,6 +110,11 @@ fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     }
 }
 
+/// A length compensation is on, with the length zero that H0 gives.
+fn by_nothing(in_force: &InForce) -> bool {
+    in_force.length_of == LengthOf::Nothing && in_force.tool_length_mm == Some(0.0)
+}
+
 /// A cut of a lathe: the last two digits of T are the offset of its tool.
 fn offset(tool: u32, cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
     let what = match cut.in_force.length_of {
@@ -123,7 +136,8 @@ fn approach(rapid: &facts::FirstApproach<'_>, out: &mut Reporter<'_>) {
     let (Some(tool @ 1..), Some(level)) = (motion.tool, motion.end.get(2)) else {
         return;
     };
-    let uncompensated = in_force.tool_length_mm.is_none() && !motion.tcp && !in_force.frame_unknown;
+    let uncompensated =
+        (in_force.tool_length_mm.is_none() || by_nothing(in_force)) && !motion.tcp && !in_force.frame_unknown;
     if uncompensated && rapid.dialect.length_by_code() && out.once(u64::from(tool)) {
         out.report_block(format!(
             "T{tool} goes to Z {} without its length: no tool length compensation is active, and its tip is lower by its length",
@@ -189,6 +203,15 @@ mod tests {
             "gcode sinumerik-840d",
             "T1\nM6\nS100 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n",
         );
+    }
+
+    /// H0 is no length.
+    #[test]
+    fn the_length_zero_is_missing() {
+        let text = "T1 M6\nS100 M3\nG0 X0. Y0.\nG43 H0 Z5.\n;^^^^^^^^^ missing-tool-length: T1 goes to Z 5 mm without its length\nG1 Z-1. F100.\nM30\n";
+        assert_drawn("gcode fanuc-30i", text);
+        let late = "T1 M6\nS100 M3\nG0 X0. Y0.\nG43 H0\nG1 Z-1. F100.\n;^^^^^^^^^^^^ missing-tool-length: T1 cuts without its length: the compensation that is active has length zero (H0)\nM30\n";
+        assert_drawn("gcode haas-ngc", late);
     }
 
     /// Out of the cut a length may be switched off; in the next cut it is missing.

@@ -2,7 +2,8 @@
 //!
 //! # Why
 //! The control stops or, worse, uses that code number for something else: what follows cannot be judged. M codes
-//! that a control leaves to the machine builder are not an error, but their effect is unknown.
+//! that a control leaves to the machine builder are not an error, but their effect is unknown. Where nothing shows for which control a program
+//! is, a code that other controls have is not an error either: it is unknown until the control is named.
 //!
 //! # Example
 //! ```gcode
@@ -20,6 +21,7 @@
 //!
 //! # Sources
 //! * grammar/README.md, the dialect tables and their sources.
+use crate::elsewhere::dialects_with;
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check)]);
@@ -55,6 +57,22 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .unknown()
             .merge(Merge::once(once));
         }
+        FaultKind::UnknownCode { machine_builder: false }
+            if !out.knows_control() && !dialects_with(&text).is_empty() =>
+        {
+            let found = dialects_with(&text);
+            out.report(
+                fault.range,
+                format!(
+                    "{text} is a code of {}, and the control of this program is not known",
+                    these(&found)
+                ),
+            )
+            .note("it is ignored: the rest is checked as if it were not there")
+            .help("name the control: --dialect NAME, or `(trunnion: dialect NAME)` in the program")
+            .unknown()
+            .merge(Merge::once(once));
+        }
         FaultKind::UnknownCode { machine_builder: false } => {
             out.report(fault.range, message)
                 .note("it is ignored: the rest is checked as if it were not there")
@@ -63,6 +81,19 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 .replace_with_some(near);
         }
         _ => {}
+    }
+}
+
+/// The first names of a list, and how many more there are.
+fn these(names: &[&str]) -> String {
+    /// Names that are listed.
+    const LISTED: usize = 3;
+    match names {
+        [before @ .., last] if !before.is_empty() && names.len() <= LISTED => {
+            format!("{} and {last}", before.join(", "))
+        }
+        [..] if names.len() <= LISTED => names.concat(),
+        _ => format!("{} and {} more", names[..LISTED].join(", "), names.len() - LISTED),
     }
 }
 
@@ -87,6 +118,48 @@ mod tests {
             let text = "G21 G90 G94 M3 S900\nG1 X5O. F1OO\n;  ^^^^ bad-number: `X5O.` contains the letter O; did you mean `X50.`?\n;       ^^^^ unknown-code: `F1OO` contains the letter O; did you mean `F100`?\nX60. F100.\nM2\n";
             assert_drawn(&format!("gcode {dialect}"), text);
         }
+    }
+
+    /// Where nothing shows the control, a code of another one is no mistake; one that no control has is.
+    #[test]
+    fn a_code_of_another_control_is_unknown_where_the_control_is() {
+        let core = trunnion_dialect::builtin("iso-6983").expect("built in");
+        let text = "G21 G90 G94\nG52 X1.\nG28.1\nG0 X1. G77.7\nM30\n";
+        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), core.lex);
+        let judge = |control_known| {
+            let settings = crate::Settings {
+                control_known,
+                ..crate::Settings::new(core, None, trunnion_interp::Setup::default())
+            };
+            let report = crate::check(&program, &settings);
+            let own = report
+                .diagnostics
+                .into_iter()
+                .filter(|found| found.rule == "unknown-code");
+            own.map(|found| (found.status, found.message)).collect::<Vec<_>>()
+        };
+        let known = judge(true);
+        assert!(
+            known.len() == 3 && known.iter().all(|found| found.0 == crate::Status::Fail),
+            "{known:?}"
+        );
+        let unknown = judge(false);
+        assert_eq!(unknown[0].0, crate::Status::Unknown);
+        assert!(
+            unknown[0]
+                .1
+                .starts_with("G52 is a code of linuxcnc, fanuc-30i, haas-ngc and "),
+            "{unknown:?}"
+        );
+        let end = "and the control of this program is not known";
+        assert_eq!(
+            unknown[1],
+            (
+                crate::Status::Unknown,
+                format!("G28.1 is a code of linuxcnc and grbl, {end}")
+            )
+        );
+        assert_eq!(unknown[2].0, crate::Status::Fail, "{unknown:?}");
     }
 
     #[test]

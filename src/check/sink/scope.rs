@@ -1,4 +1,4 @@
-//! How much of a program is judged, and how much of what is found is wanted.
+//! How much of a program is judged, what is known of its control, and how much of what is found is wanted.
 use super::Reporter;
 use crate::caller::Part;
 use core::cell::OnceCell;
@@ -7,6 +7,12 @@ impl Reporter<'_> {
     /// The axes of a machine are judged.
     pub(crate) fn judging_machine(mut self, judges: bool) -> Self {
         self.judges_machine = judges;
+        self
+    }
+
+    /// Whether the control of the program is known.
+    pub(crate) fn knowing_control(mut self, known: bool) -> Self {
+        self.control_known = known;
         self
     }
 
@@ -25,6 +31,16 @@ impl Reporter<'_> {
     /// Whether the axes of a machine are judged.
     pub(crate) fn judges_machine(&self) -> bool {
         self.judges_machine
+    }
+
+    /// Whether the control is declared, or the text shows it.
+    pub(crate) fn knows_control(&self) -> bool {
+        self.control_known
+    }
+
+    /// The code that a text resembles.
+    pub(crate) fn near_code(&mut self, text: &str) -> Option<String> {
+        self.near.of(text)
     }
 
     /// Whether the file is a main program or a subprogram.

@@ -281,7 +281,7 @@ pub(super) fn okuma_mills(code: &str) -> bool {
 }
 
 fn centroid_and_eding(code: &str, votes: &mut Votes) {
-    if code.contains("||") || code.contains("&&") {
+    if (code.contains("||") || code.contains("&&")) && !code.starts_with('%') {
         votes.add("centroid", 6, "|| or &&");
     }
     if code.starts_with("IF ") && code.contains(" THEN ") && !code.starts_with("IF [") {

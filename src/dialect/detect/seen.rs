@@ -2,10 +2,13 @@
 use super::shape::{Lathe, Shape};
 use super::text::{has_word, lines, strip_comments};
 use super::votes::Votes;
-use super::{Detected, Surroundings, brother, named, num, others, supported};
+use super::{Detected, Surroundings, brother, kernels, named, num, others, supported};
 
 /// The weight of an extension that one control owns, compared with signs in the text.
 const EXTENSION: u32 = 9;
+
+/// The weight of the name of a control in a comment: more than that of a program number O, which many controls have.
+const NAMED: u32 = 7;
 
 /// What the text shows.
 pub(super) struct Seen {
@@ -32,6 +35,10 @@ const GROUPS: &[&[&str]] = &[
     &["eding"],
     &["fagor"],
     &["num"],
+    &["isg"],
+    &["planetcnc"],
+    &["fluidnc"],
+    &["sender-macro"],
     &["sinumerik-iso"],
     &["wire-edm"],
     &["marlin"],
@@ -44,11 +51,14 @@ const IN_COMMENTS: &[(&str, &str)] = &[
     ("EMC2", "linuxcnc"),
     ("HAAS", "haas-ngc"),
     ("FANUC", "fanuc-30i"),
+    ("PATHPILOT", "linuxcnc"),
     ("SINUMERIK", "sinumerik-840d"),
+    ("SIEMENS", "sinumerik-840d"),
     ("840D", "sinumerik-840d"),
     ("HEIDENHAIN", "heidenhain-klartext"),
     ("OKUMA", "okuma-osp"),
     ("CENTROID", "centroid"),
+    ("INTERCON", "centroid"),
     ("EDINGCNC", "eding"),
     ("FAGOR", "fagor"),
     ("SPEEDIO", "brother"),
@@ -85,12 +95,15 @@ impl Seen {
             supported::raw(line, votes);
             others::raw(line, votes);
             num::raw(line, votes);
+            kernels::raw(line, votes);
             let stripped = strip_comments(line);
             let code = stripped.trim();
             if code.len() < line.len() {
                 for (word, name) in IN_COMMENTS {
-                    if has_word(line, word) && !has_word(code, word) {
-                        votes.add(name, 5, &format!("a comment with the name {word}"));
+                    // a file of FreeCAD names its post: linuxcnc_post
+                    let posted = || line.contains(&format!("{word}_POST"));
+                    if (has_word(line, word) || posted()) && !has_word(code, word) {
+                        votes.add(name, NAMED, &format!("a comment with the name {word}"));
                     }
                 }
             }

@@ -1,21 +1,34 @@
 //! Signs of the controls whose programs are read.
-use super::text::{assigned, has, has_word, word};
+use super::text::{assigned, has, has_word, is_block, word};
 use super::votes::Votes;
 
 /// A command to grbl itself, which senders put at the start of a file.
 fn grbl_command(line: &str) -> Option<&'static str> {
-    let commands = ["$H", "$X", "$C", "$SLP"];
+    let commands = ["$H", "$X", "$C", "$SLP", "$I", "$G", "$#", "$N", "$$"];
     let starts = ["$J=", "$RST="];
     commands
         .into_iter()
-        .find(|command| line.split(['(', ';']).next().unwrap_or_default().trim() == *command)
+        .find(|command| before_comment(line) == *command)
         .or_else(|| starts.into_iter().find(|start| line.starts_with(start)))
+}
+
+/// What stands before a comment.
+fn before_comment(line: &str) -> &str {
+    line.split(['(', ';']).next().unwrap_or_default().trim()
 }
 
 /// Signs in a line as it is written, in upper case.
 pub(super) fn raw(line: &str, votes: &mut Votes) {
-    if line.starts_with("$$") {
-        votes.add("apt", 10, "a `$$` comment");
+    // grbl answers `$$` alone with its settings
+    match line.strip_prefix("$$") {
+        Some(_) if before_comment(line) == "$$" => votes.add("apt", 3, "`$$` alone"),
+        Some(_) => votes.add("apt", 10, "a `$$` comment"),
+        None => {}
+    }
+    let (code, text) = line.split_once(';').unwrap_or((line, ""));
+    let text = text.trim();
+    if !text.is_empty() && !text.starts_with('(') && !is_block(text) && !code.contains('(') {
+        votes.add(NOT_FANUC, 8, "text after `;`");
     }
     let majors = [
         "PARTNO", "GOTO", "FEDRAT", "LOADTL", "SPINDL", "MULTAX", "CUTTER", "FINI", "LOAD", "COOLNT", "CLDATA", "UNITS",
@@ -295,7 +308,7 @@ fn haas(code: &str, votes: &mut Votes) {
         votes.add("haas-ngc", 8, "G150");
     }
     let axes = [b'X', b'Y', b'Z', b'A', b'B', b'C', b'U', b'V', b'W'];
-    if has(code, b'G', "28") && !has(code, b'G', "91") && !axes.iter().any(|axis| word(code, *axis)) {
+    if has(code, b'G', "28") && !has(code, b'G', "91") && !code.bytes().any(|byte| axes.contains(&byte)) {
         votes.add("haas-ngc", 6, "G28 without axes");
     }
     // other controls need G90 with it

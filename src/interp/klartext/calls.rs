@@ -49,7 +49,8 @@ impl Klartext<'_> {
                 }
             }
             b"PGM" => {
-                let text = String::from_utf8_lossy(words.rest())
+                // a name may begin with digits, which the word has taken as its value
+                let text = String::from_utf8_lossy(words.after_name(&first))
                     .trim()
                     .trim_matches(['"', '\''])
                     .to_owned();

@@ -129,6 +129,10 @@ impl<'t> Words<'t> {
     pub(crate) fn rest(&self) -> &'t [u8] {
         self.text.get(self.at..).unwrap_or_default()
     }
+    /// All that follows the name of a word, its value among it.
+    pub(crate) fn after_name(&self, word: &Word<'t>) -> &'t [u8] {
+        self.text.get(word.start + word.length..).unwrap_or_default()
+    }
     /// Takes a byte after blanks, if it is there.
     pub(crate) fn takes(&mut self, byte: u8) -> bool {
         let mut ahead = self.clone();

@@ -192,6 +192,8 @@ pub(crate) struct Flow {
     fuel: u64,
     /// Saved by M70 and M73 outside of calls.
     context: Option<Box<Context>>,
+    /// Parameters that words have read and nothing has set.
+    unset: std::collections::BTreeSet<i64>,
     /// Passes of loops without a call to the machine.
     watch: endless::Watch,
     /// Where the last missing subprogram was searched.
@@ -242,6 +244,7 @@ impl Flow {
             lines: vec![Lines::default()],
             fuel: setup.limits.blocks,
             context: None,
+            unset: std::collections::BTreeSet::new(),
             watch: endless::Watch::default(),
             searched: Vec::new(),
             refused: Refused::default(),

@@ -175,6 +175,7 @@ pub(crate) const TOO_LONG: Problem = problem(
     "Command too long",
     "A line can be at most 253 bytes long, including its line end.",
 );
+pub(crate) const UNSET: Problem = problem(Class::NotModelled, "", "");
 pub(crate) const STRAY_PERCENT: Problem = problem(
     Class::Syntax,
     "Bad character '%' used",

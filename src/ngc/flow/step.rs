@@ -214,6 +214,9 @@ impl Engine {
             let all = read::errors(line, &self.values(), block);
             return Err(self.refuse_text(evaluated, &all, sink));
         }
+        if block.has_unknown() {
+            self.tell_unknown(line, sink);
+        }
         let contour = self.in_contour();
         if !contour && exec::choose_line(self, block) {
             self.apply(line)?;
@@ -286,7 +289,7 @@ impl Engine {
         }
         Why::Told.into()
     }
-    fn tell(&mut self, error: &Error, sink: &mut dyn Sink) {
+    pub(super) fn tell(&mut self, error: &Error, sink: &mut dyn Sink) {
         self.flow.watch.stir();
         let at = self.flow.at;
         let error = Error {

@@ -1,7 +1,14 @@
 //! Why it is unknown what runs next: which values are unknown, and where they come from.
 use super::oline::{Keyword, OLine};
-use crate::Engine;
+use super::problems;
+use crate::{Engine, Error, Sink, read};
 use trunnion_formula::{Formula, Variable, Variables};
+
+/// It has no source of its own.
+const COMPUTED: &str = "which was computed from unknown values";
+
+/// So many sources of unknown words are told in one run.
+const TOLD: usize = 100;
 
 /// The most names in one sentence.
 const NAMES: usize = 3;
@@ -25,6 +32,25 @@ impl Engine {
     pub(super) fn undecided_word(letter: char, what: &str) -> String {
         format!("{what} depends on {letter}, whose value is not known before the program runs")
     }
+    /// Tells of words whose values are unknown because nothing has set a parameter that they read: once for each parameter.
+    #[cold]
+    pub(super) fn tell_unknown(&mut self, line: &read::Line, sink: &mut dyn Sink) {
+        for word in &line.words {
+            for variable in word.value.reads() {
+                let Variable::Numbered(index) = variable else { continue };
+                let given = (1..=30).contains(&index) && (self.entered_alone() || !self.flow.calls.is_empty());
+                let unset = (1..=5000).contains(&index)
+                    && !given
+                    && !self.store.is_assigned(index)
+                    && self.values().numbered(index).is_ok_and(f64::is_nan);
+                if !unset || self.flow.unset.len() >= TOLD || !self.flow.unset.insert(index) {
+                    continue;
+                }
+                let text = format!("#{index}: read before the program assigns it");
+                self.tell(&Error::with(&problems::UNSET, word.range, text), sink);
+            }
+        }
+    }
     /// The variables of a formula that are unknown.
     fn reasons(&self, formula: &Formula) -> Vec<String> {
         let values = self.values();
@@ -35,6 +61,8 @@ impl Engine {
                     let argument = (1..=30).contains(&index) && self.entered_alone();
                     let source = if argument {
                         "an argument that the caller gives"
+                    } else if self.store.is_assigned(index) {
+                        COMPUTED
                     } else {
                         numbered(index)
                     };
@@ -70,7 +98,7 @@ fn numbered(index: i64) -> &'static str {
         5400..=5413 => "data of the tool in the spindle",
         5420..=5428 => "the position of the machine",
         1..=5000 => "which keeps its value between programs and is not set here",
-        _ => "which was computed from unknown values",
+        _ => COMPUTED,
     }
 }
 
@@ -84,6 +112,6 @@ fn named(name: &str) -> &'static str {
     {
         "the position of the machine"
     } else {
-        "which was computed from unknown values"
+        COMPUTED
     }
 }

@@ -22,6 +22,7 @@ fn settings<'m>(dialect: &str, machine: Option<&'m Machine>) -> Settings<'m> {
         rules: Vec::new(),
         port_to: Vec::new(),
         scope: None,
+        control_known: true,
         foreign: None,
         assume: crate::Assume::default(),
     }

@@ -21,6 +21,7 @@ fn settings(dialect: usize, machine: &str) -> Settings<'static> {
         assume: trunnion_check::Assume::default(),
         port_to: Vec::new(),
         scope: None,
+        control_known: true,
         foreign: None,
     }
 }

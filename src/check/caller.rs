@@ -2,7 +2,7 @@
 use crate::coverage::{Mark, mark};
 use crate::suppress::has_code;
 use trunnion_dialect::{Dialect, Language};
-use trunnion_syntax::{Address, BlockId, Format, Item, Program};
+use trunnion_syntax::{Address, BlockId, Format, Item, Program, Word};
 
 /// What a file is, as far as its text says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,6 +80,12 @@ pub(crate) fn starts_spindle(program: &Program) -> bool {
     blocks.any(|id| says(program, id, &["M3", "M4"]))
 }
 
+/// Whether a block of the program names a plane.
+pub(crate) fn names_plane(program: &Program) -> bool {
+    let mut blocks = (0..program.block_count() as u32).map(BlockId);
+    blocks.any(|id| says(program, id, &["G17", "G18", "G19"]))
+}
+
 /// Whether a block has one of these codes; M2 is also M02.
 fn says(program: &Program, id: BlockId, wanted: &[&str]) -> bool {
     let text = program.bytes(program.block(id).range());
@@ -96,10 +102,16 @@ fn says(program: &Program, id: BlockId, wanted: &[&str]) -> bool {
             let name = program.bytes(call.name);
             wanted.iter().any(|code| name.eq_ignore_ascii_case(code.as_bytes()))
         }
-        Item::Word(word) if word.address == Address::Letter(b'M') => {
-            let text = program.text(word.range);
-            let number = text.trim_start_matches(['M', 'm', ' ', '0']);
-            wanted.iter().any(|code| code.strip_prefix('M') == Some(number))
+        Item::Word(Word {
+            address: Address::Letter(letter @ (b'G' | b'M')),
+            range,
+            ..
+        }) => {
+            let text = program.text(range);
+            let number = text.get(1..).unwrap_or_default().trim_start_matches([' ', '0']);
+            wanted
+                .iter()
+                .any(|code| code.strip_prefix(char::from(letter)) == Some(number))
         }
         _ => false,
     })

@@ -62,6 +62,7 @@ pub(crate) struct Reporter<'a> {
     /// An earlier part of the program is not known: what it may have said once is not said.
     continues: bool,
     part: OnceCell<Part>,
+    names_plane: OnceCell<bool>,
     judges_machine: bool,
     control_known: bool,
     /// Findings of legs that are no errors are left out.
@@ -94,6 +95,7 @@ impl<'a> Reporter<'a> {
             of_whole: false,
             continues: false,
             part: OnceCell::new(),
+            names_plane: OnceCell::new(),
             judges_machine: false,
             control_known: true,
             objections_only: false,

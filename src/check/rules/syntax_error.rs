@@ -45,6 +45,9 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     {
         return;
     }
+    if out.dialect().quirks.dollar_commands && is_command(out.program(), error.range) {
+        return;
+    }
     let text = out.text(error.range);
     if error.kind == SyntaxErrorKind::UnbalancedBracket && text == "[" {
         let before = word_after_bracket(out.program(), error.range);
@@ -107,6 +110,17 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     out.report(error.range, message).help(help);
 }
 
+/// Whether a place is in a line for grbl itself: a command or setting (`$$`), which the run follows, or `?` alone, which asks for a report
+/// (grbl 1.1 documentation, commands).
+fn is_command(program: &Program, range: TextRange) -> bool {
+    let Some(block) = program.block_at(range.start) else {
+        return false;
+    };
+    let text = program.text(program.block(block).range());
+    let bare = text.split([';', '(']).next().unwrap_or_default().trim();
+    bare.starts_with('$') || bare == "?"
+}
+
 /// The word after an open bracket, before which it should have been closed: it begins with a letter after a value.
 fn word_after_bracket(program: &Program, bracket: TextRange) -> Option<String> {
     let line = program.source().get(bracket.end as usize..)?;
@@ -133,8 +147,19 @@ fn report_utf16(out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::fixture::Fixture;
+    use crate::fixture::{Fixture, assert_drawn};
     use crate::unreadable::is_utf16;
+
+    #[test]
+    fn commands_of_grbl_are_no_mistakes() {
+        for line in ["$$", "$$ ; settings", "$I", "?", "? (state)"] {
+            assert_drawn("gcode grbl", &format!("{line}\nG21 G90\nG0 X0\nM2\n"));
+        }
+        assert_drawn(
+            "gcode grbl",
+            "G0 X1 ?\n;     ^ syntax-error: `?` does not belong to any word\nM2\n",
+        );
+    }
 
     #[test]
     fn utf_16_is_one_finding() {

@@ -57,16 +57,14 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .unknown()
             .merge(Merge::once(once));
         }
-        FaultKind::UnknownCode { machine_builder: false }
-            if !out.knows_control() && !dialects_with(&text).is_empty() =>
-        {
-            let found = dialects_with(&text);
+        FaultKind::UnknownCode { machine_builder: false } if !out.knows_control() && is_of_another(&text) => {
+            let whose = match &dialects_with(&text)[..] {
+                [] => format!("{text} is a code that machine builders give a meaning"),
+                found => format!("{text} is a code of {}", these(found)),
+            };
             out.report(
                 fault.range,
-                format!(
-                    "{text} is a code of {}, and the control of this program is not known",
-                    these(&found)
-                ),
+                format!("{whose}, and the control of this program is not known"),
             )
             .note("it is ignored: the rest is checked as if it were not there")
             .help("name the control: --dialect NAME, or `(trunnion: dialect NAME)` in the program")
@@ -82,6 +80,17 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
         _ => {}
     }
+}
+
+/// Whether another control, or the builder of its machine, may have a code. Tables list builders' M codes up to M999.
+fn is_of_another(code: &str) -> bool {
+    let builders = || {
+        let number = code
+            .strip_prefix(['M', 'm'])
+            .and_then(|number| number.parse::<u32>().ok());
+        number.is_some_and(|number| number > 999)
+    };
+    !dialects_with(code).is_empty() || builders()
 }
 
 /// The first names of a list, and how many more there are.
@@ -124,7 +133,7 @@ mod tests {
     #[test]
     fn a_code_of_another_control_is_unknown_where_the_control_is() {
         let core = trunnion_dialect::builtin("iso-6983").expect("built in");
-        let text = "G21 G90 G94\nG52 X1.\nG28.1\nG0 X1. G77.7\nM30\n";
+        let text = "G21 G90 G94\nG52 X1.\nG28.1\nG0 X1. G77.7\nM2000\nM30\n";
         let program = trunnion_syntax::parse(text.as_bytes().to_vec(), core.lex);
         let judge = |control_known| {
             let settings = crate::Settings {
@@ -140,7 +149,7 @@ mod tests {
         };
         let known = judge(true);
         assert!(
-            known.len() == 3 && known.iter().all(|found| found.0 == crate::Status::Fail),
+            known.len() == 4 && known.iter().all(|found| found.0 == crate::Status::Fail),
             "{known:?}"
         );
         let unknown = judge(false);
@@ -159,6 +168,7 @@ mod tests {
                 format!("G28.1 is a code of linuxcnc and grbl, {end}")
             )
         );
+        assert_eq!(unknown[3].0, crate::Status::Unknown, "{unknown:?}");
         assert_eq!(unknown[2].0, crate::Status::Fail, "{unknown:?}");
     }
 

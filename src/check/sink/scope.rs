@@ -38,6 +38,13 @@ impl Reporter<'_> {
         self.control_known
     }
 
+    /// Whether the program names a plane (G17, G18, G19) anywhere.
+    pub(crate) fn names_plane(&self) -> bool {
+        *self
+            .names_plane
+            .get_or_init(|| crate::caller::names_plane(self.program))
+    }
+
     /// The code that a text resembles.
     pub(crate) fn near_code(&mut self, text: &str) -> Option<String> {
         self.near.of(text)

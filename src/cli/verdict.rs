@@ -97,6 +97,11 @@ pub(super) fn verdict_line(file: &Judged<'_>, color: bool) -> String {
         counted(file.coverage.blocks, "block"),
         counted(s.motions, "motion"),
     );
+    // a few rapids at the beginning have none in most programs
+    let c = &file.coverage;
+    if c.motions_known * 2 < c.motions {
+        let _ = write!(line, ", {} with a known end", c.motions_known);
+    }
     if let Some(read_as) = &file.read_as {
         let _ = write!(line, ", read as {read_as}");
     }

@@ -29,6 +29,9 @@ pub fn style(settings: &FormatSettings) -> Style {
     }
 }
 
+/// So many edits are sent one by one: each costs more on its way to the editor than the line that it changes.
+const EDITS: usize = 20_000;
+
 /// The edits that lay out a program, or only the lines that touch `lines`. Of lines alone, blank ones are not removed.
 ///
 /// # Errors
@@ -50,7 +53,14 @@ pub fn format(
         Layout::Refused(refusal) => return Err(why(&refusal)),
     };
     let edits = edits(program.source(), &text);
-    let Some(lines) = lines else { return Ok(edits) };
+    let Some(lines) = lines else {
+        let few = edits.len() <= EDITS;
+        return Ok(if few {
+            edits
+        } else {
+            vec![edit(0, program.source(), &text)]
+        });
+    };
     let within: Vec<TextEdit> = edits
         .into_iter()
         .filter(|edit| edit.range.start <= lines.end && lines.start <= edit.range.end)

@@ -1,5 +1,5 @@
 //! The outline: programs, and in them operations (from one tool change to the next), labels and macros.
-use crate::names::{Kind, Names, Role};
+use crate::names::{Kind, Names, Occurrence, Role};
 use crate::text::{codes, trimmed};
 use trunnion_dialect::Action;
 use trunnion_dialect::Dialect;
@@ -58,55 +58,18 @@ pub fn outline(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Node>
     bounds.dedup();
     let operations = operations(program, dialect, &bounds);
     let mut roots = Vec::new();
+    let mut room = LISTED;
     for (at, first) in bounds.iter().enumerate() {
         let end = bounds.get(at + 1).map_or(count, |next| next.0);
         let last = BlockId(end - 1);
         let whole = program.block(*first).range().cover(program.block(last).range());
-        let mut children: Vec<Node> = operations
-            .iter()
-            .filter(|one| (first.0..end).contains(&one.first.0))
-            .map(|one| Node {
-                name: one.title.clone(),
-                detail: one.detail.clone(),
-                kind: NodeKind::Operation,
-                range: program.block(one.first).range().cover(program.block(one.last).range()),
-                selection: trimmed(program, program.block(one.first).range()),
-                children: Vec::new(),
-            })
-            .collect();
-        let inside = |range: TextRange| whole.start <= range.start && range.end <= whole.end;
-        let labels = names.all.iter().filter(|one| {
-            matches!(one.kind, Kind::Label | Kind::Block) && one.role == Role::Definition && inside(one.range)
-        });
-        for label in labels {
-            let Some(block) = program.block_at(label.range.start) else {
-                continue;
-            };
-            let node = Node {
-                name: program.text(trimmed(program, mark(program, label.range))).into_owned(),
-                detail: String::new(),
-                kind: NodeKind::Label,
-                range: program.block(block).range(),
-                selection: label.range,
-                children: Vec::new(),
-            };
-            let operation = children.iter_mut().find(|one| {
-                one.kind == NodeKind::Operation
-                    && one.range.start <= node.range.start
-                    && node.range.end <= one.range.end
-            });
-            match operation {
-                Some(operation) => operation.children.push(node),
-                None => children.push(node),
-            }
-        }
-        children.sort_by_key(|one| one.range.start);
-        let own = names
-            .all
-            .iter()
-            .find(|one| one.kind == Kind::Program && one.role == Role::Definition && inside(one.range));
-        match own {
-            Some(own) => {
+        let part = Part {
+            operations: within(&operations, |one| one.first.0, *first..BlockId(end)),
+            names: names_in(names, whole),
+        };
+        let children = part.children(program, &mut room);
+        match part.program() {
+            Some(own) if take(&mut room) => {
                 let block = program.block_at(own.range.start).unwrap_or(*first);
                 roots.push(Node {
                     name: program.text(trimmed(program, mark(program, own.range))).into_owned(),
@@ -117,10 +80,89 @@ pub fn outline(program: &Program, dialect: &Dialect, names: &Names) -> Vec<Node>
                     children,
                 });
             }
-            None => roots.extend(children),
+            _ => roots.extend(children),
         }
     }
     roots
+}
+
+/// So many entries are listed: an editor shows no more, and each costs kilobytes on its way there.
+const LISTED: u32 = 20_000;
+
+/// Whether there is room for one more entry.
+fn take(room: &mut u32) -> bool {
+    *room = room.saturating_sub(1);
+    *room > 0
+}
+
+/// The operations of some blocks; they are in the order of the blocks.
+fn within(all: &[Operation], first: impl Fn(&Operation) -> u32, blocks: core::ops::Range<BlockId>) -> &[Operation] {
+    let from = all.partition_point(|one| first(one) < blocks.start.0);
+    let to = all.partition_point(|one| first(one) < blocks.end.0);
+    &all[from..to]
+}
+
+/// The names in a range; all names are in the order of their places.
+fn names_in(names: &Names, whole: TextRange) -> &[Occurrence] {
+    let from = names.all.partition_point(|one| one.range.start < whole.start);
+    let to = names.all.partition_point(|one| one.range.start < whole.end);
+    &names.all[from..to]
+}
+
+/// A program of a file.
+struct Part<'a> {
+    operations: &'a [Operation],
+    names: &'a [Occurrence],
+}
+
+impl Part<'_> {
+    /// Where its own name stands.
+    fn program(&self) -> Option<&Occurrence> {
+        let mut names = self.names.iter();
+        names.find(|one| one.kind == Kind::Program && one.role == Role::Definition)
+    }
+
+    /// Its operations with their labels, and the labels outside of them.
+    fn children(&self, program: &Program, room: &mut u32) -> Vec<Node> {
+        let operation = |one: &Operation| Node {
+            name: one.title.clone(),
+            detail: one.detail.clone(),
+            kind: NodeKind::Operation,
+            range: program.block(one.first).range().cover(program.block(one.last).range()),
+            selection: trimmed(program, program.block(one.first).range()),
+            children: Vec::new(),
+        };
+        let listed = self.operations.iter().take_while(|_| take(room));
+        let mut operations: Vec<Node> = listed.map(operation).collect();
+        let mut loose = Vec::new();
+        let is_label =
+            |one: &&Occurrence| matches!(one.kind, Kind::Label | Kind::Block) && one.role == Role::Definition;
+        for label in self.names.iter().filter(is_label) {
+            let Some(block) = program.block_at(label.range.start) else {
+                continue;
+            };
+            if !take(room) {
+                break;
+            }
+            let node = Node {
+                name: program.text(trimmed(program, mark(program, label.range))).into_owned(),
+                detail: String::new(),
+                kind: NodeKind::Label,
+                range: program.block(block).range(),
+                selection: label.range,
+                children: Vec::new(),
+            };
+            let after = operations.partition_point(|one| one.range.start <= node.range.start);
+            let around = operations[..after].last_mut();
+            match around.filter(|one| node.range.end <= one.range.end) {
+                Some(operation) => operation.children.push(node),
+                None => loose.push(node),
+            }
+        }
+        operations.append(&mut loose);
+        operations.sort_by_key(|one| one.range.start);
+        operations
+    }
 }
 
 /// A name with the letter in front of it: `O100`, `N20`, `o<name>`.
@@ -224,4 +266,40 @@ fn changes(dialect: &Dialect, block: &Block<'_>, names_tool: bool) -> bool {
         && codes(dialect, block)
             .iter()
             .any(|(code, _)| code.action == Action::ToolChange)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LISTED, Node, NodeKind, outline};
+    use std::fmt::Write;
+
+    fn of(text: String) -> Vec<Node> {
+        let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+        let program = trunnion_syntax::parse(text.into_bytes(), dialect.lex);
+        let names = crate::names(&program, dialect);
+        outline(&program, dialect, &names)
+    }
+
+    #[test]
+    fn labels_stand_in_their_operations() {
+        let found = of("o1 if [1]\no1 endif\nT1 M6\no2 if [1]\no2 endif\nT2 M6\no3 if [1]\no3 endif\nM2\n".into());
+        let shape: Vec<(NodeKind, usize)> = found.iter().map(|node| (node.kind, node.children.len())).collect();
+        let labels = |of: usize| found[of].children.len();
+        assert_eq!(shape.len(), 3, "{shape:?}");
+        assert_eq!(
+            (found[0].kind, labels(1), labels(2)),
+            (NodeKind::Label, 1, 1),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn a_long_outline_ends() {
+        let mut text = String::new();
+        for label in 0..LISTED + 5000 {
+            let _ = writeln!(text, "o{label} if [1]\no{label} endif");
+        }
+        let found = of(text);
+        assert_eq!(found.len(), LISTED as usize - 1);
+    }
 }

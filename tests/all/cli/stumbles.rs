@@ -164,6 +164,15 @@ fn a_finding_in_a_called_program_shows_its_line() {
             "SUB.H line 2: 1 L X+10 R0",
         ),
         (
+            "heidenhain-klartext",
+            (
+                "MAIN.H",
+                "0 BEGIN PGM MAIN MM\n1 TOOL CALL 1 Z S900\n2 L X+0 Y+0 Z+50 R0 FMAX M3\n3 CALL PGM 100.H\n4 M30\n5 END PGM MAIN MM\n",
+            ),
+            ("100.h", "0 BEGIN PGM 100 MM\n1 L X+10 R0\n2 END PGM 100 MM\n"),
+            "100.h line 2: 1 L X+10 R0",
+        ),
+        (
             "fanuc-30i",
             (
                 "O1.nc",

@@ -6,6 +6,33 @@ const LENGTHS: &str = "(trunnion: tool 1 flat diameter 10 length 100)\n(trunnion
 
 pub(super) const STATE: &[Item] = &[
     (
+        "a word that reads a parameter which nothing has set",
+        ["linuxcnc", ""],
+        [
+            "G21 G90 G94 G17\nG0 X0 Y0 Z5\nS100 M3\n",
+            "G1 Z#100 F100\nG1 X#101\nM2\n",
+        ],
+        &["4 unknown not-modelled", "5 unknown not-modelled"],
+        [1, 3],
+    ),
+    (
+        "a comment after the mark at the end of a block",
+        ["fanuc-30i", ""],
+        [HEAD, "G1 Z-1. F100.; (cut)\nM30\n"],
+        &[],
+        [3, 3],
+    ),
+    (
+        "a length offset with the number zero",
+        ["fanuc-30i", ""],
+        [
+            "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nM3 S1000\nG0 X0 Y0\n",
+            "G43 H0 Z50.\nG1 Z-1. F100.\nM30\n",
+        ],
+        &["5 warning missing-tool-length"],
+        [2, 3],
+    ),
+    (
         "M6 of a Fanuc may stop the spindle",
         ["fanuc-30i", ""],
         [HEAD, "T2 M6\nG43 H2 Z5.\nG1 Z-1. F100.\nM30\n"],

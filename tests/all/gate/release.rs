@@ -30,7 +30,10 @@ impl Computer {
             symlink(found, computer.0.path().join("tools").join(tool)).expect("linked");
         }
         computer.tool("cargo", "exit 0");
-        computer.tool("rustc", "if [ \"$1\" = -vV ]; then echo 'host: here'; else echo /nowhere; fi");
+        computer.tool(
+            "rustc",
+            "if [ \"$1\" = -vV ]; then echo 'host: here'; else echo /nowhere; fi",
+        );
         let program = computer.0.path().join("built/debug/trunnion");
         fs::copy(env!("CARGO_BIN_EXE_trunnion"), program).expect("copied");
         computer
@@ -72,7 +75,10 @@ fn a_part_that_fails_fails_the_release_and_is_named() {
     assert!(failed.contains("FAILED:\n  Python wheel"), "{failed}");
     assert!(failed.contains("VS Code package: npm failed"), "{failed}");
     // the rest is built all the same
-    assert!(said.contains("-here.tar.gz") && said.contains("documentation site"), "{said}");
+    assert!(
+        said.contains("-here.tar.gz") && said.contains("documentation site"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -84,7 +90,10 @@ fn the_packed_program_alone_says_on_all_samples_what_the_built_one_says() {
     let empty = computer.0.path().join("empty");
     fs::create_dir(&empty).expect("created");
     let unpacked = Command::new("tar")
-        .args(["-xzf", str(&computer.0.path().join("out").join(format!("{name}.tar.gz")))])
+        .args([
+            "-xzf",
+            str(&computer.0.path().join("out").join(format!("{name}.tar.gz"))),
+        ])
         .current_dir(&empty)
         .status();
     assert!(unpacked.expect("tar runs").success());
@@ -104,6 +113,9 @@ fn the_packed_program_alone_says_on_all_samples_what_the_built_one_says() {
         let built = check(Path::new(env!("CARGO_BIN_EXE_trunnion")), false);
         let files: serde_json::Value = serde_json::from_str(&built).expect("JSON");
         assert!(files["files"].as_array().is_some_and(|all| all.len() > 25), "{built}");
-        assert!(check(&empty.join(&name).join("trunnion"), true) == built, "on {machine:?}");
+        assert!(
+            check(&empty.join(&name).join("trunnion"), true) == built,
+            "on {machine:?}"
+        );
     }
 }

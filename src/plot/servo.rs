@@ -42,10 +42,7 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
         .iter()
         .filter(|spot| hypot(spot.position[0], spot.position[1]) < reach)
         .collect();
-    let (legs, error) = match unit {
-        Unit::Mm => (["along the leg in / mm", "across / mm"], "error / um"),
-        Unit::Inch => (["along the leg in / in", "across / in"], "error / 0.001 in"),
-    };
+    let [along, across, error] = names(unit);
     let place = |p: [f64; 2]| (unit.of_mm(p[0]), unit.of_mm(p[1]));
     // um are thousandths of a mm
     let error_of = |um: f64| unit.of_mm(um);
@@ -70,8 +67,8 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
             &Frame {
                 x,
                 y,
-                x_name: Some(legs[0]),
-                y_name: legs[1],
+                x_name: Some(along),
+                y_name: across,
                 labels: [5, 8],
                 decades: false,
                 right: 0.0,
@@ -107,4 +104,12 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
         panel.line(near.iter().map(|s| (s.time * 1e3, error_of(s.exact))), VERMILION, 1.8)?;
         Ok(())
     })
+}
+
+/// The axes of the picture: along the leg in, across it, error.
+fn names(unit: Unit) -> [&'static str; 3] {
+    match unit {
+        Unit::Mm => ["along the leg in / mm", "across / mm", "error / um"],
+        Unit::Inch => ["along the leg in / in", "across / in", "error / 0.001 in"],
+    }
 }

@@ -52,9 +52,9 @@ struct Side {
     bends: bool,
 }
 
-/// The corner at the start of the first motion of a line.
-pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Found, Failure> {
-    let joints: [usize; 3] = machine
+/// The three linear axes.
+fn linear(machine: &Machine) -> Result<[usize; 3], Failure> {
+    let joints = machine
         .linear
         .get(..3)
         .and_then(|three| three.try_into().ok())
@@ -65,6 +65,12 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
             machine.id
         )));
     }
+    Ok(joints)
+}
+
+/// The corner at the start of the first motion of a line.
+pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Found, Failure> {
+    let joints = linear(machine)?;
     let index = LineIndex::new(loaded.program.source());
     let last = index
         .line_column(

@@ -17,7 +17,7 @@ run() {
 }
 
 status=0
-"$binary" report samples/programs -o "$scratch/page.html" --quiet || status=$?
+"$binary" report samples -o "$scratch/page.html" --quiet || status=$?
 [ "$status" = 1 ] || { echo "report: ended with status $status instead of 1"; exit 1; }
 
 cat >"$scratch/look.html" <<'HTML'

@@ -44,6 +44,8 @@ pub(crate) struct Backplot {
     whole: usize,
     /// A vertex that was left out lies at most so far from one that is there, mm; null: strands were left out.
     left_out_mm: Option<f64>,
+    /// The program moves in inch: people read its lengths in inch. All numbers here are in mm.
+    inch: bool,
     /// Motions that are not drawn because their path is not known.
     unknown: usize,
     /// Why the run did not reach the end of the program.
@@ -131,6 +133,7 @@ pub(crate) fn backplot(snapshot: &Snapshot, params: &BackplotParams) -> Result<B
         vertices: vertices.len(),
         whole: all.len(),
         left_out_mm: apart.is_finite().then_some(apart),
+        inch: run.inch,
         unknown,
         given_up: run.given_up,
         origin: origin.into(),
@@ -167,6 +170,7 @@ fn record<'a>(source: &'a Source, program: &'a Program, index: &'a LineIndex) ->
         machine: machine.map(|machine| (machine, Follower::new(machine))),
         tracer: Tracer::new(),
         given_up: None,
+        inch: false,
     };
     let mut interpreter = Interpreter::new(resolved.dialect, &resolved.setup);
     while interpreter.advance(program, &mut run).is_some() {}
@@ -185,10 +189,12 @@ struct Run<'a> {
     machine: Option<(&'a Machine, Follower<'a>)>,
     tracer: Tracer,
     given_up: Option<String>,
+    inch: bool,
 }
 
 impl Sink for Run<'_> {
-    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.inch |= state.coordinates.is_inch();
         let start = self.program.block(motion.block).range().start;
         let line = self.index.line_column(self.program.source(), start).0;
         match &mut self.machine {

@@ -8,7 +8,7 @@ import { cases } from "./samples.mjs";
 test("all samples: the document of the command line", async () => {
   const checker = await load();
   const all = cases();
-  assert.ok(all.length > 60, `${all.length}`);
+  assert.ok(all.length > 100, `${all.length}`);
   const verdicts = new Set();
   for (const { name, machine, options, bytes, wanted } of all) {
     const found = checker.check(bytes, name, machine, options);

@@ -91,7 +91,7 @@ await step("all samples in the browser: the document of the command line", async
   writeFileSync(file, `<!doctype html><meta charset="utf-8"><body>${data("module", module)}${data("cases", packed)}<script type="module">${own}${script}</script></body>`);
   const page = await browser.page(pathToFileURL(file).href);
   const said = await page.shows(/done: /);
-  if (all.length < 60 || !said.includes(`done: ${all.length} of ${all.length} the same; other: none`)) throw new Error(said);
+  if (all.length < 100 || !said.includes(`done: ${all.length} of ${all.length} the same; other: none`)) throw new Error(said);
   console.log(`  ${said}`);
 });
 

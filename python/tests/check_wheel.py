@@ -39,8 +39,9 @@ def main() -> int:
     own = trunnion.program()
     assert Path(own).is_file() and Path(own).parent == Path(sys.executable).parent, own
     assert Path(trunnion.__file__).with_name("py.typed").is_file()
-    programs = sorted(path for path in (repository / "samples/programs").rglob("*") if path.is_file())
-    assert len(programs) > 20, len(programs)
+    # what is no program: settings, machines, dialect tables and the page about them
+    programs = sorted(path for path in (repository / "samples").rglob("*") if path.is_file() and path.suffix not in (".toml", ".md"))
+    assert len(programs) > 30, len(programs)
     verdicts: Dict[str, int] = {}
     traced = 0
     for path in programs:

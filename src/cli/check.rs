@@ -113,9 +113,7 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
     let mut accepted = Accepted::new(command.write_baseline.as_deref());
     let mut tally = Tally::default();
     if let Some(target) = target {
-        let mut kept = Vec::new();
-        print(&job, &found, &mut tally, &mut accepted, &mut kept)?;
-        target.write(&kept, None)?;
+        target.fill(|out| print(&job, &found, &mut tally, &mut accepted, out))?;
     } else {
         print(&job, &found, &mut tally, &mut accepted, &mut Out::standard())?;
     }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Machine, Space, ToolBody};
 use trunnion_plot::{
-    Along, Header, PlotError, Record, ServoSpot, axis_plane, deviation, feed, joints, path, route,
+    Along, Header, PlotError, Record, ServoSpot, Unit, axis_plane, deviation, feed, joints, path, route,
     servo as servo_picture,
 };
 use trunnion_syntax::LineIndex;
@@ -218,8 +218,9 @@ fn draw_servo(command: &Plot, loaded: &Loaded, machine: &Machine) -> Result<Stri
             radial: spot.radial * 1e3,
         })
         .collect();
+    let unit = Unit::of_inch(cornered.found.inch);
     let title = format!("Corner at line {line} as the servo loops run it");
-    servo_picture(&header(&title, loaded, machine), &spots).map_err(|error| Failure::file(&command.file, error))
+    servo_picture(&header(&title, loaded, machine), &spots, unit).map_err(|error| Failure::file(&command.file, error))
 }
 
 /// The space of the obstacles at the first rapid motion of the program from a known position.

@@ -16,7 +16,7 @@ use std::{
     path::{Path, PathBuf},
 };
 use trunnion_machine::Machine;
-use trunnion_plot::height_map;
+use trunnion_plot::{Unit, height_map};
 use trunnion_surface::{Errors, Found, Judge, Options, Required, required, required_stl};
 use trunnion_syntax::{BlockId, LineIndex};
 
@@ -77,7 +77,7 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
         .transpose()?;
     let surface = read(&command.required, command.close)?;
     let lines = LineIndex::new(loaded.program.source());
-    let errors = waiting::during(global, "measuring", &command.file, || {
+    let (errors, unit) = waiting::during(global, "measuring", &command.file, || {
         judge(command, &loaded, machine, &surface, &lines)
     })?;
     if errors.judged == 0 {
@@ -99,8 +99,8 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
     out.flush()?;
     if let Some(file) = &picture {
         let header = plot::header("Error of the trajectory surface", &loaded, machine);
-        let text =
-            height_map(&header, &errors, flattest(&surface)).map_err(|error| Failure::file(&command.file, error))?;
+        let text = height_map(&header, &errors, flattest(&surface), unit)
+            .map_err(|error| Failure::file(&command.file, error))?;
         file.write(text.as_bytes(), None)?;
     }
     Ok(verdict(global, command, &errors))
@@ -183,13 +183,14 @@ fn flattest(surface: &Required) -> usize {
     (0..3).rev().min_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(2)
 }
 
+/// The errors, and the unit in which people read lengths of the program.
 fn judge(
     command: &Surface,
     loaded: &Loaded,
     machine: &Machine,
     surface: &Required,
     index: &LineIndex,
-) -> Result<Errors, Failure> {
+) -> Result<(Errors, Unit), Failure> {
     let options = Options {
         offset: command.offset,
         reach: command.reach,
@@ -198,14 +199,16 @@ fn judge(
     };
     let lines = command.lines;
     let mut judge = Judge::new(surface, machine, options);
+    let mut inch = false;
     let given_up = each_leg(loaded, machine, index, lines, |leg, _, state| {
+        inch |= state.coordinates.is_inch();
         judge.leg(leg, leg.motion.other_length(state.tool.own_length_mm()).is_none());
     });
     if let Some(why) = given_up {
         // a part of the path proves nothing about the whole
         return Err(Failure::new(why));
     }
-    Ok(judge.finish())
+    Ok((judge.finish(), Unit::of_inch(inch)))
 }
 
 struct Report<'a> {

@@ -5,6 +5,8 @@ mod error;
 mod identity;
 #[cfg(not(target_family = "wasm"))]
 mod output;
+#[cfg(not(target_family = "wasm"))]
+mod patient;
 mod read;
 #[cfg(not(target_family = "wasm"))]
 mod temporary;
@@ -12,6 +14,8 @@ mod temporary;
 pub use error::FileError;
 #[cfg(not(target_family = "wasm"))]
 pub use output::{Outputs, Target, unless_closed};
+#[cfg(not(target_family = "wasm"))]
+pub use patient::Patient;
 pub use read::{Input, Seen, read, read_settings, read_text};
 #[cfg(not(target_family = "wasm"))]
 pub use temporary::{sweep_beside, write_kept};

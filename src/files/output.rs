@@ -1,6 +1,7 @@
 //! Writes files: regular files are replaced whole, anything else is written to.
 use crate::error::FileError;
 use crate::identity::{Identity, special};
+use crate::patient::Patient;
 use crate::read::{Seen, read};
 use crate::temporary;
 use std::{
@@ -219,28 +220,60 @@ impl Target {
         matches!(self.kind, Kind::Standard)
     }
 
-    /// Writes all of `bytes`. A regular file is replaced whole: its content is the old one or the new one at any moment. With `read`, the
-    /// file must still hold these bytes.
+    /// Writes all of `bytes`, as [`Self::fill`]. With `read`, the file must still hold these bytes.
     ///
     /// # Errors
-    /// Nothing was replaced: the file changed since it was read or since the command began, the disk is full, the folder is read-only.
+    /// As of [`Self::fill`].
     pub fn write(&self, bytes: &[u8], read: Option<&[u8]>) -> Result<(), FileError> {
+        self.written(read, |out| {
+            // the writer keeps its errors for the end
+            let _ = out.write_all(bytes);
+            Ok(())
+        })
+    }
+
+    /// Writes what `fill` puts, while it does. A regular file is replaced whole, when all is there: its content is the old one or the new one
+    /// at any moment. `fill` sees no errors of writing.
+    ///
+    /// # Errors
+    /// That of `fill`, or one of writing. Nothing was replaced: `fill` failed, the file changed since it was read or since the command began,
+    /// the disk is full, the folder is read-only.
+    pub fn fill<T, E: From<FileError>>(&self, fill: impl FnOnce(&mut dyn Write) -> Result<T, E>) -> Result<T, E> {
+        self.written(None, fill)
+    }
+
+    fn written<T, E: From<FileError>>(
+        &self,
+        read: Option<&[u8]>,
+        fill: impl FnOnce(&mut dyn Write) -> Result<T, E>,
+    ) -> Result<T, E> {
         match &self.kind {
             Kind::Standard => {
-                let mut out = io::stdout().lock();
-                let written = out.write_all(bytes).and_then(|()| out.flush());
-                unless_closed(written).map_err(|error| FileError::io(Path::new("standard output"), "write", &error))
+                let mut out = Patient::new(io::stdout());
+                let filled = fill(&mut out)?;
+                unless_closed(out.finish())
+                    .map_err(|error| FileError::io(Path::new("standard output"), "write", &error))?;
+                Ok(filled)
             }
             Kind::Stream => {
+                let failed = |error: &io::Error| FileError::io(&self.path, "write to it", error);
                 let opened = OpenOptions::new().write(true).open(&self.path);
-                let written = opened.and_then(|mut file| file.write_all(bytes));
-                unless_closed(written).map_err(|error| FileError::io(&self.path, "write to it", &error))
+                let mut out = Patient::new(opened.map_err(|error| failed(&error))?);
+                let filled = fill(&mut out)?;
+                unless_closed(out.finish()).map_err(|error| failed(&error))?;
+                Ok(filled)
             }
-            Kind::Regular { place, before } => self.replace(place, before.as_ref(), bytes, read),
+            Kind::Regular { place, before } => self.replace(place, before.as_ref(), read, fill),
         }
     }
 
-    fn replace(&self, place: &Path, before: Option<&Seen>, bytes: &[u8], read: Option<&[u8]>) -> Result<(), FileError> {
+    fn replace<T, E: From<FileError>>(
+        &self,
+        place: &Path,
+        before: Option<&Seen>,
+        read: Option<&[u8]>,
+        fill: impl FnOnce(&mut dyn Write) -> Result<T, E>,
+    ) -> Result<T, E> {
         let failed = |error: &io::Error| {
             let note = if before.is_some() {
                 "; the file was not changed"
@@ -253,7 +286,10 @@ impl Target {
         };
         let folder = folder_of(place);
         let mut file = temporary::create(folder, place, before.is_none()).map_err(|error| failed(&error))?;
-        file.write_all(bytes).map_err(|error| failed(&error))?;
+        let mut out = Patient::new(file.as_file_mut());
+        let filled = fill(&mut out)?;
+        out.finish().map_err(|error| failed(&error))?;
+        drop(out);
         if let Ok(old) = fs::metadata(place) {
             replaceable(&self.path, place, &old)?;
             take_owner(&self.path, &old, file.as_file())?;
@@ -269,7 +305,7 @@ impl Target {
             // makes the rename itself durable; not every file system can, and the file is whole either way
             let _ = folder.sync_all();
         }
-        Ok(())
+        Ok(filled)
     }
 
     /// An error if the file changed, or no longer contains the bytes `read`.

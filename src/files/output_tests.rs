@@ -43,6 +43,32 @@ fn a_file_is_made_or_replaced_and_nothing_is_left_beside_it() {
 }
 
 #[test]
+fn what_comes_piece_by_piece_replaces_the_file_when_all_is_there() {
+    let folder = folder();
+    let path = file(&folder, "all.json", "old");
+    let target = Outputs::new().output("-o", &path).expect("there");
+    let most = "a piece\n".repeat(4000);
+    let filled: Result<u8, FileError> = target.fill(|out| {
+        out.write_all(most.as_bytes()).expect("kept");
+        // it is on the disk, not in memory, and the file is still the old one
+        let beside = names(&folder);
+        let temporary = beside.iter().find(|name| name.ends_with(temporary::ENDING));
+        let temporary = folder.path().join(temporary.expect("a temporary file"));
+        assert!(fs::metadata(temporary).expect("there").len() + 8192 >= most.len() as u64);
+        assert_eq!(content(&path), "old");
+        Ok(7)
+    });
+    assert_eq!(filled.expect("written"), 7);
+    assert_eq!(content(&path), most);
+    let failed: Result<(), FileError> = Outputs::new().output("-o", &path).expect("there").fill(|out| {
+        out.write_all(b"half").expect("kept");
+        Err(FileError::new(&path, "no more"))
+    });
+    assert!(failed.is_err());
+    assert_eq!((content(&path), names(&folder)), (most, vec!["all.json".to_owned()]));
+}
+
+#[test]
 fn an_input_is_no_output_under_any_name() {
     let folder = folder();
     let path = file(&folder, "p.nc", "old");

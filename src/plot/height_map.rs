@@ -2,6 +2,7 @@
 use crate::canvas::{Entry, Header, INK, PlotError, SCALE, Swatch, sheet};
 use crate::grid::{Frame, Panel, equal};
 use crate::scale::{range, short};
+use crate::unit::Unit;
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::Vec3;
@@ -24,17 +25,17 @@ const SCALE_STOPS: [(u8, u8, u8); 6] = [
     (75, 0, 45),
 ];
 
-/// Draws the spots of `errors` seen along the axis `along` (0 X, 1 Y, 2 Z) of the part.
+/// Draws the spots of `errors` seen along the axis `along` (0 X, 1 Y, 2 Z) of the part, with lengths in `unit`.
 ///
 /// # Errors
 /// There are no spots.
-pub fn height_map(header: &Header, errors: &Errors, along: usize) -> Result<String, PlotError> {
+pub fn height_map(header: &Header, errors: &Errors, along: usize, unit: Unit) -> Result<String, PlotError> {
     if errors.spots.is_empty() {
         return Err(PlotError(
             "nothing to draw: no feed block could be compared with the surface".into(),
         ));
     }
-    let view = View::new(along);
+    let view = View::new(along, unit);
     let worst = errors.spots.iter().fold(
         errors.spots[0],
         |worst, spot| if spot.error > worst.error { *spot } else { worst },
@@ -55,13 +56,13 @@ pub fn height_map(header: &Header, errors: &Errors, along: usize) -> Result<Stri
     let legend: Vec<Entry> = vec![
         (Swatch::Filled(colour(1.0)), sense.to_owned()),
         (Swatch::Line(LINE), "real path of the tip".into()),
-        (Swatch::Dot(INK), format!("largest error {top:.4} mm")),
+        (Swatch::Dot(INK), format!("largest error {}", unit.text(top, 4))),
     ];
     sheet(header, &legend, |body| {
         let places = || errors.spots.iter().map(|spot| view.see(&spot.place));
         let tips = || errors.spots.iter().map(|spot| view.see(&spot.tip));
-        let x = range(places().chain(tips()).map(|p| p.0), 1e-3);
-        let y = range(places().chain(tips()).map(|p| p.1), 1e-3);
+        let x = range(places().chain(tips()).map(|p| p.0), unit.of_mm(1e-3));
+        let y = range(places().chain(tips()).map(|p| p.1), unit.of_mm(1e-3));
         let (x, y) = equal(x, y, body.dim_in_pixel(), BAR);
         let names = view.names();
         let panel = Panel::new(
@@ -95,7 +96,7 @@ pub fn height_map(header: &Header, errors: &Errors, along: usize) -> Result<Stri
         let at = view.see(&worst.tip);
         panel.dots(core::iter::once(at), INK, 4.5)?;
         panel.ring(at.0, at.1, INK, 9.0)?;
-        colour_bar(&panel, x, y, top)
+        colour_bar(&panel, x, y, unit.of_mm(top), unit)
     })
 }
 
@@ -112,7 +113,7 @@ fn colour(share: f64) -> RGBColor {
     RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
 }
 
-fn colour_bar(panel: &Panel<'_>, x: [f64; 2], y: [f64; 2], top: f64) -> Result<(), PlotError> {
+fn colour_bar(panel: &Panel<'_>, x: [f64; 2], y: [f64; 2], top: f64, unit: Unit) -> Result<(), PlotError> {
     let per_px = (x[1] - x[0]) / panel.size().0 * f64::from(SCALE);
     let (left, right) = (x[1] + 24.0 * per_px, x[1] + 46.0 * per_px);
     let (low, high) = (y[0] + 0.05 * (y[1] - y[0]), y[1] - 0.1 * (y[1] - y[0]));
@@ -127,25 +128,27 @@ fn colour_bar(panel: &Panel<'_>, x: [f64; 2], y: [f64; 2], top: f64) -> Result<(
         let place = (right + 6.0 * per_px, low + (high - low) * f64::from(tick) / 4.0);
         panel.write_outside(place, &short(value, top), (HPos::Left, VPos::Center))?;
     }
-    panel.write_outside((left, high + 16.0 * per_px), "error / mm", (HPos::Left, VPos::Bottom))
+    let name = format!("error / {}", unit.name());
+    panel.write_outside((left, high + 16.0 * per_px), &name, (HPos::Left, VPos::Bottom))
 }
 
-/// A view along one axis of the part.
+/// A view along one axis of the part, in a unit.
 struct View {
     across: usize,
     upwards: usize,
+    unit: Unit,
 }
 
 impl View {
-    fn new(along: usize) -> Self {
+    fn new(along: usize, unit: Unit) -> Self {
         let (across, upwards) = [(1, 2), (0, 2), (0, 1)][along.min(2)];
-        Self { across, upwards }
+        Self { across, upwards, unit }
     }
     fn see(&self, p: &Vec3) -> (f64, f64) {
-        (p[self.across], p[self.upwards])
+        (self.unit.of_mm(p[self.across]), self.unit.of_mm(p[self.upwards]))
     }
     fn names(&self) -> [String; 2] {
-        [self.across, self.upwards].map(|axis| format!("{} / mm", ['X', 'Y', 'Z'][axis]))
+        [self.across, self.upwards].map(|axis| format!("{} / {}", ['X', 'Y', 'Z'][axis], self.unit.name()))
     }
 }
 

@@ -2,6 +2,7 @@
 use crate::canvas::{BLUE, GREEN, GREY, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel, equal};
 use crate::scale::range;
+use crate::unit::Unit;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::math::hypot;
 
@@ -20,11 +21,11 @@ pub struct ServoSpot {
     pub radial: f64,
 }
 
-/// Draws it.
+/// Draws it, with lengths in `unit`; errors are in micrometres or in thousandths of an inch.
 ///
 /// # Errors
 /// There are no spots with finite values.
-pub fn servo(header: &Header, spots: &[ServoSpot]) -> Result<String, PlotError> {
+pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String, PlotError> {
     let finite = |spot: &&ServoSpot| spot.position.iter().all(|x| x.abs() < 1e6) && spot.exact.is_finite();
     let spots: Vec<ServoSpot> = spots.iter().filter(finite).copied().collect();
     let worst = spots.iter().max_by(|a, b| a.exact.total_cmp(&b.exact));
@@ -41,6 +42,10 @@ pub fn servo(header: &Header, spots: &[ServoSpot]) -> Result<String, PlotError> 
         .iter()
         .filter(|spot| hypot(spot.position[0], spot.position[1]) < reach)
         .collect();
+    let [along, across, error] = names(unit);
+    let place = |p: [f64; 2]| (unit.of_mm(p[0]), unit.of_mm(p[1]));
+    // um are thousandths of a mm
+    let error_of = |um: f64| unit.of_mm(um);
     let legend = vec![
         (Swatch::Line(GREY), "reference".into()),
         (Swatch::Line(BLUE), "path of the axes".into()),
@@ -52,8 +57,8 @@ pub fn servo(header: &Header, spots: &[ServoSpot]) -> Result<String, PlotError> 
         let all = near.iter().flat_map(|spot| [spot.position, spot.reference]);
         let inside: Vec<[f64; 2]> = all.filter(|p| hypot(p[0], p[1]) < 1.2 * reach).collect();
         let (x, y) = equal(
-            range(inside.iter().map(|p| p[0]), 1e-4),
-            range(inside.iter().map(|p| p[1]), 1e-4),
+            range(inside.iter().map(|&p| place(p).0), unit.of_mm(1e-4)),
+            range(inside.iter().map(|&p| place(p).1), unit.of_mm(1e-4)),
             left.dim_in_pixel(),
             0.0,
         );
@@ -62,40 +67,49 @@ pub fn servo(header: &Header, spots: &[ServoSpot]) -> Result<String, PlotError> 
             &Frame {
                 x,
                 y,
-                x_name: Some("along the leg in / mm"),
-                y_name: "across / mm",
+                x_name: Some(along),
+                y_name: across,
                 labels: [5, 8],
                 decades: false,
                 right: 0.0,
             },
         )?;
-        panel.line(spots.iter().map(|s| (s.reference[0], s.reference[1])), GREY, 1.4)?;
-        panel.line(spots.iter().map(|s| (s.position[0], s.position[1])), BLUE, 1.8)?;
-        panel.ring(worst.position[0], worst.position[1], VERMILION, 6.0)?;
-        let text = format!("{:.2} um", worst.exact);
-        panel.text(
-            (worst.position[0], worst.position[1]),
-            &text,
-            VERMILION,
-            (HPos::Right, VPos::Bottom),
-            8.0,
-        )?;
+        panel.line(spots.iter().map(|s| place(s.reference)), GREY, 1.4)?;
+        panel.line(spots.iter().map(|s| place(s.position)), BLUE, 1.8)?;
+        let at = place(worst.position);
+        panel.ring(at.0, at.1, VERMILION, 6.0)?;
+        let text = match unit {
+            Unit::Mm => format!("{:.2} um", worst.exact),
+            Unit::Inch => unit.text(worst.exact / 1000.0, 5),
+        };
+        panel.text(at, &text, VERMILION, (HPos::Right, VPos::Bottom), 8.0)?;
         let span = near.iter().map(|spot| spot.time * 1e3);
-        let errors = near.iter().flat_map(|spot| [spot.exact, spot.radial]).chain([0.0]);
+        let errors = near
+            .iter()
+            .flat_map(|spot| [spot.exact, spot.radial].map(error_of))
+            .chain([0.0]);
         let panel = Panel::new(
             &right,
             &Frame {
                 x: range(span, 1e-3),
-                y: range(errors.map(|error| 1.05 * error), 1e-3),
+                y: range(errors.map(|error| 1.05 * error), error_of(1e-3)),
                 x_name: Some("time from the corner / ms"),
-                y_name: "error / um",
+                y_name: error,
                 labels: [6, 8],
                 decades: false,
                 right: 0.0,
             },
         )?;
-        panel.line(near.iter().map(|s| (s.time * 1e3, s.radial)), GREEN, 1.4)?;
-        panel.line(near.iter().map(|s| (s.time * 1e3, s.exact)), VERMILION, 1.8)?;
+        panel.line(near.iter().map(|s| (s.time * 1e3, error_of(s.radial))), GREEN, 1.4)?;
+        panel.line(near.iter().map(|s| (s.time * 1e3, error_of(s.exact))), VERMILION, 1.8)?;
         Ok(())
     })
+}
+
+/// The axes of the picture: along the leg in, across it, error.
+fn names(unit: Unit) -> [&'static str; 3] {
+    match unit {
+        Unit::Mm => ["along the leg in / mm", "across / mm", "error / um"],
+        Unit::Inch => ["along the leg in / in", "across / in", "error / 0.001 in"],
+    }
 }

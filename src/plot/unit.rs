@@ -13,6 +13,10 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// Inch or mm.
+    pub fn of_inch(inch: bool) -> Self {
+        if inch { Self::Inch } else { Self::Mm }
+    }
     /// Its sign.
     pub fn name(self) -> &'static str {
         match self {

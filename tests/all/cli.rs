@@ -11,6 +11,7 @@ mod findings;
 mod fix;
 mod fmt;
 mod hostile;
+mod inch_pictures;
 mod lathes;
 mod machines;
 mod messages;

@@ -7,6 +7,7 @@ mod formats;
 mod people;
 mod python;
 mod recipes;
+mod release;
 mod schemas;
 mod tutorials;
 

@@ -82,6 +82,7 @@ fn levels_of_detail_another_text_and_no_machine() {
         few["vertices"].as_u64().unwrap() <= 100 && few["leftOutMm"].as_f64().unwrap() > 0.0,
         "{few}"
     );
+    assert_eq!(whole["inch"], false);
     // a version after a rewrite, with the settings of the document
     let other = ask(
         &mut client,
@@ -134,5 +135,19 @@ fn a_backplot_replaces_no_program_and_says_why_it_cannot_be_written() {
         &json!({}),
     );
     assert!(!unknown["error"].is_null(), "{unknown}");
+    client.finish();
+}
+
+#[test]
+fn a_program_in_inch_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("path.bin");
+    let mut client = Client::start(&json!({}));
+    let text = "(trunnion: dialect linuxcnc)\nG20 G90 G17 F20 S1000 M3\nG0 X0 Y0 Z0\nG1 X2\nM2\n";
+    client.open("untitled:/inch.ngc", text);
+    let answer = ask(&mut client, "untitled:/inch.ngc", &file, &json!({}))["result"].clone();
+    assert_eq!(answer["inch"], true, "{answer}");
+    // numbers are in mm all the same
+    assert_eq!(answer["high"][0], 50.8, "{answer}");
     client.finish();
 }

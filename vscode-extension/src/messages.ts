@@ -5,6 +5,8 @@ export interface Summary {
   vertices: number;
   whole: number;
   leftOutMm: number | null;
+  /** People read the lengths of the program in inch. */
+  inch: boolean;
   unknown: number;
   givenUp: string | null;
   origin: [number, number, number];

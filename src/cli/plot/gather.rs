@@ -21,9 +21,7 @@ pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32
         remark(false, &format!("{why}; the picture ends there"));
     }
     let mut record = recorder.finish();
-    if inch {
-        record.unit = Unit::Inch;
-    }
+    record.unit = Unit::of_inch(inch);
     record
 }
 

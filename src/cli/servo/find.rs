@@ -19,6 +19,8 @@ pub(crate) struct Found {
     pub(crate) lengths: [f64; 2],
     /// The linear axes that the directions are in.
     pub(crate) joints: [usize; 3],
+    /// The program is in inch there.
+    pub(crate) inch: bool,
     /// What was assumed.
     pub(crate) notes: Vec<String>,
 }
@@ -50,9 +52,9 @@ struct Side {
     bends: bool,
 }
 
-/// The corner at the start of the first motion of a line.
-pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Found, Failure> {
-    let joints: [usize; 3] = machine
+/// The three linear axes.
+fn linear(machine: &Machine) -> Result<[usize; 3], Failure> {
+    let joints = machine
         .linear
         .get(..3)
         .and_then(|three| three.try_into().ok())
@@ -63,6 +65,12 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
             machine.id
         )));
     }
+    Ok(joints)
+}
+
+/// The corner at the start of the first motion of a line.
+pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Found, Failure> {
+    let joints = linear(machine)?;
     let index = LineIndex::new(loaded.program.source());
     let last = index
         .line_column(
@@ -79,12 +87,14 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
     let (mut before, mut after): (Option<Side>, Option<Side>) = (None, None);
     let mut known: (Joints, u16) = ([0.0; _], 0);
     let mut stopped = None;
-    each_leg(loaded, machine, &index, None, |leg, at, _| {
+    let mut inch = false;
+    each_leg(loaded, machine, &index, None, |leg, at, state| {
         if after.is_some() {
             return;
         }
         let side = side(machine, joints, leg, &known, at);
         known = leg.known_joints;
+        inch = state.coordinates.is_inch();
         if at == line {
             match side {
                 Some(side) if stopped.is_none() => after = Some(side),
@@ -130,6 +140,7 @@ pub(super) fn find(loaded: &Loaded, machine: &Machine, line: u32) -> Result<Foun
         feeds: [feed(&before)?, feed(&after)?],
         lengths: [before.length, after.length],
         joints,
+        inch,
         notes: bent(&[&before, &after]),
     })
 }

@@ -142,12 +142,17 @@ fn the_gitlab_job_fails_on_a_bad_program_and_passes_with_the_baseline() {
     fs::create_dir(&programs).expect("made");
     fs::rename(folder.path().join("bad.nc"), programs.join("bad.nc")).expect("moved");
     // nothing is accepted yet
-    shell(&folder, "trunnion check good.nc --write-baseline baseline.json", &[]);
+    let good = "trunnion check good.nc --write-baseline programs/baseline.json";
+    shell(&folder, good, &[]);
     let (status, said) = shell(&folder, script[0], &[]);
     assert_eq!(status, 1, "{said}");
     let report = fs::read_to_string(folder.path().join("trunnion.xml")).expect("written");
     assert!(report.contains("<failure"), "{report}");
-    shell(&folder, "trunnion check programs --write-baseline baseline.json", &[]);
+    // as the tutorial does, in the folder of the programs
+    let tutorial = fs::read_to_string(root().join("docs/tutorials/ci.md")).expect("read");
+    let accept = tutorial.lines().find(|line| line.contains("--write-baseline"));
+    let accept = format!("cd programs && {}", accept.expect("a command"));
+    assert_eq!(shell(&folder, &accept, &[]).0, 0);
     let (status, said) = shell(&folder, script[0], &[]);
     assert_eq!(status, 0, "{said}");
     // a mistake in the job: the report says so
@@ -155,4 +160,6 @@ fn the_gitlab_job_fails_on_a_bad_program_and_passes_with_the_baseline() {
     assert_eq!(status, 2);
     let report = fs::read_to_string(folder.path().join("trunnion.xml")).expect("written");
     assert!(report.contains("<error type=\"not-checked\""), "{report}");
+    // the other recipes of the page name the same baseline
+    assert_eq!(page.matches("programs/baseline.json").count(), 3);
 }

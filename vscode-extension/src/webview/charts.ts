@@ -1,6 +1,7 @@
 // Beside the path: the tool axis seen along Z, and the joints over the path.
 import type { Machine } from '../messages';
 import { type Path, RAPID, START, kindOf } from './path';
+import type { Unit } from './unit';
 
 interface Ink {
   foreground: string;
@@ -70,7 +71,7 @@ export function axisPlane(canvas: HTMLCanvasElement, path: Path, at: number, col
 }
 
 /** Each joint over the vertices, with its limits. */
-export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, at: number, colours: Ink): void {
+export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, at: number, colours: Ink, unit: Unit): void {
   const drawing = surface(canvas);
   if (!drawing || path.axes === 0) return;
   const { pen, width, height } = drawing;
@@ -112,8 +113,8 @@ export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, 
     const now = value(at);
     if (Number.isFinite(now)) dot(pen, x(at), y(now), colours.mark);
     pen.fillStyle = colours.foreground;
-    const unit = axis.rotary ? '\u00b0' : ' mm';
-    const shown = Number.isFinite(now) ? `${now.toFixed(3)}${unit}` : 'unknown';
+    const text = axis.rotary ? `${now.toFixed(3)}\u00b0` : `${unit.place(now)} ${unit.name}`;
+    const shown = Number.isFinite(now) ? text : 'unknown';
     pen.fillText(`${axis.letter} ${shown}`, 6, tall * index + 12);
   });
 }

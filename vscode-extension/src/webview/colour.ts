@@ -1,6 +1,7 @@
 // What the colours of a path mean. Chosen so that people who confuse red and green can tell them apart (Okabe and Ito, 2008), and
 // so that they stand out on light and dark.
 import { type Path, RAPID, kindOf, levelOf, postureOf } from './path';
+import type { Unit } from './unit';
 
 export type Mode = 'finding' | 'deviation' | 'feed' | 'posture';
 
@@ -25,17 +26,17 @@ const css = ([r, g, b]: Rgb): string => `rgb(${Math.round(r * 255)}, ${Math.roun
 /** From good to bad. */
 const STEPS: Rgb[] = [BLUE, SKY, GREEN, ORANGE, VERMILION];
 
-/** The colours of all vertices, r g b each, and what they mean. `tolerance`: of the tip, mm. */
-export function colours(path: Path, mode: Mode, tolerance: number): { values: Float32Array; legend: Legend } {
+/** The colours of all vertices, r g b each, and what they mean. `tolerance`: of the tip, mm. `unit`: of the lengths in the meaning. */
+export function colours(path: Path, mode: Mode, tolerance: number, unit: Unit): { values: Float32Array; legend: Legend } {
   const values = new Float32Array(3 * path.count);
-  const { of, legend } = scale(path, mode, tolerance);
+  const { of, legend } = scale(path, mode, tolerance, unit);
   for (let at = 0; at < path.count; at += 1) {
     values.set(kindOf(path, at) === RAPID ? GREY : of(at), 3 * at);
   }
   return { values, legend };
 }
 
-function scale(path: Path, mode: Mode, tolerance: number): { of: (at: number) => Rgb; legend: Legend } {
+function scale(path: Path, mode: Mode, tolerance: number, unit: Unit): { of: (at: number) => Rgb; legend: Legend } {
   const entry = (colour: Rgb, text: string) => ({ colour: css(colour), text });
   const rapid = entry(GREY, 'rapid');
   switch (mode) {
@@ -55,11 +56,12 @@ function scale(path: Path, mode: Mode, tolerance: number): { of: (at: number) =>
     }
     case 'deviation': {
       const bounds = [0.1, 0.5, 1, 2].map((share) => share * tolerance);
+      const length = (mm: number) => `${short(unit.of(mm))} ${unit.name}`;
       return {
         of: (at) => step(path.deviation[at]!, bounds),
         legend: {
-          title: `Deviation of the tip (tolerance ${short(tolerance)} mm)`,
-          entries: [...STEPS.map((colour, at) => entry(colour, at < 4 ? `up to ${short(bounds[at]!)} mm` : `more than ${short(bounds[3]!)} mm`)), entry(PURPLE, 'not known'), rapid],
+          title: `Deviation of the tip (tolerance ${length(tolerance)})`,
+          entries: [...STEPS.map((colour, at) => entry(colour, at < 4 ? `up to ${length(bounds[at]!)}` : `more than ${length(bounds[3]!)}`)), entry(PURPLE, 'not known'), rapid],
         },
       };
     }

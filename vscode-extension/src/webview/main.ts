@@ -3,6 +3,7 @@ import type { FromPage, Summary, ToPage } from '../messages';
 import { axisPlane, ink, joints } from './charts';
 import { type Legend, type Mode, colours, short } from './colour';
 import { FEED, type Path, START, kindOf, read, vertexOfLine } from './path';
+import { unitOf } from './unit';
 import { type Side, View } from './view';
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void; getState(): unknown; setState(state: unknown): void };
@@ -26,7 +27,7 @@ if (kept.machine) {
 const keep = () => code.setState({ mode: mode.value, machine: get<HTMLInputElement>('machine').checked });
 
 function paint(): Float32Array {
-  const { values, legend: meaning } = colours(shown!.path, mode.value as Mode, shown!.summary.machine?.tipToleranceMm ?? 0.01);
+  const { values, legend: meaning } = colours(shown!.path, mode.value as Mode, shown!.summary.machine?.tipToleranceMm ?? 0.01, unitOf(shown!.summary));
   explain(meaning);
   return values;
 }
@@ -52,17 +53,18 @@ function go(vertex: number, share = 0): void {
   slider.value = String(at);
   view.place(at, share);
   const tip = [0, 1, 2].map((k) => path.tip[3 * at + k]! + path.origin[k]!);
-  const parts = [`line ${path.line[at]}`, ...tip.map((value, k) => `${'XYZ'[k]} ${value.toFixed(3)}`)];
+  const unit = unitOf(summary);
+  const parts = [`line ${path.line[at]}`, ...tip.map((value, k) => `${'XYZ'[k]} ${unit.place(value)}`)];
   if (Number.isFinite(path.time[at])) parts.push(clock(path.time[at]!));
   if (kindOf(path, at) === FEED) {
-    if (Number.isFinite(path.feed[at])) parts.push(`F ${short(path.feed[at]!)} mm/min`);
-    if (path.feedLimit[at]! < path.feed[at]!) parts.push(`the axes allow ${short(path.feedLimit[at]!)} mm/min`);
+    if (Number.isFinite(path.feed[at])) parts.push(`F ${short(unit.of(path.feed[at]!))} ${unit.name}/min`);
+    if (path.feedLimit[at]! < path.feed[at]!) parts.push(`the axes allow ${short(unit.of(path.feedLimit[at]!))} ${unit.name}/min`);
   }
   readout.textContent = parts.join('   ');
   slider.setAttribute('aria-valuetext', readout.textContent);
   const style = ink(getComputedStyle(document.documentElement));
   axisPlane(get<HTMLCanvasElement>('plane'), path, at, style);
-  if (summary.machine) joints(get<HTMLCanvasElement>('joints'), path, summary.machine, at, style);
+  if (summary.machine) joints(get<HTMLCanvasElement>('joints'), path, summary.machine, at, style, unit);
 }
 
 const clock = (seconds: number): string => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')} min`;
@@ -91,7 +93,7 @@ function remarks(summary: Summary): string[] {
   if (summary.unknown > 0) said.push(`${summary.unknown} motions are not drawn: their path is not known.`);
   if (summary.givenUp) said.push(`${summary.givenUp}.`);
   if (summary.leftOutMm === null) said.push('Parts of the path are left out: there are too many separate pieces.');
-  else if (summary.leftOutMm > 0) said.push(`${summary.vertices} of ${summary.whole} points are drawn; the others lie within ${short(summary.leftOutMm)} mm.`);
+  else if (summary.leftOutMm > 0) said.push(`${summary.vertices} of ${summary.whole} points are drawn; the others lie within ${short(unitOf(summary).of(summary.leftOutMm))} ${unitOf(summary).name}.`);
   if (!summary.machine) said.push('No machine is chosen: this is the programmed path.');
   return said;
 }

@@ -105,6 +105,28 @@ test('part and spindle meet where the axes say, on every kind of machine', { ski
   }
 });
 
+test('a program in inch is read in inch', { skip }, async () => {
+  const { browser, page, errors } = await open('dark');
+  try {
+    const read = async (unit, x, feed) => {
+      const file = join(folder, 'unit.nc');
+      writeFileSync(file, `${unit} G90 G17 G94 G54\nG0 X0. Y0. Z0.\nG1 X${x} F${feed}\nM30\n`);
+      const answer = await path(trunnion, file, join(folder, 'path.bin'), { machine: 'mill-3axis', dialect: 'fanuc-30i', assume: ['work-offset', 'tool-length'] });
+      await show(page, unit, answer);
+      await seek(page, 1);
+      await page.locator('#mode').selectOption('deviation');
+      return `${await page.locator('#readout').textContent()} ${await page.locator('#legend').textContent()}`;
+    };
+    const inch = await read('G20', '2.', '10.');
+    assert.match(inch, /X 2\.00000 .*F 10 in\/min.*tolerance 0\.000394 in/s);
+    assert.doesNotMatch(inch, / mm/);
+    assert.match(await read('G21', '50.8', '254.'), /X 50\.800 .*F 254 mm\/min.*tolerance 0\.01 mm/s);
+    assert.deepEqual(errors, []);
+  } finally {
+    await browser.close();
+  }
+});
+
 test('each control is reached and worked by keys', { skip }, async () => {
   const { browser, page, said } = await open('dark');
   try {

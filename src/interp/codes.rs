@@ -187,8 +187,8 @@ impl<'d> Iso<'d> {
             Action::SpindleStop => block.stops_spindle = true,
             Action::ToolChange => self.change_tool(words, report),
             Action::MachineCoordinates => block.machine_coordinates = true,
-            Action::OrientationAxes => state.tool_axis.set_great_circle(false),
-            Action::OrientationVector => state.tool_axis.set_great_circle(true),
+            Action::OrientationAxes => state.tool_axis.set_great_circle(Some(false)),
+            Action::OrientationVector => state.tool_axis.set_great_circle(Some(true)),
             Action::ProgramEnd => block.end = true,
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";

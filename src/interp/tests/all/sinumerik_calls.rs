@@ -23,7 +23,7 @@ impl Files for Folder {
             "INCH.SPF" => "PROC INCH SAVE\nG700 G95\nG1 X1 F2\nM17\n",
             "OTHER.SPF" => "PROC OTHER SAVE\nG41\nG1 X10 D1\nM17\n",
             "TURNS.SPF" => "PROC TURNS SAVE\nAROT Z90\nG1 X10 Y0\nM17\n",
-            "ANEW.SPF" => "PROC ANEW SAVE\n$P_UIFR[1,X,TR]=7\nG55\nG54\nM17\n",
+            "ANEW.SPF" => "PROC ANEW SAVE\nG55\n$P_UIFR[1,X,TR]=7\nG54\nM17\n",
             "LOOPS.SPF" => "DEF INT ROW\nFOR ROW=1 TO 2\nG0 Y=ROW\nENDFOR\nIF R1==0 GOTOF OUT\nG0 Y99\nOUT: RET\n",
             _ => return Err(vec!["subs".into()]),
         };

@@ -187,8 +187,8 @@ impl<'d> Iso<'d> {
             Action::SpindleStop => block.stops_spindle = true,
             Action::ToolChange => self.change_tool(words, report),
             Action::MachineCoordinates => block.machine_coordinates = true,
-            Action::OrientationAxes => state.tool_axis.set_great_circle(false),
-            Action::OrientationVector => state.tool_axis.set_great_circle(true),
+            Action::OrientationAxes => state.tool_axis.set_great_circle(Some(false)),
+            Action::OrientationVector => state.tool_axis.set_great_circle(Some(true)),
             Action::ProgramEnd => block.end = true,
             Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
                 self.memory.thread_chamfer_off = found.code.id == "M24";
@@ -197,7 +197,9 @@ impl<'d> Iso<'d> {
                 self.memory.cycle.rigid = true;
             }
             // S and M3 to M5 are those of another spindle from here on (SINUMERIK Programming Manual, Fundamentals: SETMS)
-            Action::NoMotion if found.code.group.as_deref() == Some("master-spindle") => state.spindle.forget(),
+            Action::NoMotion if found.code.group.as_deref() == Some("master-spindle") => {
+                self.names_main_spindle(found, report)
+            }
             Action::NoMotion if found.code.group.as_deref() == Some("orientation-angles") => {
                 self.memory.own.contour.euler = found.code.id == "ORIEULER";
             }

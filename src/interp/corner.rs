@@ -23,7 +23,7 @@ struct Waiting {
     letter: u8,
     /// mm.
     size: f64,
-    /// FRC: the feed of the corner alone, in the unit of F.
+    /// FRC or FRCM of its block: the feed of the corner alone, in the unit of F.
     feed: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ struct Waiting {
 pub(crate) struct Corners {
     /// The corner word of the current block: letter and mm.
     pub(crate) word: Option<(u8, f64)>,
-    /// FRC of the current block.
+    /// FRC of the current block, else FRCM.
     feed: Option<f64>,
     waiting: Option<Box<Waiting>>,
     /// Why the motion that now ends at a corner begins at an unknown point: the corner before it is not followed.
@@ -144,7 +144,7 @@ impl Iso<'_> {
             self.cut_corner(*waiting, &mut pending, on, report);
         }
         let tolerant = self.core.dialect.quirks.declares_names();
-        let feed = self.memory.corners.feed.take();
+        let feed = self.memory.corners.feed;
         match self.memory.corners.word.take() {
             Some((letter, size)) if motion.is_feed() || tolerant => {
                 let waiting = Waiting {
@@ -178,6 +178,7 @@ impl Iso<'_> {
     /// CHF, CHR, RND of the block, or RNDM.
     pub(crate) fn corner_word(&mut self, words: &Words, block: &BlockCodes) {
         let rounding = self.memory.own.contour.rounding;
+        self.memory.corners.feed = self.memory.own.contour.corner_feed;
         if rounding == 0.0 && !self.memory.own.path.any() || block.takes_coordinates {
             return;
         }
@@ -186,7 +187,9 @@ impl Iso<'_> {
         let modal = (rounding != 0.0 && words.axes.any()).then_some((b'R', rounding));
         let word = own.map(|(letter, size)| (letter, size * unit)).or(modal);
         self.memory.corners.word = word.filter(|(_, size)| *size != 0.0 && !words.forgets_all);
-        self.memory.corners.feed = self.memory.own.path.corner_feed();
+        if let Some(feed) = self.memory.own.path.corner_feed() {
+            self.memory.corners.feed = Some(feed);
+        }
     }
 
     fn no_corner(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
@@ -219,14 +222,9 @@ impl Iso<'_> {
         let ways = flat(&before.0, axes).zip(flat(&next.0, axes));
         let lathe = self.core.dialect.quirks.diameter && axes[2] == 1;
         let no_height = lathe && before.0.end.get(1).is_none() && next.0.end.get(1).is_none();
-        let unit = before.1.feed.unit_mm();
-        let feed = waiting.feed.and_then(|feed| match before.0.feed {
-            Feed::PerMinute(_) => Some(Feed::PerMinute(feed * unit)),
-            Feed::PerRevolution(_) => Some(Feed::PerRevolution(feed * unit)),
-            _ => None,
-        });
-        // without its own feed it is not told which of both blocks gives it
-        let fed = feed.is_some() || waiting.feed.is_none() && before.0.feed == next.0.feed;
+        let feeds = [(&before, waiting.feed), (&*next, self.memory.corners.feed)].map(corner_feed);
+        let fed = !tolerant || feeds[0] == feeds[1];
+        let feed = tolerant.then_some(if fed { feeds[0] } else { Feed::Unknown });
         let cut = ways.map(|(first, second)| Cut {
             no_height,
             feed,
@@ -239,9 +237,9 @@ impl Iso<'_> {
             Some(true)
                 if tolerant
                     && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
-                    && !(fed && self.is_plain_corner(&before.0, &next.0, report)) =>
+                    && !self.is_plain_corner(&before.0, &next.0, report) =>
             {
-                Some("whose feed or settings are those of another block")
+                Some("whose settings are those of another block")
             }
             Some(false) if tolerant => Some("larger than their motions"),
             None if arcs => Some("at an arc"),
@@ -268,6 +266,9 @@ impl Iso<'_> {
                 next.0.start.forget(*axis);
             }
         } else if let (Some(cut), Some(true)) = (&cut, fits) {
+            if !fed && cut.by > 1e-9 {
+                self.unsettled_feed(feeds, report);
+            }
             cut.apply(before, waiting.letter == b'R', next, on);
             return;
         } else if let (Some(cut), Some((first, second))) = (&cut, ways) {
@@ -285,6 +286,20 @@ impl Iso<'_> {
         on.push(before);
     }
 
+    /// The blocks before and after a corner give it different feeds. Which counts is machine data (SINUMERIK 828D Programming Manual,
+    /// Fundamentals, 07/2010, p. 282).
+    fn unsettled_feed(&mut self, feeds: [Feed; 2], report: &mut Report<'_>) {
+        let what = "the feed of a chamfer or rounding: bit 0 of machine data 20201 decides whether F and FRC of the block before it or \
+                    after it count; write the same FRC in both blocks"
+            .to_owned();
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+        if self.core.effects.wanted() {
+            let said = feeds.map(|feed| Argument::text("feed of a corner", &format!("{feed:?}")));
+            let block = self.core.main_block(report.block);
+            self.core.effects.add(block, Effect::Unmodelled(said.into()));
+        }
+    }
+
     /// Whether it does not matter which of the two blocks of a corner gives it its settings, and no block is between them: which
     /// one does is machine data (20201 CHFRND_MODE_MASK), and how many may be between (20200 CHFRND_MAXNUM_DUMMY_BLOCKS).
     fn is_plain_corner(&self, before: &Motion, next: &Motion, report: &Report<'_>) -> bool {
@@ -296,6 +311,17 @@ impl Iso<'_> {
         next.block.0 == before.block.0 + 1
             && !self.memory.own.path.sets_rounding()
             && words.words().all(|word| plain(&word))
+    }
+}
+
+/// The feed of a corner as one of its blocks gives it: FRC, FRCM, or F.
+fn corner_feed((pending, own): (&PendingMotion, Option<f64>)) -> Feed {
+    let (motion, state) = pending;
+    match (own, motion.feed) {
+        (None, feed) => feed,
+        (Some(feed), Feed::PerMinute(_)) if feed.is_finite() => Feed::PerMinute(feed * state.feed.unit_mm()),
+        (Some(feed), Feed::PerRevolution(_)) if feed.is_finite() => Feed::PerRevolution(feed * state.feed.unit_mm()),
+        _ => Feed::Unknown,
     }
 }
 

@@ -102,7 +102,13 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             self.role_word(role, letter, word);
             return;
         }
-        match self.dialect.role(letter) {
+        let role = self.dialect.role(letter);
+        if let Some(role @ (Role::Speed | Role::M)) = role
+            && self.spindle_word(role, (letter, index), word)
+        {
+            return;
+        }
+        match role {
             Some(Role::Speed) => self.words.speed = WordValue::Unread,
             Some(Role::Tool) => self.words.tool = WordValue::Unread,
             Some(Role::M) => self.words.other_spindle = true,

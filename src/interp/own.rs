@@ -127,6 +127,8 @@ pub(crate) struct Own {
     pub(crate) written_frames: Vec<(TextRange, TextRange)>,
     /// The letters of the axes of the plane in effect, in its order.
     pub(crate) plane_letters: [u8; 3],
+    /// The number of the spindle to which S and M3 belong, where it is known.
+    pub(crate) main_spindle: Option<u32>,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
 }

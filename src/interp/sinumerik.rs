@@ -12,6 +12,7 @@ mod names;
 mod path;
 mod pole;
 mod polynomial;
+mod saved;
 mod spline;
 mod statement;
 mod system_values;
@@ -24,6 +25,7 @@ pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
 pub(crate) use polynomial::PolynomialWords;
+pub(crate) use saved::Settings;
 pub(crate) use spline::Spline;
 pub(crate) use text::Text;
 

@@ -203,6 +203,8 @@ pub struct ControlData {
     /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and in which direction (1 or -1), Q moves the stopped tool off the wall (Fanuc
     /// parameter 5148, Haas setting 27); `None`: not declared, X Y are unknown while it is off the wall.
     pub bore_shift: Option<(usize, f64)>,
+    /// The number of the main spindle of a Sinumerik (machine data 20090): S1= and M1=3 are then its S and M3; `None`: not declared.
+    pub main_spindle: Option<u32>,
     /// Which axis drills in G18 and G19 on a Fanuc mill; `None`: not declared, such cycles are unknown.
     pub drilling_axis: Option<DrillingAxis>,
     /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short motion is unknown.

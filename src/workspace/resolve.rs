@@ -192,6 +192,7 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     control.units = control.units.or(of.units);
     control.peck_clearance_mm = control.peck_clearance_mm.or(of.peck_clearance_mm);
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(of.chip_break_retract_mm);
+    control.main_spindle = control.main_spindle.or(of.main_spindle);
     control.drilling_axis = control.drilling_axis.or(of.drilling_axis);
     control.roughing_escape = control.roughing_escape.or(of.roughing_escape);
     control.thread_pull_out = control.thread_pull_out.or(of.thread_pull_out);

@@ -1,10 +1,10 @@
-//! What settings and machine files declare of lathes and of drilling in other planes counts.
+//! What settings and machine files declare of lathes, spindles and drilling in other planes counts.
 use crate::digest::{machine_digest, setup_digest};
 use std::collections::BTreeSet;
 use trunnion_interp::{DrillingAxis, Setup, ToolOffsets};
 
 #[test]
-fn tool_offsets_and_the_drilling_axis_count() {
+fn tool_offsets_spindles_and_the_drilling_axis_count() {
     let offsets = |number: u32, value: f64| Setup {
         tool_offsets: ToolOffsets(vec![(number, [value; 9])]),
         ..Setup::default()
@@ -14,11 +14,18 @@ fn tool_offsets_and_the_drilling_axis_count() {
         setup.control.drilling_axis = Some(axis);
         setup
     };
+    let turns = |number| {
+        let mut setup = Setup::default();
+        setup.control.main_spindle = Some(number);
+        setup
+    };
     let setups = [
         Setup::default(),
         offsets(2, 0.0),
         offsets(2, 1.0),
         offsets(3, 1.0),
+        turns(1),
+        turns(2),
         drills(DrillingAxis::Z),
         drills(DrillingAxis::AcrossPlane),
     ];
@@ -27,5 +34,8 @@ fn tool_offsets_and_the_drilling_axis_count() {
     let mut machine = trunnion_machine::builtin("mill-3axis").expect("built in").clone();
     let plain = machine_digest(&machine);
     machine.control.drilling_axis = Some(DrillingAxis::Z);
-    assert_ne!(machine_digest(&machine), plain);
+    let drills = machine_digest(&machine);
+    assert_ne!(drills, plain);
+    machine.control.main_spindle = Some(1);
+    assert_ne!(machine_digest(&machine), drills);
 }

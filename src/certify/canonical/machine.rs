@@ -50,7 +50,7 @@ record! {
         feed = 8, corner_model = 9, block_time = 10, tcp_codes = 11, posture_words = 12, units = 13,
         reference_points = 14, peck_clearance_mm = 15, chip_break_retract_mm = 16, roughing_escape = 17, thread_pull_out = 18,
         roughing_retract_mm = 19, thread_least_cut_mm = 20, thread_finish_mm = 21, tool_change = 22, power_on = 23,
-        spline_arcs_mm = 24, drilling_axis = 34, fixed_points = 35,
+        spline_arcs_mm = 24, drilling_axis = 34, fixed_points = 35, main_spindle = 36,
     } without {
         planning,
     }

@@ -79,6 +79,7 @@ pub(super) struct FileControl {
     chip_break_retract: Option<Spanned<f64>>,
     peck_clearance: Option<Spanned<f64>>,
     bore_shift: Option<Spanned<String>>,
+    main_spindle: Option<Spanned<i64>>,
     drilling_axis: Option<Drilling>,
     roughing_escape: Option<Escape>,
     thread_pull_out: Option<Spanned<f64>>,
@@ -142,6 +143,7 @@ impl FileControl {
             chip_break_retract_mm: length("chip_break_retract", self.chip_break_retract.as_ref())?,
             peck_clearance_mm: length("peck_clearance", self.peck_clearance.as_ref())?,
             bore_shift: self.bore_shift.as_ref().map(bore_shift).transpose()?,
+            main_spindle: self.main_spindle.as_ref().map(main_spindle).transpose()?,
             drilling_axis: self.drilling_axis.map(|axis| match axis {
                 Drilling::Z => DrillingAxis::Z,
                 Drilling::AcrossPlane => DrillingAxis::AcrossPlane,
@@ -192,6 +194,19 @@ impl FileControl {
                 .map(|codes| codes.iter().map(|code| g_code(code, known)).collect())
                 .transpose()?,
         })
+    }
+}
+
+fn main_spindle(number: &Spanned<i64>) -> Result<u32, ConfigError> {
+    match u32::try_from(*number.get_ref()) {
+        Ok(spindle @ 1..=99) => Ok(spindle),
+        _ => Err(at(
+            number,
+            format!(
+                "main_spindle = {} must be the number of a spindle, 1 to 99",
+                number.get_ref()
+            ),
+        )),
     }
 }
 
@@ -284,7 +299,7 @@ mod tests {
 
     #[test]
     fn a_whole_section_is_read() {
-        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
+        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nmain_spindle = 2\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
                     outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
@@ -292,6 +307,7 @@ mod tests {
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
         assert_eq!(control.bore_shift, Some((1, -1.0)));
+        assert_eq!(control.main_spindle, Some(2));
         assert_eq!(control.drilling_axis, Some(trunnion_interp::DrillingAxis::AcrossPlane));
         assert_eq!(control.roughing_escape, Some(RoughingEscape::Rapid));
         assert_eq!(control.thread_pull_out, Some(1.2));
@@ -328,6 +344,7 @@ mod tests {
             ("[control]\nimplicit_decimals = \"maybe\"", "\"maybe\""),
             ("[control]\nunits = \"cm\"", "\"cm\""),
             ("[control]\npeck_clearance = -1", "-1"),
+            ("[control]\nmain_spindle = 0", "0"),
             ("[control]\nbore_shift = \"X\"", "\"X\""),
             ("[control]\ndrilling_axis = \"y\"", "\"y\""),
             ("[control]\nroughing_escape = \"slow\"", "\"slow\""),

@@ -1,4 +1,5 @@
 //! Effects that a run has collected.
+use crate::sinumerik::Settings;
 use crate::{Argument, Effect, Placed, Reach};
 
 /// Blocks of shifts and turns whose words a later motion may need.
@@ -16,6 +17,8 @@ pub(crate) struct Effects {
     frames: Vec<Vec<Argument>>,
     /// Not emitted yet.
     ready: Vec<Placed>,
+    /// The settings in effect, by their keys.
+    settings: Settings,
 }
 
 impl Effects {
@@ -48,6 +51,9 @@ impl Effects {
     /// One that may change more, or less, than others of its kind.
     pub(crate) fn add_with(&mut self, block: trunnion_syntax::BlockId, effect: Effect, reach: Reach) {
         self.count += 1;
+        if let Effect::Set { key, to } = &effect {
+            self.settings.insert(key.clone(), to.clone());
+        }
         self.ready.push(Placed { block, effect, reach });
     }
     /// A parameter of the control decides what a number of the block means; once for each block.
@@ -65,6 +71,10 @@ impl Effects {
     /// Those that were not emitted yet.
     pub(crate) fn take(&mut self) -> Vec<Placed> {
         std::mem::take(&mut self.ready)
+    }
+    /// The settings in effect that were not those of the start.
+    pub(crate) fn settings(&self) -> &Settings {
+        &self.settings
     }
     /// Keeps the words of a block that shifts or turns the coordinates.
     pub(crate) fn keep_frame(&mut self, words: Vec<Argument>) {

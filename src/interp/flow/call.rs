@@ -190,7 +190,7 @@ impl Iso<'_> {
         {
             trail.course.leave(self.flow.next);
         }
-        let changes = self.changes() + 1;
+        let (changes, block) = (self.changes() + 1, self.core.main_block(BlockId(from)));
         let Some(trail) = &mut self.flow.trail else { return };
         if !trail.course.is_called() {
             return if self.core.dialect.quirks.user_names() {
@@ -202,6 +202,7 @@ impl Iso<'_> {
         if back.label.is_none()
             && let Some((start, level)) = trail.course.once_more()
         {
+            let mut saved = None;
             match level {
                 Level::MacroB(level) => {
                     if let Some(deep) = &mut self.flow.deep {
@@ -209,11 +210,17 @@ impl Iso<'_> {
                         level.again(&mut deep.variables);
                     }
                 }
-                Level::Sinumerik(level) => level.again(&mut self.memory.own),
+                Level::Sinumerik(level) => {
+                    level.again(&mut self.memory.own);
+                    saved = level.saved();
+                }
                 Level::Task(level) => level.again(&mut self.memory.own),
                 Level::Section => {}
             }
             self.flow.next = trail.course.jump_back(self.flow.next, start, changes);
+            if let Some(kind) = saved.and_then(|saved| self.bring_back(&saved, block)) {
+                self.tell_of_flow(running, from, (back.range, kind), sink);
+            }
             return;
         }
         let Some(call) = trail.course.leave(self.flow.next) else {
@@ -225,7 +232,7 @@ impl Iso<'_> {
         match call.level {
             Level::MacroB(level) => self.leave_macro(&level, back, running, call.place.file, sink),
             Level::Sinumerik(level) => {
-                if let Some(kind) = self.leave_subprogram(*level) {
+                if let Some(kind) = self.leave_subprogram(*level, block) {
                     self.tell_of_flow(running, from, (back.range, kind), sink);
                 }
             }

@@ -140,6 +140,7 @@ impl<'d> Iso<'d> {
             cycle_motions: 0,
         };
         engine.memory.own.is_task = engine.core.dialect.quirks.user_task();
+        engine.memory.own.main_spindle = engine.core.setup.control.main_spindle;
         let setup = std::sync::Arc::clone(&engine.core.setup);
         engine.memory.own.take_declared(&setup.named_variables);
         let (name, key) = if engine.core.dialect.quirks.first_offset_at_start {

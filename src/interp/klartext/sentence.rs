@@ -156,9 +156,9 @@ impl Klartext<'_> {
         }
         self.guide_tip(true, report);
         if has("VECTOR") {
-            self.core.state.tool_axis.set_great_circle(true);
+            self.core.state.tool_axis.set_great_circle(Some(true));
         } else if has("PATHCTRL") {
-            self.core.state.tool_axis.set_great_circle(false);
+            self.core.state.tool_axis.set_great_circle(Some(false));
         }
         self.memory.spatial = has("SPAT");
         self.memory.other_point = has("CENTER-CENTER") || has("TIP-CENTER");

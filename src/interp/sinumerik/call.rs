@@ -1,4 +1,5 @@
 //! Subprograms: arguments, PROC, own variables, return.
+use super::saved::Saved;
 use crate::Sink;
 use crate::flow::{Back, Running};
 use crate::iso::Iso;
@@ -60,8 +61,8 @@ pub(crate) struct Level {
     references: Vec<(Box<str>, Box<str>)>,
     /// Parameters by value.
     parameters: Vec<(Box<str>, Sort)>,
-    /// SAVE: modal codes come back at the return.
-    saves: bool,
+    /// SAVE: what comes back at the return.
+    saved: Option<Box<Saved>>,
     /// The caller is the subprogram of MCALL, or is called by it.
     in_modal: bool,
 }
@@ -73,6 +74,11 @@ impl Level {
         for (name, sort) in &self.parameters {
             own.declare(name, *sort, None);
         }
+    }
+
+    /// What SAVE brings back after each run.
+    pub(crate) fn saved(&self) -> Option<Box<Saved>> {
+        self.saved.clone()
     }
 }
 
@@ -183,6 +189,8 @@ impl Iso<'_> {
                 parameters.len()
             ));
         }
+        let saved = saves.then(|| self.saved());
+        let own = &mut self.memory.own;
         let scope = own.begin_scope();
         let in_modal = own.in_modal;
         own.in_modal |= with.is_modal;
@@ -192,7 +200,7 @@ impl Iso<'_> {
             scope,
             references: Vec::new(),
             parameters: Vec::new(),
-            saves,
+            saved,
         };
         let mut given = with.arguments.into_iter();
         for parameter in parameters {
@@ -209,22 +217,17 @@ impl Iso<'_> {
         Ok(Box::new(level))
     }
 
-    /// A subprogram has returned: the caller's variables are back. Whether modal codes come back too, which is not modelled.
-    pub(crate) fn leave_subprogram(&mut self, level: Level) -> Option<FaultKind> {
+    /// A subprogram has returned: the caller's variables are back, and what SAVE keeps; a fault where that is not known.
+    pub(crate) fn leave_subprogram(&mut self, level: Level, block: BlockId) -> Option<FaultKind> {
         let own = &mut self.memory.own;
         let used = own.end_scope(level.scope);
         own.levels = own.levels.saturating_sub(1);
         own.in_modal = level.in_modal;
-        own.contour.euler &= !level.saves;
         for (here, there) in &level.references {
             own.assign(there, used.value(here));
         }
         own.begin_block();
-        level.saves.then(|| {
-            self.core.forget_everything();
-            let what = "SAVE: modal codes and frames come back at the return".to_owned();
-            FaultKind::NotModelled { what }
-        })
+        self.bring_back(&level.saved?, block)
     }
 
     /// RET or M17 of the main program.

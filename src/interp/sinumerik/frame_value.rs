@@ -174,7 +174,7 @@ impl Iso<'_> {
         }
     }
 
-    fn set_programmable(&mut self, frame: FrameValue) -> Option<()> {
+    pub(super) fn set_programmable(&mut self, frame: FrameValue) -> Option<()> {
         let plain = self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed)
             && !self.core.unknown.any()
             && self.memory.frames.local[3..] == [0.0; 6];

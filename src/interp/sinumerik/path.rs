@@ -1,5 +1,5 @@
 //! Words that give a path by something other than its end and centre: polar coordinates about a pole (AP, RP), the opening angle of an arc
-//! (AR), the angle of a line (ANG), an intermediate point (I1 J1 K1), corners (CHF, CHR, RND, RNDM), the angle of a turned frame (RPL), and the
+//! (AR), the angle of a line (ANG), an intermediate point (I1 J1 K1), corners (CHF, CHR, RND, RNDM) and their feed (FRC, FRCM), the angle of a turned frame (RPL), and the
 //! tool's orientation by Euler angles (A2, B2, C2 under ORIEULER).
 //! Where their values are known they become coordinates and centres; else the block is not followed.
 //!
@@ -43,8 +43,10 @@ pub(crate) struct PathWords {
     frame: Option<f64>,
     /// CHF (F), CHR (C) or RND (R).
     corner: Option<(u8, f64)>,
-    /// FRC: the feed of this corner.
+    /// FRC: the feed of a corner of this block.
     corner_feed: Option<f64>,
+    /// FRCM.
+    modal_corner_feed: Option<f64>,
     /// RNDM.
     modal_corner: Option<f64>,
 }
@@ -85,6 +87,8 @@ pub(crate) struct Contour {
     pub(super) angle: Option<(f64, [f64; 2])>,
     /// RNDM, mm; 0: off.
     pub(crate) rounding: f64,
+    /// FRCM in the unit of F; `None`: off, NaN: unknown.
+    pub(crate) corner_feed: Option<f64>,
     /// ORIEULER is in effect; false: what A2, B2 and C2 mean is machine data, or not followed.
     pub(crate) euler: bool,
     /// Where the last motion in the plane ended, and its direction there.
@@ -159,6 +163,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                     "ANG" => &mut path.angle,
                     "RPL" => &mut path.frame,
                     "FRC" => &mut path.corner_feed,
+                    "FRCM" => &mut path.modal_corner_feed,
                     "RNDM" => &mut path.modal_corner,
                     _ => {
                         let letter = match name {
@@ -186,7 +191,8 @@ impl Iso<'_> {
         let path = self.memory.own.path;
         let mut out = *words;
         // of a frame or a pole, which has read them
-        if block.takes_coordinates && !path.unread && path.corner.is_none() && path.modal_corner.is_none() {
+        let of_corner = path.corner.is_some() || path.modal_corner.is_some() || path.modal_corner_feed.is_some();
+        if block.takes_coordinates && !path.unread && !of_corner {
             return out;
         }
         if block.takes_coordinates || path.unread || self.path_coordinates(&path, &mut out, block).is_none() {
@@ -205,6 +211,9 @@ impl Iso<'_> {
             if path.modal_corner.is_some() || path.unread {
                 contour.rounding = f64::NAN;
             }
+            if path.modal_corner_feed.is_some() || path.unread {
+                contour.corner_feed = Some(f64::NAN);
+            }
         }
         out
     }
@@ -215,6 +224,10 @@ impl Iso<'_> {
         if let Some(rounding) = path.modal_corner {
             (rounding >= 0.0).then_some(())?;
             self.memory.own.contour.rounding = rounding * unit;
+        }
+        if let Some(feed) = path.modal_corner_feed {
+            (feed >= 0.0).then_some(())?;
+            self.memory.own.contour.corner_feed = Some(feed).filter(|feed| *feed != 0.0);
         }
         if path.frame.is_some() {
             return None;
@@ -241,7 +254,7 @@ impl Iso<'_> {
             (size >= 0.0 && moves).then_some(())?;
         }
         if let Some(feed) = path.corner_feed {
-            (feed > 0.0 && path.corner.is_some()).then_some(())?;
+            (feed > 0.0).then_some(())?;
         }
         Some(())
     }

@@ -117,6 +117,7 @@ impl Iso<'_> {
                 .rpm()
                 .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
         );
+        put(format_args!("$p_msnum"), self.memory.own.main_spindle.map(f64::from));
         put(format_args!("$p_toolno"), self.core.state.tool.number().map(f64::from));
         put(format_args!("$p_toolr"), self.tool_radius().map(|radius| radius / unit));
         put(format_args!("$p_tool"), self.memory.edge.map(f64::from));

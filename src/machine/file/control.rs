@@ -67,6 +67,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         fixed_points: points("fixed_points", raw.fixed_points.as_ref(), axes)?,
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
+        main_spindle: main_spindle(raw.main_spindle.as_ref())?,
         drilling_axis: drilling_axis(raw.drilling_axis.as_ref())?,
         roughing_escape: roughing_escape(raw.roughing_escape.as_ref())?,
         thread_pull_out: non_negative("thread_pull_out", raw.thread_pull_out.as_ref())?,
@@ -116,6 +117,18 @@ fn units(word: Option<&Word>) -> Result<Option<LengthUnit>, Fault> {
         "inch" => LengthUnit::Inch,
         _ => LengthUnit::Millimetre,
     }))
+}
+
+fn main_spindle(number: Option<&Number>) -> Result<Option<u32>, Fault> {
+    let Some(number) = number else { return Ok(None) };
+    let value = *number.get_ref();
+    if value.fract() != 0.0 || !(1.0..=99.0).contains(&value) {
+        return Err(Fault {
+            message: format!("main_spindle = {value} must be the number of a spindle, 1 to 99"),
+            span: number.span(),
+        });
+    }
+    Ok(Some(value as u32))
 }
 
 fn drilling_axis(word: Option<&Word>) -> Result<Option<DrillingAxis>, Fault> {

@@ -66,6 +66,11 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
         }
     }
+    lines.extend(
+        control
+            .main_spindle
+            .map(|number| format!("spindle {number} is the main spindle (S{number}=, M{number}=)")),
+    );
     lines.extend(control.drilling_axis.map(drills));
     if let Some(escape) = control.roughing_escape {
         let how = match escape {

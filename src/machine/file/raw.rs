@@ -186,6 +186,7 @@ pub(crate) struct RawControl {
     pub(crate) fixed_points: Option<Vec<BTreeMap<Word, Number>>>,
     pub(crate) peck_clearance: Option<Number>,
     pub(crate) chip_break_retract: Option<Number>,
+    pub(crate) main_spindle: Option<Number>,
     pub(crate) drilling_axis: Option<Word>,
     pub(crate) roughing_escape: Option<Word>,
     pub(crate) thread_pull_out: Option<Number>,

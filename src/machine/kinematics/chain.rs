@@ -199,6 +199,8 @@ pub struct Control {
     pub peck_clearance_mm: Option<f64>,
     /// How far G73 retracts to break the chip, mm; `None`: not declared.
     pub chip_break_retract_mm: Option<f64>,
+    /// Number of the main spindle of a Sinumerik; `None`: not declared.
+    pub main_spindle: Option<u32>,
     /// Which axis drilling cycles of a Fanuc drill along in G18 and G19; `None`: not declared.
     pub drilling_axis: Option<trunnion_interp::DrillingAxis>,
     /// How a turning tool leaves the cuts of a roughing cycle; `None`: not declared.
@@ -221,8 +223,7 @@ pub struct Control {
     pub planning: Planning,
 }
 
-/// How a control plans speeds, and its servo loops. Nothing here changes where the tool goes in the stated model; it changes how long it takes and
-/// how far a corner is cut. `None`: not declared.
+/// How a control plans speeds, and its servo loops: how long a path takes and how far corners are cut, not the path of the model. `None`: not declared.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Planning {
     /// axis-jump: speed by which each axis may change at once, by joint, mm/s or rad/s.

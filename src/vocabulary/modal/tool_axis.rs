@@ -30,9 +30,9 @@ impl ToolAxis {
     pub fn set_tcp(&mut self, on: bool) {
         self.tcp = on;
     }
-    /// ORIVECT, ORIAXES.
-    pub fn set_great_circle(&mut self, on: bool) {
-        self.great_circle = Some(on);
+    /// ORIVECT, ORIAXES; `None`: as before the program has chosen.
+    pub fn set_great_circle(&mut self, on: Option<bool>) {
+        self.great_circle = on;
     }
     /// Vectors are programmed, or axes.
     pub fn set_vectors(&mut self, on: bool) {

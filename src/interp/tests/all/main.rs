@@ -23,6 +23,7 @@ mod fold_samples;
 mod four_controls;
 mod frames;
 mod haas_planes;
+mod hand_parts;
 mod klartext;
 mod klartext_more;
 mod length_change;

@@ -19,6 +19,11 @@ impl Files for Folder {
             "DEEP.SPF" => "DEEP\nM17\n",
             "OPEN.SPF" => "G0 Y3\n",
             "KEEPS.SPF" => "PROC KEEPS SAVE\nG0 Y3\nM17\n",
+            "CUTS.SPF" => "PROC CUTS SAVE\nG18 G91 G1 F50\nTRANS X5\nG55\nZ1\nM17\n",
+            "INCH.SPF" => "PROC INCH SAVE\nG700 G95\nG1 X1 F2\nM17\n",
+            "OTHER.SPF" => "PROC OTHER SAVE\nG41\nG1 X10 D1\nM17\n",
+            "TURNS.SPF" => "PROC TURNS SAVE\nAROT Z90\nG1 X10 Y0\nM17\n",
+            "ANEW.SPF" => "PROC ANEW SAVE\nG55\n$P_UIFR[1,X,TR]=7\nG54\nM17\n",
             "LOOPS.SPF" => "DEF INT ROW\nFOR ROW=1 TO 2\nG0 Y=ROW\nENDFOR\nIF R1==0 GOTOF OUT\nG0 Y99\nOUT: RET\n",
             _ => return Err(vec!["subs".into()]),
         };
@@ -166,7 +171,6 @@ fn what_a_call_leaves_open_is_said() {
     );
     assert_eq!(run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nM30\n").0, ["R X1 Y1", "R X2"]);
     assert_eq!(run("OPEN\nM30\n").1.len(), 1);
-    assert!(run("KEEPS\nM30\n").1[0].contains("SAVE"));
     assert_eq!(run("DEEP\nM30\n").1.len(), 1);
     assert!(
         run("DEEP\nM30\n").1[0].ends_with("Subprogram "),
@@ -258,4 +262,74 @@ fn a_modal_cycle_acts_after_a_block_with_only_a_feed() {
     assert_eq!(holes("X5\nN10 S200"), 2);
     assert_eq!(holes("X5\nM8"), 1);
     assert_eq!(holes("X5 F200"), 1);
+}
+
+/// SAVE: G functions and the programmable frame come back at the return, F and positions do not.
+#[test]
+fn save_brings_back_the_g_functions_and_the_frame() {
+    let mut setup = setup();
+    setup.work_offsets = vec![offset("G54", 0.0), offset("G55", 100.0)];
+    let run = |source: &str| {
+        let log = run_bytes(SINUMERIK, source.as_bytes(), &setup).1;
+        let lines: Vec<_> = log.motions.iter().map(line).collect();
+        (lines, said_with(source, &setup))
+    };
+    let quiet = |source: &str| {
+        let (lines, said) = run(source);
+        assert_eq!(said, [""; 0], "{source}");
+        lines
+    };
+    assert_eq!(quiet("G54 G0 X1\nKEEPS\nX2\nM30\n"), ["R X1", "R X1 Y3", "R X2 Y3"]);
+    // G1, G18, G91, G55, TRANS and F50 in it: behind it only F stays
+    assert_eq!(
+        quiet("G54 G17 G90 G0 X1 Y0 Z0\nCUTS\nX2\nG1 X3\nG2 X5 Y2 I2 J0\nM30\n"),
+        [
+            "R X1 Y0 Z0",
+            "L X-104 Y0 Z1 F50",
+            "R X2 Y0 Z1",
+            "L X3 Y0 Z1 F50",
+            "A(5 0 1; -90) X5 Y2 Z1 F50"
+        ]
+    );
+    // the frame of the caller, after each of two runs
+    assert_eq!(
+        quiet("G54 G1 F100 X0 Y0 Z0\nTRANS X20\nX0 Y0\nTURNS P2\nX7 Y1\nM30\n")[1..],
+        [
+            "L X0 Y0 Z0 F100",
+            "L X0 Y10 Z0 F100",
+            "L X0 Y10 Z0 F100",
+            "L X7 Y1 Z0 F100",
+        ]
+    );
+    let (lines, said) = run("G54 G71 G94 G1 F100 X0\nINCH\nX5\nM30\n");
+    assert_eq!(lines[1..], ["L X25.4 F50.8/rev", "L X5"]);
+    assert!(said.len() == 1 && said[0].contains("F after the return"), "{said:?}");
+    for (source, what) in [
+        ("OTHER\nX1\nM30\n", "cutter radius compensation"),
+        ("ANEW\nX1\nM30\n", "10617"),
+    ] {
+        let said = run(&format!("G54 G0 X1 Y1\n{source}")).1;
+        assert!(said.iter().any(|said| said.contains(what)), "{source}: {said:?}");
+    }
+}
+
+fn offset(name: &str, x: f64) -> trunnion_interp::WorkOffset {
+    let mut values = [0.0; 9];
+    values[0] = x;
+    trunnion_interp::WorkOffset {
+        name: name.to_owned(),
+        values,
+    }
+}
+
+/// MCALL with a subprogram of the same file.
+#[test]
+fn a_modal_subprogram_may_stand_in_the_same_file() {
+    let source = "%_N_MAIN_MPF\nG0 X0 Z5\nMCALL HOLE(-3)\nX1\nX2\nMCALL\nX3\nM30\n%_N_HOLE_SPF\nPROC HOLE(REAL DEPTH)\nG0 Z=DEPTH\nZ5\nM17\n";
+    assert_eq!(
+        clean(source),
+        [
+            "R X0 Z5", "R X1 Z5", "R X1 Z-3", "R X1 Z5", "R X2 Z5", "R X2 Z-3", "R X2 Z5", "R X3 Z5"
+        ]
+    );
 }

@@ -112,14 +112,32 @@ fn corners_of_two_lines() {
         after_zero("RNDM=2\nG1 X10\nY10\nZ5\nRNDM=0"),
         [&round[..], &["L X10 Y10 Z5 F100"]].concat()
     );
-    // FRC is the feed of the corner alone
+    // FRC and FRCM are the feed of the corner alone, FRC of one
     let fed = |lines: &[&str]| -> Vec<String> {
         let mut lines: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
         lines[1] = lines[1].replace("F100", "F40");
         lines
     };
-    assert_eq!(after_zero("G1 X10 CHF=2.8284271247 FRC=40\nY10"), fed(&cut));
-    assert_eq!(after_zero("G1 X10 RND=2 FRC=40\nY10"), fed(&round));
+    assert_eq!(after_zero("G1 X10 CHF=2.8284271247 FRC=40\nY10 FRC=40"), fed(&cut));
+    assert_eq!(after_zero("G1 X10 RND=2 FRC=40\nY10 FRC=40"), fed(&round));
+    assert_eq!(after_zero("FRCM=40\nG1 X10 RND=2\nY10"), fed(&round));
+    assert_eq!(after_zero("RNDM=2 FRCM=40\nG1 X10\nY10\nRNDM=0 FRCM=0"), fed(&round));
+    assert_eq!(after_zero("FRCM=30\nG1 X10 RND=2 FRC=40\nY10 FRC=40"), fed(&round));
+    assert_eq!(after_zero("FRCM=30\nFRCM=0\nG1 X10 RND=2\nY10"), round);
+    // which of both blocks gives the feed is machine data; the path is the same
+    for blocks in [
+        "G1 X10 RND=2 FRC=40\nY10",
+        "G1 X10 RND=2\nY10 FRC=40",
+        "FRCM=40\nG1 X10 RND=2\nY10 FRC=50",
+    ] {
+        is_refused(blocks);
+        let unfed: Vec<String> = fed(&round).iter().map(|line| line.replace(" F40", "")).collect();
+        assert_eq!(after_zero(blocks), unfed, "{blocks}");
+    }
+    assert_eq!(
+        after_zero("G1 X10 FRC=40\nY10"),
+        ["L X10 Y0 Z0 F100", "L X10 Y10 Z0 F100"]
+    );
     // a motion along Z has no corner in the plane
     assert_eq!(after_zero("G1 X10 RND=2\nZ5"), ["L X10 Y0 Z0 F100", "L X10 Y0 Z5 F100"]);
     for blocks in [
@@ -131,7 +149,8 @@ fn corners_of_two_lines() {
         "G1 X10 RND=2\nG2 X20 Y10 I10 J0",
         "G1 X10 RND=2 CHR=2\nY10",
         "G1 X10 RND=2 FRC=0\nY10",
-        "G1 X10 FRC=40\nY10",
+        "FRCM=-1\nG1 X10 RND=2\nY10",
+        "FRCM=R1\nG1 X10 RND=2\nY10",
         "G1 X10 RND=-2\nY10",
         "G1 X10 RND=R1\nY10",
         "RNDM=2\nG1 X10\nRNDM=0\nY10",

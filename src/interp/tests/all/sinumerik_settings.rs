@@ -326,3 +326,31 @@ fn fixed_points_are_reached_in_machine_coordinates() {
     assert!(faults.iter().any(|fault| fault.contains("Z1=0")), "{faults:?}");
     assert_eq!(motions.last().map(String::as_str), Some("L X4 F100"), "{motions:?}");
 }
+
+/// S1= and M1= are words of the main spindle where the machine says which one that is; S0= always is.
+#[test]
+fn words_of_a_spindle_by_its_number() {
+    let head = "G17 G90 G71 G94 F100\nG1 X0 Y0 Z0\n";
+    let run = |main: Option<u32>, text: &str| {
+        let mut setup = Setup::default();
+        setup.control.main_spindle = main;
+        let (program, log) = run_bytes("sinumerik-840d", format!("{head}{text}\nX10\n").as_bytes(), &setup);
+        let told = log.faults.iter().map(|fault| fault_line(&program, fault));
+        let told = told.filter(|fault| fault.contains("NotModelled")).count();
+        let motion = log.motions.last().copied().expect("a motion");
+        (motion.spindle_on, motion.spindle_rpm, told)
+    };
+    assert_eq!(run(Some(1), "S1=900 M1=3"), (Some(true), Some(900.0), 0));
+    assert_eq!(run(None, "S0=900 M0=3"), (Some(true), Some(900.0), 0));
+    assert_eq!(run(Some(1), "S900 M3\nS2=500 M2=5"), (Some(true), Some(900.0), 2));
+    assert_eq!(run(None, "S900 M3\nS1=500 M1=5"), (None, None, 2));
+    assert_eq!(run(Some(1), "S900 M3\nSETMS(2)\nS1=500"), (None, None, 1));
+    assert_eq!(
+        run(Some(1), "SETMS(2)\nS2=400 M2=4\nS1=500"),
+        (Some(true), Some(400.0), 1)
+    );
+    assert_eq!(run(Some(1), "S900 M3\nSETMS(1)\nSETMS"), (Some(true), Some(900.0), 0));
+    assert_eq!(run(Some(2), "R1=$P_MSNUM\nS=R1 M3"), (Some(true), Some(2.0), 0));
+    // what other functions with a number do is the machine builder's
+    assert_eq!(run(Some(1), "S900 M3\nM1=8").2, 1);
+}

@@ -26,6 +26,11 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
+    /// How much it printed on standard output, bytes.
+    pub(crate) fn printed(&self) -> u64 {
+        self.output.metadata().map_or(0, |metadata| metadata.len())
+    }
+
     /// Whether standard output is one JSON document.
     pub(crate) fn is_json(&self) -> bool {
         let mut file = &self.output;

@@ -257,3 +257,18 @@ fn a_text_with_a_block_of_too_many_motions_stays() {
     }
     assert!(matches!(laid(10_000), Layout::Changed(_)));
 }
+
+/// The blanks before a line do not grow with the loops around it: together they would be as many as the square of the lines.
+#[test]
+fn a_line_in_many_loops_is_indented_as_one_in_twelve() {
+    for (name, line) in [
+        ("fanuc-30i", "WHILE[#1LT2] DO1\n"),
+        ("linuxcnc", "o1 while [#1 lt 2]\n"),
+        ("sinumerik-840d", "WHILE R1<2\n"),
+    ] {
+        let after = laid(&line.repeat(3000), name);
+        let most = after.lines().map(|line| line.len() - line.trim_start().len()).max();
+        assert_eq!(most, Some(24), "{name}");
+        assert!(after.len() <= 3000 * (line.len() + 24), "{name}: {} bytes", after.len());
+    }
+}

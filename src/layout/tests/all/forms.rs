@@ -235,6 +235,9 @@ fn a_text_of_which_most_is_not_modelled_is_compared_as_far_as_the_bound() {
 #[test]
 fn an_apt_text_that_ends_with_a_continuation_gets_no_line_end_in_it() {
     assert_eq!(laid("GOTO/1,2,3\n$ Y1\r ", "apt"), "GOTO/1,2,3\n$ Y1\r");
+    for line in ["$ Y1\r \n", "GOTO/1,2,3$\r \n"] {
+        assert_eq!(laid(&format!("\n{line}"), "apt"), line);
+    }
 }
 
 /// What comes after such a block would not be compared.

@@ -8,8 +8,8 @@ use std::path::Path;
 pub(crate) struct Command {
     /// Its name in the table.
     pub(crate) name: &'static str,
-    /// The arguments; `FILE` is the program, `HALF` and `SHORTER` are its beginning, as much as commands read that run it twice or change
-    /// it, and `OTHER` is a copy of `HALF` in which every second line has another number.
+    /// The arguments; `FILE` is the program, `HALF` and `SHORTER` are its beginning, as much as commands read that compare or change
+    /// programs, and `OTHER` is a copy of `HALF` in which every second line has another number.
     arguments: &'static [&'static str],
     /// Standard output is one JSON document up to this exit status.
     pub(super) json: Option<i32>,
@@ -152,7 +152,7 @@ fn shorter(file: &str) -> String {
 /// Writes a program and what commands read beside it: its beginnings, as much as `diff` and `fmt` read by default, and the changed copy.
 pub(crate) fn write_program(folder: &Path, file: &str, program: &[u8]) {
     let beginning = |bytes, lines| super::inputs::cut_off(program, bytes, lines);
-    let half_of_it = beginning(40_000_000, 600_000);
+    let half_of_it = beginning(32_000_000, 400_000);
     let write = |name: &str, bytes: &[u8]| std::fs::write(folder.join(name), bytes).expect("written");
     write(file, program);
     write(&half(file), half_of_it);

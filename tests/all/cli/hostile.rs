@@ -291,15 +291,15 @@ fn what_changes_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
 }
 
 #[test]
-fn what_runs_a_program_twice_reads_smaller_ones_and_says_how_to_read_larger_ones() {
+fn what_compares_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
     let folder = TempDir::new().expect("works");
-    fs::write(folder.path().join("many.nc"), "G1X1.\n".repeat(600_001)).expect("writable");
-    let large = format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(400_001);
+    fs::write(folder.path().join("many.nc"), "G1X1.\n".repeat(400_001)).expect("writable");
+    let large = format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(320_001);
     fs::write(folder.path().join("large.nc"), large).expect("writable");
     let compare = ["machine", "compare", "mikron-ucp710", "mikron-ucp710"];
     for (name, said, option) in [
-        ("many.nc", "600001 lines, more than 600000", "--max-lines"),
-        ("large.nc", "larger than 40 MB", "--max-file-mb"),
+        ("many.nc", "400001 lines, more than 400000", "--max-lines"),
+        ("large.nc", "larger than 32 MB", "--max-file-mb"),
     ] {
         for command in [&["diff", name][..], &["certify", name], &["report", "-o", "-"], &compare] {
             let refused = run(&folder, &[command, &[name]].concat());

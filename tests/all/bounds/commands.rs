@@ -1,5 +1,5 @@
 //! Every command that reads a program.
-use super::measure::Measured;
+use super::measure::{Measured, Part};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -204,6 +204,9 @@ impl Command {
         if !(0..=2).contains(&status) || said.contains("panicked") {
             return Some(format!("exit status {status}: {said}"));
         }
+        if self.name == "lsp" && status != 0 {
+            return Some(format!("the session ended with status {status}: {said}"));
+        }
         let silent = said.trim().is_empty();
         if silent && (status == 2 || status == 1 && measured.printed() == 0) {
             return Some(format!("exit status {status} without a message"));
@@ -213,7 +216,7 @@ impl Command {
     }
 
     /// What is said to the command on standard input: a session with the program for the server, else nothing.
-    pub(crate) fn talks(&self, folder: &Path, file: &str) -> Vec<u8> {
+    pub(crate) fn talks(&self, folder: &Path, file: &str) -> Vec<Part> {
         if self.name != "lsp" {
             return Vec::new();
         }
@@ -225,7 +228,10 @@ impl Command {
         let mut out = Vec::new();
         let mut say = |message: Value| {
             let body = message.to_string();
-            out.extend(format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes());
+            out.push(Part {
+                bytes: format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes(),
+                request: message["id"].as_u64(),
+            });
         };
         say(request(
             1,
@@ -294,8 +300,9 @@ impl Command {
     }
 }
 
+/// The server has requests of its own, with numbers from 0.
 fn request(id: u32, method: &str, params: &Value) -> Value {
-    json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params })
+    json!({ "jsonrpc": "2.0", "id": 1000 + id, "method": method, "params": params })
 }
 
 fn notice(method: &str, params: &Value) -> Value {

@@ -135,6 +135,6 @@ fn a_block_of_many_motions_is_compared_and_converted_up_to_the_bound() {
     assert!(said.contains("there are more than 400") && said.contains("`held`"), "{said}");
     let output = trunnion_in(folder.path(), &["fmt", "--check", "a.nc"]);
     let said = text(&output.stderr);
-    assert_eq!(status(&output), 1, "{said}");
+    assert_eq!(status(&output), 2, "{said}");
     assert!(said.contains("one block makes more than 100 motions"), "{said}");
 }

@@ -258,6 +258,12 @@ mod tests {
         let lines = record.by_line();
         let seen: usize = (0..3000).map(|line| lines.get(&line).map_or(0, Vec::len)).sum();
         assert_eq!(seen, record.blocks.len());
-        assert!(lines.values().flatten().zip(0..).all(|(block, at)| block.line == at / 2));
+        assert!(
+            lines
+                .values()
+                .flatten()
+                .zip(0..)
+                .all(|(block, at)| block.line == at / 2)
+        );
     }
 }

@@ -3,7 +3,9 @@ use crate::calls::{Call, calls};
 use crate::stop::Stops;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink, Tool};
+use trunnion_interp::{
+    AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink, Tool,
+};
 use trunnion_machine::{AxisKind, Follower, Leg, Machine, excursions, leads_tip, linear_travel, turns};
 use trunnion_same::Input;
 use trunnion_syntax::{BlockId, Item, LineIndex};

@@ -9,12 +9,7 @@ use crate::bounds::{
 use crate::cli::tools::{json, status, text, trunnion_in};
 use crate::mutations::{mutate, programs};
 use crate::random::Random;
-use std::{
-    fs,
-    ops::Range,
-    path::Path,
-    time::Duration,
-};
+use std::{fs, ops::Range, path::Path, time::Duration};
 use tempfile::TempDir;
 
 /// Processor time after which a run is taken to hang.
@@ -108,6 +103,11 @@ fn one(folder: &Path, name: &str, bytes: &[u8], mutation: usize) {
             PATIENCE,
         );
         let wrong = command.broken(&measured);
-        assert!(wrong.is_none(), "{} {name}: {}", command.name, wrong.unwrap_or_default());
+        assert!(
+            wrong.is_none(),
+            "{} {name}: {}",
+            command.name,
+            wrong.unwrap_or_default()
+        );
     }
 }

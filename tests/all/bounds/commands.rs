@@ -294,8 +294,9 @@ impl Command {
             "trunnion/backplot",
             &json!({ "textDocument": document, "file": scene }),
         ));
-        say(request(13, "shutdown", &Value::Null));
-        say(notice("exit", &Value::Null));
+        // these have no parameters, not even null
+        say(json!({ "jsonrpc": "2.0", "id": 1013, "method": "shutdown" }));
+        say(json!({ "jsonrpc": "2.0", "method": "exit" }));
         out
     }
 }

@@ -301,7 +301,12 @@ fn what_compares_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() 
         ("many.nc", "400001 lines, more than 400000", "--max-lines"),
         ("large.nc", "larger than 32 MB", "--max-file-mb"),
     ] {
-        for command in [&["diff", name][..], &["certify", name], &["report", "-o", "-"], &compare] {
+        for command in [
+            &["diff", name][..],
+            &["certify", name],
+            &["report", "-o", "-"],
+            &compare,
+        ] {
             let refused = run(&folder, &[command, &[name]].concat());
             let errors = text(&refused.stderr);
             assert_eq!(status(&refused), 2, "{errors}");

@@ -132,7 +132,10 @@ fn a_block_of_many_motions_is_compared_and_converted_up_to_the_bound() {
     let output = trunnion_in(folder.path(), &["convert", "a.nc", "--to", "apt"]);
     let said = text(&output.stderr);
     assert_eq!((status(&output), output.stdout.len()), (1, 0), "{said}");
-    assert!(said.contains("there are more than 400") && said.contains("`held`"), "{said}");
+    assert!(
+        said.contains("there are more than 400") && said.contains("`held`"),
+        "{said}"
+    );
     let output = trunnion_in(folder.path(), &["fmt", "--check", "a.nc"]);
     let said = text(&output.stderr);
     assert_eq!(status(&output), 2, "{said}");

@@ -36,7 +36,16 @@ pub(crate) fn write(program: &Program, block: &Block<'_>, out: &mut Vec<u8>) {
     for id in block.tokens() {
         let (kind, range) = (table.kind(id), table.range(id));
         match kind {
-            TokenKind::Newline => break,
+            TokenKind::Newline => {
+                // without them the line end would be a part of the continuation
+                if left == Some(TokenKind::Continuation)
+                    && out.ends_with(b"\r")
+                    && let Some(blank) = blank
+                {
+                    out.extend_from_slice(program.bytes(blank));
+                }
+                break;
+            }
             TokenKind::Blank => {
                 blank = Some(range);
                 continue;

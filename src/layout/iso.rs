@@ -185,7 +185,7 @@ impl Blocks<'_> {
         }
         match (left.item, item) {
             (Some(Item::Skip(_, range)), _) => self.program.bytes(range).last().is_some_and(u8::is_ascii_digit),
-            _ if as_written(left, kind, item) => left.gap,
+            _ if as_written(left, kind, item) || self.may_be_one_name(left, item) => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
                 // some controls read an E after digits as an exponent
                 let joined =
@@ -195,6 +195,15 @@ impl Blocks<'_> {
             }
             _ => true,
         }
+    }
+
+    /// Whether a control on which programs define names may read what is left and right of a place as one name: `WHILE DO1X1` asks for the
+    /// variable `DO1X1`.
+    fn may_be_one_name(&self, left: &Left, item: Option<Item>) -> bool {
+        self.dialect.quirks.user_names()
+            && matches!(left.item, Some(Item::Call(_)))
+            && matches!(left.kind, TokenKind::Name | TokenKind::Number)
+            && matches!(item, Some(Item::Word(_) | Item::Call(_) | Item::Label(_)))
     }
 
     /// The blanks before a comment after words.

@@ -233,3 +233,37 @@ impl<'m> Recorder<'m> {
         self.record
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Block, Record};
+
+    /// A mark looks up its own blocks: all marks together see no more of them than there are, however many lines are marked.
+    #[test]
+    fn the_marks_of_a_run_see_each_block_once() {
+        let block = |line| Block {
+            line,
+            rapid: false,
+            samples: 0..0,
+            joined: true,
+            deviation: None,
+            feed: [None; 2],
+            planned: None,
+            pole_angle: 0.0,
+        };
+        let record = Record {
+            blocks: (0..6000).map(|at| block(at % 3000)).collect(),
+            ..Record::default()
+        };
+        let lines = record.by_line();
+        let seen: usize = (0..3000).map(|line| lines.get(&line).map_or(0, Vec::len)).sum();
+        assert_eq!(seen, record.blocks.len());
+        assert!(
+            lines
+                .values()
+                .flatten()
+                .zip(0..)
+                .all(|(block, at)| block.line == at / 2)
+        );
+    }
+}

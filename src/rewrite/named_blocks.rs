@@ -4,20 +4,16 @@ use trunnion_check::Settings;
 use trunnion_layout::block_references;
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
-/// The targets of jumps, returns and contours of a program.
-pub(crate) fn named_blocks(program: &Program, settings: &Settings<'_>) -> HashSet<BlockId> {
+/// The targets of jumps, returns and contours of a program, or why its blocks stay: a text or a word that is not followed may name one of them.
+pub(crate) fn named_blocks(program: &Program, settings: &Settings<'_>) -> Result<HashSet<BlockId>, String> {
     let found = block_references(program, settings.dialect);
+    if let Some(obstacle) = found.unread.first() {
+        let (line, column) = LineIndex::new(program.source()).line_column(program.source(), obstacle.range.start);
+        return Err(format!(
+            "line {line}, column {column}: {}; that is not followed, so no block is changed",
+            obstacle.why
+        ));
+    }
     let targets = found.references.iter().filter_map(|reference| reference.target);
-    targets.map(|(block, _)| block).collect()
-}
-
-/// Why the blocks of a program stay where a text or a word that is not followed may name one of them.
-pub(crate) fn may_name_blocks(program: &Program, settings: &Settings<'_>) -> Option<String> {
-    let found = block_references(program, settings.dialect);
-    let obstacle = found.unread.first()?;
-    let (line, column) = LineIndex::new(program.source()).line_column(program.source(), obstacle.range.start);
-    Some(format!(
-        "line {line}, column {column}: {}; that is not followed, so no block is changed",
-        obstacle.why
-    ))
+    Ok(targets.map(|(block, _)| block).collect())
 }

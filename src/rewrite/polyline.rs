@@ -1,6 +1,6 @@
 //! Chains of lines at feed that may be put together, found in the text and in the run.
-use crate::named_blocks::named_blocks;
 use crate::{Options, Place, Proposal, Proposed};
+use std::collections::HashSet;
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
@@ -287,8 +287,8 @@ fn count_reason(reasons: &mut Reasons, why: &'static str) {
     }
 }
 
-/// The chains of a program of at least so many lines.
-pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -> Chains {
+/// The chains of a program of at least so many lines; `named`: blocks that keep their words, because a jump may lead there.
+pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet<BlockId>, least: usize) -> Chains {
     let mut collector = Collector {
         all: Vec::new(),
         last: None,
@@ -296,7 +296,6 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, least: usize) -
     run(program, settings.dialect, &settings.setup, &mut collector);
     let seen = collector.all;
     let numbers_count = may_return_to_numbers(program, settings.dialect, &settings.setup).is_some();
-    let named = named_blocks(program, settings);
     let mut found = Chains {
         chains: Vec::new(),
         reasons: Vec::new(),

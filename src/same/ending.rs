@@ -18,6 +18,14 @@ pub(crate) fn ends(kind: &FaultKind) -> Option<String> {
     })
 }
 
+impl Steps<'_> {
+    /// Why the run ended in a block that does more than is kept, if it did.
+    pub(crate) fn given_up(&self) -> Option<String> {
+        let stop = self.stop().filter(|_| self.run.given_up);
+        stop.map(|stop| stop.why.clone())
+    }
+}
+
 /// Both were followed to their ends.
 pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     for (which, steps) in [("original", before), ("changed", after)] {

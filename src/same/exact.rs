@@ -51,11 +51,7 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
             return Ok(());
         }
         if let Some(why) = a.does_too_much(exact) {
-            return Err(Verdict::Unknown(Difference {
-                before: Some(reached),
-                after: None,
-                what: format!("the program is not compared to its end: {why}"),
-            }));
+            return Err(not_to_its_end(reached, &why));
         }
         let (left, right) = (a.advance(), b.advance());
         reached = left.unwrap_or(reached);
@@ -81,7 +77,10 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
             b.faults.pop_front();
         }
         match (left, right) {
-            (None, None) if a.is_compared() && b.is_compared() => return Ok(()),
+            (None, None) if a.is_compared() && b.is_compared() => {
+                let cut_off = a.steps.given_up().or_else(|| b.steps.given_up());
+                return cut_off.map_or(Ok(()), |why| Err(not_to_its_end(reached, &why)));
+            }
             (None, None) => return at("one program does more than the other at its end"),
             (Some(x), Some(y)) if a.ordinal(x) == b.ordinal(y) => {}
             _ => return at("the order in which blocks run differs"),
@@ -94,6 +93,15 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
             }
         }
     }
+}
+
+/// What follows a block is not compared, although it runs.
+fn not_to_its_end(reached: BlockId, why: &str) -> Verdict {
+    Verdict::Unknown(Difference {
+        before: Some(reached),
+        after: None,
+        what: format!("the program is not compared to its end: {why}"),
+    })
 }
 
 impl<'r, 'a> Side<'r, 'a> {

@@ -45,7 +45,7 @@ pub(crate) struct Run<'a> {
     /// So many motions of one block (a pecking cycle with a tiny Q), and things between them, are kept, with all in effect.
     most_in_block: usize,
     /// A block does more than is kept: the run ends with it.
-    given_up: bool,
+    pub(crate) given_up: bool,
     /// Blocks of the main program whose called program is missing.
     pub(crate) missing: Vec<BlockId>,
     /// Faults, if they are requested.

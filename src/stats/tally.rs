@@ -4,7 +4,7 @@ use crate::stop::Stops;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{
-    AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink,
+    AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink, Tool,
 };
 use trunnion_machine::{AxisKind, Follower, Leg, Machine, excursions, leads_tip, linear_travel, turns};
 use trunnion_same::Input;
@@ -40,6 +40,8 @@ pub struct ToolUse {
     pub motions: u64,
     /// mm along the programmed X Y Z path.
     pub feed_mm: f64,
+    /// What the settings or a comment of the program declare of it.
+    pub declared: Option<Tool>,
 }
 
 /// Everything counted. Lengths mm along the programmed X Y Z path, times s.
@@ -317,6 +319,7 @@ impl Sink for Counting<'_> {
         });
         used.motions += 1;
         used.feed_mm += added;
+        used.declared = used.declared.or_else(|| state.tool.data());
     }
 
     fn fault(&mut self, fault: Fault) {

@@ -8,7 +8,7 @@
 #![cfg(unix)]
 #![expect(clippy::print_stdout, reason = "the long form prints a table")]
 mod beside;
-mod commands;
+pub(crate) mod commands;
 mod inputs;
 pub(crate) mod measure;
 
@@ -128,7 +128,7 @@ fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> (String, Mea
     let patience = Duration::from_secs(if form.long { 30 } else { 300 });
     let measured = measure::run(
         folder,
-        &command.arguments(&file, dialect),
+        &command.arguments(&file, Some(dialect)),
         command.talks(folder, &file),
         patience,
     );
@@ -138,18 +138,9 @@ fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> (String, Mea
 
 /// What a run may not do.
 fn wrong(form: &Form, command: &commands::Command, measured: &Measured) -> Option<String> {
-    let said = &measured.said;
-    let Some(status) = measured.status else {
-        return Some(format!("ended by a signal, or did not end: {said}"));
-    };
-    if !(0..=2).contains(&status) || said.contains("panicked") {
-        return Some(format!("exit status {status}: {said}"));
-    }
-    if status == 2 && said.trim().is_empty() {
-        return Some("exit status 2 without a message".to_owned());
-    }
-    if command.json && status < 2 && !measured.is_json() {
-        return Some("the output is not JSON".to_owned());
+    let broken = command.broken(measured);
+    if broken.is_some() {
+        return broken;
     }
     if form.long && measured.seconds > MOST_SECONDS {
         return Some(format!("took {:.1} s", measured.seconds));
@@ -189,13 +180,8 @@ fn every_command_ends_on_every_hostile_program() {
                         if own.is_empty() {
                             continue;
                         }
-                        let path = folder.join(format!("{}.nc", inputs[input].name));
-                        let bytes = inputs[input].bytes(form.size);
-                        let other = folder.join(commands::other(&format!("{}.nc", inputs[input].name)));
-                        let shorter = folder.join(commands::shorter(&format!("{}.nc", inputs[input].name)));
-                        std::fs::write(&other, commands::changed(&bytes)).expect("written");
-                        std::fs::write(&shorter, commands::beginning(&bytes)).expect("written");
-                        std::fs::write(&path, bytes).expect("written");
+                        let file = format!("{}.nc", inputs[input].name);
+                        commands::write_program(folder, &file, &inputs[input].bytes(form.size));
                         for cell in own {
                             let result = run(folder, &form, &inputs, cell);
                             if let (true, Some(wrong)) = (form.long, &result.2) {
@@ -204,11 +190,7 @@ fn every_command_ends_on_every_hostile_program() {
                             results.push(result);
                         }
                         if kept.is_none() {
-                            std::fs::remove_file(path).expect("removed");
-                            std::fs::remove_file(other).expect("removed");
-                            std::fs::remove_file(shorter).expect("removed");
-                            let scene = folder.join(commands::scene(&format!("{}.nc", inputs[input].name)));
-                            let _ = std::fs::remove_file(scene);
+                            commands::remove_program(folder, &file);
                         }
                     }
                 })

@@ -1,15 +1,19 @@
 //! Real programs, changed at random places, through the command line: every command ends with status 0, 1 or 2, what is asked for as JSON is
 //! JSON, and the tokens hold every byte of the file. CI runs some; `TRUNNION_MUTATIONS=10000` is the long form, `TRUNNION_MUTATIONS=2000..4000`
 //! a part of it (CONTRIBUTING.md).
-use crate::cli::tools::{json, status, text, trunnion_in};
-use crate::mutations::{mutate, samples};
-use crate::random::Random;
-use std::{
-    fs,
-    ops::Range,
-    path::{Path, PathBuf},
+#![cfg(unix)]
+use crate::bounds::{
+    commands::{COMMANDS, remove_program, write_helpers, write_program},
+    measure,
 };
+use crate::cli::tools::{json, status, text, trunnion_in};
+use crate::mutations::{mutate, programs};
+use crate::random::Random;
+use std::{fs, ops::Range, path::Path, time::Duration};
 use tempfile::TempDir;
+
+/// Processor time after which a run is taken to hang.
+const PATIENCE: Duration = Duration::from_mins(5);
 
 /// Programs in a folder that one `check` judges.
 const AT_ONCE: usize = 100;
@@ -22,58 +26,28 @@ fn mutations() -> Range<usize> {
     number(from).zip(number(to)).map_or(0..150, |(from, to)| from..to)
 }
 
-/// The samples, and programs of real controls beside the repository where they are.
-#[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
-pub(crate) fn programs() -> Vec<(PathBuf, Vec<u8>)> {
-    let mut programs = samples();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    if folder.is_dir() {
-        collect(&folder, &mut programs);
+/// So many commands run on one program: one in CI, several in the long form. All of them take turns.
+fn turns() -> usize {
+    if std::env::var_os("TRUNNION_MUTATIONS").is_some() {
+        5
     } else {
-        println!("skipped: no real programs in {}", folder.display());
-    }
-    programs
-}
-
-fn collect(folder: &Path, programs: &mut Vec<(PathBuf, Vec<u8>)>) {
-    let mut entries: Vec<_> = fs::read_dir(folder)
-        .expect("a folder")
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
-    entries.sort();
-    for path in entries {
-        if path.is_dir() {
-            collect(&path, programs);
-        } else if trunnion::dialect::is_program_file_name(&path.to_string_lossy())
-            && fs::metadata(&path).is_ok_and(|metadata| metadata.len() < 200_000)
-        {
-            programs.push((path.clone(), fs::read(&path).expect("readable")));
-        }
+        1
     }
 }
-
-/// What is run on one program; the last word says whether the output is JSON.
-const COMMANDS: [(&[&str], bool); 8] = [
-    (&["trace", "--format", "json"], true),
-    (&["stats", "--format", "json"], true),
-    (&["parse", "--format", "json"], true),
-    (&["fmt", "--diff"], false),
-    (&["fix"], false),
-    (&["convert", "--to", "apt", "--format", "json"], false),
-    (&["plot", "--kind", "joints"], false),
-    (&["canon"], false),
-];
 
 #[test]
 fn mutated_real_programs_end_with_a_status_and_valid_json() {
     let programs = programs();
     let asked = mutations();
     for first in asked.clone().step_by(AT_ONCE) {
-        let folder = TempDir::new().expect("a folder");
+        // all mutations, judged by one `check`; and one at a time, with what other commands read beside it
+        let [folder, beside] = [(); 2].map(|()| TempDir::new().expect("a folder"));
         let settings =
             "machine = \"mikron-ucp710\"\n[limits]\nblocks = 5000\n[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n";
-        fs::write(folder.path().join("trunnion.toml"), settings).expect("written");
+        for folder in [&folder, &beside] {
+            fs::write(folder.path().join("trunnion.toml"), settings).expect("written");
+        }
+        write_helpers(beside.path());
         let number = AT_ONCE.min(asked.end - first);
         for mutation in first..first + number {
             let mut random = Random(20_261_124 + (mutation as u64) * 0x9e37_79b9);
@@ -83,7 +57,9 @@ fn mutated_real_programs_end_with_a_status_and_valid_json() {
             let own = path.file_name().unwrap_or_default().to_string_lossy();
             let name = format!("m{mutation}-{own}");
             fs::write(folder.path().join(&name), &bytes).expect("written");
-            one(folder.path(), &name, &bytes, mutation);
+            write_program(beside.path(), &name, &bytes);
+            one(beside.path(), &name, &bytes, mutation);
+            remove_program(beside.path(), &name);
         }
         let output = trunnion_in(folder.path(), &["check", "--format", "json", "."]);
         let said = text(&output.stderr);
@@ -118,18 +94,20 @@ fn one(folder: &Path, name: &str, bytes: &[u8], mutation: usize) {
         at = range[1];
     }
     assert_eq!(at, bytes.len(), "{name}: tokens tile the file");
-    let (arguments, is_json) = COMMANDS[mutation % COMMANDS.len()];
-    let output = trunnion_in(folder, &[arguments, &[name]].concat());
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        matches!(status(&output), 0..=2) && !said.contains("panicked"),
-        "{arguments:?} {name}: {said}"
-    );
-    assert!(
-        status(&output) < 2 || !said.is_empty(),
-        "{arguments:?} {name}: no message"
-    );
-    if is_json && status(&output) < 2 {
-        json(&output);
+    for turn in 0..turns() {
+        let command = &COMMANDS[(mutation * turns() + turn) % COMMANDS.len()];
+        let measured = measure::run(
+            folder,
+            &command.arguments(name, None),
+            command.talks(folder, name),
+            PATIENCE,
+        );
+        let wrong = command.broken(&measured);
+        assert!(
+            wrong.is_none(),
+            "{} {name}: {}",
+            command.name,
+            wrong.unwrap_or_default()
+        );
     }
 }

@@ -39,6 +39,37 @@ pub(crate) fn samples() -> Vec<(PathBuf, Vec<u8>)> {
     out
 }
 
+/// The samples, and programs of real controls beside the repository where they are.
+#[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
+pub(crate) fn programs() -> Vec<(PathBuf, Vec<u8>)> {
+    let mut programs = samples();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    if folder.is_dir() {
+        collect(&folder, &mut programs);
+    } else {
+        println!("skipped: no real programs in {}", folder.display());
+    }
+    programs
+}
+
+fn collect(folder: &Path, programs: &mut Vec<(PathBuf, Vec<u8>)>) {
+    let mut entries: Vec<_> = fs::read_dir(folder)
+        .expect("a folder")
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            collect(&path, programs);
+        } else if trunnion::dialect::is_program_file_name(&path.to_string_lossy())
+            && fs::metadata(&path).is_ok_and(|metadata| metadata.len() < 200_000)
+        {
+            programs.push((path.clone(), fs::read(&path).expect("readable")));
+        }
+    }
+}
+
 pub(crate) fn mutate(random: &mut Random, source: &[u8]) -> Vec<u8> {
     const SCRAPS: [&[u8]; 24] = [
         b"(",

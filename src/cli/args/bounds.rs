@@ -15,6 +15,11 @@ impl TextBounds {
         megabytes: 64,
         lines: 1_200_000,
     };
+    /// What compares programs or machines runs two texts, twice where they differ, and a page needs four runs.
+    const COMPARES: Self = Self {
+        megabytes: 32,
+        lines: 400_000,
+    };
     /// What changes programs runs the old and the new text, some of it several times, and compares each step: a line takes many times as long as in `check`.
     const CHANGES: Self = Self {
         megabytes: 16,
@@ -27,6 +32,7 @@ impl Global {
     pub(crate) fn bound_text(&mut self, command: &Command) {
         let most = match command {
             Command::Fmt(_) | Command::Fix(_) | Command::Edit(_) => TextBounds::CHANGES,
+            Command::Certify(_) | Command::Diff(_) | Command::Machine(_) | Command::Report(_) => TextBounds::COMPARES,
             _ => TextBounds::DEFAULT,
         };
         self.max_file_mb.get_or_insert(most.megabytes);

@@ -1,8 +1,7 @@
 //! The set-up sheet: tools, offsets, extents and time.
 use crate::cli::load::Loaded;
-use std::collections::BTreeMap;
 use trunnion_check::with_inches;
-use trunnion_interp::{AXIS_LETTERS, Fault, ModalState, Motion, Sink, Tool, ToolShape};
+use trunnion_interp::{AXIS_LETTERS, ToolShape};
 use trunnion_stats::Tally;
 
 /// A table with its head.
@@ -15,7 +14,7 @@ pub(super) struct Table {
 /// The tables of a program.
 pub(super) fn tables(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Vec<Table> {
     let mut tables = vec![
-        tools(loaded, tally),
+        tools(tally),
         offsets(loaded),
         extents(tally),
         Table {
@@ -31,28 +30,10 @@ pub(super) fn tables(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 
     tables
 }
 
-/// What is declared about the tools of the motions, by number.
-#[derive(Default)]
-struct Known(BTreeMap<Option<u32>, Tool>);
-
-impl Sink for Known {
-    fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        if let Some(tool) = state.tool.data() {
-            self.0.entry(motion.tool).or_insert(tool);
-        }
-    }
-    fn fault(&mut self, _: Fault) {}
-}
-
-fn tools(loaded: &Loaded, tally: &Tally) -> Table {
-    // also what a comment of the program declares, and the tool in use at that time
-    let mut known = Known::default();
-    let mut setup = loaded.resolved.setup.clone();
-    setup.limits = setup.limits.of_steps();
-    trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &setup, &mut known);
+fn tools(tally: &Tally) -> Table {
     let not = || "not declared".to_owned();
     let rows = tally.tools.iter().map(|(number, used)| {
-        let tool = known.0.get(number);
+        let tool = used.declared;
         let mm = |value: Option<f64>| value.map_or_else(not, |value| format!("{} mm", short(value)));
         let shape = tool.and_then(|tool| tool.shape).map_or_else(not, shape_name);
         vec![

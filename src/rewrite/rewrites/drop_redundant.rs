@@ -44,7 +44,7 @@
 use super::Body;
 use crate::chain_words::{Hand, lean};
 use crate::divide::divide;
-use crate::named_blocks::may_name_blocks;
+use crate::named_blocks::named_blocks;
 use crate::pieces::Limits;
 use crate::polyline::chains;
 use crate::{Options, Place, Proposal, Proposed};
@@ -75,12 +75,10 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         )
         .into());
     }
-    if let Some(why) = may_name_blocks(program, settings) {
-        return Err(why.into());
-    }
+    let named = named_blocks(program, settings)?;
     let hand = Hand::of(program);
     let (mut places, mut was, mut is, mut bytes) = (Vec::new(), 0, 0, 0);
-    for chain in chains(program, settings, 1).chains {
+    for chain in chains(program, settings, &named, 1).chains {
         let points = chain.points();
         let largest = points.iter().map(Vec3::amax).fold(1.0, f64::max);
         let limits = Limits {

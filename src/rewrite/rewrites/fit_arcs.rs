@@ -53,7 +53,7 @@
 use super::Body;
 use crate::chain_words::{Hand, write};
 use crate::divide::divide;
-use crate::named_blocks::may_name_blocks;
+use crate::named_blocks::named_blocks;
 use crate::pieces::Limits;
 use crate::polyline::{Chain, chains};
 use crate::style::{NumberStyle, of_letters};
@@ -72,10 +72,8 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
     if !program.options().format.has_words() {
         return Err("APT: arcs are not written there".into());
     }
-    if let Some(why) = may_name_blocks(program, settings) {
-        return Err(why.into());
-    }
-    let found = chains(program, settings, 2);
+    let named = named_blocks(program, settings)?;
+    let found = chains(program, settings, &named, 2);
     let (hand, (ends, styles)) = (Hand::of(program), styles(program));
     let (mut places, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
     // chains that follow each other directly are one place: the first may end with an arc, and then the next begins with G1

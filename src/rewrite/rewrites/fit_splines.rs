@@ -58,7 +58,7 @@
 //! Advanced (04.00), 5-163 to 5-167, for POLY; docs/kinematics.md#curves-through-points.
 use super::Body;
 use crate::chain_words::Hand;
-use crate::named_blocks::may_name_blocks;
+use crate::named_blocks::named_blocks;
 use crate::polyline::chains;
 use crate::spline::{Form, LEAST, Spline, Terms, splines};
 use crate::spline_words::Pen;
@@ -103,10 +103,8 @@ fn form(settings: &Settings<'_>) -> Result<(Form, f64), Refusal> {
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
     let (form, control_mm) = form(settings)?;
-    if let Some(why) = may_name_blocks(program, settings) {
-        return Err(why.into());
-    }
-    let found = chains(program, settings, LEAST);
+    let named = named_blocks(program, settings)?;
+    let found = chains(program, settings, &named, LEAST);
     let style = of_letters(program, b'X'..=b'Z').unwrap_or(NumberStyle::USUAL);
     let hand = Hand::of(program);
     let pen = Pen {

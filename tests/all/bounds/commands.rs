@@ -1,16 +1,18 @@
 //! Every command that reads a program.
+use super::measure::{Measured, Part};
 use serde_json::{Value, json};
 use std::path::Path;
 
 /// A command of the matrix.
 #[derive(Clone, Copy)]
-pub(super) struct Command {
+pub(crate) struct Command {
     /// Its name in the table.
-    pub(super) name: &'static str,
-    /// The arguments; `FILE` is the program, `OTHER` a copy in which every second line has another number, `SHORTER` its beginning.
+    pub(crate) name: &'static str,
+    /// The arguments; `FILE` is the program, `HALF` and `SHORTER` are its beginning, as much as commands read that compare or change
+    /// programs, and `OTHER` is a copy of `HALF` in which every second line has another number.
     arguments: &'static [&'static str],
-    /// Standard output is a JSON document.
-    pub(super) json: bool,
+    /// Standard output is one JSON document up to this exit status.
+    pub(super) json: Option<i32>,
     /// The sample of the short form takes one command of each group for a program.
     pub(super) group: &'static str,
 }
@@ -19,23 +21,23 @@ const fn command(group: &'static str, name: &'static str, arguments: &'static [&
     Command {
         name,
         arguments,
-        json: false,
+        json: None,
         group,
     }
 }
 
 const fn json_command(group: &'static str, name: &'static str, arguments: &'static [&'static str]) -> Command {
     Command {
-        json: true,
+        json: Some(1),
         ..command(group, name, arguments)
     }
 }
 
 /// The commands; those of a group stand together.
-pub(super) const COMMANDS: &[Command] = &[
+pub(crate) const COMMANDS: &[Command] = &[
     command("check", "check", &["check", "--format", "pretty", "FILE"]),
     json_command("check", "check-json", &["check", "--format", "json", "FILE"]),
-    command("check", "report", &["report", "FILE", "-o", "-"]),
+    command("check", "report", &["report", "HALF", "-o", "-"]),
     command("trace", "trace", &["trace", "FILE"]),
     json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
     command("trace", "canon", &["canon", "FILE"]),
@@ -45,11 +47,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "fmt-renumber",
         &["fmt", "--check", "--renumber", "10", "SHORTER"],
     ),
-    command("diff", "diff-itself", &["diff", "FILE", "FILE"]),
-    json_command("diff", "diff-other", &["diff", "--format", "json", "FILE", "OTHER"]),
-    command("diff", "certify", &["certify", "FILE", "FILE"]),
-    command("diff", "certify-other", &["certify", "FILE", "OTHER"]),
-    command("convert", "convert-apt", &["convert", "FILE", "--to", "apt"]),
+    command("diff", "diff-itself", &["diff", "HALF", "HALF"]),
+    json_command("diff", "diff-other", &["diff", "--format", "json", "HALF", "OTHER"]),
+    command("diff", "certify", &["certify", "HALF", "HALF"]),
+    command("diff", "certify-other", &["certify", "HALF", "OTHER"]),
+    Command {
+        // a program that is refused has no document
+        json: Some(0),
+        ..command(
+            "convert",
+            "convert-apt",
+            &["convert", "FILE", "--to", "apt", "--format", "json"],
+        )
+    },
     command(
         "convert",
         "convert-code",
@@ -68,7 +78,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "fix-adapt-feed",
         &["fix", "SHORTER", "--rewrite", "adapt-feed", "--feed", "5000"],
     ),
-    command("fix", "fix-all", &["fix", "SHORTER", "--rewrite", "all"]),
+    json_command(
+        "fix",
+        "fix-all",
+        &["fix", "SHORTER", "--rewrite", "all", "--format", "json"],
+    ),
     command("plot", "plot-joints", &["plot", "FILE", "--kind", "joints"]),
     command("plot", "plot-path", &["plot", "FILE", "--kind", "path"]),
     command("plot", "plot-deviation", &["plot", "FILE", "--kind", "deviation"]),
@@ -89,21 +103,25 @@ pub(super) const COMMANDS: &[Command] = &[
             "servo", "FILE", "--at", "9", "--kv", "50", "--acc", "2000", "--format", "json",
         ],
     ),
-    command("servo", "surface", &["surface", "FILE", "--required", "required.toml"]),
+    json_command(
+        "servo",
+        "surface",
+        &["surface", "FILE", "--required", "required.toml", "--format", "json"],
+    ),
     command(
         "servo",
         "machine-compare",
-        &["machine", "compare", "mikron-ucp710", "other-machine.toml", "FILE"],
+        &["machine", "compare", "mikron-ucp710", "other-machine.toml", "HALF"],
     ),
     json_command("stats", "stats", &["stats", "--format", "json", "FILE"]),
     json_command("stats", "stats-time", &["stats", "--time", "--format", "json", "FILE"]),
     command("parse", "parse-tokens", &["parse", "--tokens", "FILE"]),
-    command("parse", "parse", &["parse", "FILE"]),
+    json_command("parse", "parse", &["parse", "FILE", "--format", "json"]),
     command("lsp", "lsp", &["lsp"]),
 ];
 
 /// Files that commands need beside the program.
-pub(super) fn write_helpers(folder: &Path) {
+pub(crate) fn write_helpers(folder: &Path) {
     let required =
         "schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [100, 0, 0]], [[0, 100, 0], [100, 100, 0]]]\n";
     std::fs::write(folder.join("required.toml"), required).expect("written");
@@ -112,27 +130,46 @@ pub(super) fn write_helpers(folder: &Path) {
 }
 
 /// The name of the path that the server writes for a viewer.
-pub(super) fn scene(file: &str) -> String {
+fn scene(file: &str) -> String {
     format!("scene-{file}")
 }
 
 /// The name of the changed copy of a program.
-pub(super) fn other(file: &str) -> String {
+fn other(file: &str) -> String {
     format!("other-{file}")
 }
 
-/// The name of the beginning of a program.
-pub(super) fn shorter(file: &str) -> String {
+/// The name of the longer beginning of a program.
+fn half(file: &str) -> String {
+    format!("half-{file}")
+}
+
+/// The name of the shorter beginning.
+fn shorter(file: &str) -> String {
     format!("shorter-{file}")
 }
 
-/// The beginning of a program, as much as `fmt` reads by default.
-pub(super) fn beginning(program: &[u8]) -> &[u8] {
-    super::inputs::cut_off(program, 16_000_000, 400_000)
+/// Writes a program and what commands read beside it: its beginnings, as much as `diff` and `fmt` read by default, and the changed copy.
+pub(crate) fn write_program(folder: &Path, file: &str, program: &[u8]) {
+    let beginning = |bytes, lines| super::inputs::cut_off(program, bytes, lines);
+    let half_of_it = beginning(32_000_000, 400_000);
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.join(name), bytes).expect("written");
+    write(file, program);
+    write(&half(file), half_of_it);
+    write(&other(file), &changed(half_of_it));
+    write(&shorter(file), beginning(16_000_000, 400_000));
+}
+
+/// Removes them, and the path that the server wrote.
+pub(crate) fn remove_program(folder: &Path, file: &str) {
+    for name in [file.to_owned(), half(file), other(file), shorter(file)] {
+        std::fs::remove_file(folder.join(name)).expect("removed");
+    }
+    let _ = std::fs::remove_file(folder.join(scene(file)));
 }
 
 /// The changed copy: the last digit of every second line is another one.
-pub(super) fn changed(program: &[u8]) -> Vec<u8> {
+fn changed(program: &[u8]) -> Vec<u8> {
     let mut copy = program.to_vec();
     for line in copy.split_mut(|&byte| byte == b'\n').skip(8).step_by(2) {
         if let Some(digit) = line.iter_mut().rev().find(|byte| byte.is_ascii_digit()) {
@@ -143,25 +180,43 @@ pub(super) fn changed(program: &[u8]) -> Vec<u8> {
 }
 
 impl Command {
-    /// The arguments for a program in a dialect.
-    pub(super) fn arguments(&self, file: &str, dialect: &str) -> Vec<String> {
-        let (other, shorter) = (other(file), shorter(file));
+    /// The arguments for a program, in a dialect or in the one that it seems to be written in.
+    pub(crate) fn arguments(&self, file: &str, dialect: Option<&str>) -> Vec<String> {
+        let (half, other, shorter) = (half(file), other(file), shorter(file));
         let own = self.arguments.iter().map(|word| match *word {
             "FILE" => file,
+            "HALF" => half.as_str(),
             "OTHER" => other.as_str(),
             "SHORTER" => shorter.as_str(),
             word => word,
         });
-        let more: &[&str] = if self.name == "lsp" {
-            &[]
-        } else {
-            &["--dialect", dialect]
+        let dialect = dialect.filter(|_| self.name != "lsp");
+        let more = dialect.into_iter().flat_map(|dialect| ["--dialect", dialect]);
+        own.chain(more).map(str::to_owned).collect()
+    }
+
+    /// What a run may not do, however long it took: end by a signal, panic, say nothing where it has no answer, print half a document.
+    pub(crate) fn broken(&self, measured: &Measured) -> Option<String> {
+        let said = &measured.said;
+        let Some(status) = measured.status else {
+            return Some(format!("ended by a signal, or did not end: {said}"));
         };
-        own.chain(more.iter().copied()).map(str::to_owned).collect()
+        if !(0..=2).contains(&status) || said.contains("panicked") {
+            return Some(format!("exit status {status}: {said}"));
+        }
+        if self.name == "lsp" && status != 0 {
+            return Some(format!("the session ended with status {status}: {said}"));
+        }
+        let silent = said.trim().is_empty();
+        if silent && (status == 2 || status == 1 && measured.printed() == 0) {
+            return Some(format!("exit status {status} without a message"));
+        }
+        let document = self.json.is_some_and(|most| status <= most);
+        (document && !measured.is_json()).then(|| "the output is not JSON".to_owned())
     }
 
     /// What is said to the command on standard input: a session with the program for the server, else nothing.
-    pub(super) fn talks(&self, folder: &Path, file: &str) -> Vec<u8> {
+    pub(crate) fn talks(&self, folder: &Path, file: &str) -> Vec<Part> {
         if self.name != "lsp" {
             return Vec::new();
         }
@@ -173,7 +228,10 @@ impl Command {
         let mut out = Vec::new();
         let mut say = |message: Value| {
             let body = message.to_string();
-            out.extend(format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes());
+            out.push(Part {
+                bytes: format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes(),
+                request: message["id"].as_u64(),
+            });
         };
         say(request(
             1,
@@ -236,14 +294,16 @@ impl Command {
             "trunnion/backplot",
             &json!({ "textDocument": document, "file": scene }),
         ));
-        say(request(13, "shutdown", &Value::Null));
-        say(notice("exit", &Value::Null));
+        // these have no parameters, not even null
+        say(json!({ "jsonrpc": "2.0", "id": 1013, "method": "shutdown" }));
+        say(json!({ "jsonrpc": "2.0", "method": "exit" }));
         out
     }
 }
 
+/// The server has requests of its own, with numbers from 0.
 fn request(id: u32, method: &str, params: &Value) -> Value {
-    json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params })
+    json!({ "jsonrpc": "2.0", "id": 1000 + id, "method": method, "params": params })
 }
 
 fn notice(method: &str, params: &Value) -> Value {

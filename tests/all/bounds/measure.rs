@@ -1,8 +1,15 @@
 //! Runs a command and measures it.
+use memchr::memmem;
 use std::{
+    fs::File,
     io::{Read, Seek, Write},
+    os::unix::fs::FileExt,
     path::Path,
-    process::{Command, Stdio},
+    process::{ChildStdin, Command, Stdio},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -11,6 +18,13 @@ const TICKS: f64 = 100.0;
 
 /// A run that has not ended after this, on whatever loaded computer, waits for something that never comes.
 const ABANDONED: Duration = Duration::from_hours(1);
+
+/// A part of what is said to a run on its standard input.
+pub(crate) struct Part {
+    pub(crate) bytes: Vec<u8>,
+    /// The request in it whose answer is waited for before the next part is said: a server that is told to exit answers no more.
+    pub(crate) request: Option<u64>,
+}
 
 /// What a run did.
 pub(crate) struct Measured {
@@ -22,10 +36,15 @@ pub(crate) struct Measured {
     pub(crate) bytes: u64,
     /// What it said on standard error, its last part.
     pub(crate) said: String,
-    output: std::fs::File,
+    output: File,
 }
 
 impl Measured {
+    /// How much it printed on standard output, bytes.
+    pub(crate) fn printed(&self) -> u64 {
+        self.output.metadata().map_or(0, |metadata| metadata.len())
+    }
+
     /// Whether standard output is one JSON document.
     pub(crate) fn is_json(&self) -> bool {
         let mut file = &self.output;
@@ -39,8 +58,42 @@ fn program() -> String {
     std::env::var("TRUNNION_BINARY").unwrap_or_else(|_| env!("CARGO_BIN_EXE_trunnion").to_owned())
 }
 
+/// Says all parts. The run may end without reading them.
+fn say(mut pipe: ChildStdin, parts: Vec<Part>, output: &File, ended: &AtomicBool) {
+    let mut seen = 0;
+    for part in parts {
+        if pipe.write_all(&part.bytes).is_err() {
+            return;
+        }
+        let Some(request) = part.request else { continue };
+        let answer = format!("\"id\":{request}}}");
+        while !ended.load(Ordering::Relaxed) && !answers(output, &mut seen, answer.as_bytes()) {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+}
+
+/// Whether a text was printed behind a place, which moves on.
+fn answers(output: &File, seen: &mut u64, text: &[u8]) -> bool {
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let length = output.read_at(&mut buffer, *seen).unwrap_or(0);
+        let read = &buffer[..length];
+        if let Some(at) = memmem::find(read, text) {
+            *seen += (at + text.len()) as u64;
+            return true;
+        }
+        if length < buffer.len() {
+            // the beginning of the text may be there already
+            *seen += length.saturating_sub(text.len()) as u64;
+            return false;
+        }
+        *seen += (length - text.len()) as u64;
+    }
+}
+
 /// Runs in `folder` with `input` on standard input; ended by force after `patience` of processor time, or an hour.
-pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience: Duration) -> Measured {
+pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<Part>, patience: Duration) -> Measured {
     let mut output = tempfile::tempfile().expect("a file");
     let mut errors = tempfile::tempfile().expect("a file");
     let begun = Instant::now();
@@ -52,9 +105,11 @@ pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience:
         .stderr(errors.try_clone().expect("a handle"))
         .spawn()
         .expect("runs");
-    let mut pipe = child.stdin.take().expect("piped");
-    // it may end without reading it
-    let writer = std::thread::spawn(move || drop(pipe.write_all(&input)));
+    let pipe = child.stdin.take().expect("piped");
+    let printed = output.try_clone().expect("a handle");
+    let ended = Arc::new(AtomicBool::new(false));
+    let over = Arc::clone(&ended);
+    let writer = std::thread::spawn(move || say(pipe, input, &printed, &over));
     let process = format!("/proc/{}", child.id());
     let (mut ticks, mut bytes) = (None, 0);
     let mut pause = Duration::from_millis(1);
@@ -74,6 +129,7 @@ pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<u8>, patience:
         std::thread::sleep(pause);
         pause = (pause * 2).min(Duration::from_millis(10));
     };
+    ended.store(true, Ordering::Relaxed);
     writer.join().expect("no panic");
     let mut said = Vec::new();
     let length = errors.stream_position().unwrap_or(0);

@@ -291,6 +291,36 @@ fn what_changes_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
 }
 
 #[test]
+fn what_compares_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
+    let folder = TempDir::new().expect("works");
+    fs::write(folder.path().join("many.nc"), "G1X1.\n".repeat(400_001)).expect("writable");
+    let large = format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(320_001);
+    fs::write(folder.path().join("large.nc"), large).expect("writable");
+    let compare = ["machine", "compare", "mikron-ucp710", "mikron-ucp710"];
+    for (name, said, option) in [
+        ("many.nc", "400001 lines, more than 400000", "--max-lines"),
+        ("large.nc", "larger than 32 MB", "--max-file-mb"),
+    ] {
+        for command in [
+            &["diff", name][..],
+            &["certify", name],
+            &["report", "-o", "-"],
+            &compare,
+        ] {
+            let refused = run(&folder, &[command, &[name]].concat());
+            let errors = text(&refused.stderr);
+            assert_eq!(status(&refused), 2, "{errors}");
+            assert!(
+                errors.contains(said) && errors.contains(option),
+                "{command:?}: {errors}"
+            );
+        }
+        let parsed = run(&folder, &["parse", name]);
+        assert_eq!(status(&parsed), 0, "{}", text(&parsed.stderr));
+    }
+}
+
+#[test]
 fn settings_and_surfaces_have_a_size() {
     let folder = TempDir::new().expect("works");
     fs::write(folder.path().join("a.nc"), "G0 X1.\nM30\n").expect("writable");

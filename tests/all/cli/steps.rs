@@ -106,3 +106,38 @@ fn a_comparison_of_machines_ends_at_the_bound_and_says_so() {
     let said = text(&output.stdout);
     assert!(said.contains("FAIL: ") && !said.contains("not followed"), "{said}");
 }
+
+/// A bore with a thousand pecks, each of which is several motions of one block.
+#[test]
+fn a_block_of_many_motions_is_compared_and_converted_up_to_the_bound() {
+    let folder = folder();
+    let settings = fs::read_to_string(folder.path().join("trunnion.toml")).expect("written");
+    let bounded = settings.replace("[limits]\n", "[limits]\nheld = 400\n");
+    assert_ne!(bounded, settings);
+    write(&folder, "trunnion.toml", &bounded);
+    let peck = "O1\nG21 G90 G17 G94 G54\nT1 M6\nS1000 M3\nG43 H1\nG0 X0. Y0. Z50. A0. C0.\n\
+                G98 G83 X1. Y1. Z-10. R2. Q.01 F100.\ng80\nM30\n";
+    write(&folder, "a.nc", peck);
+    write(&folder, "b.nc", &peck.replace("Z-10.", "Z-11."));
+    // the first motion of the program, and a quarter of `held`
+    for (command, counted) in [
+        (["diff", "a.nc", "b.nc"], "101 -> 101 motions"),
+        (["certify", "a.nc", "b.nc"], "101 of 101 motions"),
+    ] {
+        let output = trunnion_in(folder.path(), &command);
+        let said = text(&output.stdout) + &text(&output.stderr);
+        assert_eq!(status(&output), 1, "{said}");
+        assert!(said.starts_with("UNKNOWN ") && said.contains(counted), "{said}");
+    }
+    let output = trunnion_in(folder.path(), &["convert", "a.nc", "--to", "apt"]);
+    let said = text(&output.stderr);
+    assert_eq!((status(&output), output.stdout.len()), (1, 0), "{said}");
+    assert!(
+        said.contains("there are more than 400") && said.contains("`held`"),
+        "{said}"
+    );
+    let output = trunnion_in(folder.path(), &["fmt", "--check", "a.nc"]);
+    let said = text(&output.stderr);
+    assert_eq!(status(&output), 2, "{said}");
+    assert!(said.contains("one block makes more than 100 motions"), "{said}");
+}

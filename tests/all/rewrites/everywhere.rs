@@ -4,7 +4,7 @@
     clippy::print_stdout,
     reason = "a skipped test says so, and the long form prints what it counted"
 )]
-use crate::mutated_programs::programs;
+use crate::mutations::programs;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trunnion::certify::{Outcome, recheck};

@@ -134,6 +134,17 @@ fn sinumerik_names_texts_and_arguments_stay() {
     assert_eq!(laid(before, "sinumerik-840d"), after);
 }
 
+/// The control reads a name as far as letters and digits go; the words of the block end in it.
+#[test]
+fn no_blank_parts_what_may_be_one_name() {
+    for (before, after) in [
+        ("WHILE DO1X1.5e1", "WHILE DO1X1.5 E1\n"),
+        ("WHILE  DO1  X1.5e1\n", "WHILE DO1 X1.5 E1\n"),
+    ] {
+        assert_eq!(laid(before, "sinumerik-840d"), after, "{before:?}");
+    }
+}
+
 #[test]
 fn apt_statements_lose_only_blanks_between() {
     let before = "PARTNO  a  part   \n  GOTO/ 1.5 ,2.,   3.  \nRAPID\n\n\n\nGOTO / 1.,$  go on\n    2.,3.\n$$  a   remark  \nFINI";
@@ -224,4 +235,43 @@ fn a_text_of_which_most_is_not_modelled_is_compared_as_far_as_the_bound() {
 #[test]
 fn an_apt_text_that_ends_with_a_continuation_gets_no_line_end_in_it() {
     assert_eq!(laid("GOTO/1,2,3\n$ Y1\r ", "apt"), "GOTO/1,2,3\n$ Y1\r");
+    for line in ["$ Y1\r \n", "GOTO/1,2,3$\r \n"] {
+        assert_eq!(laid(&format!("\n{line}"), "apt"), line);
+    }
+}
+
+/// What comes after such a block would not be compared.
+#[test]
+fn a_text_with_a_block_of_too_many_motions_stays() {
+    let dialect = dialect("fanuc-30i");
+    let laid = |held| {
+        let mut setup = Setup::default();
+        setup.limits.held = held;
+        let text = b"G90 G0 X0 Y0 Z50.\nG98 G83 X1. Y1. Z-10. R2. Q.1 F100.\ng80\nG1X5.\nM30\n";
+        layout(&program(text, dialect), dialect, &setup, &Style::default())
+    };
+    match laid(100) {
+        Layout::Refused(Refusal::Motions(why)) => assert!(
+            why.what.contains("more than 25 motions") && why.what.contains("`held`"),
+            "{}",
+            why.what
+        ),
+        other => panic!("{other:?}"),
+    }
+    assert!(matches!(laid(10_000), Layout::Changed(_)));
+}
+
+/// The blanks before a line do not grow with the loops around it: together they would be as many as the square of the lines.
+#[test]
+fn a_line_in_many_loops_is_indented_as_one_in_twelve() {
+    for (name, line) in [
+        ("fanuc-30i", "WHILE[#1LT2] DO1\n"),
+        ("linuxcnc", "o1 while [#1 lt 2]\n"),
+        ("sinumerik-840d", "WHILE R1<2\n"),
+    ] {
+        let after = laid(&line.repeat(3000), name);
+        let most = after.lines().map(|line| line.len() - line.trim_start().len()).max();
+        assert_eq!(most, Some(24), "{name}");
+        assert!(after.len() <= 3000 * (line.len() + 24), "{name}: {} bytes", after.len());
+    }
 }

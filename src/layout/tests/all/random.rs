@@ -111,6 +111,14 @@ fn pieces() -> impl Strategy<Value = Vec<u8>> {
         "X=V1+2",
         "#1FH",
         "CALL OAB Q2 AB=1",
+        "IF R1==1",
+        "ENDIF",
+        "X1",
+        "Y1.5E1",
+        "LOOP",
+        "UNTIL",
+        "CASE R1 OF",
+        "_A1",
     ]);
     let piece = prop_oneof![
         9 => piece.prop_map(|text| text.as_bytes().to_vec()),
@@ -119,8 +127,17 @@ fn pieces() -> impl Strategy<Value = Vec<u8>> {
     proptest::collection::vec(piece, 0..60).prop_map(|pieces| pieces.concat())
 }
 
+/// `PROPTEST_CASES=20000` is the long form.
+fn cases() -> ProptestConfig {
+    let asked = ProptestConfig::default();
+    ProptestConfig {
+        cases: asked.cases.max(3000),
+        ..asked
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(cases())]
 
     #[test]
     fn any_text_in_any_dialect_is_stable_and_never_refused(
@@ -142,6 +159,34 @@ proptest! {
         let dialect = dialect(BUILTIN_NAMES[which]);
         let outcome = layout(&program(&text, dialect), dialect, &Setup::default(), &Style::default());
         prop_assert!(!matches!(outcome, Layout::Refused(_)), "{:?}", outcome);
+    }
+}
+
+/// The texts of `proptest-regressions`, whatever the seeds there make of another list of pieces.
+#[test]
+fn texts_that_were_once_wrong_are_laid_out() {
+    let listed = include_str!("../proptest-regressions/random.txt");
+    let texts = listed.lines().filter_map(|line| {
+        let (_, rest) = line.split_once("shrinks to text = [")?;
+        let (numbers, _) = rest.split_once(']')?;
+        numbers
+            .split(", ")
+            .map(|number| number.parse().ok())
+            .collect::<Option<Vec<u8>>>()
+    });
+    let texts: Vec<_> = texts.collect();
+    assert!(texts.len() > 10, "{} texts", texts.len());
+    for text in texts {
+        for name in BUILTIN_NAMES {
+            for zeros in [Zeros::Keep, Zeros::Two] {
+                let style = Style {
+                    zeros,
+                    ..Style::default()
+                };
+                let once = laid_with(&text, name, &style);
+                assert_eq!(laid_with(&once, name, &style), once, "{name} {text:?}");
+            }
+        }
     }
 }
 

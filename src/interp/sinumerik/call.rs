@@ -227,7 +227,7 @@ impl Iso<'_> {
             own.assign(there, used.value(here));
         }
         own.begin_block();
-        self.bring_back(&level.saved?, block)
+        self.bring_back(level.saved.as_deref()?, block)
     }
 
     /// RET or M17 of the main program.

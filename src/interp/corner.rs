@@ -294,7 +294,11 @@ impl Iso<'_> {
             .to_owned();
         report.fault(report.whole(), FaultKind::NotModelled { what });
         if self.core.effects.wanted() {
-            let said = feeds.map(|feed| Argument::text("feed of a corner", &format!("{feed:?}")));
+            let said = feeds.map(|feed| match feed {
+                Feed::PerMinute(feed) => Argument::number("feed of a corner", feed),
+                Feed::PerRevolution(feed) => Argument::number("feed of a corner per revolution", feed),
+                Feed::InverseTime(_) | Feed::Rapid | Feed::Unknown => Argument::code("feed of a corner"),
+            });
             let block = self.core.main_block(report.block);
             self.core.effects.add(block, Effect::Unmodelled(said.into()));
         }

@@ -17,7 +17,7 @@ use crate::{Argument, Effect, FaultKind, Motion, Reach};
 use assignments::{
     comments, declarations, named_effects, named_words, reads_machine_position, system_assignment, unknown_assignment,
 };
-pub(crate) use collected::Effects;
+pub(crate) use collected::{Effects, Settings};
 use lengths::{in_lengths, may_read_unit, to_mm};
 pub use situation::Situation;
 use sort::{

@@ -25,7 +25,6 @@ pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
 pub(crate) use polynomial::PolynomialWords;
-pub(crate) use saved::Settings;
 pub(crate) use spline::Spline;
 pub(crate) use text::Text;
 

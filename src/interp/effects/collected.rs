@@ -1,6 +1,10 @@
 //! Effects that a run has collected.
-use crate::sinumerik::Settings;
 use crate::{Argument, Effect, Placed, Reach};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Settings by their key.
+pub(crate) type Settings = BTreeMap<Cow<'static, str>, Vec<Argument>>;
 
 /// Blocks of shifts and turns whose words a later motion may need.
 const MOST_FRAMES: usize = 1000;

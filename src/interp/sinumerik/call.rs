@@ -227,7 +227,8 @@ impl Iso<'_> {
             own.assign(there, used.value(here));
         }
         own.begin_block();
-        self.bring_back(level.saved.as_deref()?, block)
+        let saved = level.saved?;
+        self.bring_back(&saved, block)
     }
 
     /// RET or M17 of the main program.

@@ -5,19 +5,15 @@
 //! programmable frame and the G function of the settable frame are those of the call; a settable frame whose values the subprogram has
 //! changed under the same G function is a matter of machine data 10617; system frames stay.
 use super::Spline;
+use crate::effects::Settings;
 use crate::frames::{FrameValue, OffsetValues};
 use crate::iso::Iso;
 use crate::travel::Travel;
-use crate::{Argument, Effect, FaultKind, FeedMode};
-use std::borrow::Cow;
-use std::collections::BTreeMap;
+use crate::{Effect, FaultKind, FeedMode};
 use std::sync::Arc;
 use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::BlockId;
 use trunnion_vocabulary::Coordinates;
-
-/// Settings by their key.
-pub(crate) type Settings = BTreeMap<Cow<'static, str>, Vec<Argument>>;
 
 /// What was in effect at the call.
 #[derive(Clone, Debug)]

@@ -298,7 +298,6 @@ fn what_compares_or_changes_programs_reads_smaller_ones_and_says_how_to_read_lar
                 "{command:?}: {errors}"
             );
         }
-        // whatever becomes of it, it is read
         let read = run(&folder, &["fmt", "--check", name, option, most, "--dialect", "apt"]);
         assert!(!text(&read.stderr).contains(option), "{}", text(&read.stderr));
         let parsed = run(&folder, &["parse", name]);

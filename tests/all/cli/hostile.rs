@@ -290,7 +290,7 @@ fn what_compares_or_changes_programs_reads_smaller_ones_and_says_how_to_read_lar
         ("larger.nc", "larger than 32 MB", megabytes, "33", &compares[2..]),
     ] {
         for command in commands {
-            let refused = run(&folder, &[command, &[name]].concat());
+            let refused = run(&folder, &[*command, &[name]].concat());
             let errors = text(&refused.stderr);
             assert_eq!(status(&refused), 2, "{errors}");
             assert!(

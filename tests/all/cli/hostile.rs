@@ -261,53 +261,36 @@ fn lines_over_the_bound_are_refused_whatever_ends_them() {
 }
 
 #[test]
-fn what_changes_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
-    let folder = TempDir::new().expect("works");
-    let (many, large) = (
-        "G1X1.\n".repeat(400_001),
-        format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(160_001),
-    );
-    fs::write(folder.path().join("many.nc"), many).expect("writable");
-    fs::write(folder.path().join("large.nc"), large).expect("writable");
-    for (name, said, option, most) in [
-        ("many.nc", "400001 lines, more than 400000", "--max-lines", "400001"),
-        ("large.nc", "larger than 16 MB", "--max-file-mb", "17"),
-    ] {
-        for command in [&["fmt", "--check"][..], &["fix"], &["edit", "--unit", "inch"]] {
-            let refused = run(&folder, &[command, &[name]].concat());
-            let errors = text(&refused.stderr);
-            assert_eq!(status(&refused), 2, "{errors}");
-            assert!(
-                errors.contains(said) && errors.contains(option),
-                "{command:?}: {errors}"
-            );
-        }
-        // whatever becomes of it, it is read
-        let read = run(&folder, &["fmt", "--check", name, option, most, "--dialect", "apt"]);
-        assert!(!text(&read.stderr).contains(option), "{}", text(&read.stderr));
-        let parsed = run(&folder, &["parse", name]);
-        assert_eq!(status(&parsed), 0, "{}", text(&parsed.stderr));
-    }
-}
-
-#[test]
-fn what_compares_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
+fn what_compares_or_changes_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
     let folder = TempDir::new().expect("works");
     fs::write(folder.path().join("many.nc"), "G1X1.\n".repeat(400_001)).expect("writable");
-    let large = format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(320_001);
-    fs::write(folder.path().join("large.nc"), large).expect("writable");
-    let compare = ["machine", "compare", "mikron-ucp710", "mikron-ucp710"];
-    for (name, said, option) in [
-        ("many.nc", "400001 lines, more than 400000", "--max-lines"),
-        ("large.nc", "larger than 32 MB", "--max-file-mb"),
+    for (name, lines) in [("large.nc", 160_001), ("larger.nc", 320_001)] {
+        let text = format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(lines);
+        fs::write(folder.path().join(name), text).expect("writable");
+    }
+    let changes = [&["fmt", "--check"][..], &["fix"], &["edit", "--unit", "inch"]];
+    let machines = ["machine", "compare", "mikron-ucp710", "mikron-ucp710"];
+    let compares = [
+        &["diff", "many.nc"][..],
+        &["certify", "many.nc"],
+        &["report", "-o", "-"],
+        &machines,
+    ];
+    let (lines, megabytes) = ("--max-lines", "--max-file-mb");
+    for (name, said, option, most, commands) in [
+        (
+            "many.nc",
+            "400001 lines, more than 400000",
+            lines,
+            "400001",
+            &changes[..],
+        ),
+        ("many.nc", "400001 lines, more than 400000", lines, "400001", &compares),
+        ("large.nc", "larger than 16 MB", megabytes, "17", &changes),
+        ("larger.nc", "larger than 32 MB", megabytes, "33", &compares[2..]),
     ] {
-        for command in [
-            &["diff", name][..],
-            &["certify", name],
-            &["report", "-o", "-"],
-            &compare,
-        ] {
-            let refused = run(&folder, &[command, &[name]].concat());
+        for command in commands {
+            let refused = run(&folder, &[*command, &[name]].concat());
             let errors = text(&refused.stderr);
             assert_eq!(status(&refused), 2, "{errors}");
             assert!(
@@ -315,6 +298,8 @@ fn what_compares_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() 
                 "{command:?}: {errors}"
             );
         }
+        let read = run(&folder, &["fmt", "--check", name, option, most, "--dialect", "apt"]);
+        assert!(!text(&read.stderr).contains(option), "{}", text(&read.stderr));
         let parsed = run(&folder, &["parse", name]);
         assert_eq!(status(&parsed), 0, "{}", text(&parsed.stderr));
     }

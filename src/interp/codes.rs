@@ -198,7 +198,7 @@ impl<'d> Iso<'d> {
             }
             // S and M3 to M5 are those of another spindle from here on (SINUMERIK Programming Manual, Fundamentals: SETMS)
             Action::NoMotion if found.code.group.as_deref() == Some("master-spindle") => {
-                self.names_main_spindle(found, report)
+                self.names_main_spindle(found, report);
             }
             Action::NoMotion if found.code.group.as_deref() == Some("orientation-angles") => {
                 self.memory.own.contour.euler = found.code.id == "ORIEULER";

@@ -293,7 +293,7 @@ mod tests {
     #[test]
     fn cells_take_the_nearest_spot() {
         let spots = [spot(0.0, 0.0, 1.0), spot(100.0, 0.0, 3.0), spot(50.0, 50.0, 2.0)];
-        let map = Map::new(&spots, &View::new(2));
+        let map = Map::new(&spots, &View::new(2, Unit::Mm));
         let at = |x: f64, y: f64| {
             let (column, row) = ((x / map.cell) as usize, (y / map.cell) as usize);
             map.values[row * map.columns + column]

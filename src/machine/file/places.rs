@@ -66,11 +66,7 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
             lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
         }
     }
-    lines.extend(
-        control
-            .main_spindle
-            .map(|number| format!("spindle {number} is the main spindle (S{number}=, M{number}=)")),
-    );
+    lines.extend(control.main_spindle.map(main_spindle));
     lines.extend(control.drilling_axis.map(drills));
     if let Some(escape) = control.roughing_escape {
         let how = match escape {
@@ -85,6 +81,11 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// Which spindle S and M without a number belong to.
+fn main_spindle(number: u32) -> String {
+    format!("spindle {number} is the main spindle (S{number}=, M{number}=)")
 }
 
 /// Along which axis drilling cycles drill.

@@ -44,6 +44,11 @@ pub struct Missing {
 }
 
 impl Error {
+    /// A word reads a parameter that nothing has set: the line runs, and only what depends on the word is unknown.
+    pub fn is_of_unset(&self) -> bool {
+        self.problem == &crate::flow::UNSET
+    }
+
     /// A refusal without details. The file is filled in by the engine.
     #[cold]
     pub fn new(problem: &'static Problem, range: TextRange) -> Self {

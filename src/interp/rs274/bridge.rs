@@ -313,7 +313,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     }
 
     fn error(&mut self, error: &Error, at: At) {
-        self.calls.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
+        self.calls.lost |= error.problem.class == trunnion_ngc::Class::NotModelled && !error.is_of_unset();
         let kind = fault_of(error);
         if kind == FaultKind::MissingProgramEnd {
             self.missing_end();

@@ -26,6 +26,7 @@ mod structure;
 mod texts;
 mod undecided;
 
+pub(crate) use problems::UNSET;
 pub use refused::Refused;
 
 use crate::read::Line;

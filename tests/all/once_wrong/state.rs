@@ -20,7 +20,7 @@ pub(super) const STATE: &[Item] = &[
         ["fanuc-30i", ""],
         [HEAD, "G1 Z-1. F100.; (cut)\nM30\n"],
         &[],
-        [3, 3],
+        [2, 3],
     ),
     (
         "a length offset with the number zero",

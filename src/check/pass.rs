@@ -86,7 +86,8 @@ impl<'a> Pass<'a> {
         Self {
             reporter: Reporter::new(program, settings.dialect, suppressions)
                 .judging_machine(settings.judged_machine().is_some())
-                .knowing_control(settings.control_known),
+                .knowing_control(settings.control_known)
+                .powered_on_with(settings.setup.control.power_on.as_deref()),
             dialect: settings.dialect,
             rules,
             motions: waiting(motions),

@@ -121,11 +121,6 @@ impl Block {
         self.ranges[place] = range;
         self.given |= 1 << place;
     }
-    /// Whether the value of a word is unknown.
-    pub(crate) fn has_unknown(&self) -> bool {
-        let unknown = |(place, value): (usize, &f64)| self.given & (1 << place) != 0 && value.is_nan();
-        self.words.iter().enumerate().any(unknown)
-    }
     /// Whether a word is there, upper-case letter.
     #[inline]
     pub fn has(&self, letter: u8) -> bool {

@@ -44,7 +44,7 @@ pub struct Missing {
 }
 
 impl Error {
-    /// A word reads a parameter that nothing has set: the line runs, and only what depends on the word is unknown.
+    /// A parameter is read that nothing has set: the line runs, and only what depends on it is unknown.
     pub fn is_of_unset(&self) -> bool {
         self.problem == &crate::flow::UNSET
     }

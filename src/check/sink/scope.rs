@@ -33,12 +33,21 @@ impl Reporter<'_> {
         self.judges_machine
     }
 
+    /// The codes that are declared to be in effect at power-on.
+    pub(crate) fn powered_on_with(self, codes: Option<&[String]>) -> Self {
+        let planes = ["G17", "G18", "G19"];
+        if codes.is_some_and(|codes| codes.iter().any(|code| planes.contains(&code.as_str()))) {
+            let _ = self.names_plane.set(true);
+        }
+        self
+    }
+
     /// Whether the control is declared, or the text shows it.
     pub(crate) fn knows_control(&self) -> bool {
         self.control_known
     }
 
-    /// Whether the program names a plane (G17, G18, G19) anywhere.
+    /// Whether the program, or what is declared for power-on, names a plane (G17, G18, G19).
     pub(crate) fn names_plane(&self) -> bool {
         *self
             .names_plane

@@ -193,8 +193,8 @@ pub(crate) struct Flow {
     fuel: u64,
     /// Saved by M70 and M73 outside of calls.
     context: Option<Box<Context>>,
-    /// Parameters that words have read and nothing has set.
-    unset: std::collections::BTreeSet<i64>,
+    /// What was reported of parameters that nothing has set.
+    unset: std::collections::BTreeSet<String>,
     /// Passes of loops without a call to the machine.
     watch: endless::Watch,
     /// Where the last missing subprogram was searched.

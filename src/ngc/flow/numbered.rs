@@ -54,7 +54,7 @@ impl Engine {
             return Err(Self::refusal(&problems::NO_P, line));
         };
         exec::check(self, block)?;
-        self.apply(&compiled.line)?;
+        self.apply(&compiled.line, sink)?;
         for (value, letter) in [(number, 'P'), (rounds.unwrap_or(1.0), 'L')] {
             if value.is_nan() {
                 let why = Self::undecided_word(letter, "which subprogram runs, and how many times,");

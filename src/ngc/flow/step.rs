@@ -48,7 +48,7 @@ impl Engine {
         if compiled.only_sets && self.turning.is_none() {
             self.continue_after(&compiled);
             // what is refused is evaluated again by the general path
-            if self.apply(&compiled.line).is_ok() {
+            if self.apply(&compiled.line, sink).is_ok() {
                 self.put_back(compiled, keep);
                 return Step::Line;
             }
@@ -204,7 +204,7 @@ impl Engine {
         let at = self.flow.at;
         if compiled.only_sets {
             // alone on its line there is nothing else to fail
-            self.apply(line)?;
+            self.apply(line, sink)?;
             return Ok(After::Go);
         }
         self.flow.watch.stir();
@@ -214,17 +214,14 @@ impl Engine {
             let all = read::errors(line, &self.values(), block);
             return Err(self.refuse_text(evaluated, &all, sink));
         }
-        if block.has_unknown() {
-            self.tell_unknown(line, sink);
-        }
         let contour = self.in_contour();
         if !contour && exec::choose_line(self, block) {
-            self.apply(line)?;
+            self.apply(line, sink)?;
             comment::run(self, line, at, sink)?;
             return Ok(exec::line(self, block, at, sink)?);
         }
         exec::check(self, block)?;
-        self.apply(line)?;
+        self.apply(line, sink)?;
         if contour {
             return self.contour_block(block);
         }
@@ -242,8 +239,9 @@ impl Engine {
         }
         Ok(after)
     }
-    /// Assignments take effect after the line, all at once.
-    pub(super) fn apply(&mut self, line: &read::Line) -> Result<(), Error> {
+    /// Assignments take effect after the line, all at once. What the line reads and nothing has set is reported.
+    pub(super) fn apply(&mut self, line: &read::Line, sink: &mut dyn Sink) -> Result<(), Error> {
+        self.report_unset(line, sink);
         read::apply(self, line)
     }
     /// The source of variables for formulas at the current line.

@@ -7,8 +7,8 @@ use trunnion_formula::{Formula, Variable, Variables};
 /// It has no source of its own.
 const COMPUTED: &str = "which was computed from unknown values";
 
-/// So many sources of unknown words are told in one run.
-const TOLD: usize = 100;
+/// At most this many parameters that nothing has set are reported in one run.
+const REPORTED: usize = 100;
 
 /// The most names in one sentence.
 const NAMES: usize = 3;
@@ -32,24 +32,46 @@ impl Engine {
     pub(super) fn undecided_word(letter: char, what: &str) -> String {
         format!("{what} depends on {letter}, whose value is not known before the program runs")
     }
-    /// Tells of words whose values are unknown because nothing has set a parameter that they read: once for each parameter.
-    #[cold]
-    pub(super) fn tell_unknown(&mut self, line: &read::Line, sink: &mut dyn Sink) {
-        for word in &line.words {
-            for variable in word.value.reads() {
-                let Variable::Numbered(index) = variable else { continue };
-                let given = (1..=30).contains(&index) && (self.entered_alone() || !self.flow.calls.is_empty());
-                let unset = (1..=5000).contains(&index)
-                    && !given
-                    && !self.store.is_assigned(index)
-                    && self.values().numbered(index).is_ok_and(f64::is_nan);
-                if !unset || self.flow.unset.len() >= TOLD || !self.flow.unset.insert(index) {
-                    continue;
+    /// Reports the parameters that a line reads and nothing has set, each once in a run; what is assigned from one is unknown too. What the
+    /// machine knows (a touched position, a pin) is no mistake of the program: where it leads, `position-unknown` reports.
+    #[inline]
+    pub(super) fn report_unset(&mut self, line: &read::Line, sink: &mut dyn Sink) {
+        let computes = |formula: &Formula| formula.number().is_none();
+        let some = line.words.iter().any(|word| computes(&word.value))
+            || line.assignments.iter().any(|one| computes(&one.value));
+        // in a file that only defines subprograms the caller gives what is missing, and the file never passes
+        if some && self.setup.start == crate::Start::Unknown && !self.entered_alone() {
+            self.report_unset_of(line, sink);
+        }
+    }
+    fn report_unset_of(&mut self, line: &read::Line, sink: &mut dyn Sink) {
+        let words = line.words.iter().map(|word| (&word.value, word.range));
+        let assigned = line.assignments.iter().map(|one| (&one.value, one.target_range));
+        for (formula, range) in words.chain(assigned) {
+            for variable in formula.reads() {
+                let text = match variable {
+                    Variable::Numbered(index) if self.is_unset(index) => {
+                        format!("#{index}: read before the program assigns it")
+                    }
+                    Variable::Computed(_) if self.value(formula).is_ok_and(f64::is_nan) => {
+                        self.reasons(formula).join(" and ")
+                    }
+                    _ => continue,
+                };
+                if self.flow.unset.len() < REPORTED && self.flow.unset.insert(text.clone()) {
+                    self.tell(&Error::with(&problems::UNSET, range, text), sink);
                 }
-                let text = format!("#{index}: read before the program assigns it");
-                self.tell(&Error::with(&problems::UNSET, word.range, text), sink);
             }
         }
+    }
+    /// Whether nothing has set a parameter that keeps its value between programs.
+    fn is_unset(&self, index: i64) -> bool {
+        // in a call the first ones are its arguments
+        let argument = (1..=30).contains(&index) && !self.flow.calls.is_empty();
+        (1..=5000).contains(&index)
+            && !argument
+            && !self.store.is_assigned(index)
+            && self.values().numbered(index).is_ok_and(f64::is_nan)
     }
     /// The variables of a formula that are unknown.
     fn reasons(&self, formula: &Formula) -> Vec<String> {

@@ -22,7 +22,7 @@ const ABANDONED: Duration = Duration::from_hours(1);
 /// A part of what is said to a run on its standard input.
 pub(crate) struct Part {
     pub(crate) bytes: Vec<u8>,
-    /// The request in it whose answer is waited for before the next part is said: a server that is told to exit answers no more.
+    /// The request in it, whose answer must arrive before the next part is sent: a server that has received `exit` answers nothing more.
     pub(crate) request: Option<u64>,
 }
 

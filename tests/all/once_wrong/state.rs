@@ -6,14 +6,19 @@ const LENGTHS: &str = "(trunnion: tool 1 flat diameter 10 length 100)\n(trunnion
 
 pub(super) const STATE: &[Item] = &[
     (
-        "a word that reads a parameter which nothing has set",
+        "a word whose value rests on a parameter which nothing has set",
         ["linuxcnc", ""],
         [
-            "G21 G90 G94 G17\nG0 X0 Y0 Z5\nS100 M3\n",
-            "G1 Z#100 F100\nG1 X#101\nM2\n",
+            "G21 G90 G94 G17\nG0 X0 Y0 Z5\nS100 M3\n#5=[#100+1]\n",
+            "G1 Z#5 F100\nG1 X#101\nY#[99+3]\nZ#103\nM2\n",
         ],
-        &["4 unknown not-modelled", "5 unknown not-modelled"],
-        [1, 3],
+        &[
+            "4 unknown not-modelled",
+            "6 unknown not-modelled",
+            "7 unknown not-modelled",
+            "8 unknown not-modelled",
+        ],
+        [1, 5],
     ),
     (
         "a comment after the mark at the end of a block",

@@ -3,9 +3,9 @@
 //! Where the lines of equal turn crowd together, a small change of the tool axis turns that rotary axis far (paper on five-axis
 //! high-speed milling of hydraulic blades, 2006, figure 11).
 use crate::canvas::{BLUE, GREEN, PALE};
-use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, sheet};
+use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, px, sheet};
 use crate::grid::{Frame, Panel, equal};
-use crate::joints::{entries, rules};
+use crate::marks::{Groups, Rules};
 use crate::record::{Mark, Record};
 use crate::scale::range;
 use core::f64::consts::TAU;
@@ -35,7 +35,7 @@ pub fn axis_plane(
             "nothing to draw: the tool axis is unknown in every motion".into(),
         ));
     }
-    let rules = rules(marks);
+    let rules = Rules::of(marks);
     let letter = |slot: usize| char::from(machine.axes[machine.rotary[slot]].letter);
     let mut legend: Vec<Entry> = vec![
         (
@@ -49,7 +49,7 @@ pub fn axis_plane(
     if after.is_some() {
         legend.insert(1, (Swatch::Line(GREEN), "after".to_owned()));
     }
-    legend.extend(entries(&rules));
+    legend.extend(rules.entries());
     sheet(header, &legend, |body| {
         let records = core::iter::once(record).chain(after);
         let seen: Vec<(f64, f64)> = records
@@ -115,25 +115,28 @@ fn draw_marks(
     plane: &Plane<'_>,
     record: &Record,
     marks: &[Mark],
-    rules: &[(String, RGBColor, usize)],
+    rules: &Rules,
 ) -> Result<(), PlotError> {
-    let mut written: Vec<u32> = Vec::new();
+    let radius = |place: usize| 6.0 + 2.5 * place as f64;
+    let widest = radius(rules.drawn.len().saturating_sub(1));
     let lines = record.by_line();
-    for (place, (rule, colour, _)) in rules.iter().enumerate() {
-        for mark in marks.iter().filter(|mark| mark.rule == *rule) {
+    let mut groups = Groups::default();
+    for (place, marked) in rules.drawn.iter().enumerate() {
+        let mut spots = Vec::new();
+        for mark in marks.iter().filter(|mark| mark.rule == marked.rule) {
             for block in lines.get(&mark.line).into_iter().flatten() {
                 let Some(end) = record.of(block).last() else { continue };
-                let (x, y) = plane.see(&end.axis);
-                let radius = 6.0 + 2.5 * place as f64;
-                panel.ring(x, y, *colour, radius)?;
-                if written.len() < 24 && !written.contains(&mark.line) {
-                    written.push(mark.line);
-                    let text = format!("line {}", mark.line);
-                    let widest = 6.0 + 2.5 * (rules.len() - 1) as f64;
-                    panel.text((x, y), &text, INK, (HPos::Left, VPos::Bottom), widest)?;
+                let spot = plane.see(&end.axis);
+                if panel.shows(spot) {
+                    groups.add(mark.line, spot, panel.at(spot.0, spot.1), 1.2 * f64::from(px(widest)));
+                    spots.push(spot);
                 }
             }
         }
+        panel.symbols(spots.into_iter(), marked, radius(place), false)?;
+    }
+    for (spot, group) in groups.iter() {
+        panel.text(*spot, &group.text(), INK, (HPos::Left, VPos::Bottom), widest)?;
     }
     Ok(())
 }

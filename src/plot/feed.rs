@@ -42,6 +42,11 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         [0.0, value(top)]
     };
     // the cuts alone: a rapid to a far tool change would leave no room for them
+    if cuts.iter().all(|block| travel(record, block) < 1e-6) {
+        return Err(PlotError(
+            "nothing to draw over the travel of the tip: it rests in every feed block".into(),
+        ));
+    }
     let across = range(
         cuts.iter()
             .flat_map(|block| record.of(block))
@@ -87,6 +92,12 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         panel.line(course(record, height).into_iter(), GREEN, 1.2)?;
         panel.dots(places(record, slow(&cuts), height), GREEN, 3.0)
     })
+}
+
+/// How far the tip travels in a block, mm.
+fn travel(record: &Record, block: &Block) -> f64 {
+    let samples = record.of(block);
+    samples.last().map_or(0.0, |s| s.way) - samples.first().map_or(0.0, |s| s.way)
 }
 
 /// Cuts whose programmed feed some axis does not allow, each with what it allows.

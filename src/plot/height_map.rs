@@ -15,6 +15,9 @@ const LEVELS: usize = 20;
 /// Room for the colour bar, pixels.
 const BAR: f64 = 120.0;
 
+/// Blocks whose ends are farther apart do not follow each other, mm.
+const JOINT: f64 = 1e-3;
+
 /// From pale (no error) to dark (largest): lightness falls evenly, so it reads in grey and with any colour vision.
 const SCALE_STOPS: [(u8, u8, u8); 6] = [
     (255, 250, 225),
@@ -84,12 +87,13 @@ pub fn height_map(header: &Header, errors: &Errors, along: usize, unit: Unit) ->
             panel.fill(corners.into_iter(), colour(level as f64 / (LEVELS - 1) as f64), 1.0)?;
         }
         let mut path = Vec::new();
-        let mut leg = None;
+        let mut before: Option<&PictureSample> = None;
         for spot in &errors.spots {
-            if leg.is_some_and(|leg| spot.leg != leg && spot.leg != leg + 1) {
+            // blocks that are not compared lie between these two
+            if before.is_some_and(|before| spot.leg != before.leg && (spot.tip - before.tip).norm() > JOINT) {
                 path.push((f64::NAN, f64::NAN));
             }
-            leg = Some(spot.leg);
+            before = Some(spot);
             path.push(view.see(&spot.tip));
         }
         panel.line(path.into_iter(), LINE, 1.0)?;

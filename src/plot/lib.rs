@@ -9,6 +9,7 @@ mod grid;
 mod height_map;
 mod joints;
 mod labels;
+mod marks;
 mod path;
 mod record;
 mod route;

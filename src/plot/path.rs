@@ -1,8 +1,8 @@
-//! The path of the tool tip in space, seen from the front, the right and above.
-use crate::canvas::{BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, VERMILION, anchored, sheet};
-use crate::grid::Panel;
+//! The path of the tool tip in space: isometric with three views beside it, or in its plane where it lies in one.
+use crate::canvas::{Area, BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, VERMILION, anchored, px, sheet};
+use crate::grid::{Frame, Panel, equal};
 use crate::record::{Block, Record};
-use crate::scale::{counted, short};
+use crate::scale::{counted, range, short};
 use crate::unit::Unit;
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -19,8 +19,7 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     if record.samples.is_empty() {
         return Err(PlotError("nothing to draw: no path is known".into()));
     }
-    let strays = |block: &Block| !block.rapid && block.deviation.is_some_and(|[most, _]| most > tolerance);
-    let straying = record.blocks.iter().filter(|block| strays(block)).count();
+    let straying = record.blocks.iter().filter(|block| strays(block, tolerance)).count();
     let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), "feed".into()),
         (Swatch::Dashed(GREY), "rapid".into()),
@@ -45,34 +44,154 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
             ),
         ));
     }
-    let cut = record.blocks.iter().filter(|block| !block.rapid);
-    let (mut low, mut high) = extent(cut.flat_map(|block| record.of(block)).map(|sample| sample.tip));
-    if low.x > high.x {
-        (low, high) = extent(record.samples.iter().map(|sample| sample.tip));
-    }
-    sheet(header, &legend, |body| {
-        let corners = (0..8).map(|i| {
-            let pick = |bit: usize, k: usize| if i & bit == 0 { low[k] } else { high[k] };
-            see(&Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
-        });
-        let rapids = record
-            .blocks
-            .iter()
-            .filter(|block| block.rapid)
-            .flat_map(|block| record.of(block));
+    let part = Part::of(record, tolerance);
+    sheet(header, &legend, |body| match part.flat() {
+        Some(view) => part.draw_plane(body, view, None),
+        None => {
+            let (width, height) = body.dim_in_pixel();
+            let (left, right) = body.split_horizontally(width as i32 - px(BESIDE));
+            part.draw_space(&left)?;
+            let each = height as i32 / 3;
+            for ((view, name), top) in VIEWS.into_iter().zip([0, each, 2 * each]) {
+                let field = right.clone().shrink((0, top), (px(BESIDE) as u32, each as u32));
+                part.draw_plane(&field, view, Some(name))?;
+            }
+            Ok(())
+        }
+    })
+}
+
+/// Room for the three views beside the isometric one, pixels.
+const BESIDE: f64 = 440.0;
+
+/// The coordinates that stand across and upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct View {
+    across: usize,
+    upwards: usize,
+}
+
+/// The three views of a drawing.
+const VIEWS: [(View, &str); 3] = [
+    (View { across: 0, upwards: 1 }, "from above"),
+    (View { across: 0, upwards: 2 }, "from the front"),
+    (View { across: 1, upwards: 2 }, "from the right"),
+];
+
+/// What is thinner has no extent in that direction, mm.
+const THIN: f64 = 1e-6;
+
+/// A path and the box about it.
+struct Part<'r> {
+    record: &'r Record,
+    /// The box about the cuts, mm; without cuts, or where all are in one point, about everything.
+    low: Vec3,
+    high: Vec3,
+    /// Ends of rapids near the box: all that is shown lies in it or is one of them.
+    near: Vec<Vec3>,
+    tolerance: f64,
+}
+
+impl<'r> Part<'r> {
+    fn of(record: &'r Record, tolerance: f64) -> Self {
+        let tips = |rapid: bool| {
+            let blocks = record.blocks.iter().filter(move |block| block.rapid == rapid);
+            blocks.flat_map(|block| record.of(block)).map(|sample| sample.tip)
+        };
+        let (mut low, mut high) = extent(tips(false));
+        if !((high - low).max() > THIN) {
+            (low, high) = extent(record.samples.iter().map(|sample| sample.tip));
+        }
         // a rapid from far away must not make the part small: it is cut off at the edge
-        let size = (high - low).norm().max(1e-3);
-        let near = rapids.map(|sample| sample.tip).filter(|tip| {
-            let held = tip.sup(&low).inf(&high);
-            (tip - held).norm() < 0.35 * size
-        });
-        let flat = Panel::bare(body, corners.chain(near.map(|tip| see(&tip))));
-        draw_box(&flat, record.unit, &low, &high)?;
-        draw_axes(&flat, record, size)?;
+        let reach = 0.35 * (high - low).norm();
+        let near = tips(true).filter(|tip| (tip - tip.sup(&low).inf(&high)).norm() < reach);
+        Self {
+            near: near.collect(),
+            record,
+            low,
+            high,
+            tolerance,
+        }
+    }
+
+    fn size(&self) -> f64 {
+        (self.high - self.low).norm().max(1e-3)
+    }
+
+    /// The plane in which everything lies. Along a lathe's tool, not Z, is upwards.
+    fn flat(&self) -> Option<View> {
+        let (low, high) = extent(self.near.iter().copied().chain([self.low, self.high]));
+        let thin = [1, 0, 2].into_iter().find(|axis| high[*axis] - low[*axis] <= THIN)?;
+        let [across, upwards] = [[1, 2], [0, 2], [0, 1]][thin];
+        let along = |axis: usize| {
+            self.record
+                .samples
+                .iter()
+                .map(|sample| sample.axis[axis].abs())
+                .fold(0.0, f64::max)
+        };
+        Some(if along(across) > 0.9 && along(upwards) < 0.1 {
+            View {
+                across: upwards,
+                upwards: across,
+            }
+        } else {
+            View { across, upwards }
+        })
+    }
+
+    /// The corners of the box, and the ends near it.
+    fn corners(&self) -> impl Iterator<Item = Vec3> {
+        let corner = |i: usize| {
+            Vec3::from_fn(|axis, _| {
+                if i & (1 << axis) == 0 {
+                    self.low[axis]
+                } else {
+                    self.high[axis]
+                }
+            })
+        };
+        (0..8).map(corner).chain(self.near.iter().copied())
+    }
+
+    /// Seen isometrically, with a box that has a scale.
+    fn draw_space(&self, area: &Area<'_>) -> Result<(), PlotError> {
+        let panel = Panel::bare(area, self.corners().map(|corner| see(&corner)));
+        draw_box(&panel, self.record.unit, &self.low, &self.high)?;
+        self.draw(&panel, see)
+    }
+
+    /// Seen at right angles to a plane, with the name of the view where there are several.
+    fn draw_plane(&self, area: &Area<'_>, view: View, name: Option<&str>) -> Result<(), PlotError> {
+        let unit = self.record.unit;
+        let see = |p: &Vec3| (unit.of_mm(p[view.across]), unit.of_mm(p[view.upwards]));
+        let least = unit.of_mm(0.02 * self.size());
+        let x = range(self.corners().map(|corner| see(&corner).0), least);
+        let y = range(self.corners().map(|corner| see(&corner).1), least);
+        let (x, y) = equal(x, y, area.dim_in_pixel(), 0.0);
+        let [across, upwards] = [view.across, view.upwards].map(|axis| format!("{} / {}", LETTERS[axis], unit.name()));
+        let frame = Frame {
+            x,
+            y,
+            x_name: Some(&across),
+            y_name: &upwards,
+            labels: if name.is_some() { [5, 4] } else { [10, 8] },
+            decades: false,
+            right: 0.0,
+        };
+        let panel = Panel::new(area, &frame)?;
+        self.draw(&panel, see)?;
+        name.map_or(Ok(()), |name| panel.note(name))
+    }
+
+    /// The tool axis, rapids, and cuts, as a view sees them.
+    fn draw(&self, panel: &Panel<'_>, see: impl Fn(&Vec3) -> (f64, f64)) -> Result<(), PlotError> {
+        let record = self.record;
+        draw_axes(panel, record, self.size(), &see)?;
         for rapid in [true, false] {
             let mut points = Vec::new();
             for block in &record.blocks {
-                if block.rapid == rapid && !strays(block) {
+                if block.rapid == rapid && !strays(block, self.tolerance) {
                     if !block.joined {
                         points.push((f64::NAN, f64::NAN));
                     }
@@ -82,17 +201,24 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
                 }
             }
             if rapid {
-                flat.dashed(points.into_iter(), GREY, 1.2)?;
+                panel.dashed(points.into_iter(), GREY, 1.2)?;
             } else {
-                flat.line(points.into_iter(), BLUE, 1.5)?;
+                panel.line(points.into_iter(), BLUE, 1.5)?;
             }
         }
-        for block in record.blocks.iter().filter(|block| strays(block)) {
-            flat.line(record.of(block).iter().map(|sample| see(&sample.tip)), VERMILION, 1.5)?;
+        for block in record.blocks.iter().filter(|block| strays(block, self.tolerance)) {
+            panel.line(record.of(block).iter().map(|sample| see(&sample.tip)), VERMILION, 1.5)?;
         }
         Ok(())
-    })
+    }
 }
+
+/// A cut whose tip deviates farther than the tolerance.
+fn strays(block: &Block, tolerance: f64) -> bool {
+    !block.rapid && block.deviation.is_some_and(|[most, _]| most > tolerance)
+}
+
+const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
 /// Isometric view with Z upwards, X to the right and down, Y to the right and up.
 fn see(p: &Vec3) -> (f64, f64) {
@@ -108,7 +234,7 @@ fn extent(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
         .fold(empty, |(low, high), point| (low.inf(&point), high.sup(&point)))
 }
 
-/// The floor of the box about the cut, with ticks along X and Y in front and along Z at the left.
+/// The floor of the box about the part, with ticks along X and Y in front and along Z at the left.
 fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
     let at = |x: f64, y: f64, z: f64| see(&Vec3::new(x, y, z));
     let floor = [
@@ -128,7 +254,7 @@ fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) -> Result<(),
     let shown = unit.of_mm(size);
     let step = unit.to_mm(step(shown / 6.0));
     for axis in 0..3 {
-        let letter = ['X', 'Y', 'Z'][axis];
+        let letter = LETTERS[axis];
         let span = high[axis] - low[axis];
         // a flat part has no scale of its own there
         let ticks = ((high[axis] / step).floor() - (low[axis] / step).ceil()).max(-1.0) as i64;
@@ -175,7 +301,7 @@ fn step(value: f64) -> f64 {
 }
 
 /// The tool axis at some of the feed samples, evenly along the path.
-fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64) -> Result<(), PlotError> {
+fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64, see: impl Fn(&Vec3) -> (f64, f64)) -> Result<(), PlotError> {
     let feeds = || {
         record
             .blocks

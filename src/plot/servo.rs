@@ -34,6 +34,12 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
             "nothing to draw: the loop is unstable from the first sample on".into(),
         ));
     };
+    // half a nanometre: below what a control resolves
+    if worst.exact < 5e-4 {
+        return Err(PlotError(
+            "nothing to draw: the path goes straight on there, and the axes do not leave it".into(),
+        ));
+    }
     // what matters of the path is some times the error about the corner
     let reach = (60.0 * worst.exact / 1000.0)
         .max(4.0 * hypot(worst.position[0], worst.position[1]))

@@ -312,6 +312,7 @@ fn trim(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texts::{header, overlaps, record};
     use trunnion_machine::builtin;
 
     #[test]
@@ -324,6 +325,50 @@ mod tests {
         // u = (sin A sin C, -sin A cos C, cos A)
         let (i, j) = plane.joints(rad(90.0), rad(30.0));
         assert!((i - 0.5).abs() < 1e-12 && j.abs() < 1e-12);
+    }
+
+    /// On every machine with a pole, however near it is looked at, and with many findings.
+    #[test]
+    fn labels_at_the_pole_do_not_overlap() {
+        let mut seen = 0;
+        for name in trunnion_machine::BUILTIN_MACHINES {
+            let machine = builtin(name).expect("built in");
+            let Ok(plane) = Plane::new(machine) else { continue };
+            for widest in [0.05, 0.4, 3.0, 20.0, 85.0] {
+                let axis = |step: usize| {
+                    let share = step as f64 / 40.0;
+                    let tilt = plane.at_pole + rad(widest * (2.0 * share - 1.0));
+                    tool_axis_at(machine, [rad(30.0 + 60.0 * share), tilt])
+                };
+                let moves: Vec<(char, Vec3)> = (0..=40).map(|i| ('f', Vec3::new(f64::from(i), 0.0, 0.0))).collect();
+                let record = record(&moves, axis);
+                let rules = [
+                    "pole-flip",
+                    "fast-pole",
+                    "feed-drop",
+                    "axis-overspeed",
+                    "branch-swap",
+                    "axis-limit",
+                ];
+                let marks: Vec<Mark> = (1..=40)
+                    .flat_map(|line| rules.iter().take(line as usize % 7).map(move |rule| (line, rule)))
+                    .map(|(line, rule)| Mark {
+                        line,
+                        rule: (*rule).to_owned(),
+                    })
+                    .collect();
+                for within in [
+                    None,
+                    Some(0.5 * widest),
+                    Some(2.0 * widest).filter(|angle| *angle < 90.0),
+                ] {
+                    let svg = axis_plane(&header(), machine, &record, &marks, None, within).expect("drawn");
+                    assert_eq!(overlaps(&svg), [], "{name}, {widest} deg, within {within:?}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 100, "{seen} pictures");
     }
 
     #[test]

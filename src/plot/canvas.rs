@@ -249,7 +249,7 @@ mod tests {
             &text[..80]
         );
         assert!(text.contains("viewBox=\"0 0 12000 8000\"") && text.contains("a &lt; b") && text.contains("f&amp;g"));
-        assert!(text.trim_end().ends_with("</svg>"));
+        assert!(text.trim_end().ends_with("</svg>") && text.contains("paint-order: stroke"));
     }
 
     /// Nothing runs off the sheet, nothing overlaps, and the rows come one below the other.

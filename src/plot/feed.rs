@@ -207,3 +207,20 @@ fn course(record: &Record, height: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     }
     course
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texts::{header, record};
+    use trunnion_geometry::Vec3;
+
+    #[test]
+    fn a_tip_that_rests_has_no_feed_over_its_travel() {
+        let tip = Vec3::new(1.0, 2.0, 3.0);
+        let moves = [('r', Vec3::new(0.0, 0.0, 110.0)), ('r', tip), ('f', tip), ('f', tip)];
+        let refused = feed(&header(), &record(&moves, |_| Vec3::z())).expect_err("refused");
+        assert!(refused.0.contains("it rests in every feed block"), "{refused}");
+        let moves = [('r', tip), ('f', Vec3::new(9.0, 2.0, 3.0))];
+        assert!(feed(&header(), &record(&moves, |_| Vec3::z())).is_ok());
+    }
+}

@@ -312,6 +312,25 @@ mod tests {
         assert_eq!(covered, map.values.iter().flatten().count());
     }
 
+    /// Between two compared blocks lie others, which the map does not show.
+    #[test]
+    fn no_line_leads_across_blocks_that_are_not_compared() {
+        let on = |leg: u32, x: f64| PictureSample {
+            leg,
+            ..spot(x, 0.0, 0.01)
+        };
+        let lines = |second: f64| {
+            let errors = Errors {
+                spots: vec![on(0, 0.0), on(0, 10.0), on(1, second), on(1, second + 10.0)],
+                ..Errors::default()
+            };
+            let svg = height_map(&crate::texts::header(), &errors, 2, Unit::Mm).expect("drawn");
+            svg.matches("stroke=\"#285A8C\"").count()
+        };
+        // one is in the legend
+        assert_eq!([lines(10.0), lines(25.0)], [2, 3]);
+    }
+
     #[test]
     fn the_scale_darkens_evenly() {
         let light = |share: f64| {

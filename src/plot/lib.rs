@@ -7,6 +7,7 @@ mod deviation;
 mod feed;
 mod grid;
 mod height_map;
+mod isometric;
 mod joints;
 mod labels;
 mod marks;
@@ -15,6 +16,8 @@ mod record;
 mod route;
 mod scale;
 mod servo;
+#[cfg(test)]
+mod texts;
 mod thin;
 mod unit;
 

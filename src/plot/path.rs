@@ -1,15 +1,10 @@
 //! The path of the tool tip in space: isometric with three views beside it, or in its plane where it lies in one.
-use crate::canvas::{Area, BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, VERMILION, anchored, px, sheet};
+use crate::canvas::{Area, BLUE, Entry, GREY, Header, ORANGE, PlotError, Swatch, VERMILION, px, sheet};
 use crate::grid::{Frame, Panel, equal};
+use crate::isometric::{draw_box, see};
 use crate::record::{Block, Record};
-use crate::scale::{counted, range, short};
-use crate::unit::Unit;
-use plotters::prelude::RGBColor;
-use plotters::style::text_anchor::{HPos, VPos};
+use crate::scale::{counted, range};
 use trunnion_geometry::Vec3;
-
-/// Colour of the box.
-const FLOOR: RGBColor = RGBColor(170, 170, 170);
 
 /// Draws it. `tolerance`: blocks whose tip deviates farther are drawn in another colour, mm.
 ///
@@ -218,86 +213,14 @@ fn strays(block: &Block, tolerance: f64) -> bool {
     !block.rapid && block.deviation.is_some_and(|[most, _]| most > tolerance)
 }
 
-const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
-
-/// Isometric view with Z upwards, X to the right and down, Y to the right and up.
-fn see(p: &Vec3) -> (f64, f64) {
-    const ACROSS: f64 = core::f64::consts::FRAC_1_SQRT_2;
-    const UP: f64 = 0.408_248_290_463_863;
-    ((p.x + p.y) * ACROSS, (p.y - p.x) * UP + p.z * 2.0 * UP)
-}
+/// The coordinates.
+pub(crate) const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
 fn extent(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     let empty = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
     points
         .filter(|point| point.iter().all(|value| value.is_finite()))
         .fold(empty, |(low, high), point| (low.inf(&point), high.sup(&point)))
-}
-
-/// The floor of the box about the part, with ticks along X and Y in front and along Z at the left.
-fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
-    let at = |x: f64, y: f64, z: f64| see(&Vec3::new(x, y, z));
-    let floor = [
-        at(low.x, low.y, low.z),
-        at(high.x, low.y, low.z),
-        at(high.x, high.y, low.z),
-        at(low.x, high.y, low.z),
-        at(low.x, low.y, low.z),
-    ];
-    flat.line(floor.into_iter(), FLOOR, 1.0)?;
-    flat.line(
-        [at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(),
-        FLOOR,
-        1.0,
-    )?;
-    let size = (high - low).max().max(1e-3);
-    let shown = unit.of_mm(size);
-    let step = unit.to_mm(step(shown / 6.0));
-    for axis in 0..3 {
-        let letter = LETTERS[axis];
-        let span = high[axis] - low[axis];
-        // a flat part has no scale of its own there
-        let ticks = ((high[axis] / step).floor() - (low[axis] / step).ceil()).max(-1.0) as i64;
-        let (anchor, beside) = match axis {
-            0 => ((HPos::Right, VPos::Top), Vec3::new(0.0, -0.03 * size, 0.0)),
-            1 => ((HPos::Left, VPos::Top), Vec3::new(0.03 * size, 0.0, 0.0)),
-            _ => ((HPos::Right, VPos::Center), Vec3::new(-0.02 * size, -0.02 * size, 0.0)),
-        };
-        let place = |value: f64| {
-            let mut point = match axis {
-                1 => Vec3::new(high.x, low.y, low.z),
-                _ => *low,
-            };
-            point[axis] = value;
-            point
-        };
-        for tick in 0..=ticks {
-            let value = ((low[axis] / step).ceil() + tick as f64) * step;
-            let from = place(value);
-            let to = from + beside;
-            flat.line([see(&from), see(&to)].into_iter(), FLOOR, 1.0)?;
-            let text = short(unit.of_mm(value), shown);
-            flat.write(
-                see(&(to + beside * 0.3)),
-                &text,
-                anchored(13.0, anchor.0, anchor.1).color(&INK),
-            )?;
-        }
-        let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
-        flat.write(
-            see(&middle),
-            &format!("{letter} / {}", unit.name()),
-            anchored(15.0, anchor.0, anchor.1).color(&INK),
-        )?;
-    }
-    Ok(())
-}
-
-fn step(value: f64) -> f64 {
-    let base = (-9..=9)
-        .map(|e: i32| (0..e.abs()).fold(1.0, |v: f64, _| if e > 0 { v * 10.0 } else { v / 10.0 }))
-        .flat_map(|power| [power, 2.0 * power, 5.0 * power]);
-    base.into_iter().find(|nice| *nice >= value).unwrap_or(value)
 }
 
 /// The tool axis at some of the feed samples, evenly along the path.
@@ -333,16 +256,65 @@ fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64, see: impl Fn(&Vec3) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texts::{header, overlaps, record};
+
+    fn drawn(record: &Record) -> String {
+        let svg = path(&header(), record, 0.01).expect("drawn");
+        assert_eq!(overlaps(&svg), []);
+        svg
+    }
+    const UP: fn(usize) -> Vec3 = |_| Vec3::z();
 
     #[test]
-    fn the_view_is_isometric() {
-        let length = |v: Vec3| {
-            let (x, y) = see(&v);
-            (x * x + y * y).sqrt()
-        };
-        let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()].map(length);
-        assert!((x - y).abs() < 1e-9 && (y - z).abs() < 1e-9);
-        assert!(see(&Vec3::z()).1 > 0.0 && see(&Vec3::x()).1 < 0.0);
-        assert_eq!((step(17.0), step(0.3)), (20.0, 0.5));
+    fn a_part_is_seen_from_three_sides_too() {
+        let moves = [
+            ('r', Vec3::new(0.0, 0.0, 50.0)),
+            ('r', Vec3::new(0.0, 0.0, 2.0)),
+            ('f', Vec3::new(0.0, 0.0, -4.0)),
+            ('f', Vec3::new(40.0, 0.0, -4.0)),
+            ('f', Vec3::new(40.0, 30.0, -4.0)),
+        ];
+        let svg = drawn(&record(&moves, UP));
+        for (_, name) in VIEWS {
+            assert!(svg.contains(name), "{name}");
+        }
+    }
+
+    /// A lathe's path lies in one plane: Z across, and X, along which its tools stand, upwards.
+    #[test]
+    fn a_path_in_one_plane_is_seen_at_right_angles() {
+        let turned = [
+            ('r', Vec3::new(30.0, 0.0, 5.0)),
+            ('r', Vec3::new(20.0, 0.0, 5.0)),
+            ('f', Vec3::new(20.0, 0.0, -60.0)),
+            ('f', Vec3::new(24.0, 0.0, -60.0)),
+        ];
+        let view = |record: &Record| Part::of(record, 0.01).flat().map(|view| [view.across, view.upwards]);
+        let lathe = record(&turned, |_| Vec3::x());
+        assert_eq!(view(&lathe), Some([2, 0]));
+        let svg = drawn(&lathe);
+        assert!(svg.contains("Z / mm") && svg.contains("X / mm") && !svg.contains("Y / mm") && !svg.contains("from "));
+        // the same in a mill, and in the other planes
+        assert_eq!(view(&record(&turned, UP)), Some([0, 2]));
+        let swapped = turned.map(|(kind, p)| (kind, Vec3::new(p.y, p.x, p.z)));
+        assert_eq!(view(&record(&swapped, UP)), Some([1, 2]));
+        let level = turned.map(|(kind, p)| (kind, Vec3::new(p.x, p.z, p.y)));
+        assert_eq!(view(&record(&level, UP)), Some([0, 1]));
+    }
+
+    /// Only the tool axis moves in the cut: the scale is that of the rapids.
+    #[test]
+    fn cuts_in_one_point_are_seen_with_the_rapids() {
+        let tip = Vec3::new(0.0, 0.0, 10.0);
+        let moves = [
+            ('r', Vec3::new(0.0, 0.0, 110.0)),
+            ('r', tip),
+            ('f', tip),
+            ('f', tip),
+            ('r', Vec3::new(0.0, 0.0, 80.0)),
+        ];
+        let svg = drawn(&record(&moves, UP));
+        let numbers = crate::texts::texts(&svg);
+        assert!(numbers.iter().any(|(text, _)| text == "100"), "{numbers:?}");
     }
 }

@@ -119,3 +119,25 @@ fn names(unit: Unit) -> [&'static str; 3] {
         Unit::Inch => ["along the leg in / in", "across / in", "error / 0.001 in"],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texts::header;
+
+    #[test]
+    fn a_straight_path_is_no_corner() {
+        let spots = |error: f64| {
+            [-1.0, 0.0, 1.0].map(|time| ServoSpot {
+                time,
+                reference: [time, 0.0],
+                position: [time - 0.1, error / 1000.0],
+                exact: error,
+                radial: 0.0,
+            })
+        };
+        let refused = servo(&header(), &spots(1e-9), Unit::Mm).expect_err("refused");
+        assert!(refused.0.contains("goes straight on"), "{refused}");
+        assert!(servo(&header(), &spots(3.0), Unit::Mm).is_ok());
+    }
+}

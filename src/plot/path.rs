@@ -91,10 +91,10 @@ impl<'r> Part<'r> {
     fn of(record: &'r Record, tolerance: f64) -> Self {
         let tips = |rapid: bool| {
             let blocks = record.blocks.iter().filter(move |block| block.rapid == rapid);
-            blocks.flat_map(|block| record.of(block)).map(|sample| sample.tip)
+            blocks.flat_map(move |block| record.of(block)).map(|sample| sample.tip)
         };
         let (mut low, mut high) = extent(tips(false));
-        if !((high - low).max() > THIN) {
+        if (high - low).max() <= THIN {
             (low, high) = extent(record.samples.iter().map(|sample| sample.tip));
         }
         // a rapid from far away must not make the part small: it is cut off at the edge

@@ -3,6 +3,7 @@ use crate::canvas::{Entry, GREEN, ORANGE, PURPLE, SKY, Swatch, VERMILION};
 use crate::record::Mark;
 use crate::scale::counted;
 use plotters::prelude::RGBColor;
+use std::collections::BTreeSet;
 
 /// The outline of a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +108,7 @@ const LABELS: usize = 24;
 pub(crate) struct Group {
     /// Where the first of them is, in units of the sheet.
     place: (f64, f64),
-    lines: Vec<u32>,
+    lines: BTreeSet<u32>,
 }
 
 impl Group {
@@ -135,10 +136,11 @@ impl Groups {
     pub(crate) fn add(&mut self, line: u32, at: (f64, f64), place: (f64, f64), apart: f64) {
         let near = |group: &Group| (group.place.0 - place.0).abs().max((group.place.1 - place.1).abs()) < apart;
         match self.0.iter_mut().find(|(_, group)| near(group)) {
-            Some((_, group)) if group.lines.contains(&line) => {}
-            Some((_, group)) => group.lines.push(line),
+            Some((_, group)) => {
+                group.lines.insert(line);
+            }
             None if self.0.len() < LABELS => {
-                let lines = vec![line];
+                let lines = BTreeSet::from([line]);
                 self.0.push((at, Group { place, lines }));
             }
             None => {}

@@ -135,15 +135,13 @@ impl Groups {
     /// Adds a line whose mark is drawn at `at` (a value) and `place` (on the sheet); marks nearer than `apart` are one group.
     pub(crate) fn add(&mut self, line: u32, at: (f64, f64), place: (f64, f64), apart: f64) {
         let near = |group: &Group| (group.place.0 - place.0).abs().max((group.place.1 - place.1).abs()) < apart;
-        match self.0.iter_mut().find(|(_, group)| near(group)) {
-            Some((_, group)) => {
-                group.lines.insert(line);
-            }
-            None if self.0.len() < LABELS => {
-                let lines = BTreeSet::from([line]);
-                self.0.push((at, Group { place, lines }));
-            }
-            None => {}
+        if let Some((_, group)) = self.0.iter_mut().find(|(_, group)| near(group)) {
+            group.lines.insert(line);
+            return;
+        }
+        if self.0.len() < LABELS {
+            let lines = BTreeSet::from([line]);
+            self.0.push((at, Group { place, lines }));
         }
     }
 

@@ -364,6 +364,13 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
+    /// No text that asks for a free place covers what is drawn there with this radius.
+    pub(crate) fn keep_free(&self, (x, y): (f64, f64), pixels: f64) {
+        let (p, radius) = (self.at(x, y), f64::from(px(pixels)));
+        self.labels
+            .keep_free([p.0 - radius, p.1 - radius, p.0 + radius, p.1 + radius]);
+    }
+
     /// A text in the upper right corner, on white.
     pub(crate) fn note(&self, text: &str) -> Result<(), PlotError> {
         let at = Self::whole((self.width - f64::from(px(6.0)), f64::from(px(4.0))));

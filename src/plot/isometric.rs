@@ -67,6 +67,9 @@ pub(crate) fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) ->
                 anchored(13.0, anchor.0, anchor.1).color(&INK),
             )?;
         }
+        if ticks < 0 && span < 0.05 * size {
+            continue;
+        }
         let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
         flat.write(
             see(&middle),

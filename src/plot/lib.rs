@@ -11,6 +11,7 @@ mod isometric;
 mod joints;
 mod labels;
 mod marks;
+mod net;
 mod path;
 mod record;
 mod route;

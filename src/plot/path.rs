@@ -164,7 +164,11 @@ impl<'r> Part<'r> {
         let x = range(self.corners().map(|corner| see(&corner).0), least);
         let y = range(self.corners().map(|corner| see(&corner).1), least);
         let (x, y) = equal(x, y, area.dim_in_pixel(), 0.0);
-        let [across, upwards] = [view.across, view.upwards].map(|axis| format!("{} / {}", LETTERS[axis], unit.name()));
+        let [mut across, upwards] =
+            [view.across, view.upwards].map(|axis| format!("{} / {}", LETTERS[axis], unit.name()));
+        if let Some(name) = name {
+            across = format!("{across} (seen {name})");
+        }
         let frame = Frame {
             x,
             y,
@@ -174,9 +178,7 @@ impl<'r> Part<'r> {
             decades: false,
             right: 0.0,
         };
-        let panel = Panel::new(area, &frame)?;
-        self.draw(&panel, see)?;
-        name.map_or(Ok(()), |name| panel.note(name))
+        self.draw(&Panel::new(area, &frame)?, see)
     }
 
     /// The tool axis, rapids, and cuts, as a view sees them.

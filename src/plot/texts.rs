@@ -96,3 +96,12 @@ pub(crate) fn header() -> Header {
         subtitle: "Subtitle".into(),
     }
 }
+
+#[test]
+fn texts_in_one_place_overlap() {
+    let at = |x: f64, text: &str| {
+        format!("<text x=\"{x}\" y=\"100\" text-anchor=\"start\" font-size=\"130\">\n{text}\n</text>")
+    };
+    assert_eq!(overlaps(&(at(0.0, "C15") + &at(100.0, "C30"))).len(), 1);
+    assert_eq!(overlaps(&(at(0.0, "C15") + &at(400.0, "C30"))), []);
+}

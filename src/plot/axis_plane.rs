@@ -148,10 +148,10 @@ fn draw_marks(
         }
         panel.symbols(spots.into_iter(), marked, radius(place), false)?;
     }
-    for (spot, _) in groups.iter() {
+    for (spot, _) in groups.all() {
         panel.keep_free(*spot, widest);
     }
-    for (spot, group) in groups.iter() {
+    for (spot, group) in groups.all() {
         panel.text(*spot, &group.text(), INK, (HPos::Left, VPos::Bottom), widest)?;
     }
     Ok(())

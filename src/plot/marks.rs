@@ -146,7 +146,7 @@ impl Groups {
     }
 
     /// The groups, each with the value at which its first mark stands.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &((f64, f64), Group)> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &((f64, f64), Group)> {
         self.0.iter()
     }
 }
@@ -201,7 +201,7 @@ mod tests {
         ] {
             groups.add(line, (x, 0.0), (x, 0.0), 10.0);
         }
-        let texts: Vec<String> = groups.iter().map(|(_, group)| group.text()).collect();
+        let texts: Vec<String> = groups.all().map(|(_, group)| group.text()).collect();
         assert_eq!(texts, ["lines 7, 9, 11 and 2 more", "line 20"]);
     }
 }

@@ -40,19 +40,19 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
         ));
     }
     let part = Part::of(record, tolerance);
-    sheet(header, &legend, |body| match part.flat() {
-        Some(view) => part.draw_plane(body, view, None),
-        None => {
-            let (width, height) = body.dim_in_pixel();
-            let (left, right) = body.split_horizontally(width as i32 - px(BESIDE));
-            part.draw_space(&left)?;
-            let each = height as i32 / 3;
-            for ((view, name), top) in VIEWS.into_iter().zip([0, each, 2 * each]) {
-                let field = right.clone().shrink((0, top), (px(BESIDE) as u32, each as u32));
-                part.draw_plane(&field, view, Some(name))?;
-            }
-            Ok(())
+    sheet(header, &legend, |body| {
+        if let Some(view) = part.flat() {
+            return part.draw_plane(body, view, None);
         }
+        let (width, height) = body.dim_in_pixel();
+        let (left, right) = body.split_horizontally(width as i32 - px(BESIDE));
+        part.draw_space(&left)?;
+        let each = height as i32 / 3;
+        for ((view, name), top) in VIEWS.into_iter().zip([0, each, 2 * each]) {
+            let field = right.clone().shrink((0, top), (px(BESIDE) as u32, each as u32));
+            part.draw_plane(&field, view, Some(name))?;
+        }
+        Ok(())
     })
 }
 

@@ -2,6 +2,7 @@
 use crate::canvas::Header;
 use crate::record::{Block, Record, Sample};
 use trunnion_geometry::Vec3;
+use trunnion_machine::Joints;
 
 /// A text, and its box on the sheet: left, top, right, bottom, in tenths of a pixel.
 pub(crate) type Placed = (String, [f64; 4]);
@@ -70,7 +71,7 @@ pub(crate) fn record(moves: &[(char, Vec3)], axis: impl Fn(usize) -> Vec3) -> Re
             record.samples.push(Sample {
                 way,
                 time: 0.0,
-                joints: Default::default(),
+                joints: Joints::default(),
                 tip,
                 axis: axis(step),
             });

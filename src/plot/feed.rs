@@ -42,11 +42,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         [0.0, value(top)]
     };
     // the cuts alone: a rapid to a far tool change would leave no room for them
-    if cuts.iter().all(|block| travel(record, block) < 1e-6) {
-        return Err(PlotError(
-            "nothing to draw over the travel of the tip: it rests in every feed block".into(),
-        ));
-    }
+    travels(record, &cuts)?;
     let across = range(
         cuts.iter()
             .flat_map(|block| record.of(block))
@@ -94,10 +90,18 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     })
 }
 
-/// How far the tip travels in a block, mm.
-fn travel(record: &Record, block: &Block) -> f64 {
-    let samples = record.of(block);
-    samples.last().map_or(0.0, |s| s.way) - samples.first().map_or(0.0, |s| s.way)
+/// Refuses cuts in which the tip rests: nothing stands over a travel of nothing.
+fn travels(record: &Record, cuts: &[&Block]) -> Result<(), PlotError> {
+    let travel = |block: &&Block| {
+        let samples = record.of(block);
+        samples.last().map_or(0.0, |s| s.way) - samples.first().map_or(0.0, |s| s.way)
+    };
+    if cuts.iter().any(|block| travel(block) > 1e-6) {
+        return Ok(());
+    }
+    Err(PlotError(
+        "nothing to draw over the travel of the tip: it rests in every feed block".into(),
+    ))
 }
 
 /// Cuts whose programmed feed some axis does not allow, each with what it allows.

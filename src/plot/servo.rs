@@ -34,12 +34,7 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
             "nothing to draw: the loop is unstable from the first sample on".into(),
         ));
     };
-    // half a nanometre: below what a control resolves
-    if worst.exact < 5e-4 {
-        return Err(PlotError(
-            "nothing to draw: the path goes straight on there, and the axes do not leave it".into(),
-        ));
-    }
+    turns(&worst)?;
     // what matters of the path is some times the error about the corner
     let reach = (60.0 * worst.exact / 1000.0)
         .max(4.0 * hypot(worst.position[0], worst.position[1]))
@@ -110,6 +105,17 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
         panel.line(near.iter().map(|s| (s.time * 1e3, error_of(s.exact))), VERMILION, 1.8)?;
         Ok(())
     })
+}
+
+/// Refuses what is no corner, by the spot with the largest error.
+fn turns(worst: &ServoSpot) -> Result<(), PlotError> {
+    // half a nanometre: below what a control resolves
+    if worst.exact >= 5e-4 {
+        return Ok(());
+    }
+    Err(PlotError(
+        "nothing to draw: the path goes straight on there, and the axes do not leave it".into(),
+    ))
 }
 
 /// The axes of the picture: along the leg in, across it, error.

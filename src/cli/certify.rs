@@ -58,17 +58,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             },
         )
     } else {
-        let (tolerance_mm, tolerance_deg) = (command.tolerance_mm, command.tolerance_deg);
-        let claim = match command.claim {
-            ClaimOf::All => Claim::SameToolPath {
-                tolerance_mm,
-                tolerance_deg,
-            },
-            ClaimOf::Path => Claim::SamePath {
-                tolerance_mm,
-                tolerance_deg,
-            },
-        };
+        let claim = claimed(command);
         // two languages: APT against G code; or a folder whose settings name another control
         let other = second.as_ref().map(|other| &other.resolved).filter(|other| {
             let by_settings = other.config_path != loaded.resolved.config_path && other.dialect_certain;
@@ -101,6 +91,21 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         Out::standard().text(&format!("{line}\n"));
     }
     Ok(done)
+}
+
+/// What is to be proved of two programs.
+fn claimed(command: &Certify) -> Claim {
+    let (tolerance_mm, tolerance_deg) = (command.tolerance_mm, command.tolerance_deg);
+    match command.claim {
+        ClaimOf::All => Claim::SameToolPath {
+            tolerance_mm,
+            tolerance_deg,
+        },
+        ClaimOf::Path => Claim::SamePath {
+            tolerance_mm,
+            tolerance_deg,
+        },
+    }
 }
 
 /// Checks the certificate of a conversion again.

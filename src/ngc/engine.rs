@@ -142,10 +142,13 @@ impl Engine {
     /// positions, G92, coordinate systems), and global names (LinuxCNC user manual, G-code overview, parameters).
     pub fn outliving(&self) -> Vec<(String, f64)> {
         let numbers = (31..=5000).chain(5161..=5390);
-        let known = numbers.map(|index| (format!("#{index}"), self.store.number(index)));
+        let held = numbers.map(|index| (index, self.store.number(index)));
+        // few of the thousands are known: only those get a name
+        let known = held.filter(|(_, value)| !value.is_nan());
+        let named = self.store.globals().filter(|(_, value)| !value.is_nan());
         known
-            .chain(self.store.globals())
-            .filter(|(_, value)| !value.is_nan())
+            .map(|(index, value)| (format!("#{index}"), value))
+            .chain(named)
             .collect()
     }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.

@@ -104,6 +104,8 @@ pub struct State {
     pub tool_offset: Pose,
     /// Its tool: H of G43, 0 for the tool in the spindle; -1: not that of one tool (G43.1, G43.2); `None`: G49.
     pub length_of: Option<i32>,
+    /// H of G43.2, whose offset was added last.
+    pub length_added: Option<i32>,
     /// G98 / G99.
     pub retract: RetractMode,
     /// Modal words of canned cycles.
@@ -302,6 +304,7 @@ impl State {
             rotation_xy: 0.0,
             tool_offset: [0.0; 9],
             length_of: None,
+            length_added: None,
             retract: RetractMode::RPlane,
             cycle: CycleWords::default(),
             side: Side::Off,

@@ -199,6 +199,7 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         430 => Some(h.unwrap_or(0)),
         _ => Some(-1),
     };
+    engine.state.length_added = h.filter(|_| code == 432);
     let offset = match code {
         490 => [0.0; 9],
         430 => {

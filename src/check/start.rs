@@ -2,6 +2,8 @@
 //!
 //! The state is that of the machine file (`[control] power_on`), else the dialect's. Whatever the program uses before it programs it is
 //! listed among the assumptions.
+mod reads;
+
 use crate::Settings;
 use crate::view::MotionView;
 use trunnion_dialect::{Action, Dialect, Plane};
@@ -95,7 +97,13 @@ impl Start {
             let declared = units || declared_at_power_on(dialect, &self.declared, group);
             out[usize::from(declared)].push(code.id.clone());
         };
-        let uses = Uses::of(program, dialect, self);
+        let mut uses = Uses::of(program, dialect, self);
+        let [motion, plane, distance, feed, unit] = reads::reads_first(program, dialect);
+        uses.motion |= motion;
+        uses.plane |= plane;
+        uses.distance |= distance;
+        uses.feed |= feed;
+        uses.unit |= unit;
         if let (true, Some(motion)) = (uses.motion, state.motion) {
             rely(&MOTIONS, motion);
         }

@@ -125,7 +125,7 @@ fn numbered(index: i64) -> &'static str {
         5161..=5189 => "a position of the machine (G28, G30)",
         5210..=5390 => "an offset set on the machine",
         5399 => "the result of M66",
-        5400..=5413 => "data of the tool in the spindle",
+        5400..=5413 => "data of the tool that is in the spindle",
         5420..=5428 => "the position of the machine",
         1..=5000 => "which keeps its value between programs and is not set here",
         _ => COMPUTED,
@@ -141,6 +141,8 @@ fn named(name: &str) -> &'static str {
     } else if matches!(name, "_x" | "_y" | "_z" | "_a" | "_b" | "_c" | "_u" | "_v" | "_w") || name.starts_with("_abs_")
     {
         "the position of the machine"
+    } else if crate::parameters::is_system_name(name) {
+        "which the program has not set before"
     } else {
         COMPUTED
     }

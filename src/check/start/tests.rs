@@ -180,3 +180,29 @@ fn what_a_program_asks_of_the_start_is_assumed() {
         );
     }
 }
+
+/// A subprogram alone: whether its words are absolute, and what moves, its caller says.
+#[test]
+fn a_subprogram_relies_on_its_caller() {
+    for (dialect, text, wanted) in [
+        ("sinumerik-840d", "X300 Y0 F100\nX400\nM17\n", Some("G1 G90")),
+        ("fanuc-30i", "O1000\nG1 X300. F100.\nM99\n", Some("G90")),
+        ("fanuc-30i", "O1000\nG90 G1 X300. F100.\nM99\n", None),
+        ("fanuc-30i", "O1000\nG1 X300. F100.\nM30\n", None),
+    ] {
+        let found = |usual| {
+            let report = report(dialect, text, &[], usual);
+            let own = report
+                .diagnostics
+                .into_iter()
+                .find(|found| found.rule == "position-unknown");
+            own.map(|found| (found.status, found.message))
+        };
+        let message = wanted.map(|codes| {
+            let message = format!("this subprogram does not say {codes}: its caller does");
+            (crate::Status::Unknown, message)
+        });
+        assert_eq!(found(false), message, "{text}");
+        assert_eq!(found(true), None, "{text}");
+    }
+}

@@ -1,8 +1,13 @@
 //! Two machines that should be one: the calibration sweep finds a pivot that is 0.05 mm off, in numbers.
 use crate::kinematics::uncertainty::worst_pivot_error;
-use crate::{Comparison, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity_between};
+use crate::{Comparison, Effort, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity_between};
 use trunnion_geometry::math::sin;
 use trunnion_geometry::{Vec3, rad};
+
+/// More effort than these tests need.
+fn plenty() -> Effort {
+    Effort::new(u64::from(u32::MAX))
+}
 
 /// A shipped machine with one line of one axis replaced.
 fn planted(name: &str, letter: char, from: &str, to: &str) -> Machine {
@@ -90,20 +95,20 @@ fn along_a_block_the_bound_closes_on_the_truth() {
     let wanted = 0.1 * sin(rad(45.0));
     for tcp in [false, true] {
         let leg = turn_of_a(believed, tcp, 0.0, 90.0);
-        let found = comparison.along(&leg, 0.01).expect("known");
+        let found = comparison.along(&leg, 0.01, &mut plenty()).expect("known");
         assert!((found.worst.tip_mm - wanted).abs() < 1e-9, "{found:?}");
         assert!(found.bound_mm >= wanted && found.bound_mm <= 1.2 * wanted, "{found:?}");
         // a tolerance above the truth is proven to be kept
-        let kept = comparison.along(&leg, wanted * 1.01).expect("known");
+        let kept = comparison.along(&leg, wanted * 1.01, &mut plenty()).expect("known");
         assert!(kept.bound_mm <= wanted * 1.01 && kept.bound_mm >= wanted, "{kept:?}");
         // the worst is inside the block: A -80 to 80 passes through zero, its ends are the worst; 60 to 300 has it at 180
         let across = turn_of_a(believed, tcp, -60.0, 60.0);
-        let found = comparison.along(&across, 1e-3).expect("known");
+        let found = comparison.along(&across, 1e-3, &mut plenty()).expect("known");
         assert!((found.worst.tip_mm - 0.05).abs() < 1e-9, "{found:?}");
     }
     assert_eq!(
         comparison
-            .along(&turn_of_a(believed, true, 90.0, 90.0), 1e-3)
+            .along(&turn_of_a(believed, true, 90.0, 90.0), 1e-3, &mut plenty())
             .map(|f| f.worst.tip_mm > 0.07),
         Some(true)
     );
@@ -127,7 +132,7 @@ fn both_paths_bend() {
     follower.follow(&line(false, trunnion_interp::Position::default(), at(0.0)));
     let leg = follower.follow(&line(false, at(0.0), at(180.0)));
     let radius = 125_f64.sqrt();
-    let found = comparison.along(&leg, 1.5 * radius).expect("known");
+    let found = comparison.along(&leg, 1.5 * radius, &mut plenty()).expect("known");
     assert!((found.worst.tip_mm - 2.0 * radius).abs() < 1e-9, "{found:?}");
     assert!(
         found.bound_mm >= 2.0 * radius * (1.0 - 1e-12) && found.bound_mm <= 2.4 * radius,
@@ -222,7 +227,7 @@ fn along_and_sampled(
     let mut follower = crate::Follower::new(machine);
     follower.follow(&line(false, trunnion_interp::Position::default(), from));
     let leg = follower.follow(&line(false, from, to));
-    let along = comparison.along(&leg, 1e-3).expect("known");
+    let along = comparison.along(&leg, 1e-3, &mut plenty()).expect("known");
     let (start, end) = (leg.start.as_ref().expect("known"), leg.end.as_ref().expect("known"));
     let sampled = (0..=400).map(|step| {
         let mut joints = start.joints;
@@ -355,4 +360,51 @@ fn the_uncertainty_bounds_what_planted_errors_do() {
         )
         .is_empty()
     );
+}
+
+/// A billion turns of C on a machine whose C is 0.05 mm off: twice the error is proven without halving, whatever happens between the ends.
+/// Where C's direction is off the bound for whole blocks is loose. What such blocks take is counted for the run, and a block that turns
+/// a little is proven after a thousand of them.
+#[test]
+fn endless_turns_leave_effort_for_the_other_blocks() {
+    let believed = builtin("mikron-ucp710").expect("shipped");
+    let turn_of_c = |to: f64| {
+        let at = |c: f64| {
+            let mut position = trunnion_interp::Position::default();
+            for (axis, value) in [(0, 10.0), (1, 5.0), (2, 30.0), (3, 20.0), (5, c)] {
+                position.set(axis, value);
+            }
+            position
+        };
+        let mut follower = crate::Follower::new(believed);
+        follower.follow(&line(true, trunnion_interp::Position::default(), at(0.0)));
+        follower.follow(&line(true, at(0.0), at(to)))
+    };
+    let (many, few) = (turn_of_c(4.321e11), turn_of_c(10.0));
+    let moved = planted("mikron-ucp710", 'C', "point = [0, 0, 0]", "point = [0.03, 0.04, 0]");
+    let comparison = Comparison::new(believed, &moved).expect("the same axes");
+    let mut effort = Effort::new(1000);
+    let found = comparison.along(&many, 0.1001, &mut effort).expect("known");
+    assert!(found.bound_mm <= 0.1001 && !found.cut_short, "{found:?}");
+    // the ends, and what the block itself added
+    assert_eq!(effort.left(), 1000 + 8 - 2);
+
+    let tilted = planted("mikron-ucp710", 'C', "dir = [0, 0, 1]", "dir = [0.0001, 0, 1]");
+    let comparison = Comparison::new(believed, &tilted).expect("the same axes");
+    let (pieces, motions) = (100_000, 1000);
+    let mut effort = Effort::new(pieces);
+    let tolerance = 0.02;
+    let whole = comparison.along(&many, tolerance, &mut effort).expect("known");
+    assert!(
+        whole.worst.tip_mm < tolerance && whole.bound_mm > tolerance && whole.cut_short,
+        "{whole:?}"
+    );
+    for _ in 1..motions {
+        let before = effort.left();
+        assert!(comparison.along(&many, tolerance, &mut effort).expect("known").cut_short);
+        let taken = before + 8 - effort.left();
+        assert!(taken <= (before + 8) / 200 + 8, "{taken} of {before}");
+    }
+    let found = comparison.along(&few, tolerance, &mut effort).expect("known");
+    assert!(found.bound_mm <= tolerance && !found.cut_short, "{found:?}");
 }

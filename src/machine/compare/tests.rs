@@ -401,7 +401,12 @@ fn endless_turns_leave_effort_for_the_other_blocks() {
     );
     for _ in 1..motions {
         let before = effort.left();
-        assert!(comparison.along(&many, tolerance, &mut effort).expect("known").cut_short);
+        assert!(
+            comparison
+                .along(&many, tolerance, &mut effort)
+                .expect("known")
+                .cut_short
+        );
         let taken = before + 8 - effort.left();
         assert!(taken <= (before + 8) / 200 + 8, "{taken} of {before}");
     }

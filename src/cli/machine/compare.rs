@@ -17,7 +17,7 @@ use trunnion_workspace::find_machine;
 /// Steps of a sweep.
 const STEPS: usize = 720;
 /// Pieces of blocks that a run may bound, for each of its `steps`.
-const PIECES: u64 = 4;
+const PIECES: u64 = 2;
 /// Random poses.
 const POSES: usize = 10_000;
 

@@ -31,7 +31,7 @@ pub struct Effort {
 
 impl Effort {
     /// Pieces that each motion adds.
-    const EACH: u64 = 8;
+    const EACH: u64 = 4;
     /// A block takes no more than this part of what is left.
     const PART: u64 = 200;
 

@@ -387,7 +387,7 @@ fn endless_turns_leave_effort_for_the_other_blocks() {
     let found = comparison.along(&many, 0.1001, &mut effort).expect("known");
     assert!(found.bound_mm <= 0.1001 && !found.cut_short, "{found:?}");
     // the ends, and what the block itself added
-    assert_eq!(effort.left(), 1000 + 8 - 2);
+    assert_eq!(effort.left(), 1000 + 4 - 2);
 
     let tilted = planted("mikron-ucp710", 'C', "dir = [0, 0, 1]", "dir = [0.0001, 0, 1]");
     let comparison = Comparison::new(believed, &tilted).expect("the same axes");
@@ -407,8 +407,8 @@ fn endless_turns_leave_effort_for_the_other_blocks() {
                 .expect("known")
                 .cut_short
         );
-        let taken = before + 8 - effort.left();
-        assert!(taken <= (before + 8) / 200 + 8, "{taken} of {before}");
+        let taken = before + 4 - effort.left();
+        assert!(taken <= (before + 4) / 200 + 4, "{taken} of {before}");
     }
     let found = comparison.along(&few, tolerance, &mut effort).expect("known");
     assert!(found.bound_mm <= tolerance && !found.cut_short, "{found:?}");

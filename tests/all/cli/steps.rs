@@ -147,9 +147,11 @@ fn a_block_of_many_motions_is_compared_and_converted_up_to_the_bound() {
 #[test]
 fn a_comparison_of_machines_does_not_follow_endless_turns() {
     let folder = folder();
-    let turns: String = (1..40).map(|i| format!("G1 X{i}. C{i}E11 F500.\n")).collect();
-    let program =
-        format!("G21 G90 G17 G94 G54\nT1 M6\nG43 H1\nG0 X0. Y0. Z50. A0. C0.\n{turns}M30\n").replace("E11", "0000000.");
+    let turns: Vec<String> = (1..40).map(|i| format!("G1 X{i}. C{i}0000000. F500.\n")).collect();
+    let program = format!(
+        "G21 G90 G17 G94 G54\nT1 M6\nG43 H1\nG0 X0. Y0. Z50. A0. C0.\n{}M30\n",
+        turns.concat()
+    );
     write(&folder, "turns.nc", &program);
     let source = trunnion::machine::builtin_source("mikron-ucp710").expect("embedded");
     let axes = source.split("[[check]]").next().expect("a part");

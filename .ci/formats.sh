@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # What other tools make of the formats of `check`, on all samples: SARIF in the SARIF multitool (which holds the official schema) and in the viewer component
-# of Azure DevOps in headless Chromium, JUnit in junitparser. Needs a built `trunnion` (TRUNNION_BIN, default target/debug/trunnion), Node 20, Python 3 with venv,
+# of Azure DevOps in headless Chromium, JUnit against its schema and in junitparser. Needs a built `trunnion` (TRUNNION_BIN, default target/debug/trunnion), Node 20, Python 3 with venv,
 # Chromium, and the registries of npm and Python.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+root=$PWD
 binary=$(realpath "${TRUNNION_BIN:-target/debug/trunnion}")
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/trunnion-formats.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
@@ -42,8 +43,8 @@ shown=$(grep -o 'trunnion<div class="bolt-pill[^>]*>.\{0,80\}role="presentation"
 echo "formats: the SARIF viewer shows all $findings results"
 
 python3 -m venv venv
-venv/bin/pip --quiet --disable-pip-version-check install 'junitparser>=4,<6'
-venv/bin/python - samples.junit <<'PYTHON'
+venv/bin/pip --quiet --disable-pip-version-check install 'junitparser>=4,<6' 'xmlschema>=4,<5'
+venv/bin/python - samples.junit "$root/tests/schemas/junit.xsd" <<'PYTHON'
 import sys
 from junitparser import Failure, JUnitXml, Skipped
 xml = JUnitXml.fromfile(sys.argv[1])
@@ -53,5 +54,8 @@ counted = (len(cases), sum(any(isinstance(r, Failure) for r in c.result) for c i
 xml.update_statistics()
 again = (xml.tests, xml.failures, xml.skipped, xml.errors)
 assert written == again and counted == again[:3] and again[1] > 0 and again[2] > 0, (written, counted, again)
+import xmlschema
+xmlschema.XMLSchema(sys.argv[2]).validate(sys.argv[1])
+print("formats: the JUnit report obeys tests/schemas/junit.xsd")
 print(f"formats: junitparser reads {again[0]} cases, {again[1]} failures, {again[2]} skipped")
 PYTHON

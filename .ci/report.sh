@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The page of `report` on all samples in headless Chromium: no error of a script, no window that moves sideways (a phone of 390 pixels, a desk), a replay that
-# draws, plays and turns, and a PDF. Needs a built `trunnion` (TRUNNION_BIN, default target/debug/trunnion) and Chromium (CHROMIUM names another browser).
+# draws, plays and turns, texts that are legible in light and in dark (.ci/report.mjs, with Node), and a PDF. Needs a built `trunnion` (TRUNNION_BIN, default target/debug/trunnion) and Chromium (CHROMIUM names another browser).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 binary=$(realpath "${TRUNNION_BIN:-target/debug/trunnion}")
@@ -69,6 +69,12 @@ case $said in
 "all well"*) echo "report: $said" ;;
 *) echo "report: ${said:-the page says nothing}"; exit 1 ;;
 esac
+
+if command -v node >/dev/null; then
+  CHROMIUM=$browser node .ci/report.mjs "$scratch/page.html"
+else
+  echo "report: light and dark are NOT TESTED: Node is not installed"
+fi
 
 run --no-pdf-header-footer --print-to-pdf="$scratch/page.pdf" "file://$scratch/page.html" || true
 [ "$(head -c 5 "$scratch/page.pdf")" = "%PDF-" ] || { echo "report: no PDF"; exit 1; }

@@ -47,7 +47,8 @@ def macro():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[0].lower().endswith("freecad"):
+    # inside FreeCAD the arguments are its own, for example the document that it was started with
+    if len(sys.argv) > 1 and "FreeCAD" not in sys.modules:
         result = check(sys.argv[1], *sys.argv[2:])
         show(*result)
         sys.exit(result[0])

@@ -74,7 +74,13 @@ export class Browser {
         }
         throw new Error(`no ${pattern} in: ${text.slice(0, 2000)}`);
       },
-      dark: () => send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: "dark" }] }),
+      /** Waits until the page and its scripts are loaded. */
+      loaded: () => value("new Promise((done) => { if (document.readyState === 'complete') done(); else addEventListener('load', () => done()); })"),
+      /** What the reader prefers, "light" or "dark"; the page has followed. */
+      async scheme(wanted) {
+        await send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: wanted }] });
+        await value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))");
+      },
       picture: async () => Buffer.from((await send("Page.captureScreenshot", { format: "png" })).data, "base64"),
     };
   }

@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { Browser } from "./browser.mjs";
+import { legibleInBoth } from "./legible.mjs";
 import { cases } from "./samples.mjs";
 
 const here = fileURLToPath(new URL("..", import.meta.url));
@@ -48,8 +49,18 @@ await step("the playground, opened as a file, checks, follows the editor and exp
   const chosen = await page.value(`(() => { const p = document.getElementById("program"); return p.value.slice(p.selectionStart, p.selectionEnd); })()`);
   if (!chosen.startsWith("N2930 ")) throw new Error(`the finding leads to ${chosen}`);
   keep("playground-five-axis.png", await page.picture());
-  await page.dark();
+  await page.scheme("dark");
   keep("playground-dark.png", await page.picture());
+});
+
+await step("the playground in light and in dark", async () => {
+  const page = await browser.page(playground);
+  await page.shows(/FAIL first/);
+  for (const [example, verdict] of [["0", /FAIL first/], ["1", /FAIL vane/]]) {
+    await page.value(`{ const e = document.getElementById("example"); e.value = "${example}"; e.dispatchEvent(new Event("change")); }`);
+    await page.shows(verdict);
+    await legibleInBoth(page);
+  }
 });
 
 await step("a program that calls another one in an added file", async () => {

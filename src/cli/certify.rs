@@ -25,7 +25,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         let text = trunnion_files::read_text(file)?;
         if ConversionCertificate::is_one(&text) {
             let certificate = ConversionCertificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
-            return conversion(command, &certificate, &loaded, &after);
+            return conversion(global, command, &certificate, &loaded, &after);
         }
     }
     let machine = loaded.machine_or_fail("certify")?;
@@ -47,7 +47,9 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     } else if let Some(file) = &command.certificate {
         let text = trunnion_files::read_text(file)?;
         let chain = Chain::from_json(&text).map_err(|e| Failure::file(file, e))?;
-        let outcome = checked_again(&chain, [before, &after], (&loaded, setup), machine);
+        let outcome = waiting::during(global, "proving", &command.after, || {
+            checked_again(&chain, [before, &after], (&loaded, setup), machine)
+        });
         outcome.map_or_else(
             |outcome| outcome,
             |(earlier, last)| {
@@ -89,7 +91,9 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             after: None,
             what: what.to_owned(),
         });
-        Some(diff::shared(&loaded, second, tolerances, verdict))
+        Some(waiting::during(global, "comparing with", &command.after, || {
+            diff::shared(&loaded, second, tolerances, verdict)
+        }))
     };
     let assuming = load::assuming(&programs);
     let done = say(command, &steps, outcome, shared);
@@ -101,6 +105,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
 
 /// Checks the certificate of a conversion again.
 fn conversion(
+    global: &Global,
     command: &Certify,
     certificate: &ConversionCertificate,
     loaded: &load::Loaded,
@@ -122,11 +127,13 @@ fn conversion(
     // CL data are for no machine
     let target = found.as_ref().map(|found| &found.machine).or(machine);
     let target = target.filter(|_| certificate.after.machine.is_some());
-    let outcome = certificate.recheck(&Conversion {
-        texts: [loaded.program.source(), after],
-        dialects: [loaded.resolved.dialect, dialect],
-        machines: [machine, target],
-        setup: &loaded.resolved.setup,
+    let outcome = waiting::during(global, "proving", &command.after, || {
+        certificate.recheck(&Conversion {
+            texts: [loaded.program.source(), after],
+            dialects: [loaded.resolved.dialect, dialect],
+            machines: [machine, target],
+            setup: &loaded.resolved.setup,
+        })
     });
     let mut out = Out::standard();
     match outcome {

@@ -7,6 +7,7 @@ use super::{
     args::{Fix, Global, ListFormat},
     failure::{Failure, remark, shown},
     load::{self, Loaded},
+    waiting,
 };
 use crate::cli::out::Out;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -96,7 +97,9 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     let mut outcome = apply_all(global, command, &loaded, &chosen, &options);
     if retarget::wanted(command) {
         let target = command.target.choose(&loaded)?;
-        let step = retarget::apply(command, &loaded, &target, &outcome.after)?;
+        let step = waiting::during(global, "retargeting", &command.file, || {
+            retarget::apply(command, &loaded, &target, &outcome.after)
+        })?;
         if let Some(retargeted) = &step.retargeted {
             outcome.after = retargeted.text.clone().into_bytes();
             retargeted.summary.iter().for_each(|line| remark(global.quiet, line));

@@ -7,6 +7,7 @@ use super::{
     args::{Global, ListFormat, Parse},
     failure::Failure,
     load::{self, Loaded},
+    waiting,
 };
 use crate::cli::out::Out;
 use serde_json::json;
@@ -16,12 +17,14 @@ use std::io::Write;
 pub(super) fn run(global: &Global, command: &Parse) -> Result<Done, Failure> {
     let loaded = load::load_any(global, &command.file)?;
     let mut out = Out::standard();
-    match (command.tokens, command.format) {
-        (true, ListFormat::Text) => tokens_text(&mut out, &loaded)?,
-        (true, ListFormat::Json) => tokens_json(&mut out, &loaded)?,
-        (false, ListFormat::Text) => tree::text(&mut out, &loaded)?,
-        (false, ListFormat::Json) => tree::json(&mut out, &loaded)?,
-    }
+    waiting::beside_output(global, "parsing", &command.file, || {
+        match (command.tokens, command.format) {
+            (true, ListFormat::Text) => tokens_text(&mut out, &loaded),
+            (true, ListFormat::Json) => tokens_json(&mut out, &loaded),
+            (false, ListFormat::Text) => tree::text(&mut out, &loaded),
+            (false, ListFormat::Json) => tree::json(&mut out, &loaded),
+        }
+    })?;
     out.flush()?;
     Ok(if loaded.program.errors().is_empty() {
         Done::Clean

@@ -99,7 +99,9 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         .map(|path| outputs.output("-o", path))
         .transpose()?;
     if command.kind == Kind::Servo {
-        let text = draw_servo(command, &loaded, machine)?;
+        let text = waiting::during(global, "drawing", &command.file, || {
+            draw_servo(command, &loaded, machine)
+        })?;
         load::put(output.as_ref(), text.as_bytes())?;
         return Ok(Done::Clean);
     }

@@ -10,6 +10,7 @@ use super::{
     failure::Failure,
     json::write_json,
     load::{self, Loaded},
+    waiting,
 };
 use crate::cli::out::Out;
 use std::{io::Write, path::PathBuf};
@@ -92,7 +93,9 @@ pub(super) fn run(global: &Global, command: &Servo) -> Result<Done, Failure> {
     }
     let loaded = load::load_for_steps(global, &command.file)?;
     let machine = loaded.machine_or_fail("servo")?;
-    let cornered = corner(&loaded, machine, command.at, &command.options)?;
+    let cornered = waiting::during(global, "following", &command.file, || {
+        corner(&loaded, machine, command.at, &command.options)
+    })?;
     let keeps = command
         .tolerance_mm
         .map(|tolerance| keeps(&cornered, tolerance))

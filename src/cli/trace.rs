@@ -4,6 +4,7 @@ use super::{
     args::{Global, Trace, TraceFormat},
     failure::{Failure, remark},
     load::{self, Loaded},
+    waiting,
 };
 use serde_json::{Map, Value, json};
 use std::collections::VecDeque;
@@ -55,13 +56,15 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         faults: 0,
         given_up: None,
     };
-    time(
-        &loaded.program,
-        loaded.resolved.dialect,
-        &loaded.resolved.setup,
-        machine,
-        &mut tracer,
-    );
+    waiting::beside_output(global, "tracing", &command.file, || {
+        time(
+            &loaded.program,
+            loaded.resolved.dialect,
+            &loaded.resolved.setup,
+            machine,
+            &mut tracer,
+        );
+    });
     if let Some(failure) = tracer.error {
         return Err(failure);
     }

@@ -16,6 +16,14 @@ pub(super) fn during<T>(global: &Global, doing: &str, file: &Path, work: impl Fn
     with_line(PATIENCE, || line(message), work)
 }
 
+/// The same for work that writes to standard output meanwhile: where both are a terminal, the output itself shows that it goes on.
+pub(super) fn beside_output<T>(global: &Global, doing: &str, file: &Path, work: impl FnOnce() -> T) -> T {
+    if std::io::stdout().is_terminal() {
+        return work();
+    }
+    during(global, doing, file, work)
+}
+
 fn line(message: String) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {

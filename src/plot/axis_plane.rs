@@ -3,9 +3,10 @@
 //! Where the lines of equal turn crowd together, a small change of the tool axis turns that rotary axis far (paper on five-axis
 //! high-speed milling of hydraulic blades, 2006, figure 11).
 use crate::canvas::{BLUE, GREEN, PALE};
-use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, sheet};
+use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, px, sheet};
 use crate::grid::{Frame, Panel, equal};
-use crate::joints::{entries, rules};
+use crate::marks::{Groups, Rules};
+use crate::net::{Net, beside_rim};
 use crate::record::{Mark, Record};
 use crate::scale::range;
 use core::f64::consts::TAU;
@@ -35,7 +36,7 @@ pub fn axis_plane(
             "nothing to draw: the tool axis is unknown in every motion".into(),
         ));
     }
-    let rules = rules(marks);
+    let rules = Rules::of(marks);
     let letter = |slot: usize| char::from(machine.axes[machine.rotary[slot]].letter);
     let mut legend: Vec<Entry> = vec![
         (
@@ -49,7 +50,7 @@ pub fn axis_plane(
     if after.is_some() {
         legend.insert(1, (Swatch::Line(GREEN), "after".to_owned()));
     }
-    legend.extend(entries(&rules));
+    legend.extend(rules.entries());
     sheet(header, &legend, |body| {
         let records = core::iter::once(record).chain(after);
         let seen: Vec<(f64, f64)> = records
@@ -84,12 +85,15 @@ pub fn axis_plane(
                 right: 0.0,
             },
         )?;
-        plane.draw_lines(&panel, x, y)?;
+        let net = Net::new(x, y);
+        plane.draw_lines(&panel, &net)?;
         draw_curve(&panel, &plane, record, BLUE)?;
         if let Some(after) = after {
             draw_curve(&panel, &plane, after, GREEN)?;
         }
-        draw_marks(&panel, &plane, record, marks, &rules)
+        // nothing is drawn over the labels
+        draw_marks(&panel, &plane, record, marks, &rules)?;
+        plane.label(&panel, &net, widest(&rules))
     })
 }
 
@@ -110,30 +114,45 @@ fn draw_curve(panel: &Panel<'_>, plane: &Plane<'_>, record: &Record, colour: RGB
     Ok(())
 }
 
+/// The radius of the symbols of a rule, pixels: those of several rules in one place stand about each other.
+fn radius(place: usize) -> f64 {
+    6.0 + 2.5 * place as f64
+}
+
+/// The radius of the largest symbol.
+fn widest(rules: &Rules) -> f64 {
+    radius(rules.drawn.len().saturating_sub(1))
+}
+
 fn draw_marks(
     panel: &Panel<'_>,
     plane: &Plane<'_>,
     record: &Record,
     marks: &[Mark],
-    rules: &[(String, RGBColor, usize)],
+    rules: &Rules,
 ) -> Result<(), PlotError> {
-    let mut written: Vec<u32> = Vec::new();
+    let widest = widest(rules);
     let lines = record.by_line();
-    for (place, (rule, colour, _)) in rules.iter().enumerate() {
-        for mark in marks.iter().filter(|mark| mark.rule == *rule) {
+    let mut groups = Groups::default();
+    for (place, marked) in rules.drawn.iter().enumerate() {
+        let mut spots = Vec::new();
+        for mark in marks.iter().filter(|mark| mark.rule == marked.rule) {
             for block in lines.get(&mark.line).into_iter().flatten() {
                 let Some(end) = record.of(block).last() else { continue };
-                let (x, y) = plane.see(&end.axis);
-                let radius = 6.0 + 2.5 * place as f64;
-                panel.ring(x, y, *colour, radius)?;
-                if written.len() < 24 && !written.contains(&mark.line) {
-                    written.push(mark.line);
-                    let text = format!("line {}", mark.line);
-                    let widest = 6.0 + 2.5 * (rules.len() - 1) as f64;
-                    panel.text((x, y), &text, INK, (HPos::Left, VPos::Bottom), widest)?;
+                let spot = plane.see(&end.axis);
+                if panel.shows(spot) {
+                    groups.add(mark.line, spot, panel.at(spot.0, spot.1), 1.2 * f64::from(px(widest)));
+                    spots.push(spot);
                 }
             }
         }
+        panel.symbols(spots.into_iter(), marked, radius(place), false)?;
+    }
+    for (spot, _) in groups.all() {
+        panel.keep_free(*spot, widest);
+    }
+    for (spot, group) in groups.all() {
+        panel.text(*spot, &group.text(), INK, (HPos::Left, VPos::Bottom), widest)?;
     }
     Ok(())
 }
@@ -202,49 +221,37 @@ impl<'m> Plane<'m> {
         self.see(&tool_axis_at(self.machine, [turn, self.at_pole + tilt]))
     }
 
-    /// The pole cone, circles of equal tilt, rays of equal turn, with their values.
-    fn draw_lines(&self, panel: &Panel<'_>, x: [f64; 2], y: [f64; 2]) -> Result<(), PlotError> {
-        let corners = [(x[0], y[0]), (x[0], y[1]), (x[1], y[0]), (x[1], y[1])];
-        let farthest = corners.iter().map(|(a, b)| (a * a + b * b).sqrt()).fold(0.0, f64::max);
-        let widest = trunnion_geometry::math::asin(farthest.min(1.0));
-        let near = x[0] < 0.0 && x[1] > 0.0 && y[0] < 0.0 && y[1] > 0.0;
-        if near {
+    /// The pole cone, circles of equal tilt, rays of equal turn.
+    fn draw_lines(&self, panel: &Panel<'_>, net: &Net) -> Result<(), PlotError> {
+        if net.near {
             panel.fill(
                 (0..=72).map(|i| self.joints(TAU * f64::from(i) / 72.0, rad(self.cone))),
                 PALE,
                 0.8,
             )?;
         }
-        let step = nice(deg(widest) / 7.0);
-        let circles = (deg(widest) / step).floor().min(60.0) as u32;
-        for circle in 1..=circles {
-            let tilt = rad(step * f64::from(circle));
+        for circle in 1..=net.circles {
+            let tilt = rad(net.step * f64::from(circle));
             let round = (0..=180).map(|i| self.joints(TAU * f64::from(i) / 180.0, tilt));
             panel.dashed(round, RGBColor(190, 190, 190), 1.0)?;
         }
-        let turn_step = 15;
-        for ray in (0..360).step_by(turn_step) {
+        for ray in (0..360).step_by(15) {
             let turn = rad(f64::from(ray));
-            let points = (0..=24).map(|i| self.joints(turn, widest * f64::from(i) / 24.0));
+            let points = (0..=24).map(|i| self.joints(turn, net.widest * f64::from(i) / 24.0));
             panel.line(points, RAY, if ray % 45 == 0 { 1.4 } else { 0.8 })?;
         }
-        self.label(panel, x, y, widest, step, circles)?;
-        if near {
+        if net.near {
             panel.dots(core::iter::once((0.0, 0.0)), VERMILION, 3.5)?;
-            panel.text((0.0, 0.0), "pole", VERMILION, (HPos::Right, VPos::Top), 4.0)?;
         }
         Ok(())
     }
 
-    fn label(
-        &self,
-        panel: &Panel<'_>,
-        x: [f64; 2],
-        y: [f64; 2],
-        widest: f64,
-        step: f64,
-        circles: u32,
-    ) -> Result<(), PlotError> {
+    /// The values of rays and circles, and the name of the pole, at which there may be symbols of this radius.
+    fn label(&self, panel: &Panel<'_>, net: &Net, symbol: f64) -> Result<(), PlotError> {
+        if net.near {
+            panel.text((0.0, 0.0), "pole", VERMILION, (HPos::Right, VPos::Top), symbol)?;
+        }
+        let Net { x, y, .. } = *net;
         let (dx, dy) = (0.045 * (x[1] - x[0]), 0.035 * (y[1] - y[0]));
         let inside = |p: (f64, f64)| p.0 > x[0] + dx && p.0 < x[1] - dx && p.1 > y[0] + dy && p.1 < y[1] - dy;
         let mut labelled: Vec<(f64, f64)> = Vec::new();
@@ -254,7 +261,7 @@ impl<'m> Plane<'m> {
             .chain((0..360).step_by(15).filter(|ray| ray % 90 != 0))
         {
             let shown = if ray > 180 { ray - 360 } else { ray };
-            let mut place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), widest * f64::from(i) / 200.0));
+            let mut place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), net.widest * f64::from(i) / 200.0));
             let Some(last) = place.rfind(|p| inside(*p)) else {
                 continue;
             };
@@ -264,18 +271,20 @@ impl<'m> Plane<'m> {
             }
             labelled.push(last);
             let text = format!("{}{shown}\u{b0}", self.letter(0)).replace('-', "\u{2212}");
-            panel.text(last, &text, RGBColor(50, 105, 155), (HPos::Center, VPos::Center), 0.0)?;
+            let (place, side) = beside_rim(last);
+            panel.text(place, &text, RGBColor(50, 105, 155), (side, VPos::Center), 0.0)?;
         }
         // the values of the circles on the ray with the most room, away from the rays' labels
         let room = |ray: i32| {
-            let tilts = (1..=circles).filter(|c| inside(self.joints(rad(f64::from(ray)), rad(step * f64::from(*c)))));
+            let tilts =
+                (1..=net.circles).filter(|c| inside(self.joints(rad(f64::from(ray)), rad(net.step * f64::from(*c)))));
             tilts.count()
         };
         let Some(best) = (0..24).map(|i| i * 15 + 7).max_by_key(|ray| room(*ray)) else {
             return Ok(());
         };
-        for circle in 1..=circles {
-            let tilt = step * f64::from(circle);
+        for circle in 1..=net.circles {
+            let tilt = net.step * f64::from(circle);
             let place = self.joints(rad(f64::from(best)), rad(tilt));
             if inside(place) {
                 let value = trim(deg(self.at_pole) + tilt);
@@ -292,12 +301,6 @@ impl<'m> Plane<'m> {
     }
 }
 
-/// A round number near a value.
-fn nice(value: f64) -> f64 {
-    const NICE: [f64; 13] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0];
-    NICE.into_iter().find(|nice| *nice >= value).unwrap_or(30.0)
-}
-
 /// A number of degrees without needless zeros.
 fn trim(value: f64) -> String {
     let text = format!("{value:.2}");
@@ -309,6 +312,7 @@ fn trim(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texts::{header, overlaps, record};
     use trunnion_machine::builtin;
 
     #[test]
@@ -321,6 +325,50 @@ mod tests {
         // u = (sin A sin C, -sin A cos C, cos A)
         let (i, j) = plane.joints(rad(90.0), rad(30.0));
         assert!((i - 0.5).abs() < 1e-12 && j.abs() < 1e-12);
+    }
+
+    /// On every machine with a pole, however near it is looked at, and with many findings.
+    #[test]
+    fn labels_at_the_pole_do_not_overlap() {
+        let mut seen = 0;
+        for name in trunnion_machine::BUILTIN_MACHINES {
+            let machine = builtin(name).expect("built in");
+            let Ok(plane) = Plane::new(machine) else { continue };
+            for widest in [0.05, 0.4, 3.0, 20.0, 85.0] {
+                let axis = |step: usize| {
+                    let share = step as f64 / 40.0;
+                    let tilt = plane.at_pole + rad(widest * (2.0 * share - 1.0));
+                    tool_axis_at(machine, [rad(30.0 + 60.0 * share), tilt])
+                };
+                let moves: Vec<(char, Vec3)> = (0..=40).map(|i| ('f', Vec3::new(f64::from(i), 0.0, 0.0))).collect();
+                let record = record(&moves, axis);
+                let rules = [
+                    "pole-flip",
+                    "fast-pole",
+                    "feed-drop",
+                    "axis-overspeed",
+                    "branch-swap",
+                    "axis-limit",
+                ];
+                let marks: Vec<Mark> = (1..=40)
+                    .flat_map(|line| rules.iter().take(line as usize % 7).map(move |rule| (line, rule)))
+                    .map(|(line, rule)| Mark {
+                        line,
+                        rule: (*rule).to_owned(),
+                    })
+                    .collect();
+                for within in [
+                    None,
+                    Some(0.5 * widest),
+                    Some(2.0 * widest).filter(|angle| *angle < 90.0),
+                ] {
+                    let svg = axis_plane(&header(), machine, &record, &marks, None, within).expect("drawn");
+                    assert_eq!(overlaps(&svg), [], "{name}, {widest} deg, within {within:?}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 100, "{seen} pictures");
     }
 
     #[test]

@@ -1,4 +1,5 @@
 //! The sheet: header, legend, colours, and the conversion to text.
+use crate::marks::Shape;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -61,6 +62,7 @@ pub(crate) enum Swatch {
     Dashed(RGBColor),
     Dot(RGBColor),
     Filled(RGBColor),
+    Symbol(Shape, RGBColor),
     /// A count of what is not drawn: the text alone.
     Plain,
 }
@@ -115,7 +117,14 @@ pub(crate) fn sheet(
         format!("width=\"{}\" height=\"{}\"", WIDTH * SCALE, HEIGHT * SCALE),
         format!("width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"Helvetica, Arial, sans-serif\""),
     );
-    Ok(text.replacen(&large, &shown, 1))
+    let text = text.replacen(&large, &shown, 1);
+    // lines pass behind the texts
+    let halo =
+        "<style>text { paint-order: stroke; stroke: #ffffff; stroke-width: 35; stroke-linejoin: round; }</style>";
+    Ok(match text.find('>') {
+        Some(end) => format!("{}\n{halo}{}", &text[..=end], &text[end + 1..]),
+        None => text,
+    })
 }
 
 /// Row and left edge, px, of each entry of a legend: what does not fit into a row begins the next.
@@ -154,6 +163,7 @@ fn draw_entry(top: &Area<'_>, (swatch, label): &Entry, (x, y): (i32, i32)) -> Re
             }
         }
         Swatch::Dot(colour) => top.draw(&Circle::new((x + px(13.0), y), px(5.0), colour.filled()))?,
+        Swatch::Symbol(shape, colour) => draw_symbol(top, (x + px(13.0), y), (*shape, *colour), 6.0, true)?,
         Swatch::Filled(colour) => {
             top.draw(&Rectangle::new([(x, y - px(6.0)), (to, y + px(6.0))], colour.filled()))?;
         }
@@ -163,6 +173,25 @@ fn draw_entry(top: &Area<'_>, (swatch, label): &Entry, (x, y): (i32, i32)) -> Re
         (to + px(6.0), y),
         anchored(14.0, HPos::Left, VPos::Center),
     ))?;
+    Ok(())
+}
+
+/// A symbol of a radius in pixels, filled or as an outline.
+pub(crate) fn draw_symbol(
+    area: &Area<'_>,
+    at: (i32, i32),
+    (shape, colour): (Shape, RGBColor),
+    pixels: f64,
+    filled: bool,
+) -> Result<(), PlotError> {
+    let corner = |(x, y): (f64, f64)| (at.0 + x.round() as i32, at.1 + y.round() as i32);
+    let mut corners: Vec<(i32, i32)> = shape.corners(f64::from(px(pixels))).into_iter().map(corner).collect();
+    if filled {
+        area.draw(&Polygon::new(corners, colour.filled()))?;
+    } else {
+        corners.push(corners[0]);
+        area.draw(&PathElement::new(corners, colour.stroke_width(px(2.0) as u32)))?;
+    }
     Ok(())
 }
 
@@ -220,7 +249,7 @@ mod tests {
             &text[..80]
         );
         assert!(text.contains("viewBox=\"0 0 12000 8000\"") && text.contains("a &lt; b") && text.contains("f&amp;g"));
-        assert!(text.trim_end().ends_with("</svg>"));
+        assert!(text.trim_end().ends_with("</svg>") && text.contains("paint-order: stroke"));
     }
 
     /// Nothing runs off the sheet, nothing overlaps, and the rows come one below the other.

@@ -42,6 +42,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         [0.0, value(top)]
     };
     // the cuts alone: a rapid to a far tool change would leave no room for them
+    travels(record, &cuts)?;
     let across = range(
         cuts.iter()
             .flat_map(|block| record.of(block))
@@ -87,6 +88,20 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
         panel.line(course(record, height).into_iter(), GREEN, 1.2)?;
         panel.dots(places(record, slow(&cuts), height), GREEN, 3.0)
     })
+}
+
+/// Refuses cuts in which the tip rests: nothing stands over a travel of nothing.
+fn travels(record: &Record, cuts: &[&Block]) -> Result<(), PlotError> {
+    let travel = |block: &&Block| {
+        let samples = record.of(block);
+        samples.last().map_or(0.0, |s| s.way) - samples.first().map_or(0.0, |s| s.way)
+    };
+    if cuts.iter().any(|block| travel(block) > 1e-6) {
+        return Ok(());
+    }
+    Err(PlotError(
+        "nothing to draw over the travel of the tip: it rests in every feed block".into(),
+    ))
 }
 
 /// Cuts whose programmed feed some axis does not allow, each with what it allows.
@@ -195,4 +210,21 @@ fn course(record: &Record, height: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         course.push((to, height(plan.end)));
     }
     course
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texts::{header, record};
+    use trunnion_geometry::Vec3;
+
+    #[test]
+    fn a_tip_that_rests_has_no_feed_over_its_travel() {
+        let tip = Vec3::new(1.0, 2.0, 3.0);
+        let moves = [('r', Vec3::new(0.0, 0.0, 110.0)), ('r', tip), ('f', tip), ('f', tip)];
+        let refused = feed(&header(), &record(&moves, |_| Vec3::z())).expect_err("refused");
+        assert!(refused.0.contains("it rests in every feed block"), "{refused}");
+        let moves = [('r', tip), ('f', Vec3::new(9.0, 2.0, 3.0))];
+        assert!(feed(&header(), &record(&moves, |_| Vec3::z())).is_ok());
+    }
 }

@@ -1,8 +1,9 @@
 //! One field of a picture: axes with ticks and units, and drawing in the units of the data.
-use crate::canvas::{Area, GREY, INK, PALE, PlotError, SCALE, anchored, dashes, font, px};
+use crate::canvas::{Area, GREY, INK, PALE, PlotError, SCALE, anchored, dashes, draw_symbol, font, px};
 use crate::labels::{Labels, Wish};
+use crate::marks::Marked;
 use crate::scale::{power, short};
-use crate::thin::thin;
+use crate::thin::{clip, thin};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -169,7 +170,7 @@ impl<'a> Panel<'a> {
             match before {
                 None => open.extend(self.holds(p).then_some(p)),
                 Some(from) => {
-                    if let Some((a, b)) = self.clip(from, p) {
+                    if let Some((a, b)) = clip(from, p, (self.width, self.height)) {
                         if open.last() != Some(&a) {
                             runs.push(std::mem::take(&mut open));
                             open.push(a);
@@ -182,33 +183,6 @@ impl<'a> Panel<'a> {
         }
         runs.push(open);
         runs.iter().filter(|run| run.len() > 1).map(|run| thin(run)).collect()
-    }
-
-    /// The part of a segment inside the field (Liang and Barsky, 1984).
-    fn clip(&self, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
-        let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-        let (mut from, mut to) = (0.0_f64, 1.0_f64);
-        for (p, q) in [(-dx, a.0), (dx, self.width - a.0), (-dy, a.1), (dy, self.height - a.1)] {
-            if p == 0.0 {
-                if q < 0.0 {
-                    return None;
-                }
-            } else if p < 0.0 {
-                from = from.max(q / p);
-            } else {
-                to = to.min(q / p);
-            }
-        }
-        let at = |t: f64| {
-            if t == 0.0 {
-                a
-            } else if t == 1.0 {
-                b
-            } else {
-                (a.0 + dx * t, a.1 + dy * t)
-            }
-        };
-        (from <= to).then(|| (at(from), at(to)))
     }
 
     /// A line.
@@ -250,24 +224,51 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
-    /// Dots; those that would hide each other are drawn once.
+    /// Where points of a symbol of this radius are drawn: those that would hide each other once.
+    fn spots(&self, points: impl Iterator<Item = (f64, f64)>, pixels: f64) -> Vec<(i32, i32)> {
+        let mut last = (f64::NAN, f64::NAN);
+        let mut spots = Vec::new();
+        for (x, y) in points {
+            let p = self.at(x, y);
+            let near = (p.0 - last.0).abs() + (p.1 - last.1).abs() < 0.5 * f64::from(px(pixels));
+            if self.holds(p) && !near {
+                spots.push(Self::whole(p));
+                last = p;
+            }
+        }
+        spots
+    }
+
+    /// Dots.
     pub(crate) fn dots(
         &self,
         points: impl Iterator<Item = (f64, f64)>,
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        let mut last = (f64::NAN, f64::NAN);
-        for (x, y) in points {
-            let p = self.at(x, y);
-            let near = (p.0 - last.0).abs() + (p.1 - last.1).abs() < 0.5 * f64::from(px(pixels));
-            if self.holds(p) && !near {
-                self.area
-                    .draw(&Circle::new(Self::whole(p), px(pixels), colour.filled()))?;
-                last = p;
-            }
+        for spot in self.spots(points, pixels) {
+            self.area.draw(&Circle::new(spot, px(pixels), colour.filled()))?;
         }
         Ok(())
+    }
+
+    /// The symbols of a rule, filled or as outlines.
+    pub(crate) fn symbols(
+        &self,
+        points: impl Iterator<Item = (f64, f64)>,
+        look: &Marked,
+        pixels: f64,
+        filled: bool,
+    ) -> Result<(), PlotError> {
+        for spot in self.spots(points, pixels) {
+            draw_symbol(&self.area, spot, (look.shape, look.colour), pixels, filled)?;
+        }
+        Ok(())
+    }
+
+    /// A value is on the field.
+    pub(crate) fn shows(&self, (x, y): (f64, f64)) -> bool {
+        self.holds(self.at(x, y))
     }
 
     /// A ring about a place.
@@ -361,6 +362,13 @@ impl<'a> Panel<'a> {
         let at = Self::whole((from, p.1));
         self.area.draw(&Text::new(text.to_owned(), at, style))?;
         Ok(())
+    }
+
+    /// No text that asks for a free place covers what is drawn there with this radius.
+    pub(crate) fn keep_free(&self, (x, y): (f64, f64), pixels: f64) {
+        let (p, radius) = (self.at(x, y), f64::from(px(pixels)));
+        self.labels
+            .keep_free([p.0 - radius, p.1 - radius, p.0 + radius, p.1 + radius]);
     }
 
     /// A text in the upper right corner, on white.

@@ -15,6 +15,9 @@ const LEVELS: usize = 20;
 /// Room for the colour bar, pixels.
 const BAR: f64 = 120.0;
 
+/// Blocks whose ends are farther apart do not follow each other, mm.
+const JOINT: f64 = 1e-3;
+
 /// From pale (no error) to dark (largest): lightness falls evenly, so it reads in grey and with any colour vision.
 const SCALE_STOPS: [(u8, u8, u8); 6] = [
     (255, 250, 225),
@@ -84,12 +87,13 @@ pub fn height_map(header: &Header, errors: &Errors, along: usize, unit: Unit) ->
             panel.fill(corners.into_iter(), colour(level as f64 / (LEVELS - 1) as f64), 1.0)?;
         }
         let mut path = Vec::new();
-        let mut leg = None;
+        let mut before: Option<&PictureSample> = None;
         for spot in &errors.spots {
-            if leg.is_some_and(|leg| spot.leg != leg && spot.leg != leg + 1) {
+            // blocks that are not compared lie between these two
+            if before.is_some_and(|before| spot.leg != before.leg && (spot.tip - before.tip).norm() > JOINT) {
                 path.push((f64::NAN, f64::NAN));
             }
-            leg = Some(spot.leg);
+            before = Some(spot);
             path.push(view.see(&spot.tip));
         }
         panel.line(path.into_iter(), LINE, 1.0)?;
@@ -306,6 +310,25 @@ mod tests {
         assert_eq!(at(50.0, 5.0), None);
         let covered: usize = map.runs(3.0).iter().map(|(from, to, ..)| to - from).sum();
         assert_eq!(covered, map.values.iter().flatten().count());
+    }
+
+    /// Between two compared blocks lie others, which the map does not show.
+    #[test]
+    fn no_line_leads_across_blocks_that_are_not_compared() {
+        let on = |leg: u32, x: f64| PictureSample {
+            leg,
+            ..spot(x, 0.0, 0.01)
+        };
+        let lines = |second: f64| {
+            let errors = Errors {
+                spots: vec![on(0, 0.0), on(0, 10.0), on(1, second), on(1, second + 10.0)],
+                ..Errors::default()
+            };
+            let svg = height_map(&crate::texts::header(), &errors, 2, Unit::Mm).expect("drawn");
+            svg.matches("stroke=\"#285A8C\"").count()
+        };
+        // one is in the legend
+        assert_eq!([lines(10.0), lines(25.0)], [2, 3]);
     }
 
     #[test]

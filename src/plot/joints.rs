@@ -1,10 +1,10 @@
 //! Axis positions of the machine over the path or the time, one field per axis, with limits and notable blocks.
-use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError, SKY, Swatch, VERMILION, sheet};
+use crate::canvas::{BLUE, Entry, GREY, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
+use crate::marks::Rules;
 use crate::record::{Mark, Record, Sample};
 use crate::scale::range;
 use crate::unit::Unit;
-use plotters::prelude::RGBColor;
 use trunnion_geometry::deg;
 use trunnion_machine::{Axis, AxisKind, Limits, Machine};
 
@@ -30,31 +30,6 @@ impl Along {
             Self::Time => "time at programmed feed / s",
         }
     }
-}
-
-/// Rules in the order of their colours.
-const MARKED: [RGBColor; 5] = [VERMILION, PURPLE, ORANGE, GREEN, SKY];
-
-/// The rules of the marks, most frequent first, each with its colour and count. Only as many as there are colours.
-pub(crate) fn rules(marks: &[Mark]) -> Vec<(String, RGBColor, usize)> {
-    let mut counted: Vec<(String, usize)> = Vec::new();
-    for mark in marks {
-        match counted.iter_mut().find(|(rule, _)| *rule == mark.rule) {
-            Some((_, count)) => *count += 1,
-            None => counted.push((mark.rule.clone(), 1)),
-        }
-    }
-    counted.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-    let coloured = counted.into_iter().zip(MARKED);
-    coloured.map(|((rule, count), colour)| (rule, colour, count)).collect()
-}
-
-/// Entries of the legend for marks.
-pub(crate) fn entries(rules: &[(String, RGBColor, usize)]) -> Vec<Entry> {
-    rules
-        .iter()
-        .map(|(rule, colour, count)| (Swatch::Dot(*colour), format!("{rule} ({count})")))
-        .collect()
 }
 
 /// Draws them.
@@ -86,7 +61,7 @@ pub fn joints(
             "the time of every motion is unknown: draw over the travel instead".into(),
         ));
     }
-    let rules = rules(marks);
+    let rules = Rules::of(marks);
     let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), "feed".into()),
         (Swatch::Line(GREY), "rapid".into()),
@@ -94,7 +69,7 @@ pub fn joints(
     if machine.axes.iter().any(|axis| matches!(axis.limits, Limits::Range(..))) {
         legend.push((Swatch::Dashed(VERMILION), "limit".into()));
     }
-    legend.extend(entries(&rules));
+    legend.extend(rules.entries());
     sheet(header, &legend, |body| {
         let count = machine.own_axes().count();
         let (width, height) = body.dim_in_pixel();
@@ -225,38 +200,21 @@ fn draw_marks(
     panel: &Panel<'_>,
     record: &Record,
     marks: &[Mark],
-    rules: &[(String, RGBColor, usize)],
+    rules: &Rules,
     spot: impl Fn(&Sample) -> (f64, f64),
 ) -> Result<(), PlotError> {
     let lines = record.by_line();
     // the rarest on top, each a little smaller
-    for (place, (rule, colour, _)) in rules.iter().enumerate() {
+    for (place, marked) in rules.drawn.iter().enumerate() {
         let mut dots = Vec::new();
-        for mark in marks.iter().filter(|mark| mark.rule == *rule) {
+        for mark in marks.iter().filter(|mark| mark.rule == marked.rule) {
             for block in lines.get(&mark.line).into_iter().flatten() {
                 if let Some(end) = record.of(block).last() {
                     dots.push(spot(end));
                 }
             }
         }
-        panel.dots(dots.into_iter(), *colour, 6.0 - place as f64)?;
+        panel.symbols(dots.into_iter(), marked, 7.0 - place as f64, true)?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_most_frequent_rules_are_coloured() {
-        let mark = |line, rule: &str| Mark {
-            line,
-            rule: rule.into(),
-        };
-        let found = rules(&[mark(1, "b"), mark(2, "a"), mark(3, "b")]);
-        let names: Vec<(&str, usize)> = found.iter().map(|(rule, _, count)| (rule.as_str(), *count)).collect();
-        assert_eq!(names, [("b", 2), ("a", 1)]);
-        assert_eq!(entries(&found)[0].1, "b (2)");
-    }
 }

@@ -21,6 +21,11 @@ pub(crate) struct Wish {
 }
 
 impl Labels {
+    /// No text stands there.
+    pub(crate) fn keep_free(&self, place: Place) {
+        self.0.borrow_mut().push(place);
+    }
+
     /// Takes a place on a field of this size: at the side that is asked for, else at another one. The side, and where the text is anchored across; `None`
     /// where there is no room.
     pub(crate) fn take(&self, wish: &Wish, field: (f64, f64)) -> Option<((HPos, VPos), f64)> {

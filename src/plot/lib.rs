@@ -7,13 +7,18 @@ mod deviation;
 mod feed;
 mod grid;
 mod height_map;
+mod isometric;
 mod joints;
 mod labels;
+mod marks;
+mod net;
 mod path;
 mod record;
 mod route;
 mod scale;
 mod servo;
+#[cfg(test)]
+mod texts;
 mod thin;
 mod unit;
 

@@ -1,15 +1,10 @@
-//! The path of the tool tip in space, seen from the front, the right and above.
-use crate::canvas::{BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, VERMILION, anchored, sheet};
-use crate::grid::Panel;
+//! The path of the tool tip in space: isometric with three views beside it, or in its plane where it lies in one.
+use crate::canvas::{Area, BLUE, Entry, GREY, Header, ORANGE, PlotError, Swatch, VERMILION, px, sheet};
+use crate::grid::{Frame, Panel, equal};
+use crate::isometric::{draw_box, see};
 use crate::record::{Block, Record};
-use crate::scale::{counted, short};
-use crate::unit::Unit;
-use plotters::prelude::RGBColor;
-use plotters::style::text_anchor::{HPos, VPos};
+use crate::scale::{counted, range};
 use trunnion_geometry::Vec3;
-
-/// Colour of the box.
-const FLOOR: RGBColor = RGBColor(170, 170, 170);
 
 /// Draws it. `tolerance`: blocks whose tip deviates farther are drawn in another colour, mm.
 ///
@@ -19,8 +14,7 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     if record.samples.is_empty() {
         return Err(PlotError("nothing to draw: no path is known".into()));
     }
-    let strays = |block: &Block| !block.rapid && block.deviation.is_some_and(|[most, _]| most > tolerance);
-    let straying = record.blocks.iter().filter(|block| strays(block)).count();
+    let straying = record.blocks.iter().filter(|block| strays(block, tolerance)).count();
     let mut legend: Vec<Entry> = vec![
         (Swatch::Line(BLUE), "feed".into()),
         (Swatch::Dashed(GREY), "rapid".into()),
@@ -45,34 +39,156 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
             ),
         ));
     }
-    let cut = record.blocks.iter().filter(|block| !block.rapid);
-    let (mut low, mut high) = extent(cut.flat_map(|block| record.of(block)).map(|sample| sample.tip));
-    if low.x > high.x {
-        (low, high) = extent(record.samples.iter().map(|sample| sample.tip));
-    }
+    let part = Part::of(record, tolerance);
     sheet(header, &legend, |body| {
-        let corners = (0..8).map(|i| {
-            let pick = |bit: usize, k: usize| if i & bit == 0 { low[k] } else { high[k] };
-            see(&Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
-        });
-        let rapids = record
-            .blocks
-            .iter()
-            .filter(|block| block.rapid)
-            .flat_map(|block| record.of(block));
+        if let Some(view) = part.flat() {
+            return part.draw_plane(body, view, None);
+        }
+        let (width, height) = body.dim_in_pixel();
+        let (left, right) = body.split_horizontally(width as i32 - px(BESIDE));
+        part.draw_space(&left)?;
+        let each = height as i32 / 3;
+        for ((view, name), top) in VIEWS.into_iter().zip([0, each, 2 * each]) {
+            let field = right.clone().shrink((0, top), (px(BESIDE) as u32, each as u32));
+            part.draw_plane(&field, view, Some(name))?;
+        }
+        Ok(())
+    })
+}
+
+/// Room for the three views beside the isometric one, pixels.
+const BESIDE: f64 = 440.0;
+
+/// The coordinates that stand across and upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct View {
+    across: usize,
+    upwards: usize,
+}
+
+/// The three views of a drawing.
+const VIEWS: [(View, &str); 3] = [
+    (View { across: 0, upwards: 1 }, "from above"),
+    (View { across: 0, upwards: 2 }, "from the front"),
+    (View { across: 1, upwards: 2 }, "from the right"),
+];
+
+/// What is thinner has no extent in that direction, mm.
+const THIN: f64 = 1e-6;
+
+/// A path and the box about it.
+struct Part<'r> {
+    record: &'r Record,
+    /// The box about the cuts, mm; without cuts, or where all are in one point, about everything.
+    low: Vec3,
+    high: Vec3,
+    /// Ends of rapids near the box: all that is shown lies in it or is one of them.
+    near: Vec<Vec3>,
+    tolerance: f64,
+}
+
+impl<'r> Part<'r> {
+    fn of(record: &'r Record, tolerance: f64) -> Self {
+        let tips = |rapid: bool| {
+            let blocks = record.blocks.iter().filter(move |block| block.rapid == rapid);
+            blocks.flat_map(move |block| record.of(block)).map(|sample| sample.tip)
+        };
+        let (mut low, mut high) = extent(tips(false));
+        if (high - low).max() <= THIN {
+            (low, high) = extent(record.samples.iter().map(|sample| sample.tip));
+        }
         // a rapid from far away must not make the part small: it is cut off at the edge
-        let size = (high - low).norm().max(1e-3);
-        let near = rapids.map(|sample| sample.tip).filter(|tip| {
-            let held = tip.sup(&low).inf(&high);
-            (tip - held).norm() < 0.35 * size
-        });
-        let flat = Panel::bare(body, corners.chain(near.map(|tip| see(&tip))));
-        draw_box(&flat, record.unit, &low, &high)?;
-        draw_axes(&flat, record, size)?;
+        let reach = 0.35 * (high - low).norm();
+        let near = tips(true).filter(|tip| (tip - tip.sup(&low).inf(&high)).norm() < reach);
+        Self {
+            near: near.collect(),
+            record,
+            low,
+            high,
+            tolerance,
+        }
+    }
+
+    fn size(&self) -> f64 {
+        (self.high - self.low).norm().max(1e-3)
+    }
+
+    /// The plane in which everything lies. Along a lathe's tool, not Z, is upwards.
+    fn flat(&self) -> Option<View> {
+        let (low, high) = extent(self.near.iter().copied().chain([self.low, self.high]));
+        let thin = [1, 0, 2].into_iter().find(|axis| high[*axis] - low[*axis] <= THIN)?;
+        let [across, upwards] = [[1, 2], [0, 2], [0, 1]][thin];
+        let along = |axis: usize| {
+            self.record
+                .samples
+                .iter()
+                .map(|sample| sample.axis[axis].abs())
+                .fold(0.0, f64::max)
+        };
+        Some(if along(across) > 0.9 && along(upwards) < 0.1 {
+            View {
+                across: upwards,
+                upwards: across,
+            }
+        } else {
+            View { across, upwards }
+        })
+    }
+
+    /// The corners of the box, and the ends near it.
+    fn corners(&self) -> impl Iterator<Item = Vec3> {
+        let corner = |i: usize| {
+            Vec3::from_fn(|axis, _| {
+                if i & (1 << axis) == 0 {
+                    self.low[axis]
+                } else {
+                    self.high[axis]
+                }
+            })
+        };
+        (0..8).map(corner).chain(self.near.iter().copied())
+    }
+
+    /// Seen isometrically, with a box that has a scale.
+    fn draw_space(&self, area: &Area<'_>) -> Result<(), PlotError> {
+        let panel = Panel::bare(area, self.corners().map(|corner| see(&corner)));
+        draw_box(&panel, self.record.unit, &self.low, &self.high)?;
+        self.draw(&panel, see)
+    }
+
+    /// Seen at right angles to a plane, with the name of the view where there are several.
+    fn draw_plane(&self, area: &Area<'_>, view: View, name: Option<&str>) -> Result<(), PlotError> {
+        let unit = self.record.unit;
+        let see = |p: &Vec3| (unit.of_mm(p[view.across]), unit.of_mm(p[view.upwards]));
+        let least = unit.of_mm(0.02 * self.size());
+        let x = range(self.corners().map(|corner| see(&corner).0), least);
+        let y = range(self.corners().map(|corner| see(&corner).1), least);
+        let (x, y) = equal(x, y, area.dim_in_pixel(), 0.0);
+        let [mut across, upwards] =
+            [view.across, view.upwards].map(|axis| format!("{} / {}", LETTERS[axis], unit.name()));
+        if let Some(name) = name {
+            across = format!("{across} (seen {name})");
+        }
+        let frame = Frame {
+            x,
+            y,
+            x_name: Some(&across),
+            y_name: &upwards,
+            labels: if name.is_some() { [5, 4] } else { [10, 8] },
+            decades: false,
+            right: 0.0,
+        };
+        self.draw(&Panel::new(area, &frame)?, see)
+    }
+
+    /// The tool axis, rapids, and cuts, as a view sees them.
+    fn draw(&self, panel: &Panel<'_>, see: impl Fn(&Vec3) -> (f64, f64)) -> Result<(), PlotError> {
+        let record = self.record;
+        draw_axes(panel, record, self.size(), &see)?;
         for rapid in [true, false] {
             let mut points = Vec::new();
             for block in &record.blocks {
-                if block.rapid == rapid && !strays(block) {
+                if block.rapid == rapid && !strays(block, self.tolerance) {
                     if !block.joined {
                         points.push((f64::NAN, f64::NAN));
                     }
@@ -82,24 +198,25 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
                 }
             }
             if rapid {
-                flat.dashed(points.into_iter(), GREY, 1.2)?;
+                panel.dashed(points.into_iter(), GREY, 1.2)?;
             } else {
-                flat.line(points.into_iter(), BLUE, 1.5)?;
+                panel.line(points.into_iter(), BLUE, 1.5)?;
             }
         }
-        for block in record.blocks.iter().filter(|block| strays(block)) {
-            flat.line(record.of(block).iter().map(|sample| see(&sample.tip)), VERMILION, 1.5)?;
+        for block in record.blocks.iter().filter(|block| strays(block, self.tolerance)) {
+            panel.line(record.of(block).iter().map(|sample| see(&sample.tip)), VERMILION, 1.5)?;
         }
         Ok(())
-    })
+    }
 }
 
-/// Isometric view with Z upwards, X to the right and down, Y to the right and up.
-fn see(p: &Vec3) -> (f64, f64) {
-    const ACROSS: f64 = core::f64::consts::FRAC_1_SQRT_2;
-    const UP: f64 = 0.408_248_290_463_863;
-    ((p.x + p.y) * ACROSS, (p.y - p.x) * UP + p.z * 2.0 * UP)
+/// A cut whose tip deviates farther than the tolerance.
+fn strays(block: &Block, tolerance: f64) -> bool {
+    !block.rapid && block.deviation.is_some_and(|[most, _]| most > tolerance)
 }
+
+/// The coordinates.
+pub(crate) const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
 fn extent(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     let empty = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
@@ -108,74 +225,8 @@ fn extent(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
         .fold(empty, |(low, high), point| (low.inf(&point), high.sup(&point)))
 }
 
-/// The floor of the box about the cut, with ticks along X and Y in front and along Z at the left.
-fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
-    let at = |x: f64, y: f64, z: f64| see(&Vec3::new(x, y, z));
-    let floor = [
-        at(low.x, low.y, low.z),
-        at(high.x, low.y, low.z),
-        at(high.x, high.y, low.z),
-        at(low.x, high.y, low.z),
-        at(low.x, low.y, low.z),
-    ];
-    flat.line(floor.into_iter(), FLOOR, 1.0)?;
-    flat.line(
-        [at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(),
-        FLOOR,
-        1.0,
-    )?;
-    let size = (high - low).max().max(1e-3);
-    let shown = unit.of_mm(size);
-    let step = unit.to_mm(step(shown / 6.0));
-    for axis in 0..3 {
-        let letter = ['X', 'Y', 'Z'][axis];
-        let span = high[axis] - low[axis];
-        // a flat part has no scale of its own there
-        let ticks = ((high[axis] / step).floor() - (low[axis] / step).ceil()).max(-1.0) as i64;
-        let (anchor, beside) = match axis {
-            0 => ((HPos::Right, VPos::Top), Vec3::new(0.0, -0.03 * size, 0.0)),
-            1 => ((HPos::Left, VPos::Top), Vec3::new(0.03 * size, 0.0, 0.0)),
-            _ => ((HPos::Right, VPos::Center), Vec3::new(-0.02 * size, -0.02 * size, 0.0)),
-        };
-        let place = |value: f64| {
-            let mut point = match axis {
-                1 => Vec3::new(high.x, low.y, low.z),
-                _ => *low,
-            };
-            point[axis] = value;
-            point
-        };
-        for tick in 0..=ticks {
-            let value = ((low[axis] / step).ceil() + tick as f64) * step;
-            let from = place(value);
-            let to = from + beside;
-            flat.line([see(&from), see(&to)].into_iter(), FLOOR, 1.0)?;
-            let text = short(unit.of_mm(value), shown);
-            flat.write(
-                see(&(to + beside * 0.3)),
-                &text,
-                anchored(13.0, anchor.0, anchor.1).color(&INK),
-            )?;
-        }
-        let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
-        flat.write(
-            see(&middle),
-            &format!("{letter} / {}", unit.name()),
-            anchored(15.0, anchor.0, anchor.1).color(&INK),
-        )?;
-    }
-    Ok(())
-}
-
-fn step(value: f64) -> f64 {
-    let base = (-9..=9)
-        .map(|e: i32| (0..e.abs()).fold(1.0, |v: f64, _| if e > 0 { v * 10.0 } else { v / 10.0 }))
-        .flat_map(|power| [power, 2.0 * power, 5.0 * power]);
-    base.into_iter().find(|nice| *nice >= value).unwrap_or(value)
-}
-
 /// The tool axis at some of the feed samples, evenly along the path.
-fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64) -> Result<(), PlotError> {
+fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64, see: impl Fn(&Vec3) -> (f64, f64)) -> Result<(), PlotError> {
     let feeds = || {
         record
             .blocks
@@ -207,16 +258,65 @@ fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64) -> Result<(), PlotErr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texts::{header, overlaps, record};
+
+    fn drawn(record: &Record) -> String {
+        let svg = path(&header(), record, 0.01).expect("drawn");
+        assert_eq!(overlaps(&svg), []);
+        svg
+    }
+    const UP: fn(usize) -> Vec3 = |_| Vec3::z();
 
     #[test]
-    fn the_view_is_isometric() {
-        let length = |v: Vec3| {
-            let (x, y) = see(&v);
-            (x * x + y * y).sqrt()
-        };
-        let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()].map(length);
-        assert!((x - y).abs() < 1e-9 && (y - z).abs() < 1e-9);
-        assert!(see(&Vec3::z()).1 > 0.0 && see(&Vec3::x()).1 < 0.0);
-        assert_eq!((step(17.0), step(0.3)), (20.0, 0.5));
+    fn a_part_is_seen_from_three_sides_too() {
+        let moves = [
+            ('r', Vec3::new(0.0, 0.0, 50.0)),
+            ('r', Vec3::new(0.0, 0.0, 2.0)),
+            ('f', Vec3::new(0.0, 0.0, -4.0)),
+            ('f', Vec3::new(40.0, 0.0, -4.0)),
+            ('f', Vec3::new(40.0, 30.0, -4.0)),
+        ];
+        let svg = drawn(&record(&moves, UP));
+        for (_, name) in VIEWS {
+            assert!(svg.contains(name), "{name}");
+        }
+    }
+
+    /// A lathe's path lies in one plane: Z across, and X, along which its tools stand, upwards.
+    #[test]
+    fn a_path_in_one_plane_is_seen_at_right_angles() {
+        let turned = [
+            ('r', Vec3::new(30.0, 0.0, 5.0)),
+            ('r', Vec3::new(20.0, 0.0, 5.0)),
+            ('f', Vec3::new(20.0, 0.0, -60.0)),
+            ('f', Vec3::new(24.0, 0.0, -60.0)),
+        ];
+        let view = |record: &Record| Part::of(record, 0.01).flat().map(|view| [view.across, view.upwards]);
+        let lathe = record(&turned, |_| Vec3::x());
+        assert_eq!(view(&lathe), Some([2, 0]));
+        let svg = drawn(&lathe);
+        assert!(svg.contains("Z / mm") && svg.contains("X / mm") && !svg.contains("Y / mm") && !svg.contains("from "));
+        // the same in a mill, and in the other planes
+        assert_eq!(view(&record(&turned, UP)), Some([0, 2]));
+        let swapped = turned.map(|(kind, p)| (kind, Vec3::new(p.y, p.x, p.z)));
+        assert_eq!(view(&record(&swapped, UP)), Some([1, 2]));
+        let level = turned.map(|(kind, p)| (kind, Vec3::new(p.x, p.z, p.y)));
+        assert_eq!(view(&record(&level, UP)), Some([0, 1]));
+    }
+
+    /// Only the tool axis moves in the cut: the scale is that of the rapids.
+    #[test]
+    fn cuts_in_one_point_are_seen_with_the_rapids() {
+        let tip = Vec3::new(0.0, 0.0, 10.0);
+        let moves = [
+            ('r', Vec3::new(0.0, 0.0, 110.0)),
+            ('r', tip),
+            ('f', tip),
+            ('f', tip),
+            ('r', Vec3::new(0.0, 0.0, 80.0)),
+        ];
+        let svg = drawn(&record(&moves, UP));
+        let numbers = crate::texts::texts(&svg);
+        assert!(numbers.iter().any(|(text, _)| text == "100"), "{numbers:?}");
     }
 }

@@ -34,6 +34,7 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
             "nothing to draw: the loop is unstable from the first sample on".into(),
         ));
     };
+    turns(&worst)?;
     // what matters of the path is some times the error about the corner
     let reach = (60.0 * worst.exact / 1000.0)
         .max(4.0 * hypot(worst.position[0], worst.position[1]))
@@ -106,10 +107,43 @@ pub fn servo(header: &Header, spots: &[ServoSpot], unit: Unit) -> Result<String,
     })
 }
 
+/// Refuses what is no corner, by the spot with the largest error.
+fn turns(worst: &ServoSpot) -> Result<(), PlotError> {
+    // half a nanometre: below what a control resolves
+    if worst.exact >= 5e-4 {
+        return Ok(());
+    }
+    Err(PlotError(
+        "nothing to draw: the path goes straight on there, and the axes do not leave it".into(),
+    ))
+}
+
 /// The axes of the picture: along the leg in, across it, error.
 fn names(unit: Unit) -> [&'static str; 3] {
     match unit {
         Unit::Mm => ["along the leg in / mm", "across / mm", "error / um"],
         Unit::Inch => ["along the leg in / in", "across / in", "error / 0.001 in"],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texts::header;
+
+    #[test]
+    fn a_straight_path_is_no_corner() {
+        let spots = |error: f64| {
+            [-1.0, 0.0, 1.0].map(|time| ServoSpot {
+                time,
+                reference: [time, 0.0],
+                position: [time - 0.1, error / 1000.0],
+                exact: error,
+                radial: 0.0,
+            })
+        };
+        let refused = servo(&header(), &spots(1e-9), Unit::Mm).expect_err("refused");
+        assert!(refused.0.contains("goes straight on"), "{refused}");
+        assert!(servo(&header(), &spots(3.0), Unit::Mm).is_ok());
     }
 }

@@ -264,6 +264,27 @@ fn files_are_short() {
 }
 
 /// Every test binary links the whole program again: a crate has one, `tests/all/main.rs`, and its files are modules of that.
+/// A terminal shows that a command works on a long program: a bar, or a line with the time.
+#[test]
+fn commands_that_read_programs_show_that_they_work() {
+    let folder = root().join("src/cli");
+    let mut commands = 0;
+    for file in files(&folder, &["rs"]) {
+        let text = std::fs::read_to_string(&file).expect("readable");
+        if !text.contains("load::load") {
+            continue;
+        }
+        commands += 1;
+        let shows = text.contains("waiting::") || text.contains("ProgressBar");
+        assert!(
+            shows,
+            "{} shows nothing while it works: use waiting::during",
+            file.display()
+        );
+    }
+    assert!(commands > 10, "{commands}");
+}
+
 #[test]
 fn a_crate_has_one_test_binary() {
     let mut others = Vec::new();

@@ -4,7 +4,7 @@
     report = trunnion.check("part.nc", machine="mill-3axis")
     report["files"][0]["verdict"]          # "pass", "fail" or "unknown"
     rows = trunnion.trace("part.mpf", machine="mikron-ucp710")
-    rows["tip_deviation_mm"].max()         # a NumPy structured array, one row per motion
+    numpy.nanmax(rows["tip_deviation_mm"])   # a NumPy structured array, one row per motion; unknown is nan
 
 The functions run the program `trunnion` that came with this package, or the one on the PATH.
 """

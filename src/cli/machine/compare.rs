@@ -4,7 +4,7 @@ use crate::cli::{
     Done,
     args::Global,
     failure::{Failure, remark, shown},
-    load,
+    load, waiting,
 };
 use std::io::Write;
 use std::path::Path;
@@ -62,7 +62,9 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
         )?;
     }
     let found = if let Some(path) = options.program {
-        program(global, path, &comparison, &believed, options.tolerance_mm, &mut out)?
+        waiting::during(global, "comparing along", path, || {
+            program(global, path, &comparison, &believed, options.tolerance_mm, &mut out)
+        })?
     } else {
         sweep(&comparison, &believed, options, &mut out)?
     };

@@ -59,6 +59,22 @@ fn check_and_trace_are_those_of_the_command_line() {
     assert_eq!((&said[4], &said[5]), (&"linear".into(), &"int64".into()));
 }
 
+/// A program with a rapid whose start is unknown: its row has no numbers, and the example still prints one.
+#[test]
+fn the_example_of_the_page_prints_a_verdict_and_a_number() {
+    let page = include_str!("../../../docs/install.md");
+    let (_, example) = page.split_once("```python\n").expect("an example");
+    let (example, _) = example.split_once("```").expect("it ends");
+    let folder = TempDir::new().expect("a folder");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let program = root.join("samples/programs/guide-vane/strategy-2.mpf");
+    std::fs::copy(program, folder.path().join("part.mpf")).expect("copied");
+    let Some(said) = python(&folder, example) else { return };
+    let (verdict, number) = said.trim().split_once('\n').expect("two lines");
+    let number: f64 = number.trim().parse().expect("a number");
+    assert!(verdict == "fail" && number.is_finite(), "{said}");
+}
+
 #[test]
 fn a_failure_is_an_exception_with_the_message() {
     let folder = folder();

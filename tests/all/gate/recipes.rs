@@ -126,6 +126,34 @@ fn the_hook_after_posting_reports_what_it_found() {
     assert_eq!(run("bad.nc", "--baseline known.json").0, 0);
 }
 
+/// The macro in FreeCAD, started with a document as on Windows. Its modules are stood in for: a dialog that answers, a console that is read.
+#[test]
+fn the_macro_in_freecad_asks_for_the_program_and_writes_into_the_report_view() {
+    let hook = root().join("integrations/freecad/trunnion_check.py");
+    let folder = folder();
+    let stand_in = r#"
+import runpy, sys, types
+def module(name, **what):
+    sys.modules[name] = types.SimpleNamespace(**what)
+write = lambda kind: lambda text: print(kind, text)
+console = types.SimpleNamespace(PrintMessage=write("message:"), PrintError=write("error:"))
+module("FreeCAD", Console=console)
+dialog = types.SimpleNamespace(getOpenFileName=lambda *_: (NAME, ""))
+module("PySide", QtGui=types.SimpleNamespace(QFileDialog=dialog))
+sys.argv = ["C:/FreeCAD/bin/FreeCAD.exe", "part.FCStd"]
+runpy.run_path(HOOK, run_name="__main__")
+"#;
+    for (name, kind) in [("bad.nc", "error:"), ("good.nc", "message:")] {
+        let code = stand_in
+            .replace("NAME", &format!("{name:?}"))
+            .replace("HOOK", &format!("{:?}", hook.display().to_string()));
+        fs::write(folder.path().join("macro.py"), code).expect("written");
+        let (status, said) = shell(&folder, "python3 macro.py", &[]);
+        assert!(status == 0 && said.starts_with(kind), "{status}: {said}");
+        assert_eq!(said.contains("missing-feed"), name == "bad.nc", "{said}");
+    }
+}
+
 /// The job of the page for GitLab, as it stands there.
 #[test]
 fn the_gitlab_job_fails_on_a_bad_program_and_passes_with_the_baseline() {

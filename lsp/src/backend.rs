@@ -265,7 +265,7 @@ impl LanguageServer for Backend {
     async fn semantic_tokens_full(&self, params: SemanticTokensParams) -> Result<Option<SemanticTokensResult>> {
         let (uri, coloured) = (params.text_document.uri.clone(), self.coloured.clone());
         let work = move |snapshot: &Snapshot| {
-            let data = writing::colours(snapshot, None);
+            let data = writing::all_colours(snapshot)?;
             Some(SemanticTokensResult::Tokens(coloured.whole(&uri, data)))
         };
         self.show(&params.text_document.uri, Need::Parsed, work).await
@@ -277,7 +277,7 @@ impl LanguageServer for Backend {
     ) -> Result<Option<SemanticTokensFullDeltaResult>> {
         let (uri, coloured) = (params.text_document.uri.clone(), self.coloured.clone());
         let work = move |snapshot: &Snapshot| {
-            let data = writing::colours(snapshot, None);
+            let data = writing::all_colours(snapshot)?;
             Some(coloured.since(&uri, &params.previous_result_id, data))
         };
         self.show(&params.text_document.uri, Need::Parsed, work).await
@@ -289,7 +289,7 @@ impl LanguageServer for Backend {
     ) -> Result<Option<SemanticTokensRangeResult>> {
         let range = params.range;
         let work = move |snapshot: &Snapshot| {
-            let data = writing::colours(snapshot, Some(range));
+            let data = writing::colours(snapshot, range);
             Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
                 result_id: None,
                 data,

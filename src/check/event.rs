@@ -1,5 +1,5 @@
 //! One event, one finding: what several rules report of one block at the pole is put together, and so is what a rule reports that
-//! follows from the finding of another one.
+//! follows from the finding of another one, and what one foreign line gives.
 //!
 //! A cause says what happens at the pole (an axis flips, the posture changes); the effects are what follows in its block or in those
 //! that touch it (an axis overruns, the feed drops, the linear axes run a loop). The strongest cause of a block leads, takes the worst
@@ -11,6 +11,8 @@ use core::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use trunnion_syntax::{BlockId, LineIndex, Program};
+
+mod foreign;
 
 /// What a rule's findings are of an event at the pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +38,7 @@ type Spans = Vec<(Span, usize)>;
 pub(crate) fn group(program: &Program, report: &mut Report) {
     group_at_poles(program, report);
     group_consequences(program, report);
+    foreign::group(program, report);
 }
 
 /// Findings that follow from those of another rule become part of them: the same axis, and no block outside theirs.

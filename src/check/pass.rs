@@ -200,6 +200,7 @@ impl<'a> Pass<'a> {
         let was_checked = |name: &str| self.was_checked(name);
         let ending = Ending {
             unused: self.suppressions.unused(&was_checked),
+            of_caller: self.start.of_caller(&self.reporter),
         };
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));

@@ -56,7 +56,8 @@ struct CheckPoint {
     pass: PassMemory,
 }
 
-/// An analysed program with check-points, 1024 executed blocks or more apart.
+/// An analysed program with check-points, 1024 executed blocks or more apart: where a run has named many labels each check-point copies
+/// them, and they are as many blocks apart, so that all together take memory in proportion to the program.
 #[derive(Clone)]
 pub struct Session {
     /// The report.
@@ -96,12 +97,16 @@ struct Keeper<'c> {
     order: Order,
     /// Some block ran for the first time since the last check-point: without, no further one is needed.
     news: bool,
+    /// No check-point before so many blocks ran.
+    next: u64,
     cancelled: &'c dyn Fn() -> bool,
 }
 
 impl Watch for Keeper<'_> {
     fn pause(&mut self, executed: u64, interpreter: &Interpreter<'static>, pass: &Pass<'_>) -> ControlFlow<()> {
-        if std::mem::take(&mut self.news) || executed == 0 {
+        if (self.news && executed >= self.next) || executed == 0 {
+            self.news = false;
+            self.next = executed + interpreter.copied() as u64;
             self.check_points.push(CheckPoint {
                 executed,
                 interpreter: interpreter.clone(),
@@ -143,6 +148,7 @@ impl Session {
             check_points: Vec::new(),
             order: Order::Straight(0),
             news: false,
+            next: 0,
             cancelled,
         };
         let report = judge(program, settings, &mut keeper)?;
@@ -154,8 +160,8 @@ impl Session {
         })
     }
 
-    /// Describes a block of the program the session was made of, with the same settings, as it runs the first time: at most
-    /// 1024 blocks are run again, or a limited number if there are loops before it. A block after the end is described as
+    /// Describes a block of the program the session was made of, with the same settings, as it runs the first time: few
+    /// blocks are run again, or a limited number if there are loops or many labels before it. A block after the end is described as
     /// the last one.
     pub fn describe(&self, program: &Program, settings: &Settings<'_>, block: BlockId) -> BlockInfo {
         let wanted = BlockId(block.0.min((program.block_count() as u32).saturating_sub(1)));
@@ -202,6 +208,8 @@ impl Session {
 }
 
 mod part;
+#[cfg(test)]
+mod tests;
 
 /// Follows motions and keeps the rows of one block.
 struct Walk<'m> {

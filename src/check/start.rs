@@ -2,7 +2,11 @@
 //!
 //! The state is that of the machine file (`[control] power_on`), else the dialect's. Whatever the program uses before it programs it is
 //! listed among the assumptions.
+mod reads;
+
 use crate::Settings;
+use crate::caller::Part;
+use crate::sink::Reporter;
 use crate::view::MotionView;
 use trunnion_dialect::{Action, Dialect, Plane};
 use trunnion_interp::{ControlData, FeedMode, MotionKind, declared_at_power_on, power_on_state};
@@ -39,6 +43,8 @@ pub(crate) struct Start {
     arc: Option<BlockId>,
     /// The first motion with a length whose unit the program has not named, as far as that is known without its text.
     unit: Option<BlockId>,
+    /// The settings assume the usual state.
+    usual: bool,
 }
 
 impl Start {
@@ -50,6 +56,7 @@ impl Start {
             feed: None,
             arc: None,
             unit: None,
+            usual: settings.assume.power_on,
         }
     }
 
@@ -95,7 +102,13 @@ impl Start {
             let declared = units || declared_at_power_on(dialect, &self.declared, group);
             out[usize::from(declared)].push(code.id.clone());
         };
-        let uses = Uses::of(program, dialect, self);
+        let mut uses = Uses::of(program, dialect, self);
+        let [motion, plane, distance, feed, unit] = reads::reads_first(program, dialect);
+        uses.motion |= motion;
+        uses.plane |= plane;
+        uses.distance |= distance;
+        uses.feed |= feed;
+        uses.unit |= unit;
         if let (true, Some(motion)) = (uses.motion, state.motion) {
             rely(&MOTIONS, motion);
         }
@@ -135,6 +148,21 @@ impl Start {
             );
         }
         out
+    }
+
+    /// Of a subprogram that is run alone: its first motion, and the codes of motion, plane and distance that it relies on. Nothing says what is in
+    /// effect where it is called, unless the settings assume the usual state.
+    pub(crate) fn of_caller(&self, out: &Reporter<'_>) -> Option<(BlockId, Vec<String>)> {
+        let motion = self.motion.filter(|_| !self.usual && out.part() == Part::Called)?;
+        let dialect = out.dialect();
+        let [codes, _] = self.relied(out.program(), dialect);
+        let groups = [&MOTIONS[..], &PLANES, &DISTANCES];
+        let modal = |id: &String| {
+            let code = dialect.codes().iter().find(|code| code.id == *id);
+            code.is_some_and(|code| groups.iter().any(|group| group.contains(&code.action)))
+        };
+        let codes: Vec<String> = codes.into_iter().filter(modal).collect();
+        (!codes.is_empty()).then_some((motion, codes))
     }
 
     /// The same as assumptions: that of the unit, which all else depends on, and the others.

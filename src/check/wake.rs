@@ -16,12 +16,14 @@ use crate::view::{LegView, MotionView, Overview};
 use trunnion_dialect::Foreign;
 use trunnion_interp::{Fault, FaultKind, Refusal};
 use trunnion_machine::Machine;
-use trunnion_syntax::{SyntaxError, TextRange};
+use trunnion_syntax::{BlockId, SyntaxError, TextRange};
 
 /// What is known when the run has come to its end.
 pub(crate) struct Ending<'s> {
     /// Comments that allow a rule that found nothing: bytes of the comment, the rule's name.
     pub(crate) unused: Vec<(TextRange, &'s str)>,
+    /// In a subprogram that is run alone: its first motion, and the codes that act there and that its caller sets.
+    pub(crate) of_caller: Option<(BlockId, Vec<String>)>,
 }
 
 macro_rules! wakes {

@@ -123,7 +123,7 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
                 "not every file could be checked (see above), so no baseline was written",
             ));
         }
-        target.write(accepted.document().as_bytes(), None)?;
+        target.fill(|out| accepted.print(out).map_err(Failure::from))?;
         remark(global.quiet, &accepted.remark(&path.display().to_string()));
         return Ok(Done::Clean);
     }

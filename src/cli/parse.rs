@@ -6,12 +6,11 @@ use super::{
     Done,
     args::{Global, ListFormat, Parse},
     failure::Failure,
-    json::write_json,
     load::{self, Loaded},
     waiting,
 };
 use crate::cli::out::Out;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::io::Write;
 
 /// Runs `parse`. Problems of the text make the exit status 1.
@@ -21,7 +20,7 @@ pub(super) fn run(global: &Global, command: &Parse) -> Result<Done, Failure> {
     waiting::beside_output(global, "parsing", &command.file, || {
         match (command.tokens, command.format) {
             (true, ListFormat::Text) => tokens_text(&mut out, &loaded),
-            (true, ListFormat::Json) => write_json(&mut out, &tokens_json(&loaded)),
+            (true, ListFormat::Json) => tokens_json(&mut out, &loaded),
             (false, ListFormat::Text) => tree::text(&mut out, &loaded),
             (false, ListFormat::Json) => tree::json(&mut out, &loaded),
         }
@@ -44,15 +43,21 @@ fn tokens_text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
     Ok(())
 }
 
-fn tokens_json(loaded: &Loaded) -> Value {
+fn tokens_json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
     let tokens = loaded.program.tokens();
-    let list: Vec<_> = (0..tokens.len() as u32)
-        .map(|id| {
-            let range = tokens.range(id);
-            json!({ "kind": format!("{:?}", tokens.kind(id)), "start": range.start, "end": range.end,
-                    "text": loaded.program.text(range) })
-        })
-        .collect();
-    json!({ "schema": "trunnion-tokens/1", "dialect": loaded.resolved.dialect.name, "tokens": list,
-            "errors": tree::errors_json(loaded) })
+    let dialect = json!(loaded.resolved.dialect.name);
+    write!(
+        out,
+        "{{\"schema\":\"trunnion-tokens/1\",\"dialect\":{dialect},\"tokens\":"
+    )?;
+    let token = |id| {
+        let range = tokens.range(id);
+        json!({ "kind": format!("{:?}", tokens.kind(id)), "start": range.start, "end": range.end,
+                "text": loaded.program.text(range) })
+    };
+    tree::list_json(out, (0..tokens.len() as u32).map(token))?;
+    write!(out, ",\"errors\":")?;
+    tree::errors_json(out, loaded)?;
+    writeln!(out, "}}")?;
+    Ok(())
 }

@@ -29,13 +29,18 @@ pub fn style(settings: &FormatSettings) -> Style {
     }
 }
 
+/// Larger programs are not laid out in an editor: the old and the new text are run and compared step by step, which takes ten seconds and a gigabyte
+/// for a million lines. As much as `trunnion fmt` reads by default.
+const MOST_BYTES: usize = 16_000_000;
+const MOST_LINES: usize = 400_000;
+
 /// So many edits are sent one by one: each costs more on its way to the editor than the line that it changes.
 const EDITS: usize = 20_000;
 
 /// The edits that lay out a program, or only the lines that touch `lines`. Of lines alone, blank ones are not removed.
 ///
 /// # Errors
-/// The reason why the layout could not be proved.
+/// The reason why the layout could not be proved, or that the program is too large.
 pub fn format(
     program: &Program,
     dialect: &Dialect,
@@ -43,6 +48,15 @@ pub fn format(
     style: &Style,
     lines: Option<TextRange>,
 ) -> Result<Vec<TextEdit>, String> {
+    let (bytes, count) = (program.source().len(), program.block_count());
+    if bytes > MOST_BYTES || count > MOST_LINES {
+        return Err(format!(
+            "the document has {count} lines and {bytes} bytes, and at most {MOST_LINES} lines and {MOST_BYTES} bytes are laid out here; \
+             `trunnion fmt --max-lines {} --max-file-mb {}` lays it out",
+            count + 1,
+            bytes / 1_000_000 + 1
+        ));
+    }
     let mut style = *style;
     if lines.is_some() {
         style.blank_lines = u8::MAX;

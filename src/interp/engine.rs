@@ -46,6 +46,10 @@ pub(crate) trait Engine<'d>: Clone {
         let known = self.outliving().into_iter();
         known.map(|(name, value)| Argument::number(name, value)).collect()
     }
+    /// How many entries of lists that grow with the program a check-point copies.
+    fn copied(&self) -> usize {
+        0
+    }
     /// The values of the variables that a text names.
     fn values_in(&self, text: &str) -> Vec<Argument> {
         crate::written::values(text, |name| self.variable(name))

@@ -26,6 +26,7 @@ mod tool;
 mod values;
 mod words;
 
+use crate::LengthOf;
 use crate::core::{Core, Report};
 use crate::engine::Engine;
 use crate::frames::{Frames, Tilted};
@@ -150,6 +151,8 @@ impl<'d> Klartext<'d> {
             out: Vec::new(),
             cycle_motions: 0,
         };
+        // TNC positions are those of the tip: until a TOOL CALL they hold the length of the tool that is in the spindle, which nothing declares
+        engine.core.state.length.set_declared(None, LengthOf::Tool(None));
         let setup = std::sync::Arc::clone(&engine.core.setup);
         for (name, value) in &setup.named_variables.0 {
             if let Some(parameter) = words::Words::new(name.as_bytes()).parameter() {

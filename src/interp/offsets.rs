@@ -145,6 +145,7 @@ impl<'d> Iso<'d> {
         if let Some(number) = offset.index() {
             self.memory.length_offset = Some(number);
         }
+        let mut wear = 0.0;
         let (tool, key, of) = match (offset, self.memory.length_offset) {
             (WordValue::Nothing, None) => (
                 self.core.state.tool.data(),
@@ -159,6 +160,7 @@ impl<'d> Iso<'d> {
                 if let Some(length) = self.written_length(number) {
                     return self.set_length(Some(length), of);
                 }
+                wear = self.tool_offset(number).map_or(0.0, |offset| offset.length_wear);
                 (
                     self.core.tools.data(Some(number), &self.core.setup),
                     format!("H{number}"),
@@ -168,6 +170,11 @@ impl<'d> Iso<'d> {
             _ => (None, "H".to_owned(), LengthOf::Other),
         };
         self.take_length(tool, (&key, of), range, report);
+        if wear != 0.0 && self.core.state.length.is_undeclared() {
+            // what the program has written comes on top of what nothing declares
+            self.set_length(Some(wear), of);
+            self.core.state.length.set_undeclared(wear, of);
+        }
     }
 
     /// What no source states of the length offsets of an Okuma, and G43 of a Fanuc before the first H: positions are unknown until the next H.

@@ -120,6 +120,11 @@ impl<'d> Interpreter<'d> {
         }
     }
 
+    /// How many entries of lists that grow with the program a clone copies: so many blocks, at least, should lie between two check-points.
+    pub fn copied(&self) -> usize {
+        with_engine!(&self.engine, engine => engine.copied())
+    }
+
     /// Whether a jump, loop or call was followed, where the engine says so.
     pub fn follows_flow(&self) -> bool {
         matches!(&self.engine, Engines::Iso(engine) if !engine.is_straight())

@@ -14,7 +14,7 @@ mod proof;
 #[cfg(test)]
 mod tests;
 
-pub use proof::AlongBlock;
+pub use proof::{AlongBlock, Effort};
 
 /// What the second machine does with joints that are right for the first.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ mod kinematics;
 mod obstacle;
 mod path;
 
-pub use compare::{AlongBlock, Comparison, TipDifference};
+pub use compare::{AlongBlock, Comparison, Effort, TipDifference};
 pub use file::builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use file::describe::{AxisDescription, Description, describe};
 pub use file::obstacle::RawObstacle;

@@ -110,6 +110,10 @@ impl Engine {
     pub fn is_defining(&self) -> bool {
         self.flow.is_defining()
     }
+    /// How many names and labels a check-point copies.
+    pub fn labels(&self) -> usize {
+        self.flow.labels()
+    }
     /// How many files the run has opened, the main program among them.
     pub fn file_count(&self) -> usize {
         self.files.len()
@@ -142,10 +146,13 @@ impl Engine {
     /// positions, G92, coordinate systems), and global names (LinuxCNC user manual, G-code overview, parameters).
     pub fn outliving(&self) -> Vec<(String, f64)> {
         let numbers = (31..=5000).chain(5161..=5390);
-        let known = numbers.map(|index| (format!("#{index}"), self.store.number(index)));
+        let held = numbers.map(|index| (index, self.store.number(index)));
+        // few of the thousands are known: only those get a name
+        let known = held.filter(|(_, value)| !value.is_nan());
+        let named = self.store.globals().filter(|(_, value)| !value.is_nan());
         known
-            .chain(self.store.globals())
-            .filter(|(_, value)| !value.is_nan())
+            .map(|(index, value)| (format!("#{index}"), value))
+            .chain(named)
             .collect()
     }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.

@@ -326,6 +326,11 @@ pub fn is_stored_global(name: &str) -> bool {
     name.len() > 1 && name.starts_with('_') && name.bytes().all(plain) && !Values::is_system(&Name::new(name))
 }
 
+/// Whether a name, without `#<` and `>`, is one that the control itself sets.
+pub(crate) fn is_system_name(name: &str) -> bool {
+    Values::is_system(&Name::new(name))
+}
+
 /// Whether a name is global.
 #[inline]
 fn is_global(name: &Name) -> bool {

@@ -104,6 +104,10 @@ pub struct State {
     pub tool_offset: Pose,
     /// Its tool: H of G43, 0 for the tool in the spindle; -1: not that of one tool (G43.1, G43.2); `None`: G49.
     pub length_of: Option<i32>,
+    /// H of G43.2, whose offset was added last.
+    pub length_added: Option<i32>,
+    /// What the program has set, bit by bit: before that a check knows nothing of it.
+    pub said: u8,
     /// G98 / G99.
     pub retract: RetractMode,
     /// Modal words of canned cycles.
@@ -302,6 +306,8 @@ impl State {
             rotation_xy: 0.0,
             tool_offset: [0.0; 9],
             length_of: None,
+            length_added: None,
+            said: 0,
             retract: RetractMode::RPlane,
             cycle: CycleWords::default(),
             side: Side::Off,
@@ -340,4 +346,22 @@ impl State {
             ended: false,
         }
     }
+}
+
+/// Bits of [`State::said`].
+pub(crate) mod said {
+    /// T.
+    pub(crate) const SELECTED: u8 = 1;
+    /// M6, M61.
+    pub(crate) const TOOL: u8 = 2;
+    /// G43 to G49.
+    pub(crate) const LENGTH: u8 = 4;
+    /// M3, M4, M5, M19.
+    pub(crate) const SPINDLE: u8 = 8;
+    /// S.
+    pub(crate) const SPEED: u8 = 16;
+    /// M7, M8, M9.
+    pub(crate) const COOLANT: u8 = 32;
+    /// G54 to G59.3.
+    pub(crate) const SYSTEM: u8 = 64;
 }

@@ -13,6 +13,7 @@ mod fmt;
 mod hostile;
 mod inch_pictures;
 mod lathes;
+mod long_lines;
 mod machines;
 mod messages;
 mod own_settings;

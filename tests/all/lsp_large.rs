@@ -208,3 +208,39 @@ fn random_edits_of_a_long_text_leave_the_findings_of_a_cold_run() {
     }
     client.finish();
 }
+
+/// The colours of a text of 5 MB would take 200 MB: those of the lines that are shown are told, of all none.
+#[test]
+fn a_text_of_megabytes_is_coloured_where_it_is_shown() {
+    let line = "G1 X1.5 Y2.5 Z3.5 F2000.\n";
+    let text = line.repeat((5 << 20) / line.len());
+    let uri = "untitled:/long.nc";
+    let mut client = Client::start(&json!({}));
+    client.open(uri, &text);
+    let document = json!({ "uri": uri });
+    let whole = client.request("textDocument/semanticTokens/full", json!({ "textDocument": document }));
+    assert_eq!(whole.get("result"), Some(&Value::Null), "no error, no colours");
+    let delta = json!({ "textDocument": document, "previousResultId": "0" });
+    let whole = client.request("textDocument/semanticTokens/full/delta", delta);
+    assert_eq!(whole.get("result"), Some(&Value::Null));
+    let [shown, _] = answers(&mut client, uri, 100_000);
+    let numbers = shown["data"].as_array().expect("colours").len();
+    assert_eq!(numbers, 11 * 9 * 5, "eleven lines of nine pieces of five numbers");
+    client.finish();
+}
+
+/// As `fmt` does: the message names the command and the options that lay the program out.
+#[test]
+fn more_lines_than_fmt_reads_are_not_laid_out() {
+    let uri = "untitled:/long.nc";
+    let mut client = Client::start(&json!({}));
+    client.open(uri, &format!("G21 G90\n{}M30\n", "\n".repeat(400_000)));
+    let ask = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
+    let answer = client.request("textDocument/formatting", ask);
+    let said = answer["error"]["message"].as_str().expect("an error");
+    assert!(
+        said.contains("400002 lines") && said.contains("trunnion fmt --max-lines 400003"),
+        "{said}"
+    );
+    client.finish();
+}

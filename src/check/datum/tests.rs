@@ -193,3 +193,17 @@ fn the_offset_of_a_lathes_tool_is_undeclared() {
     );
     assert!(of(&none, "tool-length-unset").is_empty(), "{:?}", none.diagnostics);
 }
+
+/// A TNC holds the length of the tool that is in the spindle, also where the program calls none.
+#[test]
+fn klartext_without_a_tool_call_has_a_length_that_nothing_declares() {
+    let text = "BEGIN PGM A MM\nL X+0 Y+0 Z+50 A+0 C+0 R0 FMAX\nM128\nL A+10 C+20 FMAX\nM30\nEND PGM A MM\n";
+    let report = check("gcode heidenhain-klartext mikron-ucp710", text);
+    let unknown: Vec<_> = (report.diagnostics.iter())
+        .filter(|found| found.status == Status::Unknown)
+        .collect();
+    assert!(
+        unknown.iter().any(|found| found.rule == "tool-length-unset"),
+        "{unknown:#?}"
+    );
+}

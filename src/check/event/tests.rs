@@ -181,3 +181,36 @@ fn what_is_not_decided_stays_by_itself() {
     assert_eq!(whole.diagnostics[0].also.len(), count - 2);
     assert_eq!(whole.summary.unknown, 1);
 }
+
+/// Three pieces of a line that the dialect cannot read are one mistake; two are two, and so is one in another block.
+#[test]
+fn a_line_in_another_language_is_one_finding() {
+    let dialect = trunnion_dialect::builtin("heidenhain-klartext").expect("built in");
+    let text = "BEGIN PGM 1 MM\n($Message(\"Load the tool\"))\nTOOL CALL 1 Z S1000\nL X+1 F100 M3 ? !\nL X+1 FMAX M30\nEND PGM 1 MM\n";
+    let settings = Settings::new(dialect, None, Setup::default());
+    let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+    let found = check(&program, &settings);
+    let errors: Vec<_> = found
+        .diagnostics
+        .iter()
+        .filter(|found| found.severity == Severity::Error)
+        .collect();
+    assert_eq!(errors.len(), 3, "{errors:#?}");
+    let line = program.block_at(errors[0].range.start);
+    assert!(errors[0].also.len() >= 3 && errors[1].also.is_empty() && errors[2].also.is_empty());
+    assert!(
+        errors[0]
+            .also
+            .iter()
+            .all(|also| program.block_at(also.range.start) == line)
+    );
+    assert!(
+        errors[0]
+            .notes
+            .iter()
+            .any(|note| note.contains("`Message` has no meaning")),
+        "{:?}",
+        errors[0].notes
+    );
+    assert_eq!(found.summary.errors, 3);
+}

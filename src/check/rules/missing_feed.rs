@@ -80,11 +80,11 @@ mod tests {
         for (dialect, text) in [
             (
                 "sinumerik-840d",
-                "G71 G0 X0\nG1 X5\n;  ^^ missing-feed: it is not known\nG1 X7\nM17\n",
+                "G71 G90 G0 X0\nG1 X5\n;  ^^ missing-feed: it is not known\nG1 X7\nM17\n",
             ),
             (
                 "fanuc-30i",
-                "O7\nG21 G0 X0.\nG1 X5.\n;  ^^^ missing-feed: it is not known\nG1 X7.\nM99\n;^^ not-modelled: not modelled: M99\n",
+                "O7\nG21 G90 G0 X0.\nG1 X5.\n;  ^^^ missing-feed: it is not known\nG1 X7.\nM99\n;^^ not-modelled: not modelled: M99\n",
             ),
         ] {
             let report = assert_drawn(&format!("gcode {dialect}"), text);

@@ -16,7 +16,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the groups of the dialect's table.
+//! Sound for the groups of the dialect's table; a warning on Fanuc, where the last one wins.
 //!
 //! # Sources
 //! * NISTIR 6556 (2000), section 3.4 on modal groups.
@@ -38,10 +38,15 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     else {
         return;
     };
-    out.report(
+    let last_wins = out.dialect().advice.last_word_wins;
+    let draft = out.report(
         fault.range,
         format!("{second} contradicts {first}: both belong to the modal group `{group}`"),
-    )
-    .help("keep the one that you need, or write them in two blocks")
-    .related(*first_range, format!("{first} is here"));
+    );
+    draft
+        .help("keep the one that you need, or write them in two blocks")
+        .related(*first_range, format!("{first} is here"));
+    if last_wins {
+        draft.severity(Warning).note("on this control the last one wins");
+    }
 }

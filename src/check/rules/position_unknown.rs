@@ -21,16 +21,20 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; reported once for each set of axes. Rapid moves before every axis has been positioned are normal and are
+//! Sound; reported once for each set of axes, and once for a subprogram that is run alone and relies on codes of its caller. Rapid moves before every axis has been positioned are normal and are
 //! not reported.
 //!
 //! # Sources
 //! * docs/contract.md#unknown-positions
+use crate::place::code_range;
 use crate::prelude::*;
 use trunnion_interp::{AXIS_LETTERS, MotionKind};
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::LostArc(lost_arc)]);
+pub(super) const RULE: Body = Body::sound(
+    Info,
+    &[Wake::LostEnd(check), Wake::LostArc(lost_arc), Wake::End(of_caller)],
+);
 
 fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     let motion = lost.motion();
@@ -48,6 +52,17 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
         NoStance::HeldElsewhere { axis, value, held } => held_elsewhere(*axis, [*value, *held], lost, out),
         _ => {}
     }
+}
+
+/// A subprogram that is run alone moves as its caller has set it.
+fn of_caller(ending: &Ending<'_>, out: &mut Reporter<'_>) {
+    let Some((block, codes)) = &ending.of_caller else {
+        return;
+    };
+    out.report(code_range(out.program(), *block), format!("this subprogram does not say {}: its caller does", codes.join(" ")))
+        .note("it was checked as if they were in effect")
+        .help("check the program that calls it, write the codes into the subprogram, or assume the usual state: --assume power-on")
+        .unknown();
 }
 
 /// The linear axes cannot reach the tip.
@@ -234,7 +249,15 @@ mod tests {
                 .iter()
                 .map(|found| (found.rule, found.status))
                 .collect();
-            assert_eq!(said, [("position-unknown", crate::Status::Unknown)], "{line}");
+            // a word says why its value is unknown, with or without a machine
+            let reason = ("not-modelled", crate::Status::Unknown);
+            let own: Vec<_> = said.iter().copied().filter(|found| *found != reason).collect();
+            assert_eq!(own, [("position-unknown", crate::Status::Unknown)], "{line}");
+            assert_eq!(
+                said.len() - own.len(),
+                usize::from(!line.starts_with("G28")),
+                "{line}: {said:?}"
+            );
         }
     }
 

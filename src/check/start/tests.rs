@@ -132,3 +132,77 @@ fn the_unit_is_a_finding_or_an_assumption() {
     assert_eq!(units(false), (true, "G21 at power-on (not declared)".to_owned()));
     assert_eq!(units(true), (false, "G21 at power-on (not declared)".to_owned()));
 }
+
+/// A branch that asks what is in effect relies on it, whatever moves: `#4006` before G20 or G21.
+#[test]
+fn what_a_program_asks_of_the_start_is_assumed() {
+    for (dialect, text, wanted) in [
+        (
+            "fanuc-30i",
+            "O1\nIF[#4003EQ91]GOTO10\nM3S900\nN10G21G90G94G17G1X1.F100\nM30\n",
+            "G90 at power-on (not declared)",
+        ),
+        (
+            "fanuc-30i",
+            "O1\nIF[#4006 EQ 20]GOTO10\nM3S900\nN10G21G90G94G17G1X1.F100\nM30\n",
+            "G21 at power-on (not declared)",
+        ),
+        (
+            "sinumerik-840d",
+            "IF $P_GG[6]==2 GOTOF LBX\nM3 S900\nLBX: G71 G90 G94 G17 G1 X1 F100\nM30\n",
+            "G17 at power-on (not declared)",
+        ),
+        (
+            "linuxcnc",
+            "o1 if [#<_imperial>]\nm3 s900\no1 endif\ng21 g90 g94 g17 g1 x1 f100\nm2\n",
+            "G21 at power-on (not declared)",
+        ),
+    ] {
+        let core = trunnion_dialect::builtin(dialect).expect("built in");
+        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), core.lex);
+        let settings = Settings::new(core, None, trunnion_interp::Setup::default());
+        let report = crate::check(&program, &settings);
+        assert!(
+            report.assumptions.iter().any(|found| found == wanted),
+            "{text}: {:?}",
+            report.assumptions
+        );
+        let after = text
+            .replace("O1\n", "O1\nG21 G90 G17\n")
+            .replace("IF $P", "G17\nIF $P")
+            .replace("o1 if", "g21\no1 if");
+        let program = trunnion_syntax::parse(after.as_bytes().to_vec(), core.lex);
+        let report = crate::check(&program, &settings);
+        assert!(
+            !report.assumptions.iter().any(|found| found == wanted),
+            "{after}: {:?}",
+            report.assumptions
+        );
+    }
+}
+
+/// A subprogram alone: whether its words are absolute, and what moves, its caller says.
+#[test]
+fn a_subprogram_relies_on_its_caller() {
+    for (dialect, text, wanted) in [
+        ("sinumerik-840d", "X300 Y0 F100\nX400\nM17\n", Some("G1 G90")),
+        ("fanuc-30i", "O1000\nG1 X300. F100.\nM99\n", Some("G90")),
+        ("fanuc-30i", "O1000\nG90 G1 X300. F100.\nM99\n", None),
+        ("fanuc-30i", "O1000\nG1 X300. F100.\nM30\n", None),
+    ] {
+        let found = |usual| {
+            let report = report(dialect, text, &[], usual);
+            let own = report
+                .diagnostics
+                .into_iter()
+                .find(|found| found.rule == "position-unknown");
+            own.map(|found| (found.status, found.message))
+        };
+        let message = wanted.map(|codes| {
+            let message = format!("this subprogram does not say {codes}: its caller does");
+            (crate::Status::Unknown, message)
+        });
+        assert_eq!(found(false), message, "{text}");
+        assert_eq!(found(true), None, "{text}");
+    }
+}

@@ -7,6 +7,7 @@ use crate::cli::{
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
+    io::{self, Write},
     path::{Path, PathBuf},
 };
 use trunnion_check::{Diagnostic, ValueKey};
@@ -68,10 +69,10 @@ fn badness(d: &Diagnostic) -> impl Iterator<Item = (String, f64)> {
 /// The file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Document {
+struct Document<Files> {
     schema: String,
     /// Findings of each program; its path is relative to the folder of the baseline, with `/`.
-    files: BTreeMap<String, Vec<Entry>>,
+    files: Files,
 }
 
 /// A baseline that was read.
@@ -90,7 +91,7 @@ impl Baseline {
             ));
         }
         let bytes = load::read(path)?;
-        let document: Document = serde_json::from_slice(&bytes).map_err(|error| {
+        let document: Document<BTreeMap<String, Vec<Entry>>> = serde_json::from_slice(&bytes).map_err(|error| {
             Failure::new(format!(
                 "{}:{}:{}: this is not a baseline: {error}; write it anew with --write-baseline",
                 path.display(),
@@ -182,15 +183,14 @@ impl Accepted {
             self.files.insert(key.clone(), entries.clone());
         }
     }
-    /// The text of the file.
-    pub(super) fn document(&self) -> String {
+    /// Writes the file.
+    pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
         let document = Document {
             schema: SCHEMA.to_owned(),
-            files: self.files.clone(),
+            files: &self.files,
         };
-        let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
-        text.push('\n');
-        text
+        serde_json::to_writer_pretty(&mut *out, &document)?;
+        writeln!(out)
     }
     /// What was written.
     pub(super) fn remark(&self, path: &str) -> String {

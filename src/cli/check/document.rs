@@ -83,9 +83,13 @@ impl<'o> Document<'o> {
                 // its opening brace is that of the document
                 writeln!(self.out, "\n  ],{}", &rest[1..])
             }
-            CheckFormat::Sarif => self
-                .out
-                .write_all(sarif::tail(&self.about, tally, statistics).as_bytes()),
+            CheckFormat::Sarif => {
+                self.out.write_all(b"\n],\n\"artifacts\": [")?;
+                for (at, about) in self.about.iter().enumerate() {
+                    write!(self.out, "{}{about}", if at == 0 { "\n" } else { ",\n" })?;
+                }
+                self.out.write_all(sarif::tail(tally, statistics).as_bytes())
+            }
             CheckFormat::Junit => {
                 self.out.write_all(junit::not_checked(&tally.not_checked).as_bytes())?;
                 writeln!(self.out, "</testsuites>")

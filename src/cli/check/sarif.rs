@@ -22,8 +22,8 @@ pub(super) fn head() -> String {
     )
 }
 
-/// The end of the document after the last result. `artifacts`: one object for each file.
-pub(super) fn tail(artifacts: &[String], tally: &Tally, statistics: bool) -> String {
+/// The end of the document after the files.
+pub(super) fn tail(tally: &Tally, statistics: bool) -> String {
     let failed: Vec<Value> = tally
         .not_checked
         .iter()
@@ -36,10 +36,7 @@ pub(super) fn tail(artifacts: &[String], tally: &Tally, statistics: bool) -> Str
     if statistics {
         properties["statistics"] = tally.statistics.json();
     }
-    format!(
-        "\n],\n\"artifacts\": [\n{}\n],\n\"invocations\": [{invocation}],\n\"properties\": {properties}\n}}]\n}}\n",
-        artifacts.join(",\n")
-    )
+    format!("\n],\n\"invocations\": [{invocation}],\n\"properties\": {properties}\n}}]\n}}\n")
 }
 
 fn tool() -> Value {

@@ -10,12 +10,14 @@ use std::io::Write;
 use std::path::Path;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Fault, FaultKind, ModalState, Motion, MotionKind, Sink};
-use trunnion_machine::{AxisKind, Comparison, Follower, Machine, TipDifference};
+use trunnion_machine::{AxisKind, Comparison, Effort, Follower, Machine, TipDifference};
 use trunnion_syntax::{BlockId, LineIndex};
 use trunnion_workspace::find_machine;
 
 /// Steps of a sweep.
 const STEPS: usize = 720;
+/// Pieces of blocks that a run may bound, for each of its `steps`.
+const PIECES: u64 = 2;
 /// Random poses.
 const POSES: usize = 10_000;
 
@@ -66,6 +68,11 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
     } else {
         sweep(&comparison, &believed, options, &mut out)?
     };
+    let everywhere = if found.longest_mm > longest {
+        comparison.everywhere(found.longest_mm)
+    } else {
+        everywhere
+    };
     let verdict = found.verdict(options.tolerance_mm, everywhere);
     out.text(&format!("{verdict}\n"));
     Ok(if verdict.starts_with("PASS") {
@@ -88,6 +95,8 @@ struct Found {
     worst_mm: Option<f64>,
     /// Proven for all that was compared.
     bound_mm: f64,
+    /// The longest tool of the program, mm.
+    longest_mm: f64,
     /// What is not covered by the bound, in words.
     open: Vec<String>,
 }
@@ -153,6 +162,7 @@ fn sweep(
     Ok(Found {
         worst_mm: worst.reduce(f64::max),
         bound_mm: f64::INFINITY,
+        longest_mm: 0.0,
         open: vec![format!(
             "it holds at {STEPS} steps of each sweep and at {POSES} poses, but poses between them were not compared; with a program the whole path is judged"
         )],
@@ -198,8 +208,11 @@ fn program(
         comparison,
         follower: Follower::new(machine),
         tolerance_mm,
+        effort: Effort::new(PIECES.saturating_mul(loaded.resolved.setup.limits.steps)),
         worst: None,
         bound_mm: 0.0,
+        longest_mm: 0.0,
+        cut_short: None,
         unknown: 0,
         at_end: 0,
         compared: 0,
@@ -225,6 +238,17 @@ fn program(
             .line_column(loaded.program.source(), loaded.program.block(block).range().start)
             .0
     };
+    if let Some((block, many)) = both.cut_short {
+        open.push(format!(
+            "{} proven only at the points that were compared, the first in line {}: their axes turn so far that the bound between them takes more \
+             pieces than a run may use; write shorter motions, allow more with --tolerance-mm, or use --max-steps N or raise `steps` of [limits] in trunnion.toml",
+            match many {
+                1 => "1 motion is".to_owned(),
+                many => format!("{many} motions are"),
+            },
+            line(block)
+        ));
+    }
     if let Some((block, why)) = &both.not_run {
         open.push(format!("not followed from line {} on: {why}", line(*block)));
     }
@@ -234,6 +258,7 @@ fn program(
     let found = Found {
         worst_mm: both.worst.map(|(_, found)| found.tip_mm),
         bound_mm: both.bound_mm,
+        longest_mm: both.longest_mm,
         open,
     };
     let Some((block, worst)) = both.worst else {
@@ -257,8 +282,12 @@ struct Both<'a> {
     comparison: &'a Comparison<'a>,
     follower: Follower<'a>,
     tolerance_mm: f64,
+    effort: Effort,
     worst: Option<(BlockId, TipDifference)>,
     bound_mm: f64,
+    longest_mm: f64,
+    /// The first block that needs more pieces than it may take, and how many such motions there are.
+    cut_short: Option<(BlockId, usize)>,
     unknown: usize,
     at_end: usize,
     compared: usize,
@@ -272,14 +301,22 @@ impl Sink for Both<'_> {
             return;
         }
         let leg = self.follower.follow(motion);
-        let along = self.comparison.along(&leg, self.tolerance_mm);
+        if let Ok(end) = &leg.end {
+            self.longest_mm = self.longest_mm.max(end.tool_length);
+        }
+        let along = self.comparison.along(&leg, self.tolerance_mm, &mut self.effort);
         let Some(found) = along.map(|along| along.worst).or_else(|| self.comparison.at_end(&leg)) else {
             self.unknown += 1;
             return;
         };
         self.compared += 1;
         match along {
-            Some(along) => self.bound_mm = self.bound_mm.max(along.bound_mm),
+            Some(along) => {
+                self.bound_mm = self.bound_mm.max(along.bound_mm);
+                if along.cut_short && found.tip_mm <= self.tolerance_mm {
+                    self.cut_short.get_or_insert((motion.block, 0)).1 += 1;
+                }
+            }
             None if leg.start.is_none() => self.at_end += 1,
             None => self.unknown += 1,
         }

@@ -134,7 +134,9 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
         }
         write!(out, "],\"line\":{line},\"start\":{start}}}")?;
     }
-    writeln!(out, "\n],\"errors\":{}}}", Value::Array(errors_json(loaded)))?;
+    write!(out, "\n],\"errors\":")?;
+    errors_json(out, loaded)?;
+    writeln!(out, "}}")?;
     Ok(())
 }
 
@@ -154,12 +156,23 @@ fn node_json(loaded: &Loaded, block: &Block<'_>, node: &Node) -> Value {
     value
 }
 
-/// The problems of the text.
-pub(super) fn errors_json(loaded: &Loaded) -> Vec<Value> {
+/// The problems of the text, one after the other: each byte of a file may be one.
+pub(super) fn errors_json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
     let errors = loaded.program.errors().iter();
-    errors
-        .map(|e| json!({ "kind": format!("{:?}", e.kind), "start": e.range.start, "end": e.range.end }))
-        .collect()
+    list_json(
+        out,
+        errors.map(|e| json!({ "kind": format!("{:?}", e.kind), "start": e.range.start, "end": e.range.end })),
+    )
+}
+
+/// A list of documents, of which one is held at a time.
+pub(super) fn list_json(out: &mut impl Write, list: impl Iterator<Item = Value>) -> Result<(), Failure> {
+    out.write_all(b"[")?;
+    for (at, value) in list.enumerate() {
+        write!(out, "{}{value}", if at == 0 { "" } else { "," })?;
+    }
+    out.write_all(b"]")?;
+    Ok(())
 }
 
 /// The contents of a block, one after the other: a line may be as long as a file.

@@ -28,7 +28,7 @@ impl Klartext<'_> {
         if first.is("TOOL") {
             self.tool_effects(words.clone(), block);
         } else if first.is("STOP") {
-            after.extend(stop());
+            after.push(Effect::Event(vec![Argument::code("STOP")]));
         } else if first.is("CYCL") || first.is("CYCLE") {
             unmodelled |= self.cycle_effects(text, block);
         } else if let Said::Parameter(..) = first.value {
@@ -282,7 +282,7 @@ fn canonical_words(text: &[u8]) -> String {
     }
 }
 
-/// M0 and STOP: the spindle and the coolant stop as well.
+/// M0: the spindle and the coolant stop as well.
 fn stop() -> [Effect; 4] {
     [
         Effect::Event(vec![Argument::code("M0")]),

@@ -48,7 +48,8 @@ impl Klartext<'_> {
             b"" if matches!(first.value, Said::Parameter(..)) => return self.assignment(text, report),
             b"STOP" => {
                 self.path_block(Path::None, &mut words, report);
-                self.core.state.spindle.switch(false);
+                // a STOP block interrupts the run; no source says whether the spindle stops, as it does at M0
+                self.core.state.spindle.leave_to_machine();
             }
             b"PATTERN" => self.pattern(&mut words, report),
             // the blank, and values for cycles that say PREDEF, which is unknown where it stands

@@ -157,10 +157,8 @@ impl Klartext<'_> {
     /// TOOL CALL DL+0,1: the same tool, measured otherwise. The machine stays where it is, so the tip is somewhere else along the tool.
     fn change_length(&mut self, delta: Option<f64>) {
         let unit = self.core.state.coordinates.unit_mm();
-        let length = self.memory.tool_length.zip(delta);
         let of = LengthOf::Tool(self.core.state.tool.number());
-        let length = length.map(|(length, delta)| length + delta * unit);
-        self.core.state.length.set_declared(length, of);
+        self.set_length_and_delta(delta.map(|delta| delta * unit), of);
         self.core.forget_linear();
     }
 
@@ -203,12 +201,21 @@ impl Klartext<'_> {
         let length = self.core.state.tool.data().and_then(|tool| tool.length_mm);
         self.memory.tool_length = length;
         let unit = self.core.state.coordinates.unit_mm();
-        let length = length.zip(delta).map(|(length, delta)| length + delta * unit);
         let name = self.core.tools.name();
         if length.is_none() && self.core.tools.first_report_of_length(&name) {
             report.fault(TextRange::default(), FaultKind::ToolLengthUnset { tool: name });
         }
-        self.core.state.length.set_declared(length, LengthOf::Tool(number));
+        self.set_length_and_delta(delta.map(|delta| delta * unit), LengthOf::Tool(number));
+    }
+
+    /// The tool's own length and DL, mm, are in effect. A length that nothing declares is unknown, and DL comes on top of it.
+    fn set_length_and_delta(&mut self, delta: Option<f64>, of: LengthOf) {
+        let length = &mut self.core.state.length;
+        match (self.memory.tool_length, delta) {
+            (Some(known), Some(delta)) => length.set_declared(Some(known + delta), of),
+            (None, Some(delta)) => length.set_undeclared(delta, of),
+            (_, None) => length.set_declared(None, of),
+        }
     }
 
     /// The axes that have a value are at that place in machine coordinates, the others stay; the tool may be longer or shorter than before.

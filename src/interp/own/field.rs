@@ -1,6 +1,6 @@
 //! Fields of one to three dimensions: `DEF REAL A[3,2]=SET(1,2,3)`. SET fills row by row and keeps what it leaves out, REP repeats one value
 //! (Sinumerik 840D sl Programming Manual, Job Planning, fields). Fields of texts, axes and frames are not followed.
-use super::{Own, Sort, arguments};
+use super::{Own, Scope, Sort, arguments};
 
 /// A longer field is not followed.
 const MOST: usize = 1000;
@@ -188,6 +188,38 @@ impl Own {
     pub(super) fn elements_of(&self, stem: &str) -> impl Iterator<Item = (Box<str>, f64)> {
         let found = self.scope.fields.get_key_value(stem).into_iter();
         found.flat_map(|(stem, field)| field.known(stem))
+    }
+
+    /// A field of the caller becomes a parameter: its name, its type and the number of elements in each dimension, `None` where PROC leaves
+    /// it open. A field of another form is not followed.
+    pub(crate) fn copy_field(
+        &mut self,
+        caller: &Scope,
+        from: &str,
+        (name, sort, sizes): (&str, Sort, &[Option<usize>]),
+    ) {
+        let is_this = |field: &&Field| {
+            let same = field
+                .sizes
+                .iter()
+                .zip(sizes)
+                .all(|(size, wanted)| wanted.is_none_or(|wanted| wanted == *size));
+            field.sort == sort && field.sizes.len() == sizes.len() && same
+        };
+        if let Some(field) = caller.fields.get(from).filter(is_this) {
+            self.scope.fields.insert(name.into(), field.clone());
+        }
+    }
+
+    /// A field that was a parameter with VAR goes back to the caller; false: it was none.
+    pub(crate) fn copy_back(&mut self, used: &Scope, here: &str, there: &str) -> bool {
+        let (Some(from), Some(to)) = (used.fields.get(here), self.scope.fields.get_mut(there)) else {
+            return false;
+        };
+        to.elements.clone_from(&from.elements);
+        self.changes += 1;
+        self.fresh.push(there.into());
+        true
     }
 
     pub(super) fn lose_fields(&mut self) {

@@ -158,6 +158,9 @@ impl<'d> Engine<'d> for Ngc<'d> {
     fn motions_wait(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.motions_wait())
     }
+    fn copied(&self) -> usize {
+        self.run.as_ref().map_or(0, |run| run.engine.labels())
+    }
     fn variable(&self, text: &str) -> Option<f64> {
         self.run.as_ref()?.variable(text)
     }

@@ -98,6 +98,8 @@ struct Parameter {
     sort: Sort,
     initial: Option<f64>,
     by_reference: bool,
+    /// A field: the number of elements in each dimension, `None` where PROC leaves it open.
+    sizes: Option<Vec<Option<usize>>>,
 }
 
 /// The PROC of a program: its parameters, and the words after them.
@@ -148,18 +150,23 @@ impl Proc {
             if by_reference {
                 words.remove(0);
             }
-            let kind = words.first().and_then(|word| Sort::named(word));
-            let name = words.last().copied().unwrap_or_default();
+            let kind = words.first().and_then(|word| Sort::named(word)).unwrap_or(Sort::Other);
+            let (name, sizes) = match words.concat().split_once('[') {
+                Some((_, index)) => {
+                    let name = words.get(1).copied().unwrap_or_default();
+                    let index = index.strip_suffix(']').unwrap_or_default();
+                    let size = |text: &str| own.value(text).map(|size| size as usize);
+                    (name, Some(arguments(index).into_iter().map(size).collect()))
+                }
+                None => (words.last().copied().unwrap_or_default(), None),
+            };
             let stem = name.split('[').next().unwrap_or_default();
             Parameter {
                 name: stem.to_ascii_lowercase().into(),
-                sort: if name.contains('[') {
-                    Sort::Other
-                } else {
-                    kind.unwrap_or(Sort::Other)
-                },
+                sort: kind,
                 initial,
                 by_reference,
+                sizes,
             }
         });
         Self {
@@ -167,6 +174,19 @@ impl Proc {
             saves,
         }
     }
+}
+
+/// A variable that two parameters stand for: each would see what the other writes.
+fn handed_over_twice<'a>(parameters: &[Parameter], arguments: &'a [Argument]) -> Option<&'a str> {
+    let by_reference = parameters
+        .iter()
+        .zip(arguments)
+        .filter(|(parameter, _)| parameter.by_reference);
+    let mut names: Vec<&str> = by_reference
+        .filter_map(|(_, argument)| argument.variable.as_deref())
+        .collect();
+    names.sort_unstable();
+    names.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 impl Iso<'_> {
@@ -189,6 +209,11 @@ impl Iso<'_> {
                 parameters.len()
             ));
         }
+        if let Some(twice) = handed_over_twice(&parameters, &with.arguments) {
+            return Err(format!(
+                "`{twice}` is handed over to two parameters with VAR: what one writes, the other reads"
+            ));
+        }
         let saved = saves.then(|| self.saved());
         let own = &mut self.memory.own;
         let scope = own.begin_scope();
@@ -207,11 +232,24 @@ impl Iso<'_> {
             let argument = given.next();
             let written = argument.as_ref().filter(|argument| !argument.is_left_out);
             let value = written.map_or(parameter.initial, |argument| argument.value);
-            own.declare(&parameter.name, parameter.sort, value);
-            if let (true, Some(Some(variable))) = (parameter.by_reference, argument.map(|argument| argument.variable)) {
+            let variable = argument.as_ref().and_then(|argument| argument.variable.clone());
+            let sort = match &parameter.sizes {
+                Some(sizes) => {
+                    own.declare(&parameter.name, Sort::Other, None);
+                    if let Some(variable) = &variable {
+                        own.copy_field(&level.scope, variable, (&parameter.name, parameter.sort, sizes));
+                    }
+                    Sort::Other
+                }
+                None => {
+                    own.declare(&parameter.name, parameter.sort, value);
+                    parameter.sort
+                }
+            };
+            if let (true, Some(variable)) = (parameter.by_reference, variable) {
                 level.references.push((parameter.name.clone(), variable));
             }
-            level.parameters.push((parameter.name, parameter.sort));
+            level.parameters.push((parameter.name, sort));
         }
         own.begin_block();
         Ok(Box::new(level))
@@ -224,7 +262,9 @@ impl Iso<'_> {
         own.levels = own.levels.saturating_sub(1);
         own.in_modal = level.in_modal;
         for (here, there) in &level.references {
-            own.assign(there, used.value(here));
+            if !own.copy_back(&used, here, there) {
+                own.assign(there, used.value(here));
+            }
         }
         own.begin_block();
         let saved = level.saved?;

@@ -4,7 +4,8 @@ use crate::kinematics::forward::Turn;
 use crate::path::curvature::{Carried, Shift};
 use crate::path::deviation::runs_dogleg;
 use crate::path::joint_path::JointPath;
-use crate::path::peak::{Piece, peak};
+use crate::path::peak::{Piece, SAMPLES, peak};
+use crate::path::rotary_path::RotaryPath;
 use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine};
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
@@ -17,6 +18,39 @@ pub struct AlongBlock {
     pub worst: TipDifference,
     /// Proven upper bound, mm; infinite where nothing is proven.
     pub bound_mm: f64,
+    /// The effort ended before the bound was as close to the truth as it was asked to be.
+    pub cut_short: bool,
+}
+
+/// How many pieces of blocks a run may bound: a number that grows with its motions and an allowance for the difficult ones. A block takes
+/// at most a small part of what is left, so that those that turn a billion times leave enough for the others.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    left: u64,
+}
+
+impl Effort {
+    /// Pieces that each motion adds.
+    const EACH: u64 = 4;
+    /// A block takes no more than this part of what is left.
+    const PART: u64 = 200;
+
+    /// An allowance of `pieces`.
+    pub fn new(pieces: u64) -> Self {
+        Self { left: pieces }
+    }
+
+    /// Pieces left.
+    pub fn left(&self) -> u64 {
+        self.left
+    }
+
+    /// What the next block may take.
+    fn share(&mut self) -> u32 {
+        self.left = self.left.saturating_add(Self::EACH);
+        let part = (self.left / Self::PART).max(self.left.min(Self::EACH));
+        u32::try_from(part).unwrap_or(u32::MAX).min(SAMPLES)
+    }
 }
 
 /// Above the tolerance the bound is brought down to this multiple of the worst that was found.
@@ -30,11 +64,12 @@ struct Rates {
 
 impl Comparison<'_> {
     /// The tip of the true machine along a whole block whose joints move as on the believed machine. `tolerance_mm`: the bound may be loose
-    /// where it already proves this. `None`: a stance or the path between the two is not known or not modelled.
+    /// where it already proves this, or where `effort` ends. `None`: a stance or the path between the two is not known or not modelled.
     ///
     /// With both tip paths W1, W2 bending by at most Q1 and Q2 their difference is on a piece of length h at most its largest end +
-    /// (Q1 + Q2) h^2 / 8; the piece with the largest bound is halved first. Source: docs/kinematics.md#between-the-ends-of-a-block.
-    pub fn along(&self, leg: &Leg, tolerance_mm: f64) -> Option<AlongBlock> {
+    /// (Q1 + Q2) h^2 / 8; the piece with the largest bound is halved first. However often an axis turns, the bound of [`Self::everywhere`]
+    /// holds for the block, with the travel of its joints. Source: docs/kinematics.md#between-the-ends-of-a-block.
+    pub fn along(&self, leg: &Leg, tolerance_mm: f64, effort: &mut Effort) -> Option<AlongBlock> {
         if runs_dogleg(self.believed, leg) {
             return None;
         }
@@ -58,15 +93,43 @@ impl Comparison<'_> {
             );
             piece.below_parabola(first + second)
         };
+        let whole = self.anywhere_on(&course);
+        let most = effort.share();
+        let settled = |bound: f64, sampled: f64| {
+            let bound = bound.min(whole);
+            bound <= tolerance_mm || (sampled > tolerance_mm && bound <= sampled * RATIO)
+        };
         let found = peak(
             |t| at(t).tip_mm,
             over,
-            |bound, sampled, _| bound <= tolerance_mm || (sampled > tolerance_mm && bound <= sampled * RATIO),
+            |bound, sampled, samples| samples >= most || settled(bound, sampled),
         );
+        effort.left = effort.left.saturating_sub(u64::from(found.samples));
         Some(AlongBlock {
             worst: at(found.at),
-            bound_mm: found.bound,
+            bound_mm: found.bound.min(whole).max(found.sampled),
+            cut_short: !settled(found.bound, found.sampled),
         })
+    }
+
+    /// A bound for a whole block that does not depend on how its joints move between the ends of their travel.
+    fn anywhere_on(&self, course: &JointPath<'_>) -> f64 {
+        // a great circle may leave the reach of the axes, which only its points show
+        if matches!(course.spin, RotaryPath::GreatCircle(_)) {
+            return f64::INFINITY;
+        }
+        let (rates, from, to) = (rates(course, 0.0, 1.0), course.joints(0.0), course.joints(1.0));
+        // no farther from both ends than the fastest rate allows
+        let travel = |joint: usize| {
+            let (middle, half) = (0.5 * (from[joint] + to[joint]), 0.5 * rates.rate[joint]);
+            if half.is_finite() {
+                let room = 1e-9 * (1.0 + middle.abs() + half);
+                (middle - half - room, middle + half + room)
+            } else {
+                (f64::NEG_INFINITY, f64::INFINITY)
+            }
+        };
+        self.inside(course.tool_length.abs(), travel)
     }
 
     /// How far the tip can be off at any pose with the joints inside the believed machine's travel (an endless rotary axis anywhere) and
@@ -78,6 +141,18 @@ impl Comparison<'_> {
     /// far as that) and, where the directions differ by g, by |R1 - R2| r <= 8 sin(q/2) sin(g/2) r: R2 = S R1 S^-1 with the turn S by g,
     /// hence |R1 - R2| = |(R1 - I)(S - I) - (S - I)(R1 - I)|. r is the largest distance of the point from the axis' point.
     pub fn everywhere(&self, longest_mm: f64) -> f64 {
+        self.inside(longest_mm, |joint| {
+            let axis = &self.believed.axes[joint];
+            match (axis.extra.hold, axis.limits) {
+                (Some(hold), _) => (hold, hold),
+                (None, Limits::Range(low, high)) => (low, high),
+                (None, Limits::Unbounded) => (f64::NEG_INFINITY, f64::INFINITY),
+            }
+        })
+    }
+
+    /// [`Self::everywhere`] with the travel of each joint.
+    fn inside(&self, longest_mm: f64, travel: impl Fn(usize) -> (f64, f64)) -> f64 {
         let (believed, truth) = (self.believed, self.truth);
         let (a, b) = (&believed.home, &truth.home);
         if self.order.iter().enumerate().any(|(joint, from)| joint != *from) || longest_mm.is_nan() {
@@ -88,15 +163,11 @@ impl Comparison<'_> {
             centre: b.gauge_point,
             radius: longest_mm,
         };
-        for (first, second) in believed.axes.iter().zip(&truth.axes).rev() {
+        for (joint, (first, second)) in believed.axes.iter().zip(&truth.axes).enumerate().rev() {
             if first.kind != second.kind || first.extra.hold != second.extra.hold {
                 return f64::INFINITY;
             }
-            let (low, high) = match (first.extra.hold, first.limits) {
-                (Some(hold), _) => (hold, hold),
-                (None, Limits::Range(low, high)) => (low, high),
-                (None, Limits::Unbounded) => (f64::NEG_INFINITY, f64::INFINITY),
-            };
+            let (low, high) = travel(joint);
             let directions = [first.direction * first.sign, second.direction * second.sign];
             match first.kind {
                 AxisKind::Linear => ball.shift(&directions, (low, high)),

@@ -1,8 +1,15 @@
 //! Two machines that should be one: the calibration sweep finds a pivot that is 0.05 mm off, in numbers.
 use crate::kinematics::uncertainty::worst_pivot_error;
-use crate::{Comparison, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity_between};
+use crate::{Comparison, Effort, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity_between};
 use trunnion_geometry::math::sin;
 use trunnion_geometry::{Vec3, rad};
+
+mod effort;
+
+/// More effort than these tests need.
+fn plenty() -> Effort {
+    Effort::new(u64::from(u32::MAX))
+}
 
 /// A shipped machine with one line of one axis replaced.
 fn planted(name: &str, letter: char, from: &str, to: &str) -> Machine {
@@ -90,20 +97,20 @@ fn along_a_block_the_bound_closes_on_the_truth() {
     let wanted = 0.1 * sin(rad(45.0));
     for tcp in [false, true] {
         let leg = turn_of_a(believed, tcp, 0.0, 90.0);
-        let found = comparison.along(&leg, 0.01).expect("known");
+        let found = comparison.along(&leg, 0.01, &mut plenty()).expect("known");
         assert!((found.worst.tip_mm - wanted).abs() < 1e-9, "{found:?}");
         assert!(found.bound_mm >= wanted && found.bound_mm <= 1.2 * wanted, "{found:?}");
         // a tolerance above the truth is proven to be kept
-        let kept = comparison.along(&leg, wanted * 1.01).expect("known");
+        let kept = comparison.along(&leg, wanted * 1.01, &mut plenty()).expect("known");
         assert!(kept.bound_mm <= wanted * 1.01 && kept.bound_mm >= wanted, "{kept:?}");
         // the worst is inside the block: A -80 to 80 passes through zero, its ends are the worst; 60 to 300 has it at 180
         let across = turn_of_a(believed, tcp, -60.0, 60.0);
-        let found = comparison.along(&across, 1e-3).expect("known");
+        let found = comparison.along(&across, 1e-3, &mut plenty()).expect("known");
         assert!((found.worst.tip_mm - 0.05).abs() < 1e-9, "{found:?}");
     }
     assert_eq!(
         comparison
-            .along(&turn_of_a(believed, true, 90.0, 90.0), 1e-3)
+            .along(&turn_of_a(believed, true, 90.0, 90.0), 1e-3, &mut plenty())
             .map(|f| f.worst.tip_mm > 0.07),
         Some(true)
     );
@@ -127,7 +134,7 @@ fn both_paths_bend() {
     follower.follow(&line(false, trunnion_interp::Position::default(), at(0.0)));
     let leg = follower.follow(&line(false, at(0.0), at(180.0)));
     let radius = 125_f64.sqrt();
-    let found = comparison.along(&leg, 1.5 * radius).expect("known");
+    let found = comparison.along(&leg, 1.5 * radius, &mut plenty()).expect("known");
     assert!((found.worst.tip_mm - 2.0 * radius).abs() < 1e-9, "{found:?}");
     assert!(
         found.bound_mm >= 2.0 * radius * (1.0 - 1e-12) && found.bound_mm <= 2.4 * radius,
@@ -222,7 +229,7 @@ fn along_and_sampled(
     let mut follower = crate::Follower::new(machine);
     follower.follow(&line(false, trunnion_interp::Position::default(), from));
     let leg = follower.follow(&line(false, from, to));
-    let along = comparison.along(&leg, 1e-3).expect("known");
+    let along = comparison.along(&leg, 1e-3, &mut plenty()).expect("known");
     let (start, end) = (leg.start.as_ref().expect("known"), leg.end.as_ref().expect("known"));
     let sampled = (0..=400).map(|step| {
         let mut joints = start.joints;

@@ -11,6 +11,8 @@ pub(crate) struct Peak {
     pub(crate) at: f64,
     /// Never below the truth.
     pub(crate) bound: f64,
+    /// How many samples were taken.
+    pub(crate) samples: u32,
 }
 
 /// A piece of 0..=1 with the function's values at its ends, and other data computed there.
@@ -147,6 +149,7 @@ pub(crate) fn peak_tagged<T: Copy>(
         sampled,
         at,
         bound: top.bound.max(sampled),
+        samples,
     }
 }
 

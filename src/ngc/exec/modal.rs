@@ -1,5 +1,6 @@
 //! Modal changes of a block: feed mode, F, units, plane, path control, distance and retract modes, diameters.
 use super::{frame, problems};
+use crate::state::said;
 use crate::{
     At, Block, Canon, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, Problem, RetractMode, Side, Sink,
     SpindleMode, Units,
@@ -205,6 +206,7 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
         _ => code - 584,
     };
     let index = i32::from(index);
+    engine.state.said |= said::SYSTEM;
     if index == engine.state.origin_index {
         remark(
             engine,

@@ -1,5 +1,6 @@
 //! Outputs and inputs (M62-M68), override switches (M48-M53), coolant, user M codes.
 use super::problems;
+use crate::state::said;
 use crate::{At, Block, Canon, Coolant, Engine, Error, Side, Sink, Switch};
 
 /// M62-M68.
@@ -94,6 +95,9 @@ fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Resu
 
 /// M7, M8, M9.
 pub(crate) fn coolant(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
+    if block.m[8] >= 0 {
+        engine.state.said |= said::COOLANT;
+    }
     match block.m[8] {
         7 => {
             engine.state.mist = true;

@@ -1,5 +1,6 @@
 //! S, M3-M5, M19: per spindle of `$`.
 use super::problems;
+use crate::state::said;
 use crate::{At, Block, Canon, Engine, Error, Problem, Sink, SpindleTurn};
 use std::ops::Range;
 
@@ -26,6 +27,7 @@ fn chosen(engine: &Engine, block: &Block, problem: &'static Problem) -> Result<R
 /// S.
 pub(crate) fn speed(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let Some(speed) = block.word(b'S') else { return Ok(()) };
+    engine.state.said |= said::SPEED;
     for spindle in chosen(engine, block, &problems::SPINDLE_RANGE)? {
         engine.state.speed[spindle] = speed;
         engine.emit(Canon::SpindleSpeed(spindle as i32, speed), at, sink);
@@ -35,6 +37,9 @@ pub(crate) fn speed(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
 
 /// M3, M4, M5, M19.
 pub(crate) fn turn(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    if block.m[7] >= 0 {
+        engine.state.said |= said::SPINDLE;
+    }
     match block.m[7] {
         3 => turn_to(
             engine,

@@ -1,5 +1,6 @@
 //! T, M6, M61, tool offsets (G43, G43.1, G43.2, G49) and the tool table (G10 L0, L1, L10, L11).
 use super::{access, checks::WHOLE, frame, problems};
+use crate::state::said;
 use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink, SpindleTurn, Start, ToolEntry};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
@@ -78,6 +79,12 @@ impl Engine {
 /// At the start of a program.
 pub(crate) fn start(engine: &mut Engine) {
     engine.spindle_tool_changed();
+    if engine.setup.start == Start::Unknown {
+        // some tool is in the spindle
+        for number in 5400..=5413 {
+            engine.set_parameter(number, f64::NAN);
+        }
+    }
 }
 
 /// T.
@@ -95,6 +102,7 @@ pub(crate) fn select(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     };
     engine.state.selected_tool = number;
     engine.state.selected_row = row as i32;
+    engine.state.said |= said::SELECTED;
     engine.emit(Canon::SelectTool(number), at, sink);
     Ok(())
 }
@@ -108,6 +116,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 return Err(Error::new(&problems::TOOL_COMPENSATION, range));
             }
             engine.emit(Canon::StartChange, at, sink);
+            engine.state.said |= said::SPINDLE;
             for spindle in 0..engine.setup.spindles() {
                 engine.state.turning[spindle] = 0;
                 engine.emit(Canon::Spindle(spindle as i32, SpindleTurn::Stop), at, sink);
@@ -143,6 +152,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         }
         _ => return Ok(()),
     }
+    engine.state.said |= said::TOOL;
     let pocket = engine.state.spindle_pocket;
     Arc::make_mut(&mut engine.state.tools).set_pocket_of_spindle(pocket);
     Ok(())
@@ -199,6 +209,8 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         430 => Some(h.unwrap_or(0)),
         _ => Some(-1),
     };
+    engine.state.said |= said::LENGTH;
+    engine.state.length_added = h.filter(|_| code == 432);
     let offset = match code {
         490 => [0.0; 9],
         430 => {

@@ -240,6 +240,10 @@ impl Labels {
         self.subprograms[name.0 as usize] = Some(subprogram);
         self.generation += 1;
     }
+    /// How many there are: a copy copies each.
+    pub(crate) fn count(&self) -> usize {
+        self.names.texts.len().max(self.structures.len())
+    }
     /// All structures that are known.
     pub(crate) fn structures(&self) -> impl Iterator<Item = &Structure> {
         self.structures.iter().flatten()

@@ -215,6 +215,10 @@ impl Flow {
         self.seeking
             .is_some_and(|seeking| matches!(seeking.goal, Goal::Definition(_)))
     }
+    /// How many names and labels a copy copies.
+    pub(crate) fn labels(&self) -> usize {
+        self.labels.count()
+    }
     /// Whether the bound on lines is reached.
     pub(crate) fn is_spent(&self) -> bool {
         self.fuel == 0

@@ -32,8 +32,8 @@ impl Engine {
     pub(super) fn undecided_word(letter: char, what: &str) -> String {
         format!("{what} depends on {letter}, whose value is not known before the program runs")
     }
-    /// Reports the parameters that a line reads and nothing has set, each once in a run; what is assigned from one is unknown too. What the
-    /// machine knows (a touched position, a pin) is no mistake of the program: where it leads, `position-unknown` reports.
+    /// Reports why the value of a word is unknown, and the parameters that an assignment reads and nothing has set: each once in a run. What is
+    /// assigned from an unknown value is reported where a word reads it.
     #[inline]
     pub(super) fn report_unset(&mut self, line: &read::Line, sink: &mut dyn Sink) {
         let computes = |formula: &Formula| formula.number().is_none();
@@ -45,19 +45,27 @@ impl Engine {
         }
     }
     fn report_unset_of(&mut self, line: &read::Line, sink: &mut dyn Sink) {
-        let words = line.words.iter().map(|word| (&word.value, word.range));
-        let assigned = line.assignments.iter().map(|one| (&one.value, one.target_range));
-        for (formula, range) in words.chain(assigned) {
-            for variable in formula.reads() {
-                let text = match variable {
-                    Variable::Numbered(index) if self.is_unset(index) => {
-                        format!("#{index}: read before the program assigns it")
-                    }
-                    Variable::Computed(_) if self.value(formula).is_ok_and(f64::is_nan) => {
-                        self.reasons(formula).join(" and ")
-                    }
-                    _ => continue,
-                };
+        let words = line.words.iter().map(|word| (&word.value, word.range, true));
+        let assigned = line.assignments.iter().map(|one| (&one.value, one.target_range, false));
+        for (formula, range, is_word) in words.chain(assigned) {
+            let unset = formula.reads().filter_map(|variable| match variable {
+                Variable::Numbered(index) if self.is_unset(index) => {
+                    Some(format!("#{index}: read before the program assigns it"))
+                }
+                _ => None,
+            });
+            let mut reasons: Vec<String> = unset.collect();
+            let computed = || {
+                formula
+                    .reads()
+                    .any(|variable| matches!(variable, Variable::Computed(_)))
+            };
+            if reasons.is_empty() && (is_word || computed()) && self.value(formula).is_ok_and(f64::is_nan) {
+                reasons = self.reasons(formula);
+                // what it was computed from has been reported
+                reasons.retain(|reason| self.flow.unset.is_empty() || !reason.ends_with(COMPUTED));
+            }
+            for text in reasons {
                 if self.flow.unset.len() < REPORTED && self.flow.unset.insert(text.clone()) {
                     self.tell(&Error::with(&problems::UNSET, range, text), sink);
                 }
@@ -117,7 +125,7 @@ fn numbered(index: i64) -> &'static str {
         5161..=5189 => "a position of the machine (G28, G30)",
         5210..=5390 => "an offset set on the machine",
         5399 => "the result of M66",
-        5400..=5413 => "data of the tool in the spindle",
+        5400..=5413 => "data of the tool that is in the spindle",
         5420..=5428 => "the position of the machine",
         1..=5000 => "which keeps its value between programs and is not set here",
         _ => COMPUTED,
@@ -133,6 +141,8 @@ fn named(name: &str) -> &'static str {
     } else if matches!(name, "_x" | "_y" | "_z" | "_a" | "_b" | "_c" | "_u" | "_v" | "_w") || name.starts_with("_abs_")
     {
         "the position of the machine"
+    } else if crate::parameters::is_system_name(name) {
+        "which the program has not set before"
     } else {
         COMPUTED
     }

@@ -1,6 +1,7 @@
 //! Names the control sets itself: its state and position (values and names observed from `rs274`).
 use super::Values;
 use crate::exec;
+use crate::state::said;
 use crate::{DistanceMode, FeedMode, Plane, RetractMode, Side, SpindleMode, Units};
 
 /// How a value is found.
@@ -21,13 +22,15 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_c", |v| v.state.position()[5]),
     ("_call_level", |v| v.store.aside.len() as f64),
     ("_ccomp", compensation),
-    ("_coord_system", |v| coordinate_system(v.state.origin_index)),
-    ("_current_pocket", |v| pocket(v, v.state.current_row)),
-    ("_current_tool", |v| f64::from(v.state.tool)),
+    ("_coord_system", |v| {
+        v.set(said::SYSTEM, coordinate_system(v.state.origin_index))
+    }),
+    ("_current_pocket", |v| v.set(said::TOOL, pocket(v, v.state.current_row))),
+    ("_current_tool", |v| v.set(said::TOOL, f64::from(v.state.tool))),
     ("_feed", |v| v.state.feed_rate),
     ("_feed_hold", |v| truth(v.state.feed_hold)),
     ("_feed_override", |v| truth(v.state.feed_override)),
-    ("_flood", |v| truth(v.state.flood)),
+    ("_flood", |v| v.set(said::COOLANT, truth(v.state.flood))),
     ("_ijk_absolute_mode", |v| {
         truth(v.state.arc_distance == DistanceMode::Absolute)
     }),
@@ -38,24 +41,31 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_lathe_radius_mode", |v| truth(!v.state.lathe_diameter)),
     ("_line", |v| f64::from(v.line)),
     ("_metric", |v| truth(v.state.units == Units::Millimetre)),
-    ("_mist", |v| truth(v.state.mist)),
+    ("_mist", |v| v.set(said::COOLANT, truth(v.state.mist))),
     ("_motion_mode", |v| f64::from(v.state.motion)),
     ("_plane", |v| plane(v.state.plane)),
     ("_remap_level", |_| 0.0),
     ("_retract_old_z", |v| truth(v.state.retract == RetractMode::OldZ)),
     ("_retract_r_plane", |v| truth(v.state.retract == RetractMode::RPlane)),
-    ("_rpm", |v| v.state.speed[0]),
-    ("_selected_pocket", |v| pocket(v, v.state.selected_row)),
-    ("_selected_tool", |v| f64::from(v.state.selected_tool.max(0))),
+    ("_rpm", |v| v.set(said::SPEED, v.state.speed[0])),
+    ("_selected_pocket", |v| {
+        v.set(said::SELECTED, pocket(v, v.state.selected_row))
+    }),
+    ("_selected_tool", |v| {
+        v.set(said::SELECTED, f64::from(v.state.selected_tool.max(0)))
+    }),
     ("_speed_override", |v| truth(v.state.speed_override)),
     ("_spindle_css_mode", |v| truth(surface_speed(v))),
-    ("_spindle_cw", |v| truth(v.state.turning[0] == 1)),
-    ("_spindle_on", |v| truth(v.state.turning[0] != 0)),
+    ("_spindle_cw", |v| v.set(said::SPINDLE, truth(v.state.turning[0] == 1))),
+    ("_spindle_on", |v| v.set(said::SPINDLE, truth(v.state.turning[0] != 0))),
     ("_spindle_rpm_mode", |v| truth(!surface_speed(v))),
     // 1 where motion is carried out: a check simulates the machine
     ("_task", |v| truth(v.is_check())),
     ("_tool_offset", |v| {
-        truth(v.state.tool_offset.iter().any(|offset| *offset != 0.0))
+        v.set(
+            said::LENGTH,
+            truth(v.state.tool_offset.iter().any(|offset| *offset != 0.0)),
+        )
     }),
     ("_u", |v| v.state.position()[6]),
     ("_units_per_minute", |v| truth(v.state.feed_mode == FeedMode::PerMinute)),
@@ -72,6 +82,14 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_y", |v| v.state.position()[1]),
     ("_z", |v| v.state.position()[2]),
 ];
+
+impl Values<'_> {
+    /// What the program has set; before that a check does not know it.
+    fn set(&self, bit: u8, value: f64) -> f64 {
+        let known = !self.is_check() || self.state.said & bit != 0;
+        if known { value } else { f64::NAN }
+    }
+}
 
 fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }

@@ -96,7 +96,7 @@ impl ToolLength {
     pub fn of(&self) -> LengthOf {
         self.of
     }
-    /// Nothing declares it: it counts as zero, and is unknown.
+    /// Nothing declares it: it counts as zero, or as what the program adds to it, and is unknown.
     pub fn is_undeclared(&self) -> bool {
         self.is_undeclared
     }
@@ -111,6 +111,10 @@ impl ToolLength {
     /// The length, mm; where nothing declares it, it counts as zero.
     pub fn set_declared(&mut self, mm: Option<f64>, of: LengthOf) {
         (self.mm, self.of, self.is_undeclared, self.is_open) = (Some(mm.unwrap_or(0.0)), of, mm.is_none(), false);
+    }
+    /// Nothing declares the length; the program adds so many mm to it.
+    pub fn set_undeclared(&mut self, beside_mm: f64, of: LengthOf) {
+        (self.mm, self.of, self.is_undeclared, self.is_open) = (Some(beside_mm), of, true, false);
     }
     /// See [`Self::is_open`].
     pub fn leave_open(&mut self) {

@@ -141,3 +141,48 @@ fn a_block_of_many_motions_is_compared_and_converted_up_to_the_bound() {
     assert_eq!(status(&output), 2, "{said}");
     assert!(said.contains("one block makes more than 100 motions"), "{said}");
 }
+
+/// C turns a billion times in each block. With the same machine nothing is off, whatever happens on the way. With a direction that is off
+/// a little, the bound between the ends would take billions of pieces: the run has a number of them, and says what is not proven.
+#[test]
+fn a_comparison_of_machines_does_not_follow_endless_turns() {
+    let folder = folder();
+    let turns: Vec<String> = (1..40).map(|i| format!("G1 X{i}. C{i}0000000. F500.\n")).collect();
+    let program = format!(
+        "G21 G90 G17 G94 G54\nT1 M6\nG43 H1\nG0 X0. Y0. Z50. A0. C0.\n{}M30\n",
+        turns.concat()
+    );
+    write(&folder, "turns.nc", &program);
+    let source = trunnion::machine::builtin_source("mikron-ucp710").expect("embedded");
+    let axes = source.split("[[check]]").next().expect("a part");
+    let (head, of_c) = axes.split_once("letter = \"C\"").expect("C");
+    let tilted = of_c.replacen("dir = [0, 0, 1]", "dir = [0.0001, 0, 1]", 1);
+    assert_ne!(tilted, of_c);
+    let same = write(&folder, "same.toml", axes);
+    let truth = write(&folder, "tilted.toml", &format!("{head}letter = \"C\"{tilted}"));
+    let compare = |other: &std::path::Path, tolerance: &str| {
+        let arguments = [
+            "machine",
+            "compare",
+            "mikron-ucp710",
+            str(other),
+            "turns.nc",
+            "--tolerance-mm",
+            tolerance,
+        ];
+        let output = trunnion_in(folder.path(), &arguments);
+        (status(&output), text(&output.stdout))
+    };
+    let (code, said) = compare(&same, "0.001");
+    assert!(
+        code == 0 && said.contains("PASS: ") && said.contains("40 motions"),
+        "{said}"
+    );
+    let (code, said) = compare(&truth, "0.02");
+    assert!(code == 1 && said.contains("UNKNOWN: "), "{said}");
+    assert!(
+        said.contains("39 motions are proven only at the points that were compared, the first in line 5:")
+            && said.contains("--max-steps N or raise `steps`"),
+        "{said}"
+    );
+}

@@ -106,7 +106,7 @@ pub(super) const ITEMS: &[Item] = &[
             "",
             "G21 G17 G90 G94\nG0 X0 Y0 Z0\nG38.2 Z-10 F50\n#1=#5063\nG0 Z[#1+5]\nM2\n",
         ],
-        &["3 unknown not-modelled"],
+        &["3 unknown not-modelled", "5 unknown not-modelled"],
         [1, 3],
     ),
     (

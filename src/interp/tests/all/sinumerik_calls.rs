@@ -10,6 +10,10 @@ impl Files for Folder {
     fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let text: &str = match name {
             "CUT.SPF" => "PROC CUT(REAL DEPTH, INT CNT=2, VAR REAL OUT)\nG0 Z=DEPTH\nZ=CNT\nOUT=DEPTH+CNT\nM17\n",
+            "SHIFT.SPF" => {
+                "PROC SHIFT(VAR REAL FROM[3], VAR REAL TO[], REAL BY[2,2])\nDEF INT I\nFOR I=0 TO 2\nTO[I]=FROM[I]+BY[1,0]\nENDFOR\nBY[1,0]=99\nRET\n"
+            }
+            "BOTH.SPF" => "PROC BOTH(VAR REAL ONE, VAR REAL TWO)\nONE=1\nTWO=2\nG0 X=ONE\nRET\n",
             "L20.SPF" => "R1=R1+1\nG0 X=R1\nM17\n",
             "L020.SPF" => "G0 X=-20\nM17\n",
             "L140.SPF" => "PROC L140(REAL DEPTH)\nG0 Z=DEPTH\nRET\n",
@@ -45,6 +49,39 @@ fn run(source: &str) -> (Vec<String>, Vec<String>) {
     let log = run_bytes(SINUMERIK, source.as_bytes(), &setup()).1;
     let lines = log.motions.iter().map(line).collect();
     (lines, said_with(source, &setup()))
+}
+
+/// Programming manual, 12/2019, p. 495: a parameter with VAR is the variable of the caller itself, a field too.
+#[test]
+fn fields_are_handed_over() {
+    let begin = "DEF REAL P[3]=SET(1,2,3), Q[3], B[2,2]\nB[1,0]=10\n";
+    let end = "G0 X=Q[0] Y=Q[2] Z=B[1,0]\nM30\n";
+    assert_eq!(called(&format!("{begin}SHIFT(P,Q,B)\n{end}")), ["R X11 Y13 Z10"]);
+    // another number of elements, another type, another number of dimensions: not followed
+    for (define, call) in [
+        ("DEF REAL S[2]", "SHIFT(S,Q,B)"),
+        ("DEF INT S[3]", "SHIFT(S,Q,B)"),
+        ("DEF REAL S[3]", "SHIFT(P,Q,S)"),
+    ] {
+        let (_, said) = run(&format!("{begin}{define}\n{call}\n{end}"));
+        assert!(
+            said.iter().any(|said| said.contains("q[0]") || said.contains("Q[0]")),
+            "{call}: {said:?}"
+        );
+    }
+}
+
+#[test]
+fn one_variable_for_two_parameters_is_not_followed() {
+    let (_, said) = run("DEF REAL S\nBOTH(S,S)\nG0 X=S\nM30\n");
+    assert!(
+        said[0].contains("`s` is handed over to two parameters with VAR"),
+        "{said:?}"
+    );
+    assert_eq!(
+        called("DEF REAL S, T\nBOTH(S,T)\nG0 Y=S Z=T\nM30\n"),
+        ["R X1", "R X1 Y1 Z2"]
+    );
 }
 
 /// Motions of a program about which nothing is said.

@@ -96,3 +96,23 @@ fn a_probed_point_is_unknown_and_that_there_is_one_may_be_known() {
     ));
     assert_eq!(motions.0.len(), 1);
 }
+
+/// Which tool is in the spindle, whether that turns and which coordinate system acts is not known before the program says so.
+#[test]
+fn what_the_program_has_not_set_is_unknown() {
+    for (name, set) in [
+        ("_current_tool", "t1 m6"),
+        ("_selected_tool", "t1"),
+        ("_tool_offset", "g49"),
+        ("_spindle_on", "m5"),
+        ("_rpm", "s100"),
+        ("_flood", "m9"),
+        ("_coord_system", "g54"),
+    ] {
+        let program = |before: &str| format!("{before}\no1 if [#<{name}> ne 5]\ng53 g0 x1\no1 endif\nm2\n");
+        assert_eq!(run(&program("")).0.len(), 0, "{name}");
+        assert_eq!(run(&program(set)).0.len(), 1, "{name}");
+    }
+    assert_eq!(run("o1 if [#5400 ne 5]\ng53 g0 x1\no1 endif\nm2\n").0.len(), 0);
+    assert_eq!(run("t1 m6\no1 if [#5400 ne 5]\ng53 g0 x1\no1 endif\nm2\n").0.len(), 1);
+}

@@ -1,0 +1,87 @@
+//! Programs whose offsets, lengths or words come from values that are not known: none of them may pass in silence.
+use super::items::{HEAD, Item, KLARTEXT};
+
+pub(super) const UNKNOWN_VALUES: &[Item] = &[
+    (
+        "a zero point set where the machine stands",
+        ["linuxcnc", "mill-3axis"],
+        [
+            "",
+            "G21 G90 G54 G17 G94\nG10 L20 P1 X0 Y0 Z0\nG0 X5000 Y5 Z5\nS100 M3\nG1 X-5000 F100\nM2\n",
+        ],
+        &["2 unknown not-modelled"],
+        [2, 2],
+    ),
+    (
+        "G92 where the machine stands",
+        ["linuxcnc", "mill-3axis"],
+        ["", "G21 G90 G54 G17 G94\nG92 Z0\nG0 X0 Y0 Z500\nM2\n"],
+        &["2 unknown not-modelled"],
+        [1, 1],
+    ),
+    (
+        "a zero point from the length of the tool",
+        ["linuxcnc", "mill-3axis"],
+        ["", "G21 G90 G54 G17 G94\nG10 L2 P1 Z#5422\nG0 X5 Y5 Z500\nM2\n"],
+        &["2 unknown not-modelled", "2 unknown not-modelled"],
+        [1, 1],
+    ),
+    (
+        "a word from a value of the machine",
+        ["linuxcnc", ""],
+        ["", "G21 G90 G54 G17 G94\n#1=#5420\nG0 X[#1+5] Y5 Z5\nM2\n"],
+        &["3 unknown not-modelled"],
+        [0, 1],
+    ),
+    (
+        "the tool that is in the spindle",
+        ["linuxcnc", ""],
+        [
+            "",
+            "G21 G90 G54 G17 G94\no1 if [#<_current_tool> ne 5]\nM3 S1000\no1 endif\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM2\n",
+        ],
+        &["2 unknown not-decided"],
+        [0, 0],
+    ),
+    (
+        "DL comes on top of a length that is assumed",
+        ["heidenhain-klartext", "mill-3axis"],
+        [
+            "",
+            "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 DL+600\nL X+0 Y+0 Z+5 R0 FMAX M3\nM30\nEND PGM A MM\n",
+        ],
+        &["3 error axis-limit"],
+        [1, 1],
+    ),
+    (
+        "wear comes on top of a length that is assumed",
+        ["fanuc-30i", "mill-3axis"],
+        [
+            "",
+            "G21 G17 G40 G49 G80 G90 G94\nG10 L11 P1 R600.\nG54 G0 X0 Y0\nG43 H1 Z0\nM30\n",
+        ],
+        &["4 error axis-limit"],
+        [1, 2],
+    ),
+    (
+        "G43.2 adds a length that nothing declares",
+        ["linuxcnc", ""],
+        ["", "G21 G90 G54 G17 G94\nT1 M6\nG43.2 H2\nG0 X0 Y0 Z5\nM2\n"],
+        &[],
+        [1, 1],
+    ),
+    (
+        "STOP interrupts the run, and nothing says that the spindle stops",
+        ["heidenhain-klartext", ""],
+        [KLARTEXT, "STOP\nL X+10 F100\nM30\nEND PGM A MM\n"],
+        &["5 unknown spindle-off-cut"],
+        [2, 2],
+    ),
+    (
+        "two codes of one group where the last one wins",
+        ["fanuc-30i", ""],
+        [HEAD, "G90 G91 G28 Z0\nM30\n"],
+        &["6 warning modal-group-conflict", "6 info not-modelled"],
+        [1, 3],
+    ),
+];

@@ -123,10 +123,6 @@ impl Trail {
 }
 
 impl Flow {
-    /// How many reported faults a check-point copies.
-    pub(crate) fn copied(&self) -> usize {
-        self.trail.as_ref().map_or(0, |trail| trail.reported.count())
-    }
     /// What jumps, loops and calls need.
     pub(crate) fn trail(&mut self) -> &mut Trail {
         self.trail.get_or_insert_default()

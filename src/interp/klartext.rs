@@ -123,9 +123,6 @@ impl<'d> Engine<'d> for Klartext<'d> {
     fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
         self.flow.course.frames(chain)
     }
-    fn copied(&self) -> usize {
-        self.flow.reported.count()
-    }
     fn motions_wait(&self) -> bool {
         self.memory.waiting.is_some()
     }

@@ -102,9 +102,6 @@ impl<'d> Engine<'d> for Iso<'d> {
     fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
         self.flow.chain(chain)
     }
-    fn copied(&self) -> usize {
-        self.flow.copied()
-    }
     fn motions_wait(&self) -> bool {
         self.memory.compensation.is_busy() || self.memory.corners.is_busy()
     }

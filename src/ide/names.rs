@@ -75,6 +75,8 @@ pub struct Names {
     pub obstacles: Vec<(Kind, Obstacle)>,
     /// Where another program of the file begins or goes on: the first block, and the number of the program.
     pub parts: Vec<(BlockId, u32)>,
+    /// The number of the last program that began.
+    last_part: u32,
 }
 
 impl Names {
@@ -113,8 +115,8 @@ impl Names {
 
     /// A further program begins.
     fn begin(&mut self, block: BlockId) {
-        let next = self.parts.iter().map(|(_, part)| *part).max().unwrap_or(0) + 1;
-        self.parts.push((block, next));
+        self.last_part += 1;
+        self.parts.push((block, self.last_part));
     }
 
     pub(crate) fn add(&mut self, range: TextRange, kind: Kind, role: Role, name: &str, scope: Scope) {

@@ -84,7 +84,8 @@ impl<'p> Items<'p> {
         } else {
             next
         };
-        if next == TokenKind::Comma || matches!(behind, TokenKind::Equals | TokenKind::ParenOpen) {
+        let element = behind == TokenKind::BracketOpen && self.has_elements();
+        if next == TokenKind::Comma || element || matches!(behind, TokenKind::Equals | TokenKind::ParenOpen) {
             return None;
         }
         let range = scan.range(at);
@@ -124,6 +125,9 @@ impl<'p> Items<'p> {
     fn word(&mut self, at: TokenId, sink: &mut impl Sink) -> Item {
         if self.is_numbered_call(at) {
             return self.name(at, self.stage, sink);
+        }
+        if let Some(element) = self.numbered_element(at, sink) {
+            return element;
         }
         self.plain_word(at).map_or_else(|| self.odd_word(at, sink), Item::Word)
     }

@@ -330,6 +330,16 @@ pub(super) const ITEMS: &[Item] = &[
         [1, 1],
     ),
     (
+        "an array whose name is a letter and a number",
+        ["sinumerik-840d", ""],
+        [
+            "DEF REAL H2[3], Q1[3,3]\n",
+            "G17 G90 G94 G54 G71\nH2[1]=5\nQ1[2,2]=6\nG0 X=H2[1] Y=Q1[2,2] Z0\nM30\n",
+        ],
+        &[],
+        [1, 1],
+    ),
+    (
         "M6 of a Haas stops the spindle",
         ["haas-ngc", ""],
         [HEAD, "T2 M6\nG43 H2 Z5.\nG1 Z-1. F100.\nM30\n"],

@@ -1,5 +1,6 @@
 //! Slips of the pen: the letter O where a zero belongs, a keyword of LinuxCNC without its O-word.
-use trunnion_syntax::{Program, TextRange};
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Format, Program, TextRange};
 
 /// A word with the letter O in its number, and what was meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -108,6 +109,19 @@ fn goes_on(rest: &[u8]) -> bool {
         [first, ..] => first.is_ascii_alphabetic() || matches!(first, b'_' | b'(' | b'[' | b'=' | b':' | b'<'),
         [] => false,
     }
+}
+
+/// An APT record in which an argument is the letter O, or has it among its digits, with zeros in its place.
+pub(crate) fn record_with_zeros(record: &str, dialect: &Dialect) -> Option<String> {
+    let (major, arguments) = record.split_once('/').filter(|_| dialect.lex.format == Format::Apt)?;
+    let is_number = |text: &str| {
+        let digits = text.trim().trim_start_matches(['+', '-']);
+        digits.contains(['O', 'o']) && digits.bytes().all(|byte| byte.is_ascii_digit() || b".oO".contains(&byte))
+    };
+    let fixed = |text: &str| if is_number(text) { text.replace(['O', 'o'], "0") } else { text.to_owned() };
+    let fixed: Vec<String> = arguments.split(',').map(fixed).collect();
+    let meant = format!("{major}/{}", fixed.join(","));
+    (meant != record).then_some(meant)
 }
 
 /// Words of LinuxCNC that follow an O-word.

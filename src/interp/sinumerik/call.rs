@@ -176,6 +176,13 @@ impl Proc {
     }
 }
 
+/// The parameters of a PROC that nothing calls: the caller, which is not here, gives their values.
+pub(crate) fn declare_parameters(own: &mut Own, text: &str) {
+    for parameter in Proc::read(text, own).parameters {
+        own.declare(&parameter.name, parameter.sort, None);
+    }
+}
+
 /// A variable that two parameters stand for: each would see what the other writes.
 fn handed_over_twice<'a>(parameters: &[Parameter], arguments: &'a [Argument]) -> Option<&'a str> {
     let by_reference = parameters
@@ -201,13 +208,17 @@ impl Iso<'_> {
         let program = called.as_ref().map_or(running.main, |called| &called.program);
         let own = &mut self.memory.own;
         let proc = Proc::of(program, start, own);
+        let has_proc = proc.is_some();
         let (parameters, saves) = proc.map_or((Vec::new(), false), |proc| (proc.parameters, proc.saves));
-        if with.arguments.len() > parameters.len() {
-            return Err(format!(
-                "{} arguments for a subprogram whose PROC declares {}",
-                with.arguments.len(),
-                parameters.len()
-            ));
+        let given = with.arguments.len();
+        if given > parameters.len() {
+            let arguments = if given == 1 { "argument" } else { "arguments" };
+            let declares = if has_proc {
+                format!("whose PROC declares {}", parameters.len())
+            } else {
+                "that has no PROC, so that nothing takes them".to_owned()
+            };
+            return Err(format!("{given} {arguments} for a subprogram {declares}"));
         }
         if let Some(twice) = handed_over_twice(&parameters, &with.arguments) {
             return Err(format!(

@@ -68,7 +68,7 @@ fn klartext_part(program: &Program) -> Part {
         let Some(sentence) = block.sentence() else {
             return false;
         };
-        let words: Vec<SentenceWord> = sentence_words(sentence.text()).collect();
+        let words: Vec<SentenceWord> = sentence_words(&sentence.text()).collect();
         let calls = matches!(&words[..], [tool, call, ..] if tool.name == "TOOL" && call.name == "CALL");
         let ends = |word: &SentenceWord| word.name == "M" && matches!(word.number, Some(2.0 | 30.0));
         calls || words.iter().any(ends)

@@ -24,7 +24,7 @@ pub struct Items<'p> {
     pub(crate) at: TokenId,
     /// The last item that is not a plain word.
     found: Option<Item>,
-    stage: Stage,
+    pub(crate) stage: Stage,
 }
 
 /// Reports every problem of the block that starts at token `first`.

@@ -135,7 +135,10 @@ impl<'a> Times<'a> {
             waits: 0.0,
         };
         let resolved = &loaded.resolved;
-        time(&loaded.program, resolved.dialect, &resolved.setup, machine, &mut times);
+        let mut setup = resolved.setup.clone();
+        // where a linear axis stands that is never named does not change the time of the others
+        setup.unnamed_stand = machine.rotary.is_empty();
+        time(&loaded.program, resolved.dialect, &setup, machine, &mut times);
         times.close();
         times
     }

@@ -145,6 +145,24 @@ fn a_program_in_two_dimensions_has_a_length_and_a_time() {
     assert_eq!(coverage["motions"], coverage["motions_known"], "{coverage}");
 }
 
+/// On a machine whose axes are all linear they do not depend on Z either, and neither does what an arc reaches in X and Y.
+#[test]
+fn a_machine_does_not_hide_a_program_in_two_dimensions() {
+    let program = "(trunnion: dialect grbl)\nG21 G90\nM3 S100\nG0 X10 Y10\nG1 X20 F1000\nG2 X30 Y20 I0 J10\nG1 X10\nM5\nM2\n";
+    let folder = folder("", program);
+    let stats = |machine: &[&str]| {
+        let arguments = [&["stats", "--format", "json", "a.nc"], machine].concat();
+        json(&trunnion_in(folder.path(), &arguments))["files"][0].clone()
+    };
+    let (without, on_mill) = (stats(&[]), stats(&["--machine", "mill-3axis"]));
+    for key in ["extents", "feed_length_mm", "feed_time_s", "motions_of_unknown_length"] {
+        assert_eq!(without[key], on_mill[key], "{key}");
+    }
+    assert_eq!(on_mill["joints"]["joint_y_mm"], serde_json::json!([10.0, 30.0]));
+    assert_eq!(on_mill["joints"]["joint_z_mm"], Value::Null);
+    assert_ne!(on_mill["cycle_time_s"], Value::Null);
+}
+
 /// LinuxCNC on a lathe: Y does not exist, so the tip is known without a word that names it.
 #[test]
 fn a_linuxcnc_lathe_has_a_path_too() {

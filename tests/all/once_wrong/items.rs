@@ -251,6 +251,13 @@ pub(super) const ITEMS: &[Item] = &[
         [1, 3],
     ),
     (
+        "#13001 is written, a radius",
+        ["fanuc-30i", ""],
+        [HEAD, "#13001=5.\nG0 X10.\nG1 Z-1. F100\nM30\n"],
+        &[],
+        [4, 4],
+    ),
+    (
         "SUPA under tool centre point control",
         ["sinumerik-840d", ""],
         [SINUMERIK, "TRAORI\nG0 X0 Y0 Z100 A0 C0\nG0 SUPA Z0 D0\nTRAFOOF\nM30\n"],

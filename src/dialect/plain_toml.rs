@@ -137,9 +137,9 @@ impl Complaint<'_> {
         let line = self.text.get(from..)?.lines().next()?;
         let (name, value) = line.split_once('=')?;
         let (name, value) = (name.trim(), value.split('#').next().unwrap_or_default().trim());
-        let here = TomlPlace::of_table(self.text, start);
-        let known = self.key_at(&here, name);
-        let here = self.in_table(&here);
+        let table = self.place()?.table;
+        let known = self.key_at(&table, name);
+        let here = self.in_table(&table);
         let digits = value.bytes().take_while(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
         let (number, unit) = value.split_at(digits.count());
         if number.parse::<f64>().is_ok_and(f64::is_finite) && !unit.contains(['"', '[', '{', ',']) {

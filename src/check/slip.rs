@@ -171,7 +171,23 @@ pub(crate) fn bare_keyword(program: &Program, at: u32) -> Option<(&'static str, 
 
 #[cfg(test)]
 mod tests {
-    use super::{bare_keyword, letter_o};
+    use super::{bare_keyword, letter_o, record_with_zeros};
+
+    #[test]
+    fn codes_and_records_with_a_letter_o_offer_the_digit() {
+        let text = "G71 G0 X1\nGO X10\n;^ not-modelled: `GO` is no code of sinumerik-840d, and no program GO.SPF or .MPF was found; did you mean `G0`?\nM30\n";
+        crate::fixture::assert_drawn("gcode sinumerik-840d", text);
+        let apt = trunnion_dialect::builtin("apt").expect("built in");
+        for (record, wanted) in [
+            ("GOTO/1,2,O", Some("GOTO/1,2,0")),
+            ("GOTO/1.O, -2O,3", Some("GOTO/1.0, -20,3")),
+            ("LOADTL/ON", None),
+            ("GOTO/1,2,3", None),
+            ("COOLNT/OFF", None),
+        ] {
+            assert_eq!(record_with_zeros(record, apt).as_deref(), wanted, "{record}");
+        }
+    }
 
     #[test]
     fn a_keyword_without_its_o_word() {

@@ -38,6 +38,23 @@ pub(super) const ITEMS: &[Item] = &[
         [3, 3],
     ),
     (
+        "a centre that no arc reads on a Sinumerik",
+        ["sinumerik-840d", ""],
+        [SINUMERIK, "G1 X5\nI-15 J0\nM30\n"],
+        &["6 warning unused-word", "6 warning unused-word"],
+        [2, 2],
+    ),
+    (
+        "M3 without S in Klartext",
+        ["heidenhain-klartext", ""],
+        [
+            "BEGIN PGM A MM\nTOOL CALL 1 Z\nL X+0 Y+0 Z+5 R0 FMAX M3\n",
+            "L X+10 F100\nL M30\nEND PGM A MM\n",
+        ],
+        &["4 warning spindle-unset"],
+        [2, 2],
+    ),
+    (
         "C is a chamfer on a lathe with two axes",
         ["fanuc-30i-lathe-a", ""],
         [

@@ -272,7 +272,7 @@ pub(super) const ITEMS: &[Item] = &[
         ["fanuc-30i", ""],
         [HEAD, "#13001=5.\nG0 X10.\nG1 Z-1. F100\nM30\n"],
         &[],
-        [4, 4],
+        [3, 4],
     ),
     (
         "SUPA under tool centre point control",

@@ -8,7 +8,7 @@ use trunnion_interp::{Fault, FaultKind, Lacks};
 use trunnion_syntax::{Address, Block, Value};
 
 /// What was taken for granted so far.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Assumed {
     /// Radii that are taken as zero.
     radii: BTreeSet<String>,

@@ -26,6 +26,7 @@ mod partial;
 mod text;
 
 pub(crate) use partial::PassMemory;
+use partial::weigh;
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -243,9 +244,7 @@ impl<'a> Pass<'a> {
             }
         }
         let mut diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
-        let turns = |follower: &Follower| !follower.machine().rotary.is_empty();
-        self.assumed
-            .weigh(&mut diagnostics, self.follower.as_ref().is_some_and(turns));
+        weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
         let mut summary = self.summary;
         summary.count(&diagnostics);
         let mut report = Report {

@@ -62,7 +62,7 @@ mod tests {
     /// A misspelt statement is one finding, and a misspelt feed is not missing as well.
     #[test]
     fn klartext_names_have_a_likely_spelling() {
-        let text = "BEGIN PGM A MM\nTOL CALL 1 Z S1000\n;^^^^^^^^^^^^^^^^^^ unknown-word: `TOL CALL 1 Z S1000` has no meaning in heidenhain-klartext; did you mean `TOOL CALL 1 Z S1000`?\nL X+0 Y+0 Z+50 R0 FMAXX M3\n;                 ^^^^^ unknown-word: `FMAXX` has no meaning in heidenhain-klartext; did you mean `FMAX`?\nL M30\nEND PGM A MM\n";
+        let text = "BEGIN PGM A MM\nTOL CALL 1 Z S1000\n;^^^^^^^^^^^^^^^^^ unknown-word: `TOL CALL 1 Z S1000` has no meaning in heidenhain-klartext; did you mean `TOOL CALL 1 Z S1000`?\nL X+0 Y+0 Z+50 R0 FMAXX M3\n;                 ^^^^^ unknown-word: `FMAXX` has no meaning in heidenhain-klartext; did you mean `FMAX`?\nL M30\nEND PGM A MM\n";
         assert_drawn("gcode heidenhain-klartext", text);
     }
 }

@@ -163,6 +163,16 @@ fn a_machine_does_not_hide_a_program_in_two_dimensions() {
     assert!((reach - 30.0).abs() < 0.001, "{reach}");
     assert_eq!(on_mill["joints"]["joint_z_mm"], Value::Null);
     assert_ne!(on_mill["cycle_time_s"], Value::Null);
+    let trace = json(&trunnion_in(
+        folder.path(),
+        &["trace", "--format", "json", "--machine", "mill-3axis", "a.nc"],
+    ));
+    let last = &trace["rows"][3];
+    assert_eq!((&last["x_mm"], &last["y_mm"]), (&serde_json::json!(10.0), &serde_json::json!(20.0)));
+    assert_eq!((&last["z_mm"], &last["joint_z"]), (&Value::Null, &Value::Null));
+    assert_ne!(last["time_s"], Value::Null);
+    let picture = trunnion_in(folder.path(), &["plot", "--kind", "path", "--machine", "mill-3axis", "a.nc"]);
+    assert!(text(&picture.stdout).contains("<polyline"), "a picture of the path");
 }
 
 /// LinuxCNC on a lathe: Y does not exist, so the tip is known without a word that names it.

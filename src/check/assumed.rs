@@ -114,18 +114,32 @@ mod tests {
             let fence = format!("gcode {dialect} mill-3axis");
             let (verdict, assumptions, limits) = judged(&fence, "G1 X4000 F100.\nX10.");
             assert_eq!(verdict, Verdict::Unknown, "{limits:?}");
-            assert_eq!(assumptions.iter().filter(|one| *one == WHOLE).count(), 1, "{assumptions:?}");
+            assert_eq!(
+                assumptions.iter().filter(|one| *one == WHOLE).count(),
+                1,
+                "{assumptions:?}"
+            );
             assert!(limits[0].contains("X reaches 4000 mm"), "{limits:?}");
-            assert!(limits[0].ends_with("without a decimal point is in whole units"), "{limits:?}");
+            assert!(
+                limits[0].ends_with("without a decimal point is in whole units"),
+                "{limits:?}"
+            );
             let (verdict, assumptions, _) = judged(&fence, "G1 X100 F100.\nY10");
             assert_eq!(verdict, Verdict::Pass);
-            assert_eq!(assumptions.iter().filter(|one| *one == WHOLE).count(), 1, "{assumptions:?}");
+            assert_eq!(
+                assumptions.iter().filter(|one| *one == WHOLE).count(),
+                1,
+                "{assumptions:?}"
+            );
             // with a point, on another axis, or in machine units it is what it is
             for line in ["G1 X4000. F100.", "G1 X4000. Y10 F100."] {
                 assert_eq!(judged(&fence, line).0, Verdict::Fail, "{line}");
             }
             let (verdict, assumptions, _) = judged(&fence, "G1 X100. F100.");
-            assert_eq!((verdict, assumptions.contains(&WHOLE.to_owned())), (Verdict::Pass, false));
+            assert_eq!(
+                (verdict, assumptions.contains(&WHOLE.to_owned())),
+                (Verdict::Pass, false)
+            );
         }
         assert_eq!(judged("gcode linuxcnc mill-3axis", "G1 X4000 F100").0, Verdict::Fail);
     }

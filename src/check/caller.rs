@@ -73,7 +73,11 @@ fn klartext_part(program: &Program) -> Part {
         let ends = |word: &SentenceWord| word.name == "M" && matches!(word.number, Some(2.0 | 30.0));
         calls || words.iter().any(ends)
     };
-    if program.blocks().any(is_main) { Part::Main } else { Part::Fragment }
+    if program.blocks().any(is_main) {
+        Part::Main
+    } else {
+        Part::Fragment
+    }
 }
 
 /// Whether a LinuxCNC program does nothing but define subprograms and end.
@@ -162,9 +166,21 @@ mod tests {
             ("sinumerik-840d", "G1 X1\nM30\n", Part::Main),
             ("sinumerik-840d", "G1 X1\n", Part::Fragment),
             ("okuma-osp", "OSUB\nG1 X1\nRTS\n", Part::Called),
-            ("heidenhain-klartext", "BEGIN PGM A MM\nL X+0 M30\nEND PGM A MM\n", Part::Main),
-            ("heidenhain-klartext", "BEGIN PGM A MM\nTOOL CALL 1 Z\nEND PGM A MM\n", Part::Main),
-            ("heidenhain-klartext", "BEGIN PGM A MM\nL X+0 M3\nEND PGM A MM\n", Part::Fragment),
+            (
+                "heidenhain-klartext",
+                "BEGIN PGM A MM\nL X+0 M30\nEND PGM A MM\n",
+                Part::Main,
+            ),
+            (
+                "heidenhain-klartext",
+                "BEGIN PGM A MM\nTOOL CALL 1 Z\nEND PGM A MM\n",
+                Part::Main,
+            ),
+            (
+                "heidenhain-klartext",
+                "BEGIN PGM A MM\nL X+0 M3\nEND PGM A MM\n",
+                Part::Fragment,
+            ),
             ("okuma-osp", "G1 X1\nM02\nOSUB\nRTS\n", Part::Main),
         ] {
             let dialect = trunnion_dialect::builtin(dialect).expect("built in");

@@ -116,9 +116,18 @@ pub(crate) fn record_with_zeros(record: &str, dialect: &Dialect) -> Option<Strin
     let (major, arguments) = record.split_once('/').filter(|_| dialect.lex.format == Format::Apt)?;
     let is_number = |text: &str| {
         let digits = text.trim().trim_start_matches(['+', '-']);
-        digits.contains(['O', 'o']) && digits.bytes().all(|byte| byte.is_ascii_digit() || b".oO".contains(&byte))
+        digits.contains(['O', 'o'])
+            && digits
+                .bytes()
+                .all(|byte| byte.is_ascii_digit() || b".oO".contains(&byte))
     };
-    let fixed = |text: &str| if is_number(text) { text.replace(['O', 'o'], "0") } else { text.to_owned() };
+    let fixed = |text: &str| {
+        if is_number(text) {
+            text.replace(['O', 'o'], "0")
+        } else {
+            text.to_owned()
+        }
+    };
     let fixed: Vec<String> = arguments.split(',').map(fixed).collect();
     let meant = format!("{major}/{}", fixed.join(","));
     (meant != record).then_some(meant)

@@ -32,7 +32,10 @@ pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option
     if let (true, Some(key)) = (message == "duplicate key", written) {
         return format!("`{key}` is declared twice: keep one of them, with all that belongs to it");
     }
-    if let Some(told) = complaint.unquoted().filter(|_| message.starts_with("string values must be quoted")) {
+    if let Some(told) = complaint
+        .unquoted()
+        .filter(|_| message.starts_with("string values must be quoted"))
+    {
         return told;
     }
     let expected = ["invalid type: ", "invalid value: ", "invalid length "];
@@ -140,12 +143,16 @@ impl Complaint<'_> {
         let table = self.place()?.table;
         let known = self.key_at(&table, name);
         let here = self.in_table(&table);
-        let digits = value.bytes().take_while(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
+        let digits = value
+            .bytes()
+            .take_while(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
         let (number, unit) = value.split_at(digits.count());
         if number.parse::<f64>().is_ok_and(f64::is_finite) && !unit.contains(['"', '[', '{', ',']) {
             let meaning = known.map(Key::meaning).filter(|meaning| !meaning.is_empty());
             let meaning = meaning.map_or_else(String::new, |meaning| format!(" ({meaning})"));
-            return Some(format!("`{name}`{here} must be a number without its unit{meaning}: `{name} = {number}`"));
+            return Some(format!(
+                "`{name}`{here} must be a number without its unit{meaning}: `{name} = {number}`"
+            ));
         }
         let plain = !value.is_empty() && !value.contains(['"', '\'', '[', '{', '\\']);
         plain.then(|| format!("`{name}`{here} must be a text in quotes: `{name} = \"{value}\"`"))

@@ -69,7 +69,9 @@ fn is_statement(program: &Program, call: &Call) -> bool {
     };
     match name.as_slice() {
         b"IF" | b"WHILE" => arguments.starts_with(b"["),
-        b"GOTO" => arguments.starts_with(b"#") || arguments.starts_with(b"[") || arguments.iter().all(u8::is_ascii_digit),
+        b"GOTO" => {
+            arguments.starts_with(b"#") || arguments.starts_with(b"[") || arguments.iter().all(u8::is_ascii_digit)
+        }
         _ => false,
     }
 }

@@ -4,7 +4,8 @@ use crate::stop::Stops;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{
-    AXIS_LETTERS, AxisLetter, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink, Tool,
+    AXIS_LETTERS, AxisLetter, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink,
+    Tool,
 };
 use trunnion_machine::{AxisKind, Follower, Leg, Machine, excursions, leads_tip, linear_travel, turns};
 use trunnion_same::Input;

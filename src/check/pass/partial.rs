@@ -1,9 +1,9 @@
 //! A pass over a part of a program: what it needs to continue, and what it leaves to the whole.
 use super::Pass;
 use crate::assumed::Assumed;
-use crate::{Diagnostic, Report};
 use crate::trail::Trail;
 use crate::view::InForce;
+use crate::{Diagnostic, Report};
 use trunnion_interp::{ChainId, Fault, FaultKind, LengthOf, Refusal};
 use trunnion_machine::{Follower, Memory};
 

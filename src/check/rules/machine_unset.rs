@@ -38,10 +38,13 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let first = TextRange::new(0, u32::from(!overview.program.source().is_empty()));
     let open = !settings.control_known;
     if let Some(signs) = open.then(|| possible_lathe(overview.program.source())).flatten() {
-        out.report(first, format!("neither machine nor control is known, and the program may be one for a lathe: {signs}"))
-            .note("on a lathe X may be a diameter, and F a feed per revolution")
-            .help("name the control, `--dialect fanuc-30i-lathe-a` for example, or the machine: --machine NAME or FILE")
-            .unknown();
+        out.report(
+            first,
+            format!("neither machine nor control is known, and the program may be one for a lathe: {signs}"),
+        )
+        .note("on a lathe X may be a diameter, and F a feed per revolution")
+        .help("name the control, `--dialect fanuc-30i-lathe-a` for example, or the machine: --machine NAME or FILE")
+        .unknown();
         return;
     }
     if settings.scope.is_some_and(|scope| scope < Scope::Machine) {

@@ -1,5 +1,9 @@
 //! Runs a program for a picture: its record, and the blocks that a check finds.
-use crate::cli::{failure::remark, legs::{each_leg_in, flat_setup}, load::Loaded};
+use crate::cli::{
+    failure::remark,
+    legs::{each_leg_in, flat_setup},
+    load::Loaded,
+};
 use std::collections::{BTreeMap, VecDeque};
 use trunnion_check::{Report, Status};
 use trunnion_interp::{ModalState, MotionKind, Setup};

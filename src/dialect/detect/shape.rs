@@ -124,13 +124,20 @@ impl Shape {
         if let Some((sign, line)) = self.lathe {
             return found(sign, line, false);
         }
-        if let Some(line) = self.limit.filter(|_| self.turret || (self.surface_speed.is_some() && flat)) {
+        if let Some(line) = self
+            .limit
+            .filter(|_| self.turret || (self.surface_speed.is_some() && flat))
+        {
             return found("G92 S", line, true);
         }
         if !flat {
             return None;
         }
-        let speed = if self.surface_speed.is_some() { Some("G96") } else { self.hint };
+        let speed = if self.surface_speed.is_some() {
+            Some("G96")
+        } else {
+            self.hint
+        };
         let reason = match (speed, self.surface_speed) {
             (Some(code), _) if self.turret => format!("T with an offset, {code}, X and Z alone"),
             _ if self.turret && !self.changes => "T with an offset, X and Z alone".to_owned(),
@@ -153,6 +160,9 @@ impl Shape {
 
     /// Whether only X and Z move, with a turret: a lathe of any control.
     pub(super) fn turns(&self) -> bool {
-        !self.mill && self.y == 0 && self.xz > 0 && (self.turret || self.surface_speed.is_some() || self.lathe.is_some())
+        !self.mill
+            && self.y == 0
+            && self.xz > 0
+            && (self.turret || self.surface_speed.is_some() || self.lathe.is_some())
     }
 }

@@ -59,14 +59,23 @@ fn one_sign_and_the_motions() {
         (format!("%\nO0007\n{lathe}"), "fanuc-30i-lathe-a"),
         (format!("%\nO00007\n{lathe}"), "haas-lathe"),
         (format!("G21 G99\n{lathe}"), "fanuc-30i-lathe-a"),
-        ("G99\nT0101\nM3 S500\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(), "fanuc-30i-lathe-a"),
-        ("%\nO7\nT0101\nM3 S500\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(), "fanuc-30i-lathe-a"),
+        (
+            "G99\nT0101\nM3 S500\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(),
+            "fanuc-30i-lathe-a",
+        ),
+        (
+            "%\nO7\nT0101\nM3 S500\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(),
+            "fanuc-30i-lathe-a",
+        ),
         // no control is shown
         (lathe.to_owned(), "iso-6983"),
         (format!("G17 G80 G99\n{lathe}"), "iso-6983"),
         // Y, or a tool that M6 changes
         (format!("%\nO0007\n{}", lathe.replace("X52.", "X52. Y1.")), "fanuc-30i"),
-        ("%\nO7\nT1201\nM6\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(), "fanuc-30i"),
+        (
+            "%\nO7\nT1201\nM6\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(),
+            "fanuc-30i",
+        ),
     ] {
         assert_eq!(content(&text).0, wanted, "{text}");
     }

@@ -78,7 +78,11 @@ impl Klartext<'_> {
                 self.memory.unfollowed = true;
                 let whole = report.whole();
                 let plain = whole.end - whole.start == words.text.len() as u32;
-                let start = if plain { whole.start + first.start as u32 } else { whole.start };
+                let start = if plain {
+                    whole.start + first.start as u32
+                } else {
+                    whole.start
+                };
                 report.fault(TextRange::new(start, whole.end), FaultKind::UnknownWord);
             }
             // a block of words alone: M3, X+10 R0 F100

@@ -212,11 +212,15 @@ impl Iso<'_> {
         let (parameters, saves) = proc.map_or((Vec::new(), false), |proc| (proc.parameters, proc.saves));
         let given = with.arguments.len();
         if given > parameters.len() {
-            let arguments = if given == 1 { "argument" } else { "arguments" };
+            let (arguments, them) = if given == 1 {
+                ("argument", "it")
+            } else {
+                ("arguments", "them")
+            };
             let declares = if has_proc {
                 format!("whose PROC declares {}", parameters.len())
             } else {
-                "that has no PROC, so that nothing takes them".to_owned()
+                format!("that has no PROC to take {them}")
             };
             return Err(format!("{given} {arguments} for a subprogram {declares}"));
         }

@@ -148,7 +148,8 @@ fn a_program_in_two_dimensions_has_a_length_and_a_time() {
 /// On a machine whose axes are all linear they do not depend on Z either, and neither does what an arc reaches in X and Y.
 #[test]
 fn a_machine_does_not_hide_a_program_in_two_dimensions() {
-    let program = "(trunnion: dialect grbl)\nG21 G90\nM3 S100\nG0 X10 Y10\nG1 X20 F1000\nG2 X30 Y20 I0 J10\nG1 X10\nM5\nM2\n";
+    let program =
+        "(trunnion: dialect grbl)\nG21 G90\nM3 S100\nG0 X10 Y10\nG1 X20 F1000\nG2 X30 Y20 I0 J10\nG1 X10\nM5\nM2\n";
     let folder = folder("", program);
     let stats = |machine: &[&str]| {
         let arguments = [&["stats", "--format", "json", "a.nc"], machine].concat();
@@ -168,10 +169,16 @@ fn a_machine_does_not_hide_a_program_in_two_dimensions() {
         &["trace", "--format", "json", "--machine", "mill-3axis", "a.nc"],
     ));
     let last = &trace["rows"][3];
-    assert_eq!((&last["x_mm"], &last["y_mm"]), (&serde_json::json!(10.0), &serde_json::json!(20.0)));
+    assert_eq!(
+        (&last["x_mm"], &last["y_mm"]),
+        (&serde_json::json!(10.0), &serde_json::json!(20.0))
+    );
     assert_eq!((&last["z_mm"], &last["joint_z"]), (&Value::Null, &Value::Null));
     assert_ne!(last["time_s"], Value::Null);
-    let picture = trunnion_in(folder.path(), &["plot", "--kind", "path", "--machine", "mill-3axis", "a.nc"]);
+    let picture = trunnion_in(
+        folder.path(),
+        &["plot", "--kind", "path", "--machine", "mill-3axis", "a.nc"],
+    );
     assert!(text(&picture.stdout).contains("<polyline"), "a picture of the path");
 }
 

@@ -70,8 +70,19 @@ impl Items<'_> {
         }
     }
 
+    /// Whether it is the call of a subprogram with a number, and with arguments where parentheses are not comments: `L140(1)`.
+    pub(crate) fn is_numbered_call(&self, at: TokenId) -> bool {
+        let scan = self.scan;
+        let [b'L' | b'l', number @ ..] = scan.text(at) else {
+            return false;
+        };
+        scan.kind(scan.skip_blank(at + 1)) == TokenKind::ParenOpen
+            && !number.is_empty()
+            && number.iter().all(u8::is_ascii_digit)
+    }
+
     /// Whether brackets after a name are those of an element of an array: where parentheses are not comments, as on a SINUMERIK.
-    pub(crate) fn has_elements(&self) -> bool {
+    fn has_elements(&self) -> bool {
         !self.scan.options.paren_comment
     }
 

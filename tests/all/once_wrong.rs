@@ -3,6 +3,7 @@
 mod five_axes;
 mod items;
 mod state;
+mod words;
 
 use crate::cli::tools::{json, trunnion, write};
 use five_axes::{FIVE_AXES, machine};
@@ -13,6 +14,7 @@ use tempfile::TempDir;
 use trunnion::check::{Assume, Diagnostic, Settings, Severity, Status, check};
 use trunnion::interp::Setup;
 use trunnion::syntax::parse;
+use words::WORDS;
 
 /// What is shown by other tests: the file and its test.
 const ELSEWHERE: &[[&str; 3]] = &[
@@ -53,7 +55,7 @@ fn findings(found: &[Diagnostic], text: &str) -> Vec<String> {
 #[test]
 fn each_is_judged_as_it_should_be() {
     let mut wrong = String::new();
-    for (name, [dialect, on], text, wanted, motions) in ITEMS.iter().chain(STATE).chain(FIVE_AXES) {
+    for (name, [dialect, on], text, wanted, motions) in ITEMS.iter().chain(STATE).chain(WORDS).chain(FIVE_AXES) {
         let dialect = trunnion::dialect::builtin(dialect).expect("built in");
         let own = machine(on);
         let machine = own.as_ref().or_else(|| trunnion::machine::builtin(on));

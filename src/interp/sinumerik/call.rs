@@ -248,18 +248,15 @@ impl Iso<'_> {
             let written = argument.as_ref().filter(|argument| !argument.is_left_out);
             let value = written.map_or(parameter.initial, |argument| argument.value);
             let variable = argument.as_ref().and_then(|argument| argument.variable.clone());
-            let sort = match &parameter.sizes {
-                Some(sizes) => {
-                    own.declare(&parameter.name, Sort::Other, None);
-                    if let Some(variable) = &variable {
-                        own.copy_field(&level.scope, variable, (&parameter.name, parameter.sort, sizes));
-                    }
-                    Sort::Other
+            let sort = if let Some(sizes) = &parameter.sizes {
+                own.declare(&parameter.name, Sort::Other, None);
+                if let Some(variable) = &variable {
+                    own.copy_field(&level.scope, variable, (&parameter.name, parameter.sort, sizes));
                 }
-                None => {
-                    own.declare(&parameter.name, parameter.sort, value);
-                    parameter.sort
-                }
+                Sort::Other
+            } else {
+                own.declare(&parameter.name, parameter.sort, value);
+                parameter.sort
             };
             if let (true, Some(variable)) = (parameter.by_reference, variable) {
                 level.references.push((parameter.name.clone(), variable));

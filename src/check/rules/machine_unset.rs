@@ -69,8 +69,8 @@ mod tests {
         let verdict = |text: &str, control_known, scope| {
             let program = trunnion_syntax::parse(text.as_bytes().to_vec(), core.lex);
             let settings = Settings {
-                control_known,
                 scope,
+                control_known,
                 ..Settings::new(core, None, trunnion_interp::Setup::default())
             };
             crate::check(&program, &settings).verdict(Severity::Error)

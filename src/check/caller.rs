@@ -2,7 +2,8 @@
 use crate::coverage::{Mark, mark};
 use crate::suppress::has_code;
 use trunnion_dialect::{Dialect, Language};
-use trunnion_syntax::{Address, BlockId, Format, Item, Program, Word};
+use trunnion_interp::{SentenceWord, sentence_words};
+use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, Word};
 
 /// What a file is, as far as its text says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +33,9 @@ pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
         let ends = (0..program.block_count() as u32).rev().any(is_end);
         return if ends { Part::Main } else { Part::Fragment };
     }
+    if dialect.lex.format == Format::Klartext {
+        return klartext_part(program);
+    }
     if dialect.quirks.language == Language::Linuxcnc && only_defines(program) {
         return Part::Called;
     }
@@ -56,6 +60,24 @@ pub(crate) fn part(program: &Program, dialect: &Dialect) -> Part {
         blocks.find_map(end)
     };
     found.unwrap_or(Part::Fragment)
+}
+
+/// A called Klartext program has no M2 or M30, and END PGM ends both sorts: one that calls a tool or has M2 or M30 is a main program.
+fn klartext_part(program: &Program) -> Part {
+    let is_main = |block: Block<'_>| {
+        let Some(sentence) = block.sentence() else {
+            return false;
+        };
+        let words: Vec<SentenceWord> = sentence_words(&sentence.text()).collect();
+        let calls = matches!(&words[..], [tool, call, ..] if tool.name == "TOOL" && call.name == "CALL");
+        let ends = |word: &SentenceWord| word.name == "M" && matches!(word.number, Some(2.0 | 30.0));
+        calls || words.iter().any(ends)
+    };
+    if program.blocks().any(is_main) {
+        Part::Main
+    } else {
+        Part::Fragment
+    }
 }
 
 /// Whether a LinuxCNC program does nothing but define subprograms and end.
@@ -144,6 +166,21 @@ mod tests {
             ("sinumerik-840d", "G1 X1\nM30\n", Part::Main),
             ("sinumerik-840d", "G1 X1\n", Part::Fragment),
             ("okuma-osp", "OSUB\nG1 X1\nRTS\n", Part::Called),
+            (
+                "heidenhain-klartext",
+                "BEGIN PGM A MM\nL X+0 M30\nEND PGM A MM\n",
+                Part::Main,
+            ),
+            (
+                "heidenhain-klartext",
+                "BEGIN PGM A MM\nTOOL CALL 1 Z\nEND PGM A MM\n",
+                Part::Main,
+            ),
+            (
+                "heidenhain-klartext",
+                "BEGIN PGM A MM\nL X+0 M3\nEND PGM A MM\n",
+                Part::Fragment,
+            ),
             ("okuma-osp", "G1 X1\nM02\nOSUB\nRTS\n", Part::Main),
         ] {
             let dialect = trunnion_dialect::builtin(dialect).expect("built in");

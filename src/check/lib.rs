@@ -8,6 +8,7 @@
 mod again;
 mod analysis;
 mod apart;
+mod assumed;
 #[cfg(test)]
 mod axis_overspeed_tests;
 mod both;

@@ -1,4 +1,5 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::assumed::Assumed;
 use crate::config::Scope;
 use crate::coverage::Tally;
 use crate::cuts::{Cuts, Started, report_still};
@@ -16,9 +17,8 @@ use crate::visited::Visited;
 use crate::waiting::Waiting;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
-use std::collections::BTreeSet;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{ChainId, Fault, Interpreter, Lacks, LengthOf, ModalState, Motion, Placed, ProgramRun, Sink};
+use trunnion_interp::{ChainId, Fault, Interpreter, LengthOf, ModalState, Motion, Placed, ProgramRun, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program};
 
@@ -26,6 +26,7 @@ mod partial;
 mod text;
 
 pub(crate) use partial::PassMemory;
+use partial::weigh;
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -59,8 +60,7 @@ pub(crate) struct Pass<'a> {
     last_ran: Option<BlockId>,
     executed: u64,
     tally: Tally,
-    /// Radii that are taken as zero.
-    assumed_radii: BTreeSet<String>,
+    assumed: Assumed,
     /// `None` where motions are not judged.
     cuts: Option<Cuts>,
     start: Start,
@@ -115,7 +115,7 @@ impl<'a> Pass<'a> {
             last_ran: None,
             executed: 0,
             tally: Tally::new(settings.dialect),
-            assumed_radii: BTreeSet::new(),
+            assumed: Assumed::default(),
             start: Start::new(settings),
             part: None,
             cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
@@ -205,7 +205,7 @@ impl<'a> Pass<'a> {
         let assumed = self.datum.iter().flat_map(Datum::assumed);
         let listed = assumed.map(|missing| missing.assumption(self.dialect));
         let [unit, relied] = self.start.assumptions(self.reporter.program(), self.dialect);
-        let others = listed.chain(self.assumed_radii).chain(relied);
+        let others = listed.chain(self.assumed.listed()).chain(relied);
         let assumptions = unit.into_iter().chain(others).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
@@ -244,7 +244,8 @@ impl<'a> Pass<'a> {
                 });
             }
         }
-        let diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
+        let mut diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
+        weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
         let mut summary = self.summary;
         summary.count(&diagnostics);
         let mut report = Report {
@@ -303,9 +304,7 @@ impl Sink for Pass<'_> {
         if text_rule_reported(self.reporter.program(), &fault) || self.leaves_part(&fault) {
             return;
         }
-        if let (true, Some(Lacks::Radius(number))) = (self.assume.tool_length, fault.kind.lacks()) {
-            self.assumed_radii
-                .insert(format!("the radius of {number} = 0 (not declared)"));
+        if self.assumed.takes(&fault, &self.reporter, self.assume.tool_length) {
             return;
         }
         self.tally.fault(&fault);

@@ -1,5 +1,6 @@
 //! Slips of the pen: the letter O where a zero belongs, a keyword of LinuxCNC without its O-word.
-use trunnion_syntax::{Program, TextRange};
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Format, Program, TextRange};
 
 /// A word with the letter O in its number, and what was meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,6 +111,28 @@ fn goes_on(rest: &[u8]) -> bool {
     }
 }
 
+/// An APT record in which an argument is the letter O, or has it among its digits, with zeros in its place.
+pub(crate) fn record_with_zeros(record: &str, dialect: &Dialect) -> Option<String> {
+    let (major, arguments) = record.split_once('/').filter(|_| dialect.lex.format == Format::Apt)?;
+    let is_number = |text: &str| {
+        let digits = text.trim().trim_start_matches(['+', '-']);
+        digits.contains(['O', 'o'])
+            && digits
+                .bytes()
+                .all(|byte| byte.is_ascii_digit() || b".oO".contains(&byte))
+    };
+    let fixed = |text: &str| {
+        if is_number(text) {
+            text.replace(['O', 'o'], "0")
+        } else {
+            text.to_owned()
+        }
+    };
+    let fixed: Vec<String> = arguments.split(',').map(fixed).collect();
+    let meant = format!("{major}/{}", fixed.join(","));
+    (meant != record).then_some(meant)
+}
+
 /// Words of LinuxCNC that follow an O-word.
 const KEYWORDS: &[&str] = &[
     "if",
@@ -157,7 +180,23 @@ pub(crate) fn bare_keyword(program: &Program, at: u32) -> Option<(&'static str, 
 
 #[cfg(test)]
 mod tests {
-    use super::{bare_keyword, letter_o};
+    use super::{bare_keyword, letter_o, record_with_zeros};
+
+    #[test]
+    fn codes_and_records_with_a_letter_o_offer_the_digit() {
+        let text = "G71 G0 X1\nGO X10\n;^ not-modelled: `GO` is no code of sinumerik-840d, and no program GO.SPF or .MPF was found; did you mean `G0`?\nM30\n";
+        crate::fixture::assert_drawn("gcode sinumerik-840d", text);
+        let apt = trunnion_dialect::builtin("apt").expect("built in");
+        for (record, wanted) in [
+            ("GOTO/1,2,O", Some("GOTO/1,2,0")),
+            ("GOTO/1.O, -2O,3", Some("GOTO/1.0, -20,3")),
+            ("LOADTL/ON", None),
+            ("GOTO/1,2,3", None),
+            ("COOLNT/OFF", None),
+        ] {
+            assert_eq!(record_with_zeros(record, apt).as_deref(), wanted, "{record}");
+        }
+    }
 
     #[test]
     fn a_keyword_without_its_o_word() {

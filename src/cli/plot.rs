@@ -19,7 +19,7 @@ use trunnion_plot::{
 };
 use trunnion_syntax::LineIndex;
 
-pub(super) use gather::{gather, marks, marks_of, plan};
+pub(super) use gather::{gather, gather_path, marks, marks_of, plan};
 
 /// `plot`
 #[derive(clap::Args)]
@@ -106,7 +106,11 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         return Ok(Done::Clean);
     }
     let record = waiting::during(global, "drawing", &command.file, || {
-        let mut record = gather(&loaded, machine, lines);
+        let mut record = if command.kind == Kind::Path {
+            gather_path(&loaded, machine, lines)
+        } else {
+            gather(&loaded, machine, lines)
+        };
         if command.kind == Kind::Feed {
             plan(&loaded, machine, &mut record);
         }

@@ -3,13 +3,14 @@ use super::{
     Done,
     args::{Global, Trace, TraceFormat},
     failure::{Failure, remark},
+    legs::flat_setup,
     load::{self, Loaded},
     waiting,
 };
 use serde_json::{Map, Value, json};
 use std::collections::VecDeque;
 use std::io::{BufWriter, Write};
-use trunnion_interp::{Fault, FaultKind, ModalState};
+use trunnion_interp::{AxisLetter, Fault, FaultKind, Interpreter, ModalState, Motion, Setup, Sink};
 use trunnion_machine::{Leg, Machine, Row, row};
 use trunnion_planner::{Listener, Timed, time};
 use trunnion_syntax::{BlockId, LineIndex};
@@ -46,8 +47,10 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
     let machine = loaded.machine_or_fail("trace")?;
     let lines = LineIndex::new(loaded.program.source());
     let out = BufWriter::new(std::io::stdout().lock());
+    let setup = flat_setup(&loaded, machine);
     let mut tracer = Tracer {
         loaded: &loaded,
+        unnamed: unnamed(&loaded, &setup),
         lines: &lines,
         machine,
         waiting: VecDeque::new(),
@@ -57,13 +60,7 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         given_up: None,
     };
     waiting::beside_output(global, "tracing", &command.file, || {
-        time(
-            &loaded.program,
-            loaded.resolved.dialect,
-            &loaded.resolved.setup,
-            machine,
-            &mut tracer,
-        );
+        time(&loaded.program, loaded.resolved.dialect, &setup, machine, &mut tracer);
     });
     if let Some(failure) = tracer.error {
         return Err(failure);
@@ -88,6 +85,8 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
 
 struct Tracer<'a, W: Write> {
     loaded: &'a Loaded,
+    /// The axes that the program never names, bits as in a position: where they are is not shown.
+    unnamed: u16,
     lines: &'a LineIndex,
     machine: &'a Machine,
     /// Rows whose time is not known yet: those since the last stop.
@@ -103,7 +102,9 @@ impl<W: Write> Listener for Tracer<'_, W> {
     fn leg(&mut self, leg: &Leg, _: &ModalState, _: u32) {
         if self.error.is_none() {
             let (line, block) = place(self.loaded, self.lines, leg.motion.block);
-            self.waiting.push_back((line, block, row(self.machine, leg)));
+            let mut row = row(self.machine, leg);
+            self.hide_unnamed(&mut row);
+            self.waiting.push_back((line, block, row));
         }
     }
     fn timed(&mut self, timed: &Timed, wait: bool) {
@@ -126,6 +127,36 @@ impl<W: Write> Listener for Tracer<'_, W> {
         );
         self.faults += usize::from(!undeclared);
     }
+}
+
+impl<W: Write> Tracer<'_, W> {
+    /// Leaves out where an axis is that the program never names.
+    fn hide_unnamed(&self, row: &mut Row) {
+        let is_unnamed = |axis: usize| self.unnamed & (1 << axis) != 0;
+        for (axis, value) in row.tip_mm.iter_mut().flatten().enumerate() {
+            if is_unnamed(axis) {
+                *value = f64::NAN;
+            }
+        }
+        for (value, (_, axis)) in row.joints.iter_mut().zip(self.machine.own_axes()) {
+            *value = value.take_if(|_| !AxisLetter::new(axis.letter).is_some_and(|letter| is_unnamed(letter.0.into())));
+        }
+    }
+}
+
+/// The axes of X, Y and Z that the program never names, while they stand.
+fn unnamed(loaded: &Loaded, setup: &Setup) -> u16 {
+    struct Nothing;
+    impl Sink for Nothing {
+        fn motion(&mut self, _: &Motion, _: &ModalState) {}
+        fn fault(&mut self, _: Fault) {}
+    }
+    if setup.control.absent_axis.is_some() {
+        return 0;
+    }
+    let mut interpreter = Interpreter::new(loaded.resolved.dialect, setup);
+    let _ = interpreter.advance(&loaded.program, &mut Nothing);
+    interpreter.standing()
 }
 
 /// Planned time, highest feed, what holds it back.

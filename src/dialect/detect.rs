@@ -16,6 +16,7 @@ use crate::{BUILTIN_NAMES, Dialect, builtin, modeline};
 pub use declared::declared;
 pub(crate) use foreign::binary;
 use seen::Seen;
+pub use shape::possible_lathe;
 use text::{is_block, lines};
 
 /// A detected dialect with the reason for people.

@@ -33,7 +33,7 @@ pub use control_names::dialect_hint;
 pub use decisions::{Expressions, Language, LengthAfterReturn, LengthChange, Macros, ToolWord, WholeNumbers};
 pub use detect::{
     Detected, Foreign, Surroundings, declared, detect, detect_on, is_program_file_name, looks_like_program, named,
-    not_text, program_extensions,
+    not_text, possible_lathe, program_extensions,
 };
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;

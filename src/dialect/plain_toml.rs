@@ -32,6 +32,12 @@ pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option
     if let (true, Some(key)) = (message == "duplicate key", written) {
         return format!("`{key}` is declared twice: keep one of them, with all that belongs to it");
     }
+    if let Some(told) = complaint
+        .unquoted()
+        .filter(|_| message.starts_with("string values must be quoted"))
+    {
+        return told;
+    }
     let expected = ["invalid type: ", "invalid value: ", "invalid length "];
     // one of several words
     if message == "wanted string or table" {
@@ -125,6 +131,31 @@ impl Complaint<'_> {
             "unknown value `{given}`{what}{}",
             did_you_mean(given, known, &format!("; write {}", known.join(" or ")))
         )
+    }
+
+    /// A value that is neither a number nor in quotes: a number with its unit, or a text.
+    fn unquoted(&self) -> Option<String> {
+        let start = self.span.as_ref()?.start;
+        let from = self.text.get(..start)?.rfind('\n').map_or(0, |end| end + 1);
+        let line = self.text.get(from..)?.lines().next()?;
+        let (name, value) = line.split_once('=')?;
+        let (name, value) = (name.trim(), value.split('#').next().unwrap_or_default().trim());
+        let table = self.place()?.table;
+        let known = self.key_at(&table, name);
+        let here = self.in_table(&table);
+        let digits = value
+            .bytes()
+            .take_while(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
+        let (number, unit) = value.split_at(digits.count());
+        if number.parse::<f64>().is_ok_and(f64::is_finite) && !unit.contains(['"', '[', '{', ',']) {
+            let meaning = known.map(Key::meaning).filter(|meaning| !meaning.is_empty());
+            let meaning = meaning.map_or_else(String::new, |meaning| format!(" ({meaning})"));
+            return Some(format!(
+                "`{name}`{here} must be a number without its unit{meaning}: `{name} = {number}`"
+            ));
+        }
+        let plain = !value.is_empty() && !value.contains(['"', '\'', '[', '{', '\\']);
+        plain.then(|| format!("`{name}`{here} must be a text in quotes: `{name} = \"{value}\"`"))
     }
 
     /// A value of another kind than the one that is `expected`.

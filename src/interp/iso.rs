@@ -221,7 +221,7 @@ impl<'d> Iso<'d> {
         } else {
             words
         };
-        if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.declares_names() {
+        if words.letters & self.judged_letters() != 0 {
             self.unused_words(codes, words, &block, report);
         }
         self.memory.corners.word = words

@@ -20,7 +20,7 @@ mod text;
 mod words;
 
 pub(crate) use crate::frames::FrameValue;
-pub(crate) use call::{Level, With, too_deep};
+pub(crate) use call::{Level, With, declare_parameters, too_deep};
 pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};

@@ -41,9 +41,18 @@ pub(crate) fn letters(code: &Code) -> u32 {
 }
 
 impl Iso<'_> {
+    /// Letters that are judged: where programs declare letters as names of variables, only those of a centre, written without `=`.
+    pub(crate) fn judged_letters(&self) -> u32 {
+        if self.core.dialect.quirks.declares_names() {
+            CENTRE
+        } else {
+            PARAMETERS
+        }
+    }
+
     /// Tells the words of the block that nothing reads.
     pub(crate) fn unused_words(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
-        let mut left = words.letters & PARAMETERS & !self.read_in_force(words, block);
+        let mut left = words.letters & self.judged_letters() & !self.read_in_force(words, block);
         if self.circle_goes_on(codes, words, block) {
             left &= !self.read_by_arc(words);
         }

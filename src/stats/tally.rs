@@ -4,7 +4,8 @@ use crate::stop::Stops;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{
-    AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink, Tool,
+    AXIS_LETTERS, AxisLetter, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink,
+    Tool,
 };
 use trunnion_machine::{AxisKind, Follower, Leg, Machine, excursions, leads_tip, linear_travel, turns};
 use trunnion_same::Input;
@@ -127,7 +128,8 @@ impl Tally {
             stops: Stops::default(),
         };
         let mut setup = input.setup.clone();
-        setup.unnamed_stand = input.machine.is_none();
+        // on a chain of linear axes an axis that is never named changes nothing of the others, wherever it stands
+        setup.unnamed_stand = input.machine.is_none_or(|machine| machine.rotary.is_empty());
         let mut interpreter = Interpreter::new(input.dialect, &setup);
         let mut standing = interpreter.standing();
         while let Some(block) = interpreter.advance(program, &mut counting) {
@@ -141,6 +143,10 @@ impl Tally {
         // what always stands is no extent
         for (axis, range) in tally.axes.iter_mut().enumerate() {
             *range = range.take_if(|_| standing & (1 << axis) == 0);
+        }
+        for (letter, _, range) in &mut tally.joints {
+            let stands = |axis: AxisLetter| standing & (1 << axis.0) != 0;
+            *range = range.take_if(|_| !AxisLetter::new(*letter as u8).is_some_and(stands));
         }
         tally
     }

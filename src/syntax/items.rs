@@ -24,7 +24,7 @@ pub struct Items<'p> {
     pub(crate) at: TokenId,
     /// The last item that is not a plain word.
     found: Option<Item>,
-    stage: Stage,
+    pub(crate) stage: Stage,
 }
 
 /// Reports every problem of the block that starts at token `first`.
@@ -84,7 +84,12 @@ impl<'p> Items<'p> {
         } else {
             next
         };
-        if next == TokenKind::Comma || matches!(behind, TokenKind::Equals | TokenKind::ParenOpen) {
+        if next == TokenKind::Comma
+            || matches!(
+                behind,
+                TokenKind::Equals | TokenKind::ParenOpen | TokenKind::BracketOpen
+            )
+        {
             return None;
         }
         let range = scan.range(at);
@@ -125,18 +130,10 @@ impl<'p> Items<'p> {
         if self.is_numbered_call(at) {
             return self.name(at, self.stage, sink);
         }
+        if let Some(element) = self.numbered_element(at, sink) {
+            return element;
+        }
         self.plain_word(at).map_or_else(|| self.odd_word(at, sink), Item::Word)
-    }
-
-    /// Whether it is the call of a subprogram with a number, and with arguments where parentheses are not comments: `L140(1)`.
-    fn is_numbered_call(&self, at: TokenId) -> bool {
-        let scan = self.scan;
-        let [b'L' | b'l', number @ ..] = scan.text(at) else {
-            return false;
-        };
-        scan.kind(scan.skip_blank(at + 1)) == TokenKind::ParenOpen
-            && !number.is_empty()
-            && number.iter().all(u8::is_ascii_digit)
     }
 
     /// A word with `=` or a comma after it, or with an odd number.

@@ -1,7 +1,7 @@
 //! Names: what TRAORI, CYCLE800(..), IF [..], GOTO 100, LABEL: and CR=5 are.
 use crate::expression::{is_function, is_one_of};
 use crate::items::{Items, Stage};
-use crate::sink::Sink;
+use crate::sink::{Quiet, Sink};
 use crate::{Address, Call, Item, TextRange, TokenId, TokenKind, Value, Word};
 
 /// Names that take one operand without parentheses, even one that follows directly: `GOTO100`, `GOTOF LABEL`.
@@ -68,6 +68,41 @@ impl Items<'_> {
             TokenKind::Number => self.call(at, end, next, Some(next + 1)),
             _ => self.call(at, end, next, None),
         }
+    }
+
+    /// Whether it is the call of a subprogram with a number, and with arguments where parentheses are not comments: `L140(1)`.
+    pub(crate) fn is_numbered_call(&self, at: TokenId) -> bool {
+        let scan = self.scan;
+        let [b'L' | b'l', number @ ..] = scan.text(at) else {
+            return false;
+        };
+        scan.kind(scan.skip_blank(at + 1)) == TokenKind::ParenOpen
+            && !number.is_empty()
+            && number.iter().all(u8::is_ascii_digit)
+    }
+
+    /// Whether brackets after a name are those of an element of an array: where parentheses are not comments, as on a SINUMERIK.
+    fn has_elements(&self) -> bool {
+        !self.scan.options.paren_comment
+    }
+
+    /// The assignment to an element of an array whose name is a letter with a number: `H2[1]=5`.
+    pub(crate) fn numbered_element(&mut self, at: TokenId, sink: &mut impl Sink) -> Option<Item> {
+        let scan = self.scan;
+        let open = scan.skip_blank(at + 1);
+        let named = scan.text(at)[1..].iter().all(u8::is_ascii_digit);
+        if scan.kind(open) != TokenKind::BracketOpen || !named || !self.has_elements() {
+            return None;
+        }
+        // problems inside the brackets are reported where the assignment is read
+        let stop = scan.group(open, &mut Quiet);
+        let equals = scan.skip_blank(stop);
+        if !scan.assigns(equals) {
+            return None;
+        }
+        scan.group(open, sink);
+        self.stage = Stage::Inside;
+        Some(self.assignment(at, Address::Named(scan.span(at, stop)), equals, sink))
     }
 
     /// A jump or a condition: names that end where their letters end, whatever follows directly.

@@ -4,6 +4,7 @@ mod five_axes;
 mod items;
 mod state;
 mod unknown_values;
+mod words;
 
 use crate::cli::tools::{json, trunnion, write};
 use five_axes::{FIVE_AXES, machine};
@@ -15,6 +16,7 @@ use trunnion::check::{Assume, Diagnostic, Settings, Severity, Status, check};
 use trunnion::interp::Setup;
 use trunnion::syntax::parse;
 use unknown_values::UNKNOWN_VALUES;
+use words::WORDS;
 
 /// What is shown by other tests: the file and its test.
 const ELSEWHERE: &[[&str; 3]] = &[
@@ -55,8 +57,8 @@ fn findings(found: &[Diagnostic], text: &str) -> Vec<String> {
 #[test]
 fn each_is_judged_as_it_should_be() {
     let mut wrong = String::new();
-    for (name, [dialect, on], text, wanted, motions) in ITEMS.iter().chain(STATE).chain(FIVE_AXES).chain(UNKNOWN_VALUES)
-    {
+    let items = ITEMS.iter().chain(STATE).chain(WORDS).chain(FIVE_AXES).chain(UNKNOWN_VALUES);
+    for (name, [dialect, on], text, wanted, motions) in items {
         let dialect = trunnion::dialect::builtin(dialect).expect("built in");
         let own = machine(on);
         let machine = own.as_ref().or_else(|| trunnion::machine::builtin(on));

@@ -7,6 +7,14 @@ fn what_is_wrong_is_said_with_its_key() {
             "`tip` in [tolerances] must be a number (`path-deviation`: how far the tip may leave the programmed segment, mm): `tip = 0.02`",
         ),
         (
+            "[tolerances]\ntip = 0.02 mm\n",
+            "`tip` in [tolerances] must be a number without its unit (`path-deviation`: how far the tip may leave the programmed segment, mm): `tip = 0.02`",
+        ),
+        (
+            "machine = mill-3axis\n",
+            "`machine` must be a text in quotes: `machine = \"mill-3axis\"`",
+        ),
+        (
             "[tolerances]\ntip = \"small\"\n",
             "`tip` in [tolerances] must be a number (`path-deviation`: how far the tip may leave the programmed segment, mm): `tip = 1.0`",
         ),

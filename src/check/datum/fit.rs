@@ -61,9 +61,13 @@ impl Missing {
                     "declare it in trunnion.toml: [work_offsets] {quoted} = {{ X = 0, Y = 0, Z = 0 }}; `--assume work-offset` takes it as zero"
                 )
             }
-            Self::Length(LengthOf::Offset(_)) => "declare it in trunnion.toml: [tool_offsets] 2 = { X = 0, Z = 0 }, by its number; `--assume tool-length` takes the offsets of T as zero: a work offset in trunnion.toml is then the place of the part relative to the tip of \
-                 the tool at machine zero"
-                .to_owned(),
+            Self::Length(LengthOf::Offset(number)) => {
+                let number = number.map_or_else(|| "...".to_owned(), |number| number.to_string());
+                format!(
+                    "declare it in trunnion.toml: [tool_offsets] {number} = {{ X = 0, Z = 0 }}, by its number; `--assume tool-length` takes the offsets of T as zero: a work offset in trunnion.toml is then the place of the part relative to the tip of \
+                     the tool at machine zero"
+                )
+            }
             Self::Length(of) => {
                 let number = match of {
                     LengthOf::Tool(Some(number)) => number.to_string(),

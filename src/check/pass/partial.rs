@@ -1,8 +1,9 @@
 //! A pass over a part of a program: what it needs to continue, and what it leaves to the whole.
 use super::Pass;
-use crate::Report;
+use crate::assumed::Assumed;
 use crate::trail::Trail;
 use crate::view::InForce;
+use crate::{Diagnostic, Report};
 use trunnion_interp::{ChainId, Fault, FaultKind, LengthOf, Refusal};
 use trunnion_machine::{Follower, Memory};
 
@@ -16,6 +17,13 @@ pub(crate) struct PassMemory {
     posture: i8,
     trail: Trail,
     motions: u64,
+    assumed: Assumed,
+}
+
+/// An axis limit that only an assumption breaks is unknown.
+pub(super) fn weigh(assumed: &Assumed, follower: Option<&Follower<'_>>, found: &mut [Diagnostic]) {
+    let turns = follower.is_some_and(|follower| !follower.machine().rotary.is_empty());
+    assumed.weigh(found, turns);
 }
 
 impl PassMemory {
@@ -36,6 +44,7 @@ impl<'a> Pass<'a> {
             posture: self.posture,
             trail: self.trail,
             motions: self.summary.motions,
+            assumed: self.assumed.clone(),
         }
     }
 
@@ -51,6 +60,7 @@ impl<'a> Pass<'a> {
         (self.in_force, self.last_cut, self.last_length) = (memory.in_force, memory.last_cut, memory.last_length);
         (self.posture, self.trail) = (memory.posture, memory.trail);
         self.summary.motions = memory.motions;
+        self.assumed = memory.assumed.clone();
     }
 
     /// Whether only the rest of the program decides how it goes on.
@@ -82,7 +92,8 @@ impl<'a> Pass<'a> {
         if let Some(follower) = &self.follower {
             self.reporter.word_worst(follower.machine(), &self.legs.rules);
         }
-        let diagnostics = self.reporter.finish(&|_: ChainId| Vec::new());
+        let mut diagnostics = self.reporter.finish(&|_: ChainId| Vec::new());
+        weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
         self.summary.count(&diagnostics);
         Report {
             diagnostics,

@@ -28,6 +28,7 @@
 use crate::config::declaration;
 use crate::facts::Margin;
 use crate::prelude::*;
+use crate::slip::record_with_zeros;
 use trunnion_dialect::Plane;
 use trunnion_interp::{Lacks, UnknownName};
 
@@ -131,7 +132,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 "if the program does not set its value and it is known, declare it ([variables] in trunnion.toml: {line}); else {BY_HAND}"
             ))
         });
-        let near = out.near_code(what);
+        let near = out.near_code(what).or_else(|| record_with_zeros(what, out.dialect()));
         let hint = near
             .as_ref()
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
@@ -157,7 +158,7 @@ fn unknown_name(fault: &Fault, name: UnknownName<'_>, out: &mut Reporter<'_>) {
         is_program,
         place,
     } = name;
-    let near = out.near_code(text);
+    let near = out.near_code(text).or_else(|| out.code_with_zeros(fault.range));
     let hint = near
         .as_ref()
         .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));

@@ -232,6 +232,7 @@ mod tests {
             "LEADER\n",
             "From: me, 2020-01-01\nHere it is (rev. 3): X5,5\n",
             "O9(TITLE)\n",
+            "Part 17\nDate 1.2.2020\nPROGRAM 1234.NC\n",
         ] {
             let found = report("fanuc-30i", &format!("{text}{program}"));
             let clean = report("fanuc-30i", program);

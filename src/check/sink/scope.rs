@@ -1,7 +1,9 @@
 //! How much of a program is judged, what is known of its control, and how much of what is found is wanted.
 use super::Reporter;
 use crate::caller::Part;
+use crate::slip::letter_o;
 use core::cell::OnceCell;
+use trunnion_syntax::TextRange;
 
 impl Reporter<'_> {
     /// The axes of a machine are judged.
@@ -57,6 +59,13 @@ impl Reporter<'_> {
     /// The code that a text resembles.
     pub(crate) fn near_code(&mut self, text: &str) -> Option<String> {
         self.near.of(text)
+    }
+
+    /// A code with zeros in place of the letter O: G0 for `GO`. Names that begin otherwise may be those of programs.
+    pub(crate) fn code_with_zeros(&self, range: TextRange) -> Option<String> {
+        let meant = letter_o(self.program, range.start)?.meant;
+        let is_code = meant.starts_with(['G', 'g', 'M', 'm']);
+        is_code.then_some(meant)
     }
 
     /// Whether the file is a main program or a subprogram.

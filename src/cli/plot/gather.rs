@@ -1,8 +1,12 @@
 //! Runs a program for a picture: its record, and the blocks that a check finds.
-use crate::cli::{failure::remark, legs::each_leg, load::Loaded};
+use crate::cli::{
+    failure::remark,
+    legs::{each_leg_in, flat_setup},
+    load::Loaded,
+};
 use std::collections::{BTreeMap, VecDeque};
 use trunnion_check::{Report, Status};
-use trunnion_interp::{ModalState, MotionKind};
+use trunnion_interp::{ModalState, MotionKind, Setup};
 use trunnion_machine::{BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
 use trunnion_plot::{Mark, PlannedFeed, Record, Recorder, Unit};
@@ -10,10 +14,19 @@ use trunnion_syntax::LineIndex;
 
 /// The record of the program, or of the blocks between two lines.
 pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
+    gather_in(loaded, (machine, &loaded.resolved.setup), lines)
+}
+
+/// The same of its path alone: a linear axis that the program never names stands at 0.
+pub(crate) fn gather_path(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
+    gather_in(loaded, (machine, &flat_setup(loaded, machine)), lines)
+}
+
+fn gather_in(loaded: &Loaded, (machine, setup): (&Machine, &Setup), lines: Option<(u32, u32)>) -> Record {
     let index = LineIndex::new(loaded.program.source());
     let mut recorder = Recorder::new(machine);
     let mut inch = false;
-    let given_up = each_leg(loaded, machine, &index, lines, |leg, line, state| {
+    let given_up = each_leg_in(loaded, (machine, setup), &index, lines, |leg, line, state| {
         inch |= state.coordinates.is_inch();
         recorder.leg(leg, line);
     });

@@ -1,4 +1,5 @@
 //! How long a program takes: in all, by tool and operation, where it is slow, and why.
+use crate::cli::legs::flat_setup;
 use crate::cli::load::Loaded;
 use crate::cli::verdict::counted;
 use serde_json::{Value, json};
@@ -135,7 +136,8 @@ impl<'a> Times<'a> {
             waits: 0.0,
         };
         let resolved = &loaded.resolved;
-        time(&loaded.program, resolved.dialect, &resolved.setup, machine, &mut times);
+        let setup = flat_setup(loaded, machine);
+        time(&loaded.program, resolved.dialect, &setup, machine, &mut times);
         times.close();
         times
     }

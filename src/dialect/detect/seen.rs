@@ -169,8 +169,8 @@ impl Seen {
             .filter(|family| *family != "iso-6983" && named(family, String::new(), true).is_some());
         let silent = owner.is_none() && family.is_none();
         if signs == 0 {
-            // nothing but the shape of a lathe
-            let found = lathe.filter(|_| silent)?;
+            // nothing but the shape of a lathe, in the manner of one control
+            let found = lathe.filter(|found| silent && found.names_fanuc)?;
             return named("fanuc-30i-lathe-a", format!("content: {}", found.reason), false);
         }
         // a hint alone is not enough

@@ -1,5 +1,6 @@
 //! Mill or lathe: what the blocks of a program look like together.
-use super::text::{has, word, words};
+use super::CONTENT_BYTES;
+use super::text::{has, lines, strip_comments, word, words};
 
 /// What was seen in a program, for any control.
 #[derive(Clone, Debug, Default)]
@@ -14,7 +15,12 @@ pub(super) struct Shape {
     xz: u32,
     /// T words that name tool and offset: T0101.
     turret: bool,
-    surface_speed: bool,
+    /// The first line with G96 S.
+    surface_speed: Option<usize>,
+    /// M6 without T in its line: the tool is changed by a code.
+    changes: bool,
+    /// G99 where no canned cycle is: on a lathe of a Fanuc it is feed per revolution, on a mill it means nothing alone.
+    per_revolution: bool,
     /// G97 S, or the plane G18: mills have them too.
     hint: Option<&'static str>,
     /// G50 S, G28 U W, a turning cycle: with the line.
@@ -28,8 +34,25 @@ pub(super) struct Lathe {
     pub(super) reason: String,
     /// A code of lathes shows it, not the shape of the blocks alone.
     pub(super) strong: bool,
+    /// It is in the manner of a Fanuc: a T word with an offset, G99 for feed per revolution.
+    pub(super) names_fanuc: bool,
     /// G code system B: G92 S limits the spindle.
     pub(super) system_b: bool,
+}
+
+/// Codes of mills in whose line G99 is the return to R: canned cycles, and the planes of a first line.
+const RETURNS: &[&str] = &[
+    "73", "74", "76", "80", "81", "82", "83", "84", "85", "86", "87", "88", "89", "17", "49",
+];
+
+/// Why a program may be one for a lathe, as far as its blocks show it.
+pub fn possible_lathe(source: &[u8]) -> Option<String> {
+    let text = String::from_utf8_lossy(&source[..source.len().min(CONTENT_BYTES)]).to_ascii_uppercase();
+    let mut shape = Shape::default();
+    for (at, line) in lines(&text).enumerate() {
+        shape.look(strip_comments(line).trim(), at + 1);
+    }
+    shape.lathe(false).map(|found| found.reason)
 }
 
 impl Shape {
@@ -48,7 +71,11 @@ impl Shape {
         } else if word(code, b'X') || word(code, b'Z') {
             self.xz += 1;
         }
-        self.surface_speed |= has(code, b'G', "96") && word(code, b'S');
+        if has(code, b'G', "96") && word(code, b'S') {
+            self.surface_speed.get_or_insert(line);
+        }
+        self.changes |= has(code, b'M', "6");
+        self.per_revolution |= has(code, b'G', "99") && !RETURNS.iter().any(|other| has(code, b'G', other));
         if has(code, b'G', "97") && word(code, b'S') {
             self.hint.get_or_insert("G97");
         } else if has(code, b'G', "18") {
@@ -78,8 +105,8 @@ impl Shape {
         }
     }
 
-    /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a second sign: a turret's T0101, surface speed, or
-    /// motions in X and Z alone. G43, M6 with T, and motions in Y without a turret are evidence against a lathe. On a machine that has no Y
+    /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a second sign: motions in X and Z alone. With
+    /// them a turret's T0101 is enough where M6 changes no tool, and so is surface speed. G43, M6 with T, and motions in Y without a turret are evidence against a lathe. On a machine that has no Y
     /// (`no_y`), motions in X and Z alone are enough.
     pub(super) fn lathe(&self, no_y: bool) -> Option<Lathe> {
         let flat = self.y == 0 && self.xz >= 2;
@@ -90,25 +117,38 @@ impl Shape {
             Some(Lathe {
                 reason: format!("{reason} on line {line}"),
                 strong: true,
+                names_fanuc: true,
                 system_b,
             })
         };
         if let Some((sign, line)) = self.lathe {
             return found(sign, line, false);
         }
-        if let Some(line) = self.limit.filter(|_| self.turret || (self.surface_speed && flat)) {
+        if let Some(line) = self
+            .limit
+            .filter(|_| self.turret || (self.surface_speed.is_some() && flat))
+        {
             return found("G92 S", line, true);
         }
-        let speed = if self.surface_speed { Some("G96") } else { self.hint };
-        let reason = match speed.filter(|_| self.turret) {
-            _ if !flat => return None,
-            Some(code) => format!("T with an offset, {code}, X and Z alone"),
-            None if no_y => "X and Z alone, on a machine without Y".to_owned(),
-            None => return None,
+        if !flat {
+            return None;
+        }
+        let speed = if self.surface_speed.is_some() {
+            Some("G96")
+        } else {
+            self.hint
+        };
+        let reason = match (speed, self.surface_speed) {
+            (Some(code), _) if self.turret => format!("T with an offset, {code}, X and Z alone"),
+            _ if self.turret && !self.changes => "T with an offset, X and Z alone".to_owned(),
+            (_, Some(line)) => format!("G96 on line {line}, X and Z alone"),
+            _ if no_y => "X and Z alone, on a machine without Y".to_owned(),
+            _ => return None,
         };
         Some(Lathe {
             reason,
             strong: false,
+            names_fanuc: self.turret || self.per_revolution || no_y,
             system_b: false,
         })
     }
@@ -120,6 +160,9 @@ impl Shape {
 
     /// Whether only X and Z move, with a turret: a lathe of any control.
     pub(super) fn turns(&self) -> bool {
-        !self.mill && self.y == 0 && self.xz > 0 && (self.turret || self.surface_speed || self.lathe.is_some())
+        !self.mill
+            && self.y == 0
+            && self.xz > 0
+            && (self.turret || self.surface_speed.is_some() || self.lathe.is_some())
     }
 }

@@ -51,6 +51,39 @@ fn programs_of_lathes_without_their_own_codes() {
     );
 }
 
+/// With motions in X and Z alone, surface speed or a turret's T0101 is enough; where they show no control, the text only may be one of a lathe.
+#[test]
+fn one_sign_and_the_motions() {
+    let lathe = "G96 S150 M3\nG0 X50. Z2.\nG1 Z-5. F.1\nX52.\nM30\n";
+    for (text, wanted) in [
+        (format!("%\nO0007\n{lathe}"), "fanuc-30i-lathe-a"),
+        (format!("%\nO00007\n{lathe}"), "haas-lathe"),
+        (format!("G21 G99\n{lathe}"), "fanuc-30i-lathe-a"),
+        (
+            "G99\nT0101\nM3 S500\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(),
+            "fanuc-30i-lathe-a",
+        ),
+        (
+            "%\nO7\nT0101\nM3 S500\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(),
+            "fanuc-30i-lathe-a",
+        ),
+        // no control is shown
+        (lathe.to_owned(), "iso-6983"),
+        (format!("G17 G80 G99\n{lathe}"), "iso-6983"),
+        // Y, or a tool that M6 changes
+        (format!("%\nO0007\n{}", lathe.replace("X52.", "X52. Y1.")), "fanuc-30i"),
+        (
+            "%\nO7\nT1201\nM6\nG0 X50. Z2.\nG1 Z-5. F.1\nM30\n".to_owned(),
+            "fanuc-30i",
+        ),
+    ] {
+        assert_eq!(content(&text).0, wanted, "{text}");
+    }
+    let reason = crate::possible_lathe(lathe.as_bytes());
+    assert_eq!(reason.as_deref(), Some("G96 on line 1, X and Z alone"));
+    assert_eq!(crate::possible_lathe(b"G0 X1 Z2\nG1 X5\nM30\n"), None);
+}
+
 #[test]
 fn okuma_mills_and_lathes() {
     for (name, text, wanted) in [

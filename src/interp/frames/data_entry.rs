@@ -169,7 +169,21 @@ impl<'d> Iso<'d> {
 
     fn write_tool(&mut self, l: u32, number: u32, words: &Words, found: &Found<'d>, report: &mut Report<'_>) {
         let value = words.radius.number().map_or(0.0, |number| number.value) * self.core.state.coordinates.unit_mm();
-        let incremental = self.core.state.coordinates.incremental();
+        self.store_tool(l, number, value, self.core.state.coordinates.incremental());
+        // a parameter of the control decides when the new length acts; after the next G43 or G49 it is certain
+        let in_force = self.memory.length_offset == Some(number) && self.core.state.length.mm().is_some();
+        if l <= 11 && in_force {
+            let what = format!("{} of the active length offset", found.code.id);
+            report.fault(found.range, FaultKind::NotModelled { what });
+            if let Some(code) = self.core.dialect.g(490) {
+                self.core.unknown.begin(code, true);
+                self.core.forget_linear();
+            }
+        }
+    }
+
+    /// The program writes what L10 to L13 name of a tool offset, mm.
+    pub(crate) fn store_tool(&mut self, l: u32, number: u32, value: f64, incremental: bool) {
         let add = |old: f64| if incremental { old + value } else { value };
         let declared = self
             .core
@@ -196,16 +210,6 @@ impl<'d> Iso<'d> {
                 _ => offset.radius_wear = add(offset.radius_wear),
             }
             offset.radius_unclear |= unclear && l >= 12;
-        }
-        // a parameter of the control decides when the new length acts; after the next G43 or G49 it is certain
-        let in_force = self.memory.length_offset == Some(number) && self.core.state.length.mm().is_some();
-        if l <= 11 && in_force {
-            let what = format!("{} of the active length offset", found.code.id);
-            report.fault(found.range, FaultKind::NotModelled { what });
-            if let Some(code) = self.core.dialect.g(490) {
-                self.core.unknown.begin(code, true);
-                self.core.forget_linear();
-            }
         }
     }
 }

@@ -210,6 +210,10 @@ impl Klartext<'_> {
                     TextRange::default()
                 };
                 report.fault(range, FaultKind::UnknownWord);
+                if word.name().starts_with(b"F") {
+                    // a feed that is misspelt is not missing as well
+                    found.feed = FeedSaid::Value(None);
+                }
             }
         }
         false
@@ -294,6 +298,6 @@ fn names_axis(letter: u8, word: &Word<'_>, found: &PathWords) -> bool {
 }
 
 /// A word whose value is `nan` or `inf`, with or without its letters.
-fn is_no_number(name: &[u8]) -> bool {
+pub(crate) fn is_no_number(name: &[u8]) -> bool {
     name.len() <= 6 && [&b"NAN"[..], b"INF"].iter().any(|ending| name.ends_with(ending))
 }

@@ -3,7 +3,7 @@ use super::Klartext;
 use super::datum::PLANE;
 use super::flow::Request;
 use super::path::Path;
-use super::path_words::{FeedSaid, PathWords};
+use super::path_words::{FeedSaid, PathWords, is_no_number};
 use super::words::{Said, Words};
 use crate::core::Report;
 use crate::{FaultKind, FeedMode, Refusal};
@@ -11,6 +11,14 @@ use trunnion_syntax::TextRange;
 
 /// First words of FUNCTION blocks after which coordinates mean what they meant: dwells and pulses, files, the counter, monitoring.
 const LEAVES_COORDINATES: [&str; 7] = ["FEED", "S-PULSE", "DWELL", "FILE", "COUNT", "DCM", "LIFTOFF"];
+
+/// Words of positioning blocks that have three letters or more, and no value.
+const WORDS: [&[u8]; 4] = [b"FMAX", b"FAUTO", b"LEN", b"CCA"];
+
+/// Whether a name that no statement has can only be meant as one: it is no word of a positioning block.
+fn is_statement(name: &[u8]) -> bool {
+    name.len() >= 3 && name.iter().all(u8::is_ascii_alphabetic) && !WORDS.contains(&name) && !is_no_number(name)
+}
 
 impl Klartext<'_> {
     /// Runs the words of one block.
@@ -65,6 +73,18 @@ impl Klartext<'_> {
             }
             b"IF" | b"ELSE" | b"ELSEIF" | b"END" | b"WHILE" | b"FOR" | b"BREAK" | b"CONTINUE" => {
                 return Self::undecided("IF, WHILE and FOR of newer controls", report);
+            }
+            // a misspelt statement: TOL CALL
+            name if is_statement(name) && first.value == Said::Nothing => {
+                self.memory.unfollowed = true;
+                let whole = report.whole();
+                let plain = whole.end - whole.start == words.text.len() as u32;
+                let start = if plain {
+                    whole.start + first.start as u32
+                } else {
+                    whole.start
+                };
+                report.fault(TextRange::new(start, whole.end), FaultKind::UnknownWord);
             }
             // a block of words alone: M3, X+10 R0 F100
             _ => {

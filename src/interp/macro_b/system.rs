@@ -3,6 +3,7 @@
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5081 ff. that length, #5221 to #5324 work offsets.
 use super::alarms::is_fanuc;
+use crate::core::Report;
 use crate::frames::Frames;
 use crate::iso::Iso;
 use crate::memory::Memory;
@@ -239,16 +240,34 @@ fn offset_of(number: u32) -> Option<(Option<String>, usize)> {
     (axis < 3 && code <= 59).then(|| ((code > 53).then(|| format!("G{code}")), axis))
 }
 
+/// The L of G10 and the number of the tool offset whose radius #12001 ff. (wear) and #13001 ff. (geometry) hold on a mill (Tool offset variables,
+/// docs/sources.md). What those of lengths change while one is in effect is not followed.
+fn radius_of(number: u32) -> Option<(u32, u32)> {
+    let (thousands, offset) = (number / 1000, number % 1000);
+    match thousands {
+        12 if offset > 0 => Some((13, offset)),
+        13 if offset > 0 => Some((12, offset)),
+        _ => None,
+    }
+}
+
 /// Whether the run follows what an assignment to a system variable changes.
 pub(crate) fn is_followed(number: u32, dialect: &Dialect) -> bool {
+    if radius_of(number).is_some() {
+        return is_fanuc(dialect) && !dialect.quirks.diameter;
+    }
     (is_fanuc(dialect) || number < 7000) && offset_of(number).is_some()
 }
 
 impl Iso<'_> {
-    /// An assignment to #5201 to #5323: a zero point moves, the machine stays where it is. `value` in program units.
-    pub(crate) fn system_write(&mut self, number: u32, value: f64) {
-        let Some((name, axis)) = offset_of(number) else { return };
+    /// An assignment to #5201 to #5323: a zero point moves, the machine stays where it is. One to #12001 or #13001 ff. changes a radius. `value` in program units.
+    pub(crate) fn system_write(&mut self, number: u32, value: f64, report: &mut Report<'_>) {
         let value = value * self.core.state.coordinates.unit_mm();
+        if let Some((l, offset)) = radius_of(number) {
+            self.lose("its radius is written", report);
+            return self.store_tool(l, offset, value, false);
+        }
+        let Some((name, axis)) = offset_of(number) else { return };
         let Some(name) = name else {
             self.memory.frames.external[axis] = value;
             return self.refresh_zero();

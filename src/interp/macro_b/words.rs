@@ -106,7 +106,7 @@ impl<'d> Iso<'d> {
         }
         let writes = self.flow.deep.as_mut().map(|deep| std::mem::take(&mut deep.writes));
         for (number, value) in writes.into_iter().flatten() {
-            self.system_write(number, value);
+            self.system_write(number, value, report);
         }
         if !self.flow.follows {
             return;

@@ -93,6 +93,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 let (name, means) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
                 own.note_text(name, means);
             }
+            (Some(own), "PROC") if own.levels == 0 => {
+                crate::sinumerik::declare_parameters(own, text.get(4..).unwrap_or_default());
+            }
             (Some(own), "EXTERN") => own.declare_subprogram(text.get(6..).unwrap_or_default()),
             _ => {}
         }

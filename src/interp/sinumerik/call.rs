@@ -176,6 +176,13 @@ impl Proc {
     }
 }
 
+/// The parameters of a PROC that nothing calls: the caller, which is not here, gives their values.
+pub(crate) fn declare_parameters(own: &mut Own, text: &str) {
+    for parameter in Proc::read(text, own).parameters {
+        own.declare(&parameter.name, parameter.sort, None);
+    }
+}
+
 /// A variable that two parameters stand for: each would see what the other writes.
 fn handed_over_twice<'a>(parameters: &[Parameter], arguments: &'a [Argument]) -> Option<&'a str> {
     let by_reference = parameters
@@ -201,13 +208,21 @@ impl Iso<'_> {
         let program = called.as_ref().map_or(running.main, |called| &called.program);
         let own = &mut self.memory.own;
         let proc = Proc::of(program, start, own);
+        let has_proc = proc.is_some();
         let (parameters, saves) = proc.map_or((Vec::new(), false), |proc| (proc.parameters, proc.saves));
-        if with.arguments.len() > parameters.len() {
-            return Err(format!(
-                "{} arguments for a subprogram whose PROC declares {}",
-                with.arguments.len(),
-                parameters.len()
-            ));
+        let given = with.arguments.len();
+        if given > parameters.len() {
+            let (arguments, them) = if given == 1 {
+                ("argument", "it")
+            } else {
+                ("arguments", "them")
+            };
+            let declares = if has_proc {
+                format!("whose PROC declares {}", parameters.len())
+            } else {
+                format!("that has no PROC to take {them}")
+            };
+            return Err(format!("{given} {arguments} for a subprogram {declares}"));
         }
         if let Some(twice) = handed_over_twice(&parameters, &with.arguments) {
             return Err(format!(
@@ -233,18 +248,15 @@ impl Iso<'_> {
             let written = argument.as_ref().filter(|argument| !argument.is_left_out);
             let value = written.map_or(parameter.initial, |argument| argument.value);
             let variable = argument.as_ref().and_then(|argument| argument.variable.clone());
-            let sort = match &parameter.sizes {
-                Some(sizes) => {
-                    own.declare(&parameter.name, Sort::Other, None);
-                    if let Some(variable) = &variable {
-                        own.copy_field(&level.scope, variable, (&parameter.name, parameter.sort, sizes));
-                    }
-                    Sort::Other
+            let sort = if let Some(sizes) = &parameter.sizes {
+                own.declare(&parameter.name, Sort::Other, None);
+                if let Some(variable) = &variable {
+                    own.copy_field(&level.scope, variable, (&parameter.name, parameter.sort, sizes));
                 }
-                None => {
-                    own.declare(&parameter.name, parameter.sort, value);
-                    parameter.sort
-                }
+                Sort::Other
+            } else {
+                own.declare(&parameter.name, parameter.sort, value);
+                parameter.sort
             };
             if let (true, Some(variable)) = (parameter.by_reference, variable) {
                 level.references.push((parameter.name.clone(), variable));

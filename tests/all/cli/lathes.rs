@@ -145,6 +145,43 @@ fn a_program_in_two_dimensions_has_a_length_and_a_time() {
     assert_eq!(coverage["motions"], coverage["motions_known"], "{coverage}");
 }
 
+/// On a machine whose axes are all linear they do not depend on Z either, and neither does what an arc reaches in X and Y.
+#[test]
+fn a_machine_does_not_hide_a_program_in_two_dimensions() {
+    let program =
+        "(trunnion: dialect grbl)\nG21 G90\nM3 S100\nG0 X10 Y10\nG1 X20 F1000\nG2 X30 Y20 I0 J10\nG1 X10\nM5\nM2\n";
+    let folder = folder("", program);
+    let stats = |machine: &[&str]| {
+        let arguments = [&["stats", "--format", "json", "a.nc"], machine].concat();
+        json(&trunnion_in(folder.path(), &arguments))["files"][0].clone()
+    };
+    let (without, on_mill) = (stats(&[]), stats(&["--machine", "mill-3axis"]));
+    for key in ["extents", "feed_length_mm", "feed_time_s", "motions_of_unknown_length"] {
+        assert_eq!(without[key], on_mill[key], "{key}");
+    }
+    // the reach of an arc is found to some micrometres
+    let reach = on_mill["joints"]["joint_y_mm"][1].as_f64().expect("a number");
+    assert!((reach - 30.0).abs() < 0.001, "{reach}");
+    assert_eq!(on_mill["joints"]["joint_z_mm"], Value::Null);
+    assert_ne!(on_mill["cycle_time_s"], Value::Null);
+    let trace = json(&trunnion_in(
+        folder.path(),
+        &["trace", "--format", "json", "--machine", "mill-3axis", "a.nc"],
+    ));
+    let last = &trace["rows"][3];
+    assert_eq!(
+        (&last["x_mm"], &last["y_mm"]),
+        (&serde_json::json!(10.0), &serde_json::json!(20.0))
+    );
+    assert_eq!((&last["z_mm"], &last["joint_z"]), (&Value::Null, &Value::Null));
+    assert_ne!(last["time_s"], Value::Null);
+    let picture = trunnion_in(
+        folder.path(),
+        &["plot", "--kind", "path", "--machine", "mill-3axis", "a.nc"],
+    );
+    assert!(text(&picture.stdout).contains("<polyline"), "a picture of the path");
+}
+
 /// LinuxCNC on a lathe: Y does not exist, so the tip is known without a word that names it.
 #[test]
 fn a_linuxcnc_lathe_has_a_path_too() {

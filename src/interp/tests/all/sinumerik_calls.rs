@@ -221,6 +221,14 @@ fn a_subprogram_with_a_number_takes_arguments() {
     assert_eq!(run("L140(7)\nM30\n"), (vec!["R Z7".to_owned()], Vec::new()));
 }
 
+/// Parameters of a PROC are declared where it is judged alone; the caller, which is not here, gives their values.
+#[test]
+fn the_parameters_of_a_subprogram_that_runs_alone_are_declared() {
+    let source = "PROC FOO(REAL WERT, INT N)\nWERT=5\nG0 X=WERT\nY=N\nM17\n";
+    assert_eq!(said(source), ["4 `N` not modelled: N"]);
+    assert_eq!(lines(SINUMERIK, source), ["R X5", "R X5"]);
+}
+
 #[test]
 fn ret_of_the_main_program_is_said_to_be_its_end() {
     assert_eq!(

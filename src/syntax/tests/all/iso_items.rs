@@ -207,6 +207,8 @@ fn assignments() {
         (SINUMERIK, "R99999=1", "<R99999>=1", ""),
         (SINUMERIK, "R[R2+1]=3", "<R[R2+1]>=3", ""),
         (SINUMERIK, "VAR5[R2]=R2*2", "<VAR5[R2]>={R2*2}", ""),
+        (SINUMERIK, "H2[1]=5", "<H2[1]>=5", ""),
+        (SINUMERIK, "N10 Q1[2, 2] = R2", "N=10 <Q1[2, 2]>={R2}", ""),
         (
             SINUMERIK,
             "MX1=5 _X_HOME=0 SPOS[1]=90",

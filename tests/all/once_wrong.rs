@@ -57,7 +57,12 @@ fn findings(found: &[Diagnostic], text: &str) -> Vec<String> {
 #[test]
 fn each_is_judged_as_it_should_be() {
     let mut wrong = String::new();
-    let items = ITEMS.iter().chain(STATE).chain(WORDS).chain(FIVE_AXES).chain(UNKNOWN_VALUES);
+    let items = ITEMS
+        .iter()
+        .chain(STATE)
+        .chain(WORDS)
+        .chain(FIVE_AXES)
+        .chain(UNKNOWN_VALUES);
     for (name, [dialect, on], text, wanted, motions) in items {
         let dialect = trunnion::dialect::builtin(dialect).expect("built in");
         let own = machine(on);

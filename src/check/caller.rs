@@ -81,7 +81,7 @@ fn klartext_part(program: &Program) -> Part {
 }
 
 /// Whether a LinuxCNC program does nothing but define subprograms and end.
-fn only_defines(program: &Program) -> bool {
+pub(crate) fn only_defines(program: &Program) -> bool {
     let (mut inside, mut some) = (false, false);
     for block in program.blocks().filter(|block| has_code(program, block.id())) {
         match mark(&block, Language::Linuxcnc) {

@@ -155,6 +155,10 @@ impl Start {
     pub(crate) fn of_caller(&self, out: &Reporter<'_>) -> Option<(BlockId, Vec<String>)> {
         let motion = self.motion.filter(|_| !self.usual && out.part() == Part::Called)?;
         let dialect = out.dialect();
+        // a file that only defines subprograms has its own finding: it is entered with unknown arguments
+        if dialect.quirks.rs274() && crate::caller::only_defines(out.program()) {
+            return None;
+        }
         let [codes, _] = self.relied(out.program(), dialect);
         let groups = [&MOTIONS[..], &PLANES, &DISTANCES];
         let modal = |id: &String| {

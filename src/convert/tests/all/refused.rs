@@ -135,7 +135,7 @@ fn g_code_needs_what_it_does_not_say() {
         &no,
     );
     assert!(
-        message.contains("no motion of this program ends at a known position"),
+        message.contains("#5061, the position where the probe touched"),
         "{message}"
     );
 }

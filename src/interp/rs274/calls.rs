@@ -2,11 +2,10 @@
 use super::bridge::{Bridge, LINEAR_AXES};
 use super::feed::Rate;
 use super::frames::Shift;
-use super::setup::{FIRST_SYSTEM, SYSTEMS};
 use crate::tools::Chosen;
-use crate::{Fault, FaultKind, LengthOf, Sink};
+use crate::{Fault, FaultKind, Sink};
 use trunnion_dialect::{Action, Code, Dialect, Owner, Plane};
-use trunnion_ngc::{At, Canon, OwnCode, Pose, Side, SpindleTurn, State, Units};
+use trunnion_ngc::{At, Canon, OwnCode, Side, SpindleTurn, State, Units};
 use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
@@ -160,6 +159,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     pub(super) fn modal(&mut self, call: &Canon, at: At, state: &State) {
         let unit = state.units.mm();
+        self.report_unknown_shift(call, at);
         match *call {
             Canon::FeedRate(rate) => {
                 self.calls.rate = Some(Rate {
@@ -182,12 +182,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::G92Offset(ref offset) => {
                 self.calls.g92 = Shift::metric(offset, unit);
                 self.core.state.zero.set_here(self.calls.g92 != [0.0; 9]);
-                if offset.iter().any(|value| !value.is_finite()) {
-                    self.unknown_value("G92", at, (920, 923));
-                }
-            }
-            Canon::XyRotation(angle) if !angle.is_finite() => {
-                self.unknown_value("the rotation of the coordinate system", at, (100, 100));
             }
             Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {
@@ -250,103 +244,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
-        let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
-        self.calls.tool_offset = Shift::metric(offset, state.units.mm());
-        let length = self.calls.tool_offset[2];
-        let of = match state.length_of {
-            Some(0) => LengthOf::Tool(self.core.state.tool.number()),
-            Some(number) => u32::try_from(number).map_or(LengthOf::Other, |number| LengthOf::Tool(Some(number))),
-            None => LengthOf::Nothing,
-        };
-        // a row of zeros that nothing declares: whether one was set is not known
-        let unset = |number: Option<i32>| {
-            let number = number.and_then(|number| u32::try_from(number).ok());
-            let named = number.filter(|number| *number != 0);
-            let data = match named {
-                Some(_) => self.core.tools.data(named, &self.core.setup),
-                None => self.core.state.tool.data(),
-            };
-            data.and_then(|tool| tool.length_mm).is_none()
-        };
-        let added = state.length_added.filter(|number| is_zero_row(state, *number));
-        let in_force = (on && length.is_finite()).then_some(length);
-        let undeclared = in_force == Some(0.0) && unset(state.length_of) || added.is_some() && unset(added);
-        if !length.is_finite() {
-            self.unknown_value("the tool length", at, (430, 432));
-        }
-        if undeclared && of != LengthOf::Nothing {
-            self.core.state.length.set_undeclared(in_force.unwrap_or(0.0), of);
-        } else if !length.is_finite() {
-            self.core.state.length.set_declared(None, of);
-        } else {
-            self.core.state.length.set(in_force, of);
-        }
-        if undeclared {
-            let tool = match added.or(state.length_of) {
-                Some(number @ 1..) => format!("H{number}"),
-                _ => self.core.tools.name(),
-            };
-            if self.core.tools.first_report_of_length(&tool) {
-                let range = self.code_range(at, b'G', |code| (430..=432).contains(&code));
-                self.fault(at, range, FaultKind::ToolLengthUnset { tool });
-            }
-        }
-    }
-
-    /// An offset is computed from a value that is not known: where the machine goes from here on is not known either.
-    fn unknown_value(&mut self, offset: &str, at: At, codes: (i64, i64)) {
-        let what = format!("{offset} is set from a value, or at a position, that is not known");
-        let range = self.code_range(at, b'G', |code| (codes.0..=codes.1).contains(&code));
-        self.fault(at, range, FaultKind::NotModelled { what });
-    }
-
-    fn work_offset(&mut self, index: i32, offset: &Pose, at: At) {
-        let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
-            return;
-        };
-        if offset.iter().any(|value| !value.is_finite()) {
-            self.unknown_value(name, at, (100, 100));
-        }
-        let changed = self.core.state.zero.offset() != Some(*name);
-        let declared = self
-            .core
-            .setup
-            .work_offsets
-            .iter()
-            .any(|known| known.name.eq_ignore_ascii_case(name));
-        let zero = offset.iter().all(|value| *value == 0.0);
-        let undeclared = if declared {
-            0
-        } else {
-            self.zeros_without_value(index, offset)
-        };
-        self.core.state.zero.choose(Some((*name).into()), undeclared);
-        let begun = self.core.last_content.is_some();
-        if begun && changed && zero && !declared && self.core.offsets_reported.first(name) {
-            let name = (*name).to_owned();
-            let range = self.code_range(at, b'G', |code| (540..=593).contains(&code));
-            self.fault(at, range, FaultKind::WorkOffsetUnset { name });
-        }
-    }
-
-    /// Axes of a work offset that is not known to be declared: the control does not distinguish a zero that was set from one that was never
-    /// set.
-    fn zeros_without_value(&self, index: i32, offset: &Pose) -> u16 {
-        let first = FIRST_SYSTEM + 20 * (index - 1).max(0).unsigned_abs();
-        let given = |axis: usize| {
-            let number = first + axis as u32;
-            let variables = &self.core.setup.variables;
-            offset[axis] != 0.0
-                || variables
-                    .iter()
-                    .any(|(known, value)| *known == number && value.is_some())
-        };
-        (0..offset.len())
-            .filter(|axis| !given(*axis))
-            .fold(0, |mask, axis| mask | 1 << axis)
-    }
-
     /// Another spindle than the first starts: which one holds the tool is not known, nor whether the machine has it.
     fn further_spindle(&mut self, spindle: i32, at: At) {
         self.core.state.spindle.may_start();
@@ -389,12 +286,4 @@ fn table_entry(dialect: &Dialect, own: OwnCode) -> Option<&Code> {
 /// Whether what a code does changes neither the position nor what words mean.
 fn is_harmless(action: Action) -> bool {
     matches!(action, Action::NoMotion | Action::PathMode | Action::ProgramStop)
-}
-
-/// Whether a row of the tool table has no offset along Z.
-fn is_zero_row(state: &State, number: i32) -> bool {
-    let rows = || (1..).map_while(|row| state.tools.get(row));
-    rows()
-        .find(|row| row.number == number)
-        .is_none_or(|row| row.offset[2] == 0.0)
 }

@@ -10,6 +10,7 @@ mod frames;
 mod handed;
 mod line_effects;
 mod modal;
+mod offsets;
 mod places;
 mod setup;
 mod steady;

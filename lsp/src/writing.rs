@@ -168,7 +168,7 @@ pub(crate) fn on_type(snapshot: &Snapshot, position: Position) -> Option<Vec<Tex
     formatting(snapshot, Some(range)).ok().flatten()
 }
 
-/// Above this size, bytes, only the colours of a range are told: those of a whole text take forty times its size. Editors ask for the lines
+/// Above this size, bytes, only the colours of a range are sent: those of a whole text take forty times its size. Editors ask for the lines
 /// that they show; Visual Studio Code's own TypeScript does the same above 100 000 characters.
 const MOST_COLOURED: usize = 4 << 20;
 

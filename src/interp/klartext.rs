@@ -26,12 +26,11 @@ mod tool;
 mod values;
 mod words;
 
-use crate::LengthOf;
 use crate::core::{Core, Report};
 use crate::engine::Engine;
 use crate::frames::{Frames, Tilted};
 use crate::reported::Reported;
-use crate::{Fault, FaultKind, Motion, Position, Sink};
+use crate::{Fault, FaultKind, LengthOf, Motion, Position, Sink};
 use flow::{Flow, Request};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{BlockId, Program, TextRange};

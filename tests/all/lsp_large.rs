@@ -209,7 +209,7 @@ fn random_edits_of_a_long_text_leave_the_findings_of_a_cold_run() {
     client.finish();
 }
 
-/// The colours of a text of 5 MB would take 200 MB: those of the lines that are shown are told, of all none.
+/// The colours of a text of 5 MB would take 200 MB: the server sends those of the lines that are shown, and none for the whole text.
 #[test]
 fn a_text_of_megabytes_is_coloured_where_it_is_shown() {
     let line = "G1 X1.5 Y2.5 Z3.5 F2000.\n";

@@ -1,6 +1,6 @@
 //! Check-points of programs that name many labels.
 use super::Session;
-use crate::{Assume, Settings};
+use crate::Settings;
 use core::fmt::Write;
 use trunnion_interp::Setup;
 use trunnion_syntax::{BlockId, parse};
@@ -10,17 +10,7 @@ use trunnion_syntax::{BlockId, parse};
 #[test]
 fn check_points_hold_labels_in_proportion_to_the_program() {
     let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
-    let settings = Settings {
-        dialect,
-        machine: None,
-        setup: Setup::default(),
-        rules: Vec::new(),
-        port_to: Vec::new(),
-        scope: None,
-        control_known: true,
-        foreign: None,
-        assume: Assume::default(),
-    };
+    let settings = Settings::new(dialect, None, Setup::default());
     let labels = 30_000_u32;
     let mut nested = "G21 G90 G17 F100\n".to_owned();
     let mut flat = nested.clone();

@@ -28,8 +28,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let added = state.length_added.filter(|number| is_zero_row(state, *number));
         let in_force = (on && length.is_finite()).then_some(length);
         let undeclared = in_force == Some(0.0) && unset(state.length_of) || added.is_some() && unset(added);
-        if !length.is_finite() {
-            self.unknown_value("the tool length", at, (430, 432));
+        if offset.iter().any(|value| !value.is_finite()) {
+            self.unknown_value("the tool offset", at, (430, 432));
         }
         if undeclared && of != LengthOf::Nothing {
             self.core.state.length.set_undeclared(in_force.unwrap_or(0.0), of);

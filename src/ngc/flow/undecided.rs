@@ -62,8 +62,6 @@ impl Engine {
             };
             if reasons.is_empty() && (is_word || computed()) && self.value(formula).is_ok_and(f64::is_nan) {
                 reasons = self.reasons(formula);
-                // what it was computed from has been reported
-                reasons.retain(|reason| self.flow.unset.is_empty() || !reason.ends_with(COMPUTED));
             }
             for text in reasons {
                 if self.flow.unset.len() < REPORTED && self.flow.unset.insert(text.clone()) {

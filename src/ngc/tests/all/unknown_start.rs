@@ -116,3 +116,15 @@ fn what_the_program_has_not_set_is_unknown() {
     assert_eq!(run("o1 if [#5400 ne 5]\ng53 g0 x1\no1 endif\nm2\n").0.len(), 0);
     assert_eq!(run("t1 m6\no1 if [#5400 ne 5]\ng53 g0 x1\no1 endif\nm2\n").0.len(), 1);
 }
+
+/// What was reported before does not stand for a value that comes from elsewhere: a comment may allow the one and not the other.
+#[test]
+fn each_word_says_what_its_value_was_computed_from() {
+    let said = run("g0 z#5422\n#1=#5420\ng0 x[#1+1]\ng0 x#1\nm2\n").1;
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(said[0].starts_with("#5422, the position of the machine"), "{said:?}");
+    assert!(
+        said[1].starts_with("#1, which was computed from unknown values"),
+        "{said:?}"
+    );
+}

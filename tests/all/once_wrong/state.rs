@@ -14,6 +14,7 @@ pub(super) const STATE: &[Item] = &[
         ],
         &[
             "4 unknown not-modelled",
+            "5 unknown not-modelled",
             "6 unknown not-modelled",
             "7 unknown not-modelled",
             "8 unknown not-modelled",

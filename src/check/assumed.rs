@@ -80,17 +80,33 @@ impl Assumed {
                 let all = self.any_axis || (turns && !self.axes.is_empty());
                 all || self.axes.iter().any(|own| letter(*own) == axis)
             });
-            if one.rule == "axis-limit" && one.status == Status::Fail && depends {
-                (one.status, one.severity) = (Status::Unknown, Severity::Info);
-                one.message
-                    .push_str(", where a number without a decimal point is in whole units");
-                one.help = Some(HELP.to_owned());
+            if depends {
+                leave_open(one, ", where a number without a decimal point is in whole units", HELP);
             }
         }
     }
 }
 
+/// An axis limit that a program breaks is unknown: `why`, as the end of its sentence.
+fn leave_open(one: &mut Diagnostic, why: &str, help: &str) {
+    if one.rule == "axis-limit" && one.status == Status::Fail {
+        (one.status, one.severity) = (Status::Unknown, Severity::Info);
+        one.message.push_str(why);
+        one.help = Some(help.to_owned());
+    }
+}
+
+/// No axis limit is proven to be broken in a subprogram that does not say what its caller does.
+pub(crate) fn leave_to_caller(found: &mut [Diagnostic]) {
+    for one in found {
+        leave_to_caller(&mut one.also);
+        leave_open(one, ", in the state that is usual at power-on", OF_CALLER);
+    }
+}
+
 const HELP: &str = "write the decimal points, or declare in trunnion.toml what numbers without one mean: implicit_decimals under [control]";
+const OF_CALLER: &str =
+    "check the program that calls this one, write the codes here, or take the usual state: `--assume power-on`";
 
 #[cfg(test)]
 mod tests {
@@ -142,5 +158,19 @@ mod tests {
             );
         }
         assert_eq!(judged("gcode linuxcnc mill-3axis", "G1 X4000 F100").0, Verdict::Fail);
+    }
+
+    /// A subprogram alone may be called in G91.
+    #[test]
+    fn a_limit_that_depends_on_the_caller_is_unknown() {
+        let verdict = |fence: &str, body: &str| {
+            let text = format!("O1000\n{body}\nG0 X0 Y0 Z0\nX5000. Y10.\nM99\n");
+            let report = Fixture::parse(fence, &text).check().expect("a report");
+            report.verdict(Severity::Error)
+        };
+        for fence in ["gcode fanuc-30i mill-3axis", "gcode fanuc-30i mill-3axis undeclared"] {
+            assert_eq!(verdict(fence, "G21 G17"), Verdict::Unknown, "{fence}");
+            assert_eq!(verdict(fence, "G21 G17 G90"), Verdict::Fail, "{fence}");
+        }
     }
 }

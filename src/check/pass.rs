@@ -245,7 +245,12 @@ impl<'a> Pass<'a> {
             }
         }
         let mut diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
-        weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
+        weigh(
+            &self.assumed,
+            ending.of_caller.is_some(),
+            self.follower.as_ref(),
+            &mut diagnostics,
+        );
         let mut summary = self.summary;
         summary.count(&diagnostics);
         let mut report = Report {

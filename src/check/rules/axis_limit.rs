@@ -31,7 +31,7 @@
 //! # Sources
 //! * docs/kinematics.md#between-the-ends-of-a-block
 //! * docs/kinematics.md#limits-inside-a-block
-use crate::datum::{Missing, Open, Overrun};
+use crate::datum::{Missing, Open, Overrun, Unclear};
 use crate::prelude::*;
 use trunnion_machine::{AxisKind, RapidPath, passes_singular};
 
@@ -99,11 +99,20 @@ fn what_fits(open: &Open, out: &mut Reporter<'_>) {
         let mut ranges = Vec::new();
         for fit in &open.fits {
             let name = letter(fit.letter);
-            let Some([low, high]) = fit.range else {
-                draft.note(format!(
-                    "{name}: unknown, because it is unclear which motions depend on {missing}"
-                ));
-                continue;
+            let [low, high] = match fit.range {
+                Ok(range) => range,
+                Err(Unclear::Motions) => {
+                    draft.note(format!(
+                        "{name}: unknown, because it is unclear which motions depend on {missing}"
+                    ));
+                    continue;
+                }
+                Err(Unclear::Radius) => {
+                    draft.note(format!(
+                        "{name}: unknown, because cutter radius compensation is not computed"
+                    ));
+                    continue;
+                }
             };
             let [shown_low, shown_high] = [bound_up(low), bound_down(high)];
             if let Some(of) = fit.with_length {

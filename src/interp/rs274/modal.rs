@@ -1,6 +1,6 @@
 //! The modal state for rules.
 use super::frames::Shift;
-use crate::{FeedMode, ModalState};
+use crate::{Beside, FeedMode, ModalState};
 use trunnion_dialect::Action;
 use trunnion_ngc::{DistanceMode, Side, State};
 
@@ -37,6 +37,7 @@ pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
         Side::Left => 41,
         Side::Right => 42,
     };
+    modal.beside = Beside::Computed;
     modal.zero.set(shift.zero);
 }
 

@@ -73,7 +73,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.fault(at, range, FaultKind::NotModelled { what });
     }
 
-    pub(super) fn work_offset(&mut self, index: i32, offset: &Pose, at: At) {
+    pub(super) fn work_offset(&mut self, index: i32, offset: &Pose, at: At, state: &State) {
         let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
             return;
         };
@@ -88,8 +88,21 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let undeclared = if declared {
             0
         } else {
-            self.zeros_without_value(index, offset)
+            // what was taken from the position of the machine is as undeclared as this position
+            let from_position = state
+                .set_from_position
+                .get(index.unsigned_abs() as usize)
+                .copied()
+                .unwrap_or_default();
+            let known = if changed { 0 } else { !self.core.state.zero.undeclared() };
+            let rests = from_position & !known;
+            self.calls.set_here = rests != 0;
+            self.zeros_without_value(index, offset) | rests
         };
+        self.core
+            .state
+            .zero
+            .set_here(self.calls.set_here || self.calls.g92 != [0.0; 9]);
         self.core.state.zero.choose(Some((*name).into()), undeclared);
         let begun = self.core.last_content.is_some();
         if begun && changed && zero && !declared && self.core.offsets_reported.first(name) {

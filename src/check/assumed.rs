@@ -18,6 +18,8 @@ pub(crate) struct Assumed {
     axes: BTreeSet<u8>,
     /// Such a number is an increment, a centre, a radius or an argument of a macro: any axis may depend on it.
     any_axis: bool,
+    /// The program is a subprogram that does not say what its caller does.
+    of_caller: bool,
 }
 
 impl Assumed {
@@ -37,6 +39,11 @@ impl Assumed {
             }
             _ => false,
         }
+    }
+
+    /// Whether the program is a subprogram that does not say what its caller does.
+    pub(crate) fn relies_on_caller(&mut self, relies: bool) {
+        self.of_caller = relies;
     }
 
     /// The axes that depend on a number without a decimal point in a block.
@@ -64,14 +71,18 @@ impl Assumed {
         whole.into_iter().chain(self.radii.iter().cloned())
     }
 
-    /// An axis that leaves its travel only as such numbers are read is no error: it is unknown how they are meant. Where rotary axes turn part
+    /// No axis limit is proven to be broken in a subprogram that does not say what its caller does. An axis that leaves its travel only as such numbers are read is no error: it is unknown how they are meant. Where rotary axes turn part
     /// or tool (`turns`), each position depends on all words.
     pub(crate) fn weigh(&self, found: &mut [Diagnostic], turns: bool) {
-        if !self.whole {
+        if !self.whole && !self.of_caller {
             return;
         }
         for one in found {
             self.weigh(&mut one.also, turns);
+            if self.of_caller {
+                leave_open(one, ", in the state that is usual at power-on", OF_CALLER);
+                continue;
+            }
             let axis = one.values.iter().find_map(|(key, value)| match value {
                 ValueKey::Text(text) if *key == "axis" => Some(text.as_str()),
                 _ => None,
@@ -93,14 +104,6 @@ fn leave_open(one: &mut Diagnostic, why: &str, help: &str) {
         (one.status, one.severity) = (Status::Unknown, Severity::Info);
         one.message.push_str(why);
         one.help = Some(help.to_owned());
-    }
-}
-
-/// No axis limit is proven to be broken in a subprogram that does not say what its caller does.
-pub(crate) fn leave_to_caller(found: &mut [Diagnostic]) {
-    for one in found {
-        leave_to_caller(&mut one.also);
-        leave_open(one, ", in the state that is usual at power-on", OF_CALLER);
     }
 }
 

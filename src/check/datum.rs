@@ -8,7 +8,8 @@ mod listed;
 mod name;
 mod span;
 
-pub(crate) use fit::{Fit, Missing, Open, Overrun, Unclear};
+use fit::Unclear;
+pub(crate) use fit::{Fit, Missing, Open, Overrun};
 pub use listed::assumptions;
 pub(crate) use name::OffsetName;
 

@@ -245,12 +245,8 @@ impl<'a> Pass<'a> {
             }
         }
         let mut diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
-        weigh(
-            &self.assumed,
-            ending.of_caller.is_some(),
-            self.follower.as_ref(),
-            &mut diagnostics,
-        );
+        self.assumed.relies_on_caller(ending.of_caller.is_some());
+        weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
         let mut summary = self.summary;
         summary.count(&diagnostics);
         let mut report = Report {

@@ -105,6 +105,16 @@ pub(crate) enum Unclear {
     Radius,
 }
 
+impl Unclear {
+    /// As a sentence ends; `missing`: the name of what is not declared.
+    pub(crate) fn why(self, missing: &str) -> String {
+        match self {
+            Self::Motions => format!("it is unclear which motions depend on {missing}"),
+            Self::Radius => "cutter radius compensation is not computed".to_owned(),
+        }
+    }
+}
+
 /// A cause that leaves the travel of linear axes open.
 #[derive(Clone, Debug)]
 pub(crate) struct Open {

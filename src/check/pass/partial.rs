@@ -20,11 +20,8 @@ pub(crate) struct PassMemory {
     assumed: Assumed,
 }
 
-/// An axis limit that only an assumption breaks is unknown, and so is each where the program relies on its caller (`of_caller`).
-pub(super) fn weigh(assumed: &Assumed, of_caller: bool, follower: Option<&Follower<'_>>, found: &mut [Diagnostic]) {
-    if of_caller {
-        crate::assumed::leave_to_caller(found);
-    }
+/// An axis limit that only an assumption breaks is unknown.
+pub(super) fn weigh(assumed: &Assumed, follower: Option<&Follower<'_>>, found: &mut [Diagnostic]) {
     let turns = follower.is_some_and(|follower| !follower.machine().rotary.is_empty());
     assumed.weigh(found, turns);
 }
@@ -96,7 +93,7 @@ impl<'a> Pass<'a> {
             self.reporter.word_worst(follower.machine(), &self.legs.rules);
         }
         let mut diagnostics = self.reporter.finish(&|_: ChainId| Vec::new());
-        weigh(&self.assumed, false, self.follower.as_ref(), &mut diagnostics);
+        weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
         self.summary.count(&diagnostics);
         Report {
             diagnostics,

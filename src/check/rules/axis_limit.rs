@@ -31,7 +31,7 @@
 //! # Sources
 //! * docs/kinematics.md#between-the-ends-of-a-block
 //! * docs/kinematics.md#limits-inside-a-block
-use crate::datum::{Missing, Open, Overrun, Unclear};
+use crate::datum::{Missing, Open, Overrun};
 use crate::prelude::*;
 use trunnion_machine::{AxisKind, RapidPath, passes_singular};
 
@@ -101,16 +101,8 @@ fn what_fits(open: &Open, out: &mut Reporter<'_>) {
             let name = letter(fit.letter);
             let [low, high] = match fit.range {
                 Ok(range) => range,
-                Err(Unclear::Motions) => {
-                    draft.note(format!(
-                        "{name}: unknown, because it is unclear which motions depend on {missing}"
-                    ));
-                    continue;
-                }
-                Err(Unclear::Radius) => {
-                    draft.note(format!(
-                        "{name}: unknown, because cutter radius compensation is not computed"
-                    ));
+                Err(unclear) => {
+                    draft.note(format!("{name}: unknown, because {}", unclear.why(&missing)));
                     continue;
                 }
             };

@@ -17,11 +17,7 @@ impl<'d> Iso<'d> {
             return self.compensate_nose(nose, [before, side], report);
         }
         if !plane {
-            self.core.state.beside = if self.core.dialect.quirks.diameter {
-                Beside::Radius
-            } else {
-                Beside::NotModelled
-            };
+            self.core.state.beside = Beside::NotModelled;
             if !std::mem::replace(&mut self.core.compensation_reported, true) {
                 let what = if self.core.dialect.quirks.diameter {
                     super::nose::UNDECLARED.to_owned()

@@ -181,10 +181,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             Canon::G92Offset(ref offset) => {
                 self.calls.g92 = Shift::metric(offset, unit);
-                self.core
-                    .state
-                    .zero
-                    .set_here(self.calls.set_here || self.calls.g92 != [0.0; 9]);
+                self.zero_set_here();
             }
             Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {

@@ -17,6 +17,11 @@ fn motion(code: i16) -> Option<Action> {
     })
 }
 
+/// Compensation with a radius of zero that the program does not give: nothing declares the tool.
+pub(super) fn lacks_radius(state: &State) -> bool {
+    state.side != Side::Off && state.radius == 0.0 && !state.radius_given
+}
+
 /// Copies the modal state of the interpreter except feed, spindle, tool and offsets, which calls set in step with motions.
 pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
     modal.motion = motion(state.motion);
@@ -37,7 +42,11 @@ pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
         Side::Left => 41,
         Side::Right => 42,
     };
-    modal.beside = Beside::Computed;
+    modal.beside = if lacks_radius(state) {
+        Beside::Radius
+    } else {
+        Beside::Computed
+    };
     modal.zero.set(shift.zero);
 }
 

@@ -95,6 +95,13 @@ pub(super) const UNKNOWN_VALUES: &[Item] = &[
         [1, 1],
     ),
     (
+        "two axes are a whole end where the third is never named",
+        ["linuxcnc", ""],
+        ["", "G21 G90 G18 G94\nM3 S100\nG0 X5 Z5\nG1 Z-5 F100\nX6 Z#100\nM2\n"],
+        &["5 unknown not-modelled"],
+        [2, 3],
+    ),
+    (
         "cycle 208 has no Q202",
         ["heidenhain-klartext", ""],
         [

@@ -186,6 +186,39 @@ fn a_datum_shift_after_plane_acts_in_the_plane() {
     }
 }
 
+/// Frames of the tool and of the workpiece are none of the program: TRANS does not end them, nor do their ends end a frame of the program.
+#[test]
+fn each_frame_ends_with_a_word_of_its_own() {
+    let after = |blocks: &str| {
+        last(
+            SIEMENS,
+            &format!("G17 G90 G71 G94 F100\nG1 X0 Y0 Z0\n{blocks}\nX1 Y2 Z3\n"),
+        )
+    };
+    for blocks in [
+        "TOROT",
+        "TOROT\nTRANS",
+        "TOROT\nATRANS Z10",
+        "TOFRAME\nROT Z90",
+        "TOROTX\nTRANS",
+        "TOFRAMEZ\nTRANS",
+        "PAROT\nTRANS\nTOROTOF",
+        // the order of the angles is machine data
+        "ROT X10 Y20\nTOROTOF\nPAROTOF",
+    ] {
+        assert_eq!(after(blocks), None, "{blocks}");
+    }
+    for blocks in [
+        "TOROT\nTOROTOF",
+        "TOFRAME\nTOROTOF",
+        "TOROTY\nTOROTOF",
+        "PAROT\nPAROTOF",
+        "ROT X10 Y20\nTRANS",
+    ] {
+        assert_eq!(after(blocks), Some([1.0, 2.0, 3.0]), "{blocks}");
+    }
+}
+
 /// G74: the axes that it names are lost, the others stay.
 #[test]
 fn homing_loses_the_axes_that_it_names() {
@@ -247,7 +280,7 @@ impl Frame {
 }
 
 fn turn(axis: usize, degrees: f64) -> Mat3 {
-    let (sin, cos) = degrees.to_radians().sin_cos();
+    let (sin, cos) = trunnion_geometry::math::sin_cos(degrees.to_radians());
     let mut turn = Mat3::identity();
     let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
     (turn[(a, a)], turn[(a, b)], turn[(b, a)], turn[(b, b)]) = (cos, -sin, sin, cos);

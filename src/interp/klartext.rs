@@ -54,6 +54,8 @@ pub(crate) struct Memory {
     rotation: f64,
     /// Reasons why coordinates say nothing: bits of [`datum`].
     lost: u8,
+    /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
+    level_shift: bool,
     /// X Y Z that cycle 7 has given since then.
     shifted: u16,
     /// CC: coordinates of the pole, and whether there was one.

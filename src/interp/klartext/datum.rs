@@ -160,6 +160,8 @@ impl Klartext<'_> {
             return self.lose(INSIDE);
         }
         self.memory.frames.local = local;
+        let level = shifts && !tilted && self.memory.frames.tilt.is_some();
+        self.memory.level_shift = !zero && (level || self.memory.level_shift);
         self.memory.shifted |= found.given & !found.incremental & 7;
         if zero || self.memory.shifted == 7 {
             self.found(DATUM);

@@ -167,7 +167,7 @@ impl Klartext<'_> {
 
     /// Positions are in the coordinates of another plane from here on; the machine stays where it is.
     fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
-        self.leave_plane(report);
+        self.leave_plane(tilt.is_some_and(|tilt| tilt.turn != Mat3::identity()), report);
         if self.memory.frames.tilt == tilt {
             return;
         }

@@ -18,9 +18,9 @@ impl Klartext<'_> {
         plain
     }
 
-    /// The active plane ends, or another one follows.
-    pub(super) fn leave_plane(&mut self, report: &mut Report<'_>) {
-        if self.memory.frames.inside_plane() {
+    /// The active plane ends, or another one follows, which `turns` or has zero angles.
+    pub(super) fn leave_plane(&mut self, turns: bool, report: &mut Report<'_>) {
+        if self.memory.frames.inside_plane() || turns && self.memory.level_shift {
             let what = "a shift by cycle 7 in a tilted plane, once the plane ends (shift back before it)";
             self.not_modelled_once(what, report);
             self.lose(INSIDE);
@@ -30,6 +30,7 @@ impl Klartext<'_> {
 
     /// PLANE RESET after the shift was taken back: nothing is left of both.
     pub(super) fn nothing_is_shifted(&mut self) {
+        self.memory.level_shift = false;
         if self.memory.lost & INSIDE != 0 && self.memory.frames.local[..3] == [0.0; 3] {
             self.found(INSIDE);
             self.refresh_zero();

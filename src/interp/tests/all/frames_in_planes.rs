@@ -133,6 +133,7 @@ fn a_datum_shift_after_plane_acts_in_the_plane() {
     const SHIFT: &str = "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+10\nCYCL DEF 7.2 Y+20\nCYCL DEF 7.3 Z+30\n";
     const BACK: &str = "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+0\nCYCL DEF 7.2 Y+0\nCYCL DEF 7.3 Z+0\n";
     const RESET: &str = "PLANE RESET STAY\n";
+    const LEVEL: &str = "PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY\n";
     const LINE: &str = "L X+1 Y+2 Z+3 R0";
     for (blocks, wanted) in [
         (format!("{PLANE}{LINE}"), [3.0, 2.0, -1.0]),
@@ -147,6 +148,9 @@ fn a_datum_shift_after_plane_acts_in_the_plane() {
         // before the plane: the datum about which it turns
         (format!("{SHIFT}{PLANE}{LINE}"), [13.0, 22.0, 29.0]),
         (format!("{SHIFT}{PLANE}{RESET}{LINE}"), [11.0, 22.0, 33.0]),
+        (format!("{LEVEL}{SHIFT}{LINE}"), [11.0, 22.0, 33.0]),
+        (format!("{LEVEL}{SHIFT}{RESET}{PLANE}{LINE}"), [13.0, 22.0, 29.0]),
+        (format!("{LEVEL}{SHIFT}{BACK}{PLANE}{LINE}"), [3.0, 2.0, -1.0]),
         // a rotation after the shift turns about the shifted datum: 10 - 2, 20 + 1, 33
         (
             format!("{PLANE}{SHIFT}CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+90\n{LINE}"),
@@ -165,6 +169,7 @@ fn a_datum_shift_after_plane_acts_in_the_plane() {
         // where the shift is once its plane has ended
         format!("{PLANE}{SHIFT}{RESET}{LINE}"),
         format!("{PLANE}{SHIFT}{PLANE}{LINE}"),
+        format!("{LEVEL}{SHIFT}{PLANE}{LINE}"),
         format!("{PLANE}{SHIFT}PLANE RELATIV SPA+30 STAY\n{LINE}"),
         // the axes of the preset are not known, whatever the shift is
         format!("CYCL DEF 247 Q339=+Q7\n{BACK}{LINE}"),

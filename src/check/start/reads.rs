@@ -44,7 +44,9 @@ pub(super) fn reads_first(program: &Program, dialect: &Dialect) -> [bool; 5] {
             if !open[group] {
                 continue;
             }
-            reads[group] = names.iter().any(|name| memchr::memmem::find(&text, name.as_bytes()).is_some());
+            reads[group] = names
+                .iter()
+                .any(|name| memchr::memmem::find(&text, name.as_bytes()).is_some());
             open[group] = !reads[group] && !codes.iter().any(|code| of_group.contains(code));
         }
         if open == [false; 5] {

@@ -86,11 +86,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             let d = self.code_range(at, b'D', |_| true);
             let tool = if d == TextRange::default() {
                 let name = self.core.tools.name();
-                if name == "T" {
-                    "the tool in use".to_owned()
-                } else {
-                    name
-                }
+                if name == "T" { "the tool".to_owned() } else { name }
             } else {
                 self.program.text(d).into_owned()
             };

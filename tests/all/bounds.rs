@@ -11,11 +11,13 @@
 mod beside;
 pub(crate) mod commands;
 mod inputs;
+mod journal;
 pub(crate) mod measure;
 mod screen;
 
 use commands::COMMANDS;
 use inputs::Input;
+use journal::Journal;
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
@@ -59,6 +61,8 @@ struct Form {
     long: bool,
     /// The full size only where an estimate asks for it.
     screened: bool,
+    /// What was measured before.
+    journal: Journal,
     /// Part of the names.
     only: Option<String>,
 }
@@ -71,6 +75,7 @@ impl Form {
             size: if long { 480_000 } else { 200 },
             all: form == "matrix",
             long,
+            journal: Journal::asked(),
             screened: long && std::env::var_os("TRUNNION_BOUNDS_UNSCREENED").is_none(),
             only: std::env::var("TRUNNION_BOUNDS_ONLY").ok(),
         }
@@ -163,6 +168,17 @@ fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> Outcome {
     }
 }
 
+/// What the journal says of a run.
+fn known(form: &Form, inputs: &[Input], size: usize, cell: Cell) -> Option<Outcome> {
+    let (seconds, bytes, wrong) = form.journal.of(size, &name(inputs, cell))?;
+    Some(Outcome {
+        cell,
+        seconds,
+        bytes,
+        wrong,
+    })
+}
+
 /// Runs cells on programs of `size` elements, in the order in which the programs come first in the list. A worker takes all runs of one program, so
 /// that each file is written once and few large ones exist at a time.
 fn sweep(folder: &Path, form: &Form, inputs: &[Input], size: usize, cells: &[Cell]) -> Vec<Outcome> {
@@ -182,8 +198,23 @@ fn sweep(folder: &Path, form: &Form, inputs: &[Input], size: usize, cells: &[Cel
         let mut outcomes = Vec::new();
         while let Some(&input) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let file = format!("{}.nc", inputs[input].name);
+            let known = own[&input].iter().map(|&cell| known(form, inputs, size, cell));
+            let mut left = Vec::new();
+            for (known, &cell) in known.zip(&own[&input]) {
+                match known {
+                    Some(outcome) => outcomes.push(outcome),
+                    None => left.push(cell),
+                }
+            }
+            if left.is_empty() {
+                continue;
+            }
             commands::write_program(folder, &file, &inputs[input].bytes(size));
-            outcomes.extend(own[&input].iter().map(|&cell| run(folder, form, inputs, cell)));
+            for cell in left {
+                let outcome = run(folder, form, inputs, cell);
+                form.journal.write(size, &name(inputs, cell), &outcome);
+                outcomes.push(outcome);
+            }
             if !kept {
                 commands::remove_program(folder, &file);
             }

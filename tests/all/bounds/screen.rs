@@ -1,5 +1,6 @@
-//! The screen of the long form: each run is first made on two small programs, its time and memory on the large one are estimated, and the large
-//! one is run where the estimate is above half of a bound. Of the other runs a fixed share is made too: it says how good the estimates are.
+//! The screen of the long form: each run is first made on a small program and, where linear growth from there stays below half of a bound, on a
+//! larger one. Its time and memory on the large one are estimated, and that is run where the estimate is above half of a bound. Of the other runs a
+//! fixed share is made too: it says how good the estimates are.
 //!
 //! A run takes a power of the size: the power that both small runs show, at least 1, with a margin. Work that is partly linear and partly
 //! quadratic is then estimated at more than half of what it takes, wherever the small runs stand between the two: that is why half a
@@ -32,6 +33,8 @@ const START_BYTES: f64 = 8e6;
 struct Estimate {
     seconds: f64,
     bytes: f64,
+    /// How much larger the program is than the one that it comes from.
+    factor: f64,
 }
 
 impl Estimate {
@@ -48,69 +51,91 @@ fn grown(small: f64, middle: f64, start: f64, factor: f64) -> f64 {
     (middle.max(start)) * factor.powf(power) * MARGIN
 }
 
-/// How much larger the large program is than the middle one, as far as a command reads it.
-fn factor(command: usize, (bytes, lines): (usize, usize)) -> f64 {
+/// How much larger the large program is than one that has `part` of its elements, as far as a command reads it.
+fn factor(command: usize, (bytes, lines): (usize, usize), part: usize) -> f64 {
     let most = COMMANDS[command].reads();
-    let part = |most: usize, own: usize| most as f64 / own.max(1) as f64;
-    part(most.0, bytes).min(part(most.1, lines)).clamp(1.0, MIDDLE as f64)
+    let limit = |most: usize, own: usize| most as f64 / own.max(1) as f64;
+    limit(most.0, bytes).min(limit(most.1, lines)).clamp(1.0, part as f64)
 }
 
-/// Bytes and lines of the middle program.
-fn extent(form: &Form, input: &Input) -> (usize, usize) {
-    let program = input.bytes(form.size / MIDDLE);
+/// Whether a program is the same whatever its size.
+fn does_not_grow(form: &Form, input: &Input) -> bool {
+    input.bytes(form.size / SMALL) == input.bytes(form.size / MIDDLE)
+}
+
+/// Bytes and lines of the program that has `part` of the elements.
+fn extent(form: &Form, input: &Input, part: usize) -> (usize, usize) {
+    let program = input.bytes(form.size / part);
     let ends = program.iter().filter(|byte| matches!(byte, b'\n' | b'\r'));
     (program.len(), ends.count())
+}
+
+/// What the runs on the program that has `part` of the elements say, if the power is 1.
+fn linear(form: &Form, inputs: &[Input], runs: &BTreeMap<Cell, Outcome>, part: usize) -> BTreeMap<Cell, Estimate> {
+    let extents: Vec<(usize, usize)> = inputs.iter().map(|input| extent(form, input, part)).collect();
+    let one = |run: &Outcome| {
+        let factor = factor(run.cell.1, extents[run.cell.0], part);
+        let seconds = grown(run.seconds, run.seconds, START_SECONDS, factor);
+        let bytes = grown(run.bytes as f64, run.bytes as f64, START_BYTES, factor);
+        Estimate { seconds, bytes, factor }
+    };
+    runs.iter().map(|(cell, run)| (*cell, one(run))).collect()
 }
 
 /// Runs the cells through the screen. Large runs come worst estimate first. What is wrong with a small run counts as well.
 pub(super) fn run(folder: &Path, form: &Form, inputs: &[Input], cells: &[Cell]) -> Vec<Outcome> {
     let begun = Instant::now();
-    let phase = |what: &str, runs: &[Outcome]| {
+    let phase = |what: &str, cells: &[Cell], part: usize| {
+        let runs = sweep(folder, form, inputs, form.size / part, cells);
         let seconds: f64 = runs.iter().map(|run| run.seconds).sum();
         let passed = begun.elapsed().as_secs();
         println!(
             "{what}: {} runs, {seconds:.0} s of processor time; {passed} s passed",
             runs.len()
         );
+        runs.into_iter()
+            .map(|run| (run.cell, run))
+            .collect::<BTreeMap<Cell, Outcome>>()
     };
-    let small = sweep(folder, form, inputs, form.size / SMALL, cells);
-    phase("small", &small);
-    let middle = sweep(folder, form, inputs, form.size / MIDDLE, cells);
-    phase("middle", &middle);
-    let small: BTreeMap<Cell, Outcome> = small.into_iter().map(|run| (run.cell, run)).collect();
-    let middle: BTreeMap<Cell, Outcome> = middle.into_iter().map(|run| (run.cell, run)).collect();
-    let extents: Vec<(usize, usize)> = inputs.iter().map(|input| extent(form, input)).collect();
-    let estimates: BTreeMap<Cell, Estimate> = cells
-        .iter()
-        .map(|cell| {
-            let (small, middle) = (&small[cell], &middle[cell]);
-            let factor = factor(cell.1, extents[cell.0]);
-            let seconds = grown(small.seconds, middle.seconds, START_SECONDS, factor);
-            let bytes = grown(small.bytes as f64, middle.bytes as f64, START_BYTES, factor);
-            (*cell, Estimate { seconds, bytes })
-        })
-        .collect();
-    let mut chosen = chosen(cells, &estimates);
-    let near = chosen.iter().filter(|cell| estimates[cell].share() > NEAR).count();
+    let small = phase("small", cells, SMALL);
+    let mut estimates = linear(form, inputs, &small, SMALL);
+    // a program that does not grow has been measured
+    let whole: Vec<bool> = inputs.iter().map(|input| does_not_grow(form, input)).collect();
+    let (measured, small): (BTreeMap<_, _>, BTreeMap<_, _>) = small.into_iter().partition(|(cell, _)| whole[cell.0]);
+    let cells: Vec<Cell> = small.keys().copied().collect();
     println!(
-        "{} large runs: {near} near a bound, {} to see how good the estimates are",
-        chosen.len(),
-        chosen.len() - near
+        "{} of them are programs that do not grow: they are measured",
+        measured.len()
     );
+    // what the small run finds near needs no second one
+    let open: Vec<Cell> = cells
+        .iter()
+        .copied()
+        .filter(|cell| estimates[cell].share() <= NEAR)
+        .collect();
+    let middle = phase("middle", &open, MIDDLE);
+    for (cell, own) in linear(form, inputs, &middle, MIDDLE) {
+        let (small, middle) = (&small[&cell], &middle[&cell]);
+        let estimate = Estimate {
+            seconds: grown(small.seconds, middle.seconds, START_SECONDS, own.factor),
+            bytes: grown(small.bytes as f64, middle.bytes as f64, START_BYTES, own.factor),
+            factor: own.factor,
+        };
+        estimates.insert(cell, estimate);
+    }
+    let mut chosen = chosen(&cells, &estimates);
     chosen.sort_by(|a, b| estimates[b].share().total_cmp(&estimates[a].share()));
+    let near = chosen.iter().filter(|cell| estimates[cell].share() > NEAR).count();
+    let others = chosen.len() - near;
+    println!("{near} large runs near a bound, {others} to see how good the estimates are");
     for cell in &chosen[..near] {
         say(inputs, *cell, estimates[cell], None);
     }
-    let mut large = sweep(folder, form, inputs, form.size, &chosen);
-    phase("large", &large);
+    let large: Vec<Outcome> = phase("large", &chosen, 1).into_values().collect();
     judge(inputs, &estimates, &large);
-    large.extend(
-        small
-            .into_values()
-            .chain(middle.into_values())
-            .filter(|run| run.wrong.is_some()),
-    );
-    large
+    let smaller = small.into_values().chain(middle.into_values());
+    let wrong = smaller.filter(|run| run.wrong.is_some());
+    large.into_iter().chain(measured.into_values()).chain(wrong).collect()
 }
 
 /// The runs that are made on the large program.
@@ -170,10 +195,10 @@ fn growth_ends_with_what_a_command_reads() {
             .position(|command| command.name == name)
             .expect("a command")
     };
-    assert_eq!(factor(of("check"), (1_000_000, 60_000)), 8.0);
-    assert_eq!(factor(of("fmt"), (1_000_000, 100_000)), 4.0);
-    assert_eq!(factor(of("diff-other"), (16_000_000, 10)), 2.0);
-    assert_eq!(factor(of("fix"), (60_000_000, 10)), 1.0);
+    assert_eq!(factor(of("check"), (1_000_000, 60_000), MIDDLE), 8.0);
+    assert_eq!(factor(of("fmt"), (1_000_000, 100_000), MIDDLE), 4.0);
+    assert_eq!(factor(of("diff-other"), (16_000_000, 10), MIDDLE), 2.0);
+    assert_eq!(factor(of("fix"), (60_000_000, 10), MIDDLE), 1.0);
     assert_eq!(grown(1.0, 4.0, 0.0, 8.0), 32.0 * MARGIN);
     assert_eq!(grown(3.0, 3.0, 0.0, 1.0), 3.0 * MARGIN);
 }

@@ -97,16 +97,10 @@ pub(super) fn run(folder: &Path, form: &Form, inputs: &[Input], cells: &[Cell]) 
             .map(|run| (run.cell, run))
             .collect::<BTreeMap<Cell, Outcome>>()
     };
-    let small = phase("small", cells, SMALL);
-    let mut estimates = linear(form, inputs, &small, SMALL);
-    // a program that does not grow has been measured
     let whole: Vec<bool> = inputs.iter().map(|input| does_not_grow(form, input)).collect();
-    let (measured, small): (BTreeMap<_, _>, BTreeMap<_, _>) = small.into_iter().partition(|(cell, _)| whole[cell.0]);
-    let cells: Vec<Cell> = small.keys().copied().collect();
-    println!(
-        "{} of them are programs that do not grow: they are measured",
-        measured.len()
-    );
+    let (fixed, cells): (Vec<Cell>, Vec<Cell>) = cells.iter().partition(|cell| whole[cell.0]);
+    let small = phase("small", &cells, SMALL);
+    let mut estimates = linear(form, inputs, &small, SMALL);
     // what the small run finds near needs no second one
     let open: Vec<Cell> = cells
         .iter()
@@ -133,6 +127,7 @@ pub(super) fn run(folder: &Path, form: &Form, inputs: &[Input], cells: &[Cell]) 
     }
     let large: Vec<Outcome> = phase("large", &chosen, 1).into_values().collect();
     judge(inputs, &estimates, &large);
+    let measured = phase("programs that do not grow", &fixed, 1);
     let smaller = small.into_values().chain(middle.into_values());
     let wrong = smaller.filter(|run| run.wrong.is_some());
     large.into_iter().chain(measured.into_values()).chain(wrong).collect()

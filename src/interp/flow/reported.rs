@@ -14,6 +14,11 @@ pub(crate) struct ReportedFaults(HashSet<Key>);
 const KEPT: usize = 100_000;
 
 impl ReportedFaults {
+    /// How many faults it remembers.
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
     /// Whether the fault is new. `again`: its block has run before, so that facts of its text alone were reported then.
     pub(crate) fn is_new(&mut self, file: u16, fault: &Fault, again: bool) -> bool {
         if again && is_textual(&fault.kind) {

@@ -118,7 +118,7 @@ impl<'d> Engine<'d> for Klartext<'d> {
         &mut self.core
     }
     fn copied(&self) -> usize {
-        self.flow.course.copied() + self.flow.reported.len() + self.memory.parameters.copied()
+        self.flow.course.copied() + self.flow.reported.copied() + self.memory.parameters.copied()
     }
     fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         self.run_next(program, sink)

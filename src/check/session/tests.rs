@@ -42,7 +42,11 @@ fn check_points_hold_faults_and_variables_in_proportion_to_the_program() {
     let count = 30_000;
     let lines = |line: &dyn Fn(u32) -> String| (0..count).map(line).collect::<String>();
     for (name, text, grows) in [
-        ("fanuc-30i", lines(&|_| "IF[#1EQ1]THEN\n".to_owned()), true),
+        (
+            "fanuc-30i",
+            format!("GOTO 5\nN5\n{}", lines(&|_| "ENDIF\n".to_owned())),
+            true,
+        ),
         ("fanuc-30i", lines(&|i| format!("#{}=1\n", 100 + i % 400)), false),
         ("sinumerik-840d", lines(&|i| format!("R{i}=1\n")), true),
         ("sinumerik-840d", lines(&|i| format!("DEF REAL A{i}=1\n")), true),

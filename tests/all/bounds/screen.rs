@@ -24,9 +24,19 @@ const NEAR: f64 = 0.5;
 /// Of the runs that are not near, one in so many is made. It shares no factor with the number of commands, so that each of them comes up.
 const CONTROL: usize = 37;
 
-/// Time that the system does not show, and what a run takes before it reads the program. It would hide growth.
-const START_SECONDS: f64 = 0.01;
-const START_BYTES: f64 = 8e6;
+/// What a run takes before it reads the program, which does not grow, and the least that is told from nothing: the ticks of the system's clock.
+const SECONDS: Start = Start {
+    took: 0.01,
+    least: 0.01,
+};
+const BYTES: Start = Start { took: 12e6, least: 1e6 };
+
+/// See [`SECONDS`].
+#[derive(Clone, Copy)]
+struct Start {
+    took: f64,
+    least: f64,
+}
 
 /// What a run on the large program may take.
 #[derive(Clone, Copy)]
@@ -45,10 +55,10 @@ impl Estimate {
 }
 
 /// What is taken of a program that is `factor` times as large as the middle one, if `small` and `middle` are taken of the small programs.
-fn grown(small: f64, middle: f64, start: f64, factor: f64) -> f64 {
-    let ratio = (middle - start).max(start) / (small - start).max(start);
-    let power = (ratio.ln() / (SMALL as f64 / MIDDLE as f64).ln()).max(1.0);
-    (middle.max(start)) * factor.powf(power) * MARGIN
+fn grown(small: f64, middle: f64, start: Start, factor: f64) -> f64 {
+    let [small, middle] = [small, middle].map(|taken| (taken - start.took).max(start.least));
+    let power = ((middle / small).ln() / (SMALL as f64 / MIDDLE as f64).ln()).max(1.0);
+    start.took + middle * factor.powf(power) * MARGIN
 }
 
 /// How much larger the large program is than one that has `part` of its elements, as far as a command reads it.
@@ -75,8 +85,8 @@ fn linear(form: &Form, inputs: &[Input], runs: &BTreeMap<Cell, Outcome>, part: u
     let extents: Vec<(usize, usize)> = inputs.iter().map(|input| extent(form, input, part)).collect();
     let one = |run: &Outcome| {
         let factor = factor(run.cell.1, extents[run.cell.0], part);
-        let seconds = grown(run.seconds, run.seconds, START_SECONDS, factor);
-        let bytes = grown(run.bytes as f64, run.bytes as f64, START_BYTES, factor);
+        let seconds = grown(run.seconds, run.seconds, SECONDS, factor);
+        let bytes = grown(run.bytes as f64, run.bytes as f64, BYTES, factor);
         Estimate { seconds, bytes, factor }
     };
     runs.iter().map(|(cell, run)| (*cell, one(run))).collect()
@@ -111,8 +121,8 @@ pub(super) fn run(folder: &Path, form: &Form, inputs: &[Input], cells: &[Cell]) 
     for (cell, own) in linear(form, inputs, &middle, MIDDLE) {
         let (small, middle) = (&small[&cell], &middle[&cell]);
         let estimate = Estimate {
-            seconds: grown(small.seconds, middle.seconds, START_SECONDS, own.factor),
-            bytes: grown(small.bytes as f64, middle.bytes as f64, START_BYTES, own.factor),
+            seconds: grown(small.seconds, middle.seconds, SECONDS, own.factor),
+            bytes: grown(small.bytes as f64, middle.bytes as f64, BYTES, own.factor),
             factor: own.factor,
         };
         estimates.insert(cell, estimate);
@@ -172,12 +182,15 @@ fn judge(inputs: &[Input], estimates: &BTreeMap<Cell, Estimate>, large: &[Outcom
     }
 }
 
+#[cfg(test)]
+const NO_START: Start = Start { took: 0.0, least: 0.0 };
+
 #[test]
 fn an_estimate_of_linear_and_quadratic_work_is_more_than_half_of_it() {
     for hundredths in 0..=100 {
         let quadratic = f64::from(hundredths) / 100.0;
         let work = |size: f64| (1.0 - quadratic) * size + quadratic * size * size;
-        let estimate = grown(work(0.25), work(1.0), 1e-9, 8.0);
+        let estimate = grown(work(0.25), work(1.0), NO_START, 8.0);
         assert!(estimate > NEAR * work(8.0), "{estimate} of {}", work(8.0));
     }
 }
@@ -194,6 +207,6 @@ fn growth_ends_with_what_a_command_reads() {
     assert_eq!(factor(of("fmt"), (1_000_000, 100_000), MIDDLE), 4.0);
     assert_eq!(factor(of("diff-other"), (16_000_000, 10), MIDDLE), 2.0);
     assert_eq!(factor(of("fix"), (60_000_000, 10), MIDDLE), 1.0);
-    assert_eq!(grown(1.0, 4.0, 0.0, 8.0), 32.0 * MARGIN);
-    assert_eq!(grown(3.0, 3.0, 0.0, 1.0), 3.0 * MARGIN);
+    assert_eq!(grown(1.0, 4.0, NO_START, 8.0), 32.0 * MARGIN);
+    assert_eq!(grown(3.0, 3.0, NO_START, 1.0), 3.0 * MARGIN);
 }

@@ -7,10 +7,16 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
+/// Elements and name of a run.
+type Key = (usize, String);
+
+/// Seconds, bytes, what was wrong.
+type Taken = (f64, u64, Option<String>);
+
 /// A line for each run: elements, seconds, bytes, name, what is wrong. A run with a line is not made again; whoever changes what is measured
 /// removes the lines.
 pub(super) struct Journal {
-    known: BTreeMap<(usize, String), (f64, u64, Option<String>)>,
+    known: BTreeMap<Key, Taken>,
     file: Option<Mutex<File>>,
 }
 
@@ -32,7 +38,7 @@ impl Journal {
     }
 
     /// What a run took: time, memory, what was wrong.
-    pub(super) fn of(&self, size: usize, name: &str) -> Option<(f64, u64, Option<String>)> {
+    pub(super) fn of(&self, size: usize, name: &str) -> Option<Taken> {
         self.known.get(&(size, name.to_owned())).cloned()
     }
 
@@ -46,7 +52,7 @@ impl Journal {
     }
 }
 
-fn entry(line: &str) -> Option<((usize, String), (f64, u64, Option<String>))> {
+fn entry(line: &str) -> Option<(Key, Taken)> {
     let fields: Vec<&str> = line.split('\t').collect();
     let &[size, seconds, bytes, name, wrong] = fields.as_slice() else {
         return None;

@@ -10,6 +10,7 @@ use super::commands::COMMANDS;
 use super::inputs::Input;
 use super::{Cell, Form, MOST_BYTES, MOST_SECONDS, Outcome, name, sweep};
 use std::{cmp::Reverse, collections::BTreeMap, path::Path, time::Instant};
+use trunnion::geometry::math::{ln, pow};
 
 /// The small runs have this part of the elements.
 const SMALL: usize = 32;
@@ -57,8 +58,8 @@ impl Estimate {
 /// What is taken of a program that is `factor` times as large as the middle one, if `small` and `middle` are taken of the small programs.
 fn grown(small: f64, middle: f64, start: Start, factor: f64) -> f64 {
     let [small, middle] = [small, middle].map(|taken| (taken - start.took).max(start.least));
-    let power = ((middle / small).ln() / (SMALL as f64 / MIDDLE as f64).ln()).max(1.0);
-    start.took + middle * factor.powf(power) * MARGIN
+    let power = (ln(middle / small) / ln(SMALL as f64 / MIDDLE as f64)).max(1.0);
+    start.took + middle * pow(factor, power) * MARGIN
 }
 
 /// How much larger the large program is than one that has `part` of its elements, as far as a command reads it.

@@ -18,6 +18,8 @@ pub(crate) struct Assumed {
     axes: BTreeSet<u8>,
     /// Such a number is an increment, a centre, a radius or an argument of a macro: any axis may depend on it.
     any_axis: bool,
+    /// The program is a subprogram that does not say what its caller does.
+    of_caller: bool,
 }
 
 impl Assumed {
@@ -37,6 +39,11 @@ impl Assumed {
             }
             _ => false,
         }
+    }
+
+    /// Whether the program is a subprogram that does not say what its caller does.
+    pub(crate) fn relies_on_caller(&mut self, relies: bool) {
+        self.of_caller = relies;
     }
 
     /// The axes that depend on a number without a decimal point in a block.
@@ -64,14 +71,18 @@ impl Assumed {
         whole.into_iter().chain(self.radii.iter().cloned())
     }
 
-    /// An axis that leaves its travel only as such numbers are read is no error: it is unknown how they are meant. Where rotary axes turn part
+    /// No axis limit is proven to be broken in a subprogram that does not say what its caller does. An axis that leaves its travel only as such numbers are read is no error: it is unknown how they are meant. Where rotary axes turn part
     /// or tool (`turns`), each position depends on all words.
     pub(crate) fn weigh(&self, found: &mut [Diagnostic], turns: bool) {
-        if !self.whole {
+        if !self.whole && !self.of_caller {
             return;
         }
         for one in found {
             self.weigh(&mut one.also, turns);
+            if self.of_caller {
+                leave_open(one, ", in the state that is usual at power-on", OF_CALLER);
+                continue;
+            }
             let axis = one.values.iter().find_map(|(key, value)| match value {
                 ValueKey::Text(text) if *key == "axis" => Some(text.as_str()),
                 _ => None,
@@ -80,17 +91,25 @@ impl Assumed {
                 let all = self.any_axis || (turns && !self.axes.is_empty());
                 all || self.axes.iter().any(|own| letter(*own) == axis)
             });
-            if one.rule == "axis-limit" && one.status == Status::Fail && depends {
-                (one.status, one.severity) = (Status::Unknown, Severity::Info);
-                one.message
-                    .push_str(", where a number without a decimal point is in whole units");
-                one.help = Some(HELP.to_owned());
+            if depends {
+                leave_open(one, ", where a number without a decimal point is in whole units", HELP);
             }
         }
     }
 }
 
+/// An axis limit that a program breaks is unknown: `why`, as the end of its sentence.
+fn leave_open(one: &mut Diagnostic, why: &str, help: &str) {
+    if one.rule == "axis-limit" && one.status == Status::Fail {
+        (one.status, one.severity) = (Status::Unknown, Severity::Info);
+        one.message.push_str(why);
+        one.help = Some(help.to_owned());
+    }
+}
+
 const HELP: &str = "write the decimal points, or declare in trunnion.toml what numbers without one mean: implicit_decimals under [control]";
+const OF_CALLER: &str =
+    "check the program that calls this one, write the codes here, or take the usual state: `--assume power-on`";
 
 #[cfg(test)]
 mod tests {
@@ -142,5 +161,19 @@ mod tests {
             );
         }
         assert_eq!(judged("gcode linuxcnc mill-3axis", "G1 X4000 F100").0, Verdict::Fail);
+    }
+
+    /// A subprogram alone may be called in G91.
+    #[test]
+    fn a_limit_that_depends_on_the_caller_is_unknown() {
+        let verdict = |fence: &str, body: &str| {
+            let text = format!("O1000\n{body}\nG0 X0 Y0 Z0\nX5000. Y10.\nM99\n");
+            let report = Fixture::parse(fence, &text).check().expect("a report");
+            report.verdict(Severity::Error)
+        };
+        for fence in ["gcode fanuc-30i mill-3axis", "gcode fanuc-30i mill-3axis undeclared"] {
+            assert_eq!(verdict(fence, "G21 G17"), Verdict::Unknown, "{fence}");
+            assert_eq!(verdict(fence, "G21 G17 G90"), Verdict::Fail, "{fence}");
+        }
     }
 }

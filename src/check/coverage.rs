@@ -109,6 +109,8 @@ pub struct Coverage {
     pub not_judged: Vec<NotJudged>,
     /// Where the run was stopped.
     pub given_up: Option<GivenUp>,
+    /// Motions by what is known of their ends.
+    pub(crate) ends: tally::Ends,
     /// The blocks that ran.
     pub(crate) ran: Visited,
     /// The block that ran last.
@@ -151,6 +153,7 @@ impl Coverage {
 
     /// Works out which blocks did not run, once the run is over.
     pub(crate) fn complete(&mut self, program: &Program, dialect: &Dialect) {
+        self.motions_known = self.ends.known(program);
         let ran = self.ran.clone();
         let with_code = || {
             (0..program.block_count() as u32)

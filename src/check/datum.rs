@@ -8,6 +8,7 @@ mod listed;
 mod name;
 mod span;
 
+use fit::Unclear;
 pub(crate) use fit::{Fit, Missing, Open, Overrun};
 pub use listed::assumptions;
 pub(crate) use name::OffsetName;
@@ -65,6 +66,11 @@ impl Assume {
             zero: if self.work_offset { 0 } else { undeclared.zero },
             length: undeclared.length && !self.tool_length,
             by_turret: if self.tool_length { 0 } else { undeclared.by_turret },
+            beside: if self.tool_length && undeclared.by_radius {
+                0
+            } else {
+                undeclared.beside
+            },
             ..undeclared
         }
     }
@@ -197,6 +203,13 @@ impl Datum {
                 length: (undeclared.length && shifted).then_some(in_force.length_of),
             };
             let end = joints[axis.joint];
+            if undeclared.beside & axis.bit != 0 {
+                self.anchors[axis.joint] = Some((end, basis));
+                if let Some(span) = self.span_of(axis, basis, place) {
+                    span.beside = true;
+                }
+                continue;
+            }
             if self.anchors[axis.joint].is_none() && stands(&leg.motion, axis.bit) {
                 // a tool change has left it there, in coordinates of the machine
                 let of_machine = Basis {
@@ -315,7 +328,11 @@ impl Datum {
             entry.fits.push(Fit {
                 letter: axis.letter,
                 with_length: span.basis.offset.and(span.basis.length),
-                range: span.possible.room(axis.travel).filter(|_| !self.mixed),
+                range: match span.possible.room(axis.travel) {
+                    _ if span.beside => Err(Unclear::Radius),
+                    Some(range) if !self.mixed => Ok(range),
+                    _ => Err(Unclear::Motions),
+                },
             });
         }
         open.into_values()

@@ -245,6 +245,7 @@ impl<'a> Pass<'a> {
             }
         }
         let mut diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
+        self.assumed.relies_on_caller(ending.of_caller.is_some());
         weigh(&self.assumed, self.follower.as_ref(), &mut diagnostics);
         let mut summary = self.summary;
         summary.count(&diagnostics);

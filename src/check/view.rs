@@ -184,20 +184,23 @@ impl<'a> LegView<'a> {
     pub(crate) fn rests_on_undeclared(&self, joint: usize) -> bool {
         let undeclared = self.trail.undeclared;
         let axis = &self.machine.axes[joint];
-        if axis.kind == AxisKind::Rotary || !undeclared.any() {
+        if axis.kind == AxisKind::Rotary || !undeclared.open() {
             return false;
         }
         if !self.machine.rotary.is_empty() && self.leads_tip() {
             return true;
         }
         let bit = AxisLetter::new(axis.letter).map_or(0, |letter| 1u16 << letter.0);
-        (undeclared.zero | undeclared.by_turret) & bit != 0
+        // a tilted plane is none of two axes of the machine
+        let tilted = undeclared.beside != 0 && self.motion().tilt.normal.is_some();
+        (undeclared.zero | undeclared.by_turret | undeclared.beside) & bit != 0
+            || tilted
             || undeclared.length && undeclared.by_turret == 0 && self.machine.per_length(joint) != 0.0
     }
 
     /// Whether the motion of the linear joints, or of the tip, depends on one: a rotary axis turns, and the distance to it is unknown.
     pub(crate) fn lever_is_undeclared(&self) -> bool {
-        self.trail.undeclared.any() && self.rotary_turns()
+        self.trail.undeclared.open() && self.rotary_turns()
     }
 
     /// Whether X Y Z are the position of the tip in the workpiece frame: tool centre point control, or vectors.

@@ -1,6 +1,7 @@
 //! Which control a program is written for, and why: signs in its text decide, then its name, then the machine.
 mod brother;
 mod declared;
+mod fadal;
 mod foreign;
 mod kernels;
 mod num;

@@ -32,6 +32,14 @@ pub const UNSUPPORTED: &[Unsupported] = &[
         title: "Fagor",
     },
     Unsupported {
+        name: "fadal",
+        title: "Fadal CNC 88",
+    },
+    Unsupported {
+        name: "acramatic",
+        title: "Acramatic (Cincinnati)",
+    },
+    Unsupported {
         name: "num",
         title: "NUM (1020, 1040, 1060, Flexium)",
     },

@@ -325,7 +325,7 @@ impl<'d> Iso<'d> {
         if words.length_offset.is_given() || wants_number {
             self.length_on(words.length_offset, found.range, report);
         }
-        self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
+        self.tcp_on(found.code, found.code.action == Action::TcpVectorOn, report);
         if let Some(what) = unread {
             report.fault(found.range, FaultKind::NotModelled { what });
             self.core.unknown.begin(found.code, true);

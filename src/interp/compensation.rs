@@ -11,7 +11,7 @@ mod select;
 use crate::core::Report;
 use crate::frames::XYZ;
 use crate::iso::Iso;
-use crate::{FaultKind, ModalState, Motion, MotionKind, Refusal};
+use crate::{Beside, FaultKind, ModalState, Motion, MotionKind, Refusal};
 use corner::{Join, Link, Trouble, join};
 use element::{Element, Point};
 use trunnion_dialect::Plane;
@@ -338,6 +338,7 @@ impl Iso<'_> {
         }
         self.settle(report);
         self.memory.compensation.stage = Stage::Lost;
+        self.core.state.beside = Beside::NotModelled;
         self.memory.compensation.plane = None;
         let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
         report.fault(report.whole(), FaultKind::NotModelled { what });

@@ -40,6 +40,8 @@ pub(crate) struct Trail {
     pub(crate) library: Library,
     /// Targets of jumps, by file.
     indexes: Vec<Option<Arc<Index>>>,
+    /// A program that is missing was called: it may have left a loop, or ended the run.
+    called_unread: bool,
     reported: ReportedFaults,
 }
 

@@ -49,6 +49,8 @@ pub(crate) struct Frames {
     pub(crate) polar: Option<Polar>,
     /// The tilted working plane in whose coordinates everything is expressed until motions are emitted.
     pub(crate) tilt: Option<Tilted>,
+    /// The tilted plane in whose axes the shift of the program acts, without that shift: of CYCLE800, and of PLANE once cycle 7 follows it.
+    pub(crate) swivel: Option<Tilted>,
     /// A tilted plane of which some points or vectors are still to come.
     pub(crate) pending: Option<points::Pending>,
     /// The position in the coordinates of the words, while a shape is active; valid as long as the work position is `synced`.
@@ -171,7 +173,34 @@ impl Frames {
     }
     /// Everything that is added to the selected zero point.
     pub(crate) fn added(&self, axis: usize) -> f64 {
-        self.external[axis] + self.shift[axis] + self.local[axis] + self.turret[axis]
+        self.external[axis] + self.shift[axis] + self.outer_local(axis) + self.turret[axis]
+    }
+    /// The shift of the program as far as it moves the zero point: inside a plane it moves the plane's.
+    pub(crate) fn outer_local(&self, axis: usize) -> f64 {
+        if self.swivel.is_some() && axis < 3 {
+            0.0
+        } else {
+            self.local[axis]
+        }
+    }
+    /// Whether the program has shifted, turned, scaled or mirrored inside a tilted plane.
+    pub(crate) fn inside_plane(&self) -> bool {
+        self.swivel.is_some() && (self.local[..3] != [0.0; 3] || self.shape.linear.is_some())
+    }
+    /// The shift of the program moves the zero of the plane in which it acts; the machine stays where it is, so its position moves.
+    pub(crate) fn shift_plane(&mut self, position: &mut Position) {
+        let (Some(plane), Some(now)) = (self.swivel, self.tilt) else {
+            return;
+        };
+        let shifted = plane.then(&Tilted::new(
+            Vec3::new(self.local[0], self.local[1], self.local[2]),
+            &[],
+        ));
+        let by = plane.turn.transpose() * (shifted.origin - now.origin);
+        for (value, by) in position.values.iter_mut().zip(by.iter()) {
+            *value -= by;
+        }
+        self.tilt = Some(shifted);
     }
 }
 

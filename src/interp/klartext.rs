@@ -20,6 +20,7 @@ mod path;
 mod path_words;
 mod pattern;
 mod plane;
+mod plane_shift;
 mod positioning;
 mod sentence;
 mod tool;
@@ -53,6 +54,10 @@ pub(crate) struct Memory {
     rotation: f64,
     /// Reasons why coordinates say nothing: bits of [`datum`].
     lost: u8,
+    /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
+    level_shift: bool,
+    /// X Y Z that cycle 7 has given since then.
+    shifted: u16,
     /// CC: coordinates of the pole, and whether there was one.
     pole: [Option<f64>; 3],
     has_pole: bool,

@@ -135,7 +135,7 @@ impl Iso<'_> {
         let named = words.axes.given & axes == axes;
         if let Some((to, _)) = block.returns {
             return match to {
-                Return::Fixed(_) => named,
+                Return::Fixed(_) | Return::Home => named,
                 Return::To(_) => named && self.stays_or_leads(axes, words) || !words.axes.any(),
                 Return::Check | Return::From => false,
             };

@@ -71,11 +71,11 @@ pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_ngc::is_stored_global;
 pub use trunnion_vocabulary::{
-    AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, DrillingAxis,
-    Effect, Fault, FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks, LengthOf, LengthUnit,
-    Library, Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation, OuterCorner, Placed,
-    Position, Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RotaryTurn, RoughingEscape, Searched, Setup, Sink,
-    Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolLength, ToolOffsets, ToolShape, Undeclared, UnknownName, Value,
-    Ways, WorkOffset, is_left, same_number,
+    AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, Beside, ChainId, Clamp, ClampCodes, Clamps, ControlData,
+    DrillingAxis, Effect, Fault, FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks,
+    LengthOf, LengthUnit, Library, Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation,
+    OuterCorner, Placed, Position, Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RotaryTurn, RoughingEscape,
+    Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolLength, ToolOffsets, ToolShape,
+    Undeclared, UnknownName, Value, Ways, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

@@ -1,5 +1,5 @@
 //! The modal state before the first block.
-use crate::{FeedMode, ModalState, Orientation, Position};
+use crate::{Beside, FeedMode, ModalState, Orientation, Position};
 use trunnion_dialect::{Action, Code, Dialect, Plane};
 use trunnion_syntax::Format;
 use trunnion_vocabulary::{ControlData, Coordinates, FeedWord, Spindle, ToolAxis, ToolInUse, ToolLength, Zero};
@@ -79,6 +79,7 @@ fn at_start(dialect: &Dialect) -> ModalState {
         length: ToolLength::default(),
         tool_axis,
         compensation: 0,
+        beside: Beside::default(),
         clamps: crate::Clamps::default(),
         position: Position::default(),
         orientation: Orientation::Words,

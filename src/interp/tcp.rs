@@ -9,7 +9,7 @@ use trunnion_dialect::{Action, Code, CodeKind};
 
 impl<'d> Iso<'d> {
     /// Begins tool centre point control.
-    pub(crate) fn tcp_on(&mut self, code: &'d Code, vectors: bool) {
+    pub(crate) fn tcp_on(&mut self, code: &'d Code, vectors: bool, report: &mut Report<'_>) {
         if !self.core.state.tool_axis.tcp() {
             self.core.forget_linear();
         }
@@ -17,7 +17,7 @@ impl<'d> Iso<'d> {
         self.memory.tcp_used = true;
         self.core.state.tool_axis.set_vectors(vectors);
         self.memory.tcp_group = code.group.as_deref();
-        self.frame_of_tip();
+        self.frame_of_tip(report);
     }
 
     /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.

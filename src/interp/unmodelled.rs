@@ -133,12 +133,12 @@ impl<'d> Iso<'d> {
     pub(crate) fn frame_begins(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
         block.takes_coordinates = true;
         self.core.unknown.begin(found.code, false);
-        // a shift by TRANS may end with it, or lie inside it
+        // a frame by TRANS or ROT may end with it, or lie inside it
         let shift = self
             .core
             .dialect
             .name("TRANS")
-            .filter(|_| self.memory.frames.local != [0.0; 9]);
+            .filter(|_| self.memory.frames.local != [0.0; 9] || self.memory.frames.shape.linear.is_some());
         if let Some(shift) = shift {
             self.core.unknown.begin(shift, false);
         }

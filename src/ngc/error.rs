@@ -49,6 +49,12 @@ impl Error {
         self.problem == &crate::flow::UNSET
     }
 
+    /// The program stops itself with this text: `(ABORT,...)`.
+    pub fn abort(&self) -> Option<&str> {
+        let aborts = self.problem == &crate::comment::ABORT;
+        aborts.then(|| self.detail.as_deref().unwrap_or_default())
+    }
+
     /// A refusal without details. The file is filled in by the engine.
     #[cold]
     pub fn new(problem: &'static Problem, range: TextRange) -> Self {

@@ -96,6 +96,8 @@ pub struct State {
     pub axis_offset: Pose,
     /// Offset of the coordinate system in effect.
     pub origin_offset: Pose,
+    /// Of each coordinate system, from 1: the axes whose offset `G10 L20` took from the position of the machine, bit by bit.
+    pub set_from_position: [u16; 10],
     /// 1-9.
     pub origin_index: i32,
     /// Rotation of the coordinate system in effect, deg.
@@ -302,6 +304,7 @@ impl State {
             compensated: position,
             axis_offset: [0.0; 9],
             origin_offset: [0.0; 9],
+            set_from_position: [0; 10],
             origin_index: 1,
             rotation_xy: 0.0,
             tool_offset: [0.0; 9],

@@ -20,7 +20,7 @@ pub use effect::{Argument, Effect, Placed, Reach, Value, is_left, same_number};
 pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake, UnknownName};
 pub use library::{Files, Limits, Loaded, Searched, Work};
 pub use modal::{
-    Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
+    Beside, Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
 };
 pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,

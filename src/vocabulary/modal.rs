@@ -13,7 +13,7 @@ pub use tool::{LengthOf, ToolInUse, ToolLength};
 pub use tool_axis::ToolAxis;
 pub use zero::Zero;
 
-use crate::{Action, Orientation, Position, Undeclared};
+use crate::{Action, Orientation, Plane, Position, Undeclared};
 
 /// What is in effect between blocks.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +36,8 @@ pub struct ModalState {
     pub tool_axis: ToolAxis,
     /// Cutter radius compensation side: 0 off, 41, 42.
     pub compensation: u8,
+    /// Whether motions have the path beside the contour while it is active.
+    pub beside: Beside,
     /// Clamps of rotary axes, where the setup names their codes.
     pub clamps: crate::Clamps,
     /// Programmed position.
@@ -44,6 +46,18 @@ pub struct ModalState {
     pub orientation: Orientation,
     /// The program end was seen.
     pub ended: bool,
+}
+
+/// What the motions of a program are while cutter radius compensation is active.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Beside {
+    /// The programmed path: how the tool runs beside it is not modelled.
+    #[default]
+    NotModelled,
+    /// The programmed path: the radius is not declared.
+    Radius,
+    /// The path of the tool.
+    Computed,
 }
 
 impl ModalState {
@@ -58,9 +72,17 @@ impl ModalState {
         self.coordinates.set_unit(length_mm, programmed);
         self.feed.set_unit(feed_mm);
     }
-    /// Which of zero point and tool length is undeclared.
+    /// Which of zero point, tool length and tool radius is undeclared.
     pub fn undeclared(&self) -> Undeclared {
+        let beside = match self.coordinates.plane() {
+            _ if self.compensation == 0 || self.beside == Beside::Computed => 0,
+            Plane::Xy => 0b011,
+            Plane::Zx => 0b101,
+            Plane::Yz => 0b110,
+        };
         Undeclared {
+            beside,
+            by_radius: self.beside == Beside::Radius,
             zero: self.zero.undeclared(),
             length: self.length.is_undeclared(),
             by_turret: match self.length.of() {

@@ -160,6 +160,11 @@ pub struct Undeclared {
     pub by_turret: u16,
     /// The zero point was set at the position of the machine (G92).
     pub set_here: bool,
+    /// Axes in which the tool runs beside the programmed path by an amount that is not computed (cutter radius compensation), bits as in
+    /// [`Position::known`].
+    pub beside: u16,
+    /// That amount is the radius of a tool that nothing declares; else compensation is not modelled.
+    pub by_radius: bool,
 }
 
 impl Undeclared {
@@ -173,6 +178,8 @@ impl Undeclared {
         length: false,
         by_turret: 0,
         set_here: false,
+        beside: 0,
+        by_radius: false,
     };
 
     /// What of it concerns some axes, bits as in [`Position::known`]; a tool length concerns Z, the offset of a lathe's tool all linear ones.
@@ -186,12 +193,19 @@ impl Undeclared {
             length: self.length && depends != 0,
             by_turret,
             set_here: self.set_here && zero != 0,
+            beside: self.beside & axes,
+            by_radius: self.by_radius,
         }
     }
-    /// Whether anything is undeclared.
+    /// Whether the zero point or the length is undeclared.
     #[inline]
     pub fn any(self) -> bool {
         self.zero != 0 || self.length
+    }
+    /// Whether the place of the tool depends on anything undeclared, its radius included.
+    #[inline]
+    pub fn open(self) -> bool {
+        self.any() || self.beside != 0
     }
 }
 

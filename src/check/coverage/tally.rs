@@ -1,27 +1,69 @@
 //! What is counted while a program runs.
 use super::{Coverage, GivenUp};
+use crate::place::names_axis;
 use crate::visited::Visited;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, FaultKind, Motion, MotionKind};
-use trunnion_syntax::BlockId;
+use trunnion_interp::{ChainId, Fault, FaultKind, Motion, MotionKind};
+use trunnion_syntax::{BlockId, Program};
+
+/// Motions by what is known of their ends.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Ends {
+    /// Axes that place the tip, as bits of a position: on a lathe there may be no Y.
+    tip: u16,
+    /// How many motions end where these of X, Y and Z are known, as bits.
+    by_axes: [u64; 8],
+    /// Some motions are in another file.
+    elsewhere: bool,
+}
+
+impl Ends {
+    fn add(&mut self, motion: &Motion) {
+        if motion.kind != MotionKind::Unknown {
+            self.by_axes[usize::from(motion.end.known & 0b111)] += 1;
+        }
+        self.elsewhere |= motion.chain != ChainId::MAIN;
+    }
+
+    /// Motions with a known end. An axis that the program never names, and that is known nowhere, stays where it is: a program for a laser, a
+    /// wire or a lathe moves in two axes.
+    pub(super) fn known(&self, program: &Program) -> u64 {
+        let known = |tip: u16| -> u64 {
+            let ends = (0u16..).zip(self.by_axes);
+            ends.filter(|(axes, _)| axes & tip == tip).map(|(_, count)| count).sum()
+        };
+        if self.elsewhere || !program.options().format.has_words() {
+            return known(self.tip);
+        }
+        let named = |axis: usize| {
+            let letters = [b"XYZ"[axis], b"UVW"[axis]];
+            let names = |letter| program.blocks().any(|block| names_axis(program, block.id(), letter));
+            letters.into_iter().any(names)
+        };
+        let mut stays = (0..3).filter(|axis| known(1 << axis) == 0 && !named(*axis));
+        match (stays.next(), stays.next()) {
+            (Some(axis), None) if self.tip == 0b111 => known(0b111 & !(1 << axis)),
+            _ => known(self.tip),
+        }
+    }
+}
 
 /// See the module.
 pub(crate) struct Tally {
-    /// Axes that place the tip, as bits of a position: on a lathe there may be no Y.
-    tip: u16,
+    ends: Ends,
     /// Motions that move something.
     travels: u64,
-    /// Motions with a known end.
-    known: u64,
     given_up: Option<GivenUp>,
 }
 
 impl Tally {
     pub(crate) fn new(dialect: &Dialect) -> Self {
         Self {
-            tip: if dialect.quirks.diameter { 0b101 } else { 0b111 },
+            ends: Ends {
+                tip: if dialect.quirks.diameter { 0b101 } else { 0b111 },
+                ..Ends::default()
+            },
             travels: 0,
-            known: 0,
             given_up: None,
         }
     }
@@ -30,8 +72,7 @@ impl Tally {
     #[inline]
     pub(crate) fn motion(&mut self, motion: &Motion) {
         self.travels += u64::from(!matches!(motion.kind, MotionKind::Dwell(_)));
-        let is_known = motion.kind != MotionKind::Unknown && motion.end.known & self.tip == self.tip;
-        self.known += u64::from(is_known);
+        self.ends.add(motion);
     }
 
     /// A fault may say where the run was stopped.
@@ -50,7 +91,7 @@ impl Tally {
     pub(crate) fn coverage(&mut self, motions: u64, ran: Visited, last: Option<BlockId>) -> Coverage {
         Coverage {
             motions,
-            motions_known: self.known,
+            ends: std::mem::take(&mut self.ends),
             travels: self.travels,
             given_up: self.given_up.take(),
             ran,

@@ -92,8 +92,27 @@ pub(crate) struct Fit {
     pub(crate) letter: u8,
     /// The undeclared length that is added to the zero point.
     pub(crate) with_length: Option<LengthOf>,
-    /// Lowest and highest, mm; `None`: it is unknown which words are relative to this position.
-    pub(crate) range: Option<[f64; 2]>,
+    /// Lowest and highest, mm.
+    pub(crate) range: Result<[f64; 2], Unclear>,
+}
+
+/// Why it is unknown which values fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unclear {
+    /// It is unknown which words are relative to this position.
+    Motions,
+    /// The tool runs beside the programmed path by an amount that is not computed.
+    Radius,
+}
+
+impl Unclear {
+    /// As a sentence ends; `missing`: the name of what is not declared.
+    pub(crate) fn why(self, missing: &str) -> String {
+        match self {
+            Self::Motions => format!("it is unclear which motions depend on {missing}"),
+            Self::Radius => "cutter radius compensation is not computed".to_owned(),
+        }
+    }
 }
 
 /// A cause that leaves the travel of linear axes open.

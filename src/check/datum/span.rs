@@ -66,6 +66,8 @@ pub(super) struct Span {
     pub(super) possible: Range,
     /// The widest it has been, mm.
     pub(super) worst: f64,
+    /// Some motions run beside the programmed path by an amount that is not computed.
+    pub(super) beside: bool,
 }
 
 impl Span {
@@ -77,6 +79,7 @@ impl Span {
             certain: Range::EMPTY,
             possible: Range::EMPTY,
             worst: 0.0,
+            beside: false,
         }
     }
 }

@@ -207,3 +207,82 @@ fn klartext_without_a_tool_call_has_a_length_that_nothing_declares() {
         "{unknown:#?}"
     );
 }
+
+/// Findings about limits of a program whose zero point is taken as zero; `length`: so are length and radius of the tool.
+fn limits(dialect: &str, text: &str, length: bool) -> Vec<(Status, String)> {
+    let dialect = trunnion_dialect::builtin(dialect).unwrap();
+    let machine = trunnion_machine::builtin("mill-3axis").unwrap();
+    let mut settings = crate::Settings::new(dialect, Some(machine), trunnion_interp::Setup::default());
+    settings.assume = crate::Assume {
+        tool_length: length,
+        ..crate::Assume::ALL
+    };
+    let report = crate::check(
+        &trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex),
+        &settings,
+    );
+    let found = of(&report, "axis-limit");
+    found.iter().map(|one| (one.status, one.message.clone())).collect()
+}
+
+/// The tool runs beside the programmed path by an unknown amount: a limit that only the programmed path breaks is not proven to be broken.
+#[test]
+fn a_limit_under_compensation_that_is_not_computed_is_unknown() {
+    let text = |on: &str, off: &str| {
+        format!(
+            "%\nO1\nG21 G17 G90 G94 G54 G40\nM3 S1000\nG0 X0. Y0. Z-5.\n{on} G1 X10. Y5. F100.\nX5000.\n{off} X10. Y0.\nM30\n%\n"
+        )
+    };
+    let fails = |found: &[(Status, String)]| found.iter().filter(|(status, _)| *status == Status::Fail).count();
+    let compensated = text("G41 D9", "G40");
+    assert_eq!(fails(&limits("fanuc-30i", &compensated, false)), 0);
+    // a radius that is taken as zero, and a path without compensation
+    assert_eq!(fails(&limits("fanuc-30i", &compensated, true)), 1);
+    assert_eq!(fails(&limits("fanuc-30i", &text("", ""), false)), 1);
+    let after = text("G41 D9", "G40 X20. Y0.\n")
+        .replace("X5000.\n", "")
+        .replace("M30", "X5000.\nM30");
+    assert_eq!(
+        fails(&limits("fanuc-30i", &after, false)),
+        1,
+        "compensation is off again"
+    );
+    let klartext = |side: &str| {
+        format!(
+            "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z-5 R0 FMAX M3\nL X+10 Y+5 {side} F100\nL X+5000\nL X+0 R0\nM30\nEND PGM A MM\n"
+        )
+    };
+    assert_eq!(fails(&limits("heidenhain-klartext", &klartext("RL"), true)), 0);
+    assert_eq!(fails(&limits("heidenhain-klartext", &klartext("R0"), true)), 1);
+}
+
+/// The zero points that fit are not known where the tool runs beside the path.
+#[test]
+fn no_range_fits_under_compensation_that_is_not_computed() {
+    let report = check(
+        "gcode fanuc-30i mill-3axis",
+        "G21 G17 G90 G94 G54\nM3 S1000\nG0 X0. Y0. Z5.\nG41 D9 G1 X10. Y5. F100.\nX40.\nG40 X0. Y0.\nM30\n",
+    );
+    let found = of(&report, "axis-limit");
+    assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
+    assert_eq!(number(found[0], "fits_x_min_mm"), None);
+    assert_eq!(number(found[0], "fits_z_min_mm"), Some(travel(2)[0] - 5.0));
+    let note = "X: unknown, because cutter radius compensation is not computed";
+    assert!(found[0].notes.iter().any(|own| own == note), "{:?}", found[0].notes);
+}
+
+/// `G10 L20` takes the zero point from where the machine is: it is as undeclared as this position.
+#[test]
+fn a_zero_point_from_an_undeclared_position_is_undeclared() {
+    let fails = |before: &str, code: &str| {
+        let text = format!("G21 G90 G54 G17 G94\n{before}G0 X5 Y5 Z5\n{code}\nG0 X600 Y5 Z5\nM2\n");
+        let report = check("gcode linuxcnc mill-3axis", &text);
+        let found = of(&report, "axis-limit");
+        found.iter().filter(|one| one.status == Status::Fail).count()
+    };
+    assert_eq!(fails("", "G10 L20 P1 X1 Y1 Z1"), 0);
+    assert_eq!(fails("", "G10 L20 P2 X1 Y1 Z1\nG55"), 0);
+    // a value that the program gives, and a position that rests on it
+    assert_eq!(fails("", "G10 L2 P1 X5 Y5 Z5"), 1);
+    assert_eq!(fails("G10 L2 P1 X5 Y5 Z5\n", "G10 L20 P1 X1 Y1 Z1"), 1);
+}

@@ -99,11 +99,12 @@ fn what_fits(open: &Open, out: &mut Reporter<'_>) {
         let mut ranges = Vec::new();
         for fit in &open.fits {
             let name = letter(fit.letter);
-            let Some([low, high]) = fit.range else {
-                draft.note(format!(
-                    "{name}: unknown, because it is unclear which motions depend on {missing}"
-                ));
-                continue;
+            let [low, high] = match fit.range {
+                Ok(range) => range,
+                Err(unclear) => {
+                    draft.note(format!("{name}: unknown, because {}", unclear.why(&missing)));
+                    continue;
+                }
             };
             let [shown_low, shown_high] = [bound_up(low), bound_down(high)];
             if let Some(of) = fit.with_length {

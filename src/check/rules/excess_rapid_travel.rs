@@ -111,7 +111,7 @@ fn check(arrival: &facts::Arrival<'_>, out: &mut Reporter<'_>) {
 /// Travel across the tool on the shortest way past the declared obstacles, mm; `None` where it is not known.
 fn past_obstacles(arrival: &facts::Arrival<'_>) -> Option<f64> {
     let (machine, rapids) = (arrival.machine, arrival.rapids);
-    if machine.obstacles.only_parts() || rapids.turned != [0.0; 2] || arrival.trail.undeclared.any() {
+    if machine.obstacles.only_parts() || rapids.turned != [0.0; 2] || arrival.trail.undeclared.open() {
         return None;
     }
     let body = arrival.trail.tool.as_ref().and_then(ToolBody::of)?;

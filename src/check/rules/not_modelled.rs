@@ -201,7 +201,6 @@ fn radius_advice(kind: &FaultKind, what: &str) -> (&'static str, Option<String>)
     let declare = "declare its diameter: `[[tool]]` with `number` and `diameter` in mm, in trunnion.toml";
     let remedy = match kind.lacks() {
         Some(Lacks::Radius(_)) => format!("{declare}; or take its radius as zero: --assume tool-length"),
-        _ if what.contains("diameter of the tool is not declared") => declare.to_owned(),
         _ => "keep more than the tool radius away from walls and limits, or run the program on the machine without a part"
             .to_owned(),
     };
@@ -306,7 +305,7 @@ mod tests {
         assert!(note.contains("programmed path"), "{note}");
         for (fence, text) in [
             (
-                "gcode linuxcnc",
+                "gcode linuxcnc undeclared",
                 "G21 G17 G90 G94\nM3 S900 T1 M6\nG0 X0 Y0 Z5\nG41 G1 X9 F100\nY9\nG40 X0\nM2\n",
             ),
             (

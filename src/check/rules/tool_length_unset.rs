@@ -48,7 +48,7 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
             })
             .help(help);
         for fit in open.fits.iter().filter(|_| !by_turret) {
-            if let Some([low, high]) = fit.range {
+            if let Ok([low, high]) = fit.range {
                 draft
                     .note(format!(
                         "{} stays within its travel with a length of {} to {}",

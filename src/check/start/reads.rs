@@ -32,14 +32,19 @@ pub(super) fn reads_first(program: &Program, dialect: &Dialect) -> [bool; 5] {
     }
     let mut open = [true; 5];
     for block in program.blocks() {
-        let mut text = program.text(block.range()).to_ascii_lowercase();
-        text.retain(|c| !c.is_ascii_whitespace());
+        let mut text = program.bytes(block.range()).to_ascii_lowercase();
+        let start = block.range().start;
+        for comment in block.comments() {
+            let range = (comment.range.start - start) as usize..(comment.range.end - start) as usize;
+            text[range].fill(b' ');
+        }
+        text.retain(|byte| !byte.is_ascii_whitespace());
         let codes = actions(&block, dialect);
         for (group, (of_group, names)) in ASKED.into_iter().enumerate() {
             if !open[group] {
                 continue;
             }
-            reads[group] = names.iter().any(|name| text.contains(name));
+            reads[group] = names.iter().any(|name| memchr::memmem::find(&text, name.as_bytes()).is_some());
             open[group] = !reads[group] && !codes.iter().any(|code| of_group.contains(code));
         }
         if open == [false; 5] {

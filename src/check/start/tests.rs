@@ -179,6 +179,11 @@ fn what_a_program_asks_of_the_start_is_assumed() {
             report.assumptions
         );
     }
+    // a comment asks nothing
+    let text = "G21 G90 G94 G17 (#4003 and #4006)\n(#4001)\nG1 X1. F100\nM30\n";
+    assert_eq!(assumed("fanuc-30i", text), [] as [&str; 0]);
+    let text = "(#4003)\nG21 G90 G94 G17 G1 X1. F100\nM30\n";
+    assert_eq!(assumed("fanuc-30i", text), [] as [&str; 0]);
 }
 
 /// A subprogram alone: whether its words are absolute, and what moves, its caller says.

@@ -12,11 +12,14 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     path::PathBuf,
     thread,
-    time::{Duration, SystemTime},
+    time::{Duration, Instant, SystemTime},
 };
 
 /// How often files are looked at.
 const PAUSE: Duration = Duration::from_millis(500);
+
+/// A look at many files is followed by a rest of so many times its own duration.
+const REST: u32 = 20;
 
 /// Size and time of the last change.
 type State = BTreeMap<PathBuf, Option<(u64, SystemTime)>>;
@@ -37,8 +40,12 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
             Err(failure) => failure.print(),
         }
         remark(global.quiet, "watching for changes; end with Ctrl-C");
-        while state(global, command) == before {
-            thread::sleep(PAUSE);
+        loop {
+            let begun = Instant::now();
+            if state(global, command) != before {
+                break;
+            }
+            thread::sleep(PAUSE.max(begun.elapsed() * REST));
         }
     }
 }

@@ -2,7 +2,7 @@
 use super::shape::{Lathe, Shape};
 use super::text::{has_word, lines, strip_comments};
 use super::votes::Votes;
-use super::{Detected, Surroundings, brother, kernels, named, num, others, supported};
+use super::{Detected, Surroundings, brother, fadal, kernels, named, num, others, supported};
 
 /// The weight of an extension that one control owns, compared with signs in the text.
 const EXTENSION: u32 = 9;
@@ -34,6 +34,8 @@ const GROUPS: &[&[&str]] = &[
     &["centroid"],
     &["eding"],
     &["fagor"],
+    &["fadal"],
+    &["acramatic"],
     &["num"],
     &["isg"],
     &["planetcnc"],
@@ -62,10 +64,17 @@ const IN_COMMENTS: &[(&str, &str)] = &[
     ("EDINGCNC", "eding"),
     ("FAGOR", "fagor"),
     ("SPEEDIO", "brother"),
+    ("FADAL", "fadal"),
+    ("ACRAMATIC", "acramatic"),
     ("MARLIN", "marlin"),
     ("ROBOFIL", "wire-edm"),
     ("SODICK", "wire-edm"),
 ];
+
+/// The sign that a comment names a control.
+fn in_comment(word: &str) -> String {
+    format!("a comment with the name {word}")
+}
 
 /// Whether programs for one of two controls are read in nearly the same way by the other; which of them is meant, a text rarely shows.
 pub(super) fn share_a_language(one: &str, other: &str) -> bool {
@@ -103,7 +112,7 @@ impl Seen {
                     // a file of FreeCAD names its post: linuxcnc_post
                     let posted = || line.contains(&format!("{word}_POST"));
                     if (has_word(line, word) || posted()) && !has_word(code, word) {
-                        votes.add(name, NAMED, &format!("a comment with the name {word}"));
+                        votes.add(name, NAMED, &in_comment(word));
                     }
                 }
             }
@@ -122,6 +131,7 @@ impl Seen {
             others::code(plain, votes);
             num::code(plain, votes);
             brother::code(plain, votes);
+            fadal::code(plain, votes);
             seen.okuma.0 |= others::okuma_turns(plain);
             seen.okuma.1 |= others::okuma_mills(plain);
             seen.shape.look(plain, at + 1);
@@ -209,7 +219,9 @@ impl Seen {
         match group[0] {
             FANUC if self.votes.weight(&["brother"]) >= 10 => Some(("brother", strongest(&["brother"])?)),
             FANUC => {
-                let enough = if known.family == Some(FANUC) { 9 } else { 6 };
+                // a comment that names the Fanuc outweighs one habit of a Haas, such as a program number of five digits
+                let named = self.votes.weight_of(FANUC, &in_comment("FANUC"));
+                let enough = named + if known.family == Some(FANUC) { 9 } else { 6 };
                 let by_text = self.votes.weight(HAAS) >= enough;
                 let haas = by_text || known.family.is_some_and(|family| family.starts_with("haas"));
                 let brand = if by_text { strongest(HAAS) } else { strongest(group) };

@@ -15,6 +15,8 @@ pub(super) struct Shape {
     xz: u32,
     /// T words that name tool and offset: T0101.
     turret: bool,
+    /// M6 with a T word that names a tool and its own offset: `M6 T0707`. Small lathes for teaching write it, and so may a mill.
+    paired: bool,
     /// The first line with G96 S.
     surface_speed: Option<usize>,
     /// M6 without T in its line: the tool is changed by a code.
@@ -40,6 +42,11 @@ pub(super) struct Lathe {
     pub(super) system_b: bool,
 }
 
+/// Whether a T word names a tool and the offset of the same number: `0707`.
+fn is_pair(digits: &str) -> bool {
+    digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()) && digits[..2] == digits[2..] && digits != "0000"
+}
+
 /// Codes of mills in whose line G99 is the return to R: canned cycles, and the planes of a first line.
 const RETURNS: &[&str] = &[
     "73", "74", "76", "80", "81", "82", "83", "84", "85", "86", "87", "88", "89", "17", "49",
@@ -60,10 +67,13 @@ impl Shape {
     pub(super) fn look(&mut self, code: &str, line: usize) {
         let tool = words(code).find(|(letter, digits)| *letter == b'T' && digits.bytes().any(|b| b.is_ascii_digit()));
         let length = (has(code, b'G', "43") || has(code, b'G', "44")) && word(code, b'H');
-        self.mill |= length || (tool.is_some() && has(code, b'M', "6"));
+        let by_code = has(code, b'M', "6");
+        let paired = tool.is_some_and(|(_, digits)| is_pair(digits));
+        self.mill |= length || (tool.is_some() && by_code && !paired);
+        self.paired |= paired && by_code;
         if let Some((_, digits)) = tool {
             let plain = digits.bytes().all(|b| b.is_ascii_digit());
-            self.turret |= plain && matches!(digits.len(), 3 | 4) && digits != "0000";
+            self.turret |= plain && !by_code && matches!(digits.len(), 3 | 4) && digits != "0000";
         }
         self.x += u32::from(word(code, b'X'));
         if word(code, b'Y') {
@@ -106,7 +116,8 @@ impl Shape {
     }
 
     /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a second sign: motions in X and Z alone. With
-    /// them a turret's T0101 is enough where M6 changes no tool, and so is surface speed. G43, M6 with T, and motions in Y without a turret are evidence against a lathe. On a machine that has no Y
+    /// them a turret's T0101 is enough where M6 changes no tool, and so is surface speed. G43, M6 with T
+    /// (but for T0707), and motions in Y without a turret are evidence against a lathe. On a machine that has no Y
     /// (`no_y`), motions in X and Z alone are enough.
     pub(super) fn lathe(&self, no_y: bool) -> Option<Lathe> {
         let flat = self.y == 0 && self.xz >= 2;
@@ -139,7 +150,7 @@ impl Shape {
             self.hint
         };
         let reason = match (speed, self.surface_speed) {
-            (Some(code), _) if self.turret => format!("T with an offset, {code}, X and Z alone"),
+            (Some(code), _) if self.turret || self.paired => format!("T with an offset, {code}, X and Z alone"),
             _ if self.turret && !self.changes => "T with an offset, X and Z alone".to_owned(),
             (_, Some(line)) => format!("G96 on line {line}, X and Z alone"),
             _ if no_y => "X and Z alone, on a machine without Y".to_owned(),
@@ -148,7 +159,7 @@ impl Shape {
         Some(Lathe {
             reason,
             strong: false,
-            names_fanuc: self.turret || self.per_revolution || no_y,
+            names_fanuc: self.turret || self.paired || self.per_revolution || no_y,
             system_b: false,
         })
     }

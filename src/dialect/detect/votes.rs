@@ -43,6 +43,15 @@ impl Votes {
         own.map(|vote| vote.weight).sum()
     }
 
+    /// The weight of one sign of a control; 0 where it was not seen.
+    pub(super) fn weight_of(&self, name: Name, sign: &str) -> u32 {
+        let own = self
+            .all
+            .iter()
+            .find(|vote| vote.name == name && vote.sign.starts_with(sign));
+        own.map_or(0, |vote| vote.weight)
+    }
+
     /// The heaviest sign of these controls; of equal ones the first.
     pub(super) fn strongest(&self, of: &[Name]) -> Option<&Vote> {
         let own = self.all.iter().filter(|vote| of.contains(&vote.name));

@@ -51,6 +51,11 @@ fn controls_that_are_not_read() {
         ("%A G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN20 G00 X+5*\n", "heidenhain-iso"),
         ("OHOME\nG0 X60.\nG20 HP=4\nRTS\n", "okuma-osp-lathe"),
         ("$PART.MIN%\nG50 S2000\nT010101\nG0 X50 Z2\nM2\n", "okuma-osp-lathe"),
+        (
+            "%\nN1 O100 (PLATE)\nN2 M6 T1\nN3 G0 G90 S6000 M3 E1 X1.2 Y-3.\nN4 H1 Z.1 M8\nN5 G1 Z-.5 F20.\nM30\n",
+            "fadal",
+        ),
+        ("(POST: ACRAMATIC 2100)\nG70 G90\nG0 X1.2 Y-3.\nM2\n", "acramatic"),
         ("IF #4201 || #4202 THEN GOTO 1000\n#29952 = #25012\nN1000\n", "centroid"),
         ("Sub user_1\n    DlgMsg \"a\" \"b\" 1\nEndSub\n", "eding"),
         ("E001=10 16 15 09 08\nH1=0.1670\nG92 X0 Y0\nE1\nG1 X3.\n", "wire-edm"),

@@ -199,6 +199,10 @@ fn signs_of_haas_grbl_and_lathes() {
         "fanuc-30i-lathe-a",
         "content: the turning cycle G71 on line 1",
     );
+    // a comment that names the Fanuc outweighs a habit of a Haas, and not a code of a Haas
+    let named = "%\nO12345 (MACHINE: FANUC 0I)\nG0 X1. Y2.\n";
+    assert_eq!(content(named).0, "fanuc-30i");
+    assert_eq!(content(&named.replace("G0 X1.", "G154 P3 G0 X1.")).0, "haas-ngc");
     // a mill's codes are no signs of a lathe
     assert_eq!(
         content("%\nO0001\nG91 G28 X0. Y0.\nG73 X1. Z-3. R1. Q1. F100.\n").0,

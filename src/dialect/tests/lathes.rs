@@ -84,6 +84,25 @@ fn one_sign_and_the_motions() {
     assert_eq!(crate::possible_lathe(b"G0 X1 Z2\nG1 X5\nM30\n"), None);
 }
 
+/// `M6 T0707` names a tool and its own offset: small lathes change tools so. A sign of a lathe beside it decides.
+#[test]
+fn a_turret_that_m6_turns() {
+    let lathe = "%\nO0012\nG28\nM06 T0707\nG97 S1000 M3\nG0 X50. Z2.\nG1 Z-5. F.1\nX52.\nM30\n";
+    assert_eq!(content(lathe).0, "haas-lathe");
+    let fanuc = lathe.replace("G28\n", "");
+    assert_eq!(content(&fanuc).0, "fanuc-30i-lathe-a");
+    let cycle = fanuc.replace("G97 S1000", "G71 U1. R1.\nG71 P10 Q20 U.1 W.1 F.2\nS1000");
+    assert_eq!(content(&cycle).0, "fanuc-30i-lathe-a");
+    for mill in [
+        fanuc.replace("X52.", "X52. Y1."),
+        fanuc.replace("T0707", "T1207"),
+        fanuc.replace("T0707", "T7"),
+        fanuc.replace("G97 ", ""),
+    ] {
+        assert_eq!(content(&mill).0, "fanuc-30i", "{mill}");
+    }
+}
+
 #[test]
 fn okuma_mills_and_lathes() {
     for (name, text, wanted) in [

@@ -5,7 +5,7 @@ use super::element::Point;
 use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::{Nose, ToolShape};
+use crate::{Beside, Nose, ToolShape};
 
 /// What is said where the nose is not declared.
 pub(super) const UNDECLARED: &str = "tool nose radius compensation: the nose of the tool is not declared, and the programmed path is used instead (`[[tool]]` with `shape = \"turning\"`, `nose_radius` in mm and `tip_direction` from 0 to 9)";
@@ -47,6 +47,7 @@ impl Iso<'_> {
             }
             return;
         }
+        self.core.state.beside = Beside::Computed;
         let compensation = &mut self.memory.compensation;
         let Some(tip) = tip.filter(|_| nose.radius_mm > 0.0) else {
             compensation.stage = Stage::Off;

@@ -1,10 +1,10 @@
 //! G40, G41, G42 and D: which side, which radius.
 use super::Stage;
-use crate::FaultKind;
 use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::{WordValue, Words};
+use crate::{Beside, FaultKind};
 use trunnion_dialect::Action;
 
 impl<'d> Iso<'d> {
@@ -17,6 +17,7 @@ impl<'d> Iso<'d> {
             return self.compensate_nose(nose, [before, side], report);
         }
         if !plane {
+            self.core.state.beside = Beside::NotModelled;
             if !std::mem::replace(&mut self.core.compensation_reported, true) {
                 let what = if self.core.dialect.quirks.diameter {
                     super::nose::UNDECLARED.to_owned()
@@ -43,16 +44,21 @@ impl<'d> Iso<'d> {
             return;
         }
         match self.cutter_radius(d) {
-            Some(0.0) => self.memory.compensation.stage = Stage::Off,
+            Some(0.0) => {
+                self.memory.compensation.stage = Stage::Off;
+                self.core.state.beside = Beside::Computed;
+            }
             Some(radius) => {
                 let sign = if side == 41 { 1.0 } else { -1.0 };
                 let compensation = &mut self.memory.compensation;
                 compensation.stage = Stage::Start;
                 (compensation.side, compensation.radius) = (sign * radius.signum(), radius.abs());
                 compensation.tip = [0.0; 2];
+                self.core.state.beside = Beside::Computed;
             }
             None if d.is_none() && !given => {
                 self.memory.compensation.stage = Stage::Off;
+                self.core.state.beside = Beside::NotModelled;
                 let what = format!(
                     "{} without D, and no block before it has one: which radius counts (write D)",
                     found.code.id
@@ -61,6 +67,7 @@ impl<'d> Iso<'d> {
             }
             None => {
                 self.memory.compensation.stage = Stage::Off;
+                self.core.state.beside = Beside::Radius;
                 if !std::mem::replace(&mut self.core.compensation_reported, true) {
                     let d = d.map_or_else(|| "D".to_owned(), |d| format!("D{d}"));
                     report.fault(found.range, FaultKind::radius_lacks(&d));

@@ -26,7 +26,7 @@ impl Iso<'_> {
                 // without P it is the second
                 to.push(Argument::number("P", words.p.number().map_or(2.0, |p| p.value)));
             }
-            if found.code.action == Action::FixedPoint {
+            if found.code.action == Action::FixedPoint && !found.code.words.is_empty() {
                 to.push(Argument::number("FP", words.p.number().map_or(1.0, |p| p.value)));
             }
         }

@@ -100,6 +100,9 @@ impl Iso<'_> {
         if let Some(deep) = &mut self.flow.deep {
             deep.variables.lose();
         }
+        if let Some(trail) = &mut self.flow.trail {
+            trail.called_unread = true;
+        }
     }
 
     fn push_call(&mut self, level: Level, times: u32, (file, start): (u16, u32), running: &Running<'_>, from: u32) {

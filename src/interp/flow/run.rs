@@ -205,11 +205,17 @@ impl Iso<'_> {
                 _ if place.file != 0 => place.main,
                 _ => BlockId(self.flow.next),
             };
+            let kind = if trail.called_unread {
+                let what = "whether this loop ends depends on a called program that is missing".to_owned();
+                FaultKind::NotDecided { what }
+            } else {
+                FaultKind::EndlessLoop { blocks, proved }
+            };
             sink.fault(Fault {
                 place: None,
                 block,
                 range: main.block(block).range(),
-                kind: FaultKind::EndlessLoop { blocks, proved },
+                kind,
             });
         }
         self.end(main, sink);

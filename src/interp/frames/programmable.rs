@@ -2,6 +2,9 @@
 //! is there, each word alone ends all (Sinumerik 840D sl Programming Manual, Fundamentals, frames). The shift is part of the zero point, what
 //! turns, scales and mirrors in the plane is a [`super::Shape`]. A frame that turns out of the plane, or that turns under tool centre point
 //! control, is a [`super::Tilted`] plane of the program: see [`solid`](super::solid).
+//!
+//! Inside the plane of CYCLE800 they act in its axes: the frames of swivelling come before the programmable one in the chain of all frames
+//! (SINUMERIK ONE Programming Manual, 12/2019, p. 631). One that turns out of that plane is not followed there.
 use super::Linear;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
@@ -59,6 +62,12 @@ impl<'d> Iso<'d> {
     fn change_frame(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         block.takes_coordinates = true;
         let added = found.code.id.starts_with('A');
+        let in_swivel = self.memory.frames.swivel.is_some();
+        if in_swivel && (self.memory.compensation.is_busy() || self.memory.corners.is_busy()) {
+            let what = "a frame in a swivelled plane under cutter compensation, or inside a corner".to_owned();
+            report.fault(found.range, FaultKind::NotModelled { what });
+            self.core.forget_position();
+        }
         if !added {
             let ended = self.core.unknown.end(found.code);
             self.core.forget_if(ended);
@@ -72,10 +81,10 @@ impl<'d> Iso<'d> {
         let tcp = self.core.state.tool_axis.tcp();
         let is_shift = matches!(found.code.id.as_str(), "TRANS" | "ATRANS");
         let plain = words.axes.unread == 0
-            && !(tcp && turns)
+            && !((tcp || in_swivel) && turns)
             && (is_shift || !turns)
             && !self.core.unknown.any()
-            && self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed);
+            && self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed || in_swivel);
         let step = self.frame_step(found, words, angle).filter(|_| plain);
         let Some(step) = step.filter(|step| self.solid_step(step) != Some(false)) else {
             if found.code.id.ends_with("ROT") && (words.axes.given & LINEAR).count_ones() > 1 {

@@ -7,6 +7,9 @@ use crate::{FaultKind, Feed, LengthOf, MotionKind, Position};
 use trunnion_dialect::{Action, LengthAfterReturn};
 use trunnion_syntax::TextRange;
 
+/// All axes.
+const ALL: u16 = (1 << 9) - 1;
+
 /// A return in the current block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Return {
@@ -18,6 +21,8 @@ pub(crate) enum Return {
     From,
     /// G75: number of the fixed point, from 1; `None`: not read.
     Fixed(Option<u32>),
+    /// G74: homing.
+    Home,
 }
 
 impl Return {
@@ -25,6 +30,7 @@ impl Return {
         match found.code.action {
             Action::ReferenceCheck => Self::Check,
             Action::ReferenceFrom => Self::From,
+            Action::FixedPoint if found.code.id == "G74" => Self::Home,
             Action::FixedPoint if words.p.is_given() => Self::Fixed(words.p.index()),
             Action::FixedPoint => Self::Fixed(Some(1)),
             Action::ReferenceReturnOther => Self::To(words.p.index().unwrap_or(2)),
@@ -44,6 +50,7 @@ impl Iso<'_> {
             Return::Check => self.rapid_to(point, report),
             Return::From => self.leave_reference(named, point, report),
             Return::Fixed(number) => self.reach_fixed(named, number, range, report),
+            Return::Home => self.reach_home(named, range, report),
             Return::To(number) => {
                 if named != 0 {
                     // a distance from an unknown place leads to another unknown place
@@ -56,7 +63,7 @@ impl Iso<'_> {
                     }
                     self.memory.frames.intermediate = Some(self.core.state.position);
                 } else if self.core.dialect.quirks.return_moves_all {
-                    named = (1 << 9) - 1;
+                    named = ALL;
                     self.core.standing.end_unnamed();
                 } else {
                     return;
@@ -126,6 +133,23 @@ impl Iso<'_> {
             FaultKind::fixed_point_lacks,
         );
         self.reach(named, declared, (lacks, range), report);
+    }
+
+    /// G74: the machine's data say where homing ends. The axes that the block does not name stay.
+    fn reach_home(&mut self, named: u16, range: TextRange, report: &mut Report<'_>) {
+        let (named, what) = if self.core.state.tool_axis.tcp() || self.memory.frames.tilt.is_some() {
+            (
+                ALL,
+                "G74 while a transformation is active (switch it off first: TRAFOOF)",
+            )
+        } else if named == 0 {
+            // it names them as axes of the machine (Z1=0), which need not be those of the program
+            (ALL, "G74 without an axis of the program, so it is open which axes move")
+        } else {
+            (named, "G74: where the reference point is")
+        };
+        let lacks = FaultKind::NotModelled { what: what.to_owned() };
+        self.reach(named, None, (lacks, range), report);
     }
 
     /// Rapid of the named axes to a place in machine coordinates where it is declared, otherwise to an unknown position.

@@ -14,6 +14,7 @@ impl<'d> Iso<'d> {
         }
         self.core.state.zero.set_here(frames.shift != [0.0; 9]);
         self.move_zero(zero);
+        self.memory.frames.shift_plane(&mut self.core.state.position);
     }
 
     /// Length of a word of an axis in mm or degrees, radius where the control programs diameters.

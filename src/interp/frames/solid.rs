@@ -5,10 +5,11 @@
 //! 840D sl Function Manual, Basic Functions, K2, 11/2006, p. 2-56). ROTS with two angles: the traces of the plane (08/2005, p. 2-101).
 use super::programmable::FrameStep;
 use super::{Linear, Tilted};
-use crate::FrameAngles;
 use crate::arc::plane_axes;
+use crate::core::Report;
 use crate::frames::tilt::turn_about;
 use crate::iso::Iso;
+use crate::{FaultKind, FrameAngles};
 use trunnion_geometry::math::{atan2, hypot};
 use trunnion_geometry::{Mat3, Vec3};
 
@@ -183,11 +184,20 @@ impl Iso<'_> {
     }
 
     /// Tool centre point control begins while the program turns the plane: the same frame, as one that vectors and positions of the tip follow.
-    pub(crate) fn frame_of_tip(&mut self) {
-        if self.memory.frames.shape.linear.is_some() && self.core.dialect.quirks.declares_names() {
-            let frame = self.programmable();
-            self.set_solid(&frame);
+    pub(crate) fn frame_of_tip(&mut self, report: &mut Report<'_>) {
+        if self.memory.frames.shape.linear.is_none() || !self.core.dialect.quirks.declares_names() {
+            return;
         }
+        let frame = self.programmable();
+        if self.set_solid(&frame) {
+            return;
+        }
+        let what = "a frame that mirrors or scales, or lies in a swivelled plane, under tool centre point control";
+        report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
+        if let Some(code) = self.core.dialect.name("TRANS") {
+            self.core.unknown.begin(code, false);
+        }
+        self.core.forget_position();
     }
 }
 

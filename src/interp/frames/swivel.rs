@@ -35,7 +35,7 @@ impl<'d> Iso<'d> {
         if let Some(new) = tilt {
             position = new.to_plane(&position);
         }
-        self.memory.frames.tilt = tilt;
+        (self.memory.frames.tilt, self.memory.frames.swivel) = (tilt, None);
         if !self.core.state.tool_axis.tcp() {
             // without tool centre point control words are not positions of the tip if a rotary axis is turned, or if the tool is off the
             // zero of the axes; only the machine gives the position of the tip
@@ -208,9 +208,13 @@ impl<'d> Iso<'d> {
 
     /// The swivelled plane ends; where the call may move the axes, none of them is known after it.
     fn end_swivel(&mut self, moves: bool, found: &Found<'d>, report: &mut Report<'_>) {
+        let inside = self.memory.frames.inside_plane();
         self.end_tilt(report);
         let ended = self.core.unknown.end(found.code);
         self.core.forget_if(ended);
+        if inside {
+            self.frame_is_left(found, report);
+        }
         self.core.state.zero.lose(self.core.unknown.any());
         if moves {
             let what = "CYCLE800: the path on which it retracts and turns back when it ends".to_owned();
@@ -220,6 +224,17 @@ impl<'d> Iso<'d> {
             motion.end = self.core.state.position;
             self.memory.out.push(motion);
         }
+    }
+
+    /// A swivelled plane ends inside which the program has set a frame: whether the frame stays is not taken from a source.
+    fn frame_is_left(&mut self, found: &Found<'d>, report: &mut Report<'_>) {
+        let what = "the frame that TRANS, ROT, SCALE or MIRROR has set in the swivelled plane, once the plane ends (write TRANS alone before it)";
+        report.fault(found.range, FaultKind::NotModelled { what: what.to_owned() });
+        self.end_programmable();
+        if let Some(code) = self.core.dialect.name("TRANS") {
+            self.core.unknown.begin(code, false);
+        }
+        self.core.forget_position();
     }
 
     /// Turns the rotary axes onto the plane's normal.
@@ -275,6 +290,7 @@ impl<'d> Iso<'d> {
             .then(&shifted(call.behind));
         let plane = outer.filter(|_| call.adds).map_or(plane, |outer| outer.then(&plane));
         self.tilt_to(Some(plane), report);
+        self.memory.frames.swivel = Some(plane);
         let posture = match call.direction {
             0 => return,
             1 => Posture::Higher,

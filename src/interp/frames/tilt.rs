@@ -43,6 +43,14 @@ impl Tilted {
             programmed: false,
         }
     }
+    /// Axes that are turned about the zero point.
+    pub(crate) fn turned(turn: Mat3) -> Self {
+        Self {
+            origin: Vec3::zeros(),
+            turn,
+            programmed: false,
+        }
+    }
     /// A plane that is given in the coordinates of this one, in the workpiece frame.
     pub(crate) fn then(&self, inner: &Self) -> Self {
         Self {

@@ -30,7 +30,13 @@ impl Klartext<'_> {
     ) {
         match self.axial(numbers, report) {
             Ok(axial) => {
-                self.set_plane(axial.turn, None, report);
+                if axial.turn != Mat3::identity() && self.memory.frames.local[..3] != [0.0; 3] {
+                    let what = "PLANE AXIAL after a datum shift: whether the plane turns about the shifted datum";
+                    self.not_modelled_once(what, report);
+                    self.unknown_plane(report);
+                } else {
+                    self.set_plane(axial.turn, None, report);
+                }
                 self.set_angles(axial.stands);
                 self.memory.angles_wait = None;
                 if let Some(swivel) = positioning.swivel {
@@ -40,7 +46,7 @@ impl Klartext<'_> {
             Err(why) => {
                 Self::not_modelled(format!("PLANE AXIAL: {why}"), report);
                 self.memory.angles_wait = None;
-                self.unknown_plane();
+                self.unknown_plane(report);
                 if positioning.swivel.is_some() {
                     self.core.state.position.known &= !ROTARY;
                     self.unknown_motion(report);

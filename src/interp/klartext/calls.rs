@@ -54,6 +54,10 @@ impl Klartext<'_> {
                     .trim()
                     .trim_matches(['"', '\''])
                     .to_owned();
+                if text.is_empty() {
+                    Self::rejected(Refusal::MissingWord, "CALL PGM needs the name of a program", report);
+                    return Self::undecided("which program is called", report);
+                }
                 Request::Program(text)
             }
             b"SELECTED" => match self.flow.selected.clone() {

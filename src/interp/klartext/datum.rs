@@ -1,7 +1,7 @@
 //! Cycles that act where they are defined: datum shift 7, preset 247, mirror 8, rotation 10, scaling 11 and 26, working plane 19, dwell 9.
 //!
-//! An axis that a datum shift leaves out keeps its shift; a shift that is programmed in a tilted plane acts in it; mirror without axes,
-//! rotation by 0 and scaling by 1 end them (TNC 640 cycle manuals, coordinate transformations).
+//! An axis that a datum shift leaves out keeps its shift; mirror without axes, rotation by 0 and scaling by 1 end them (TNC 640 cycle
+//! manuals, coordinate transformations). Shifts inside a tilted plane are in `plane_shift`.
 use super::path_words::PathWords;
 use super::words::{Said, Words};
 use super::{Klartext, values::Value};
@@ -18,6 +18,10 @@ pub(crate) const PLANE: u8 = 2;
 pub(crate) const SHAPE: u8 = 4;
 /// Turning: X is a diameter.
 pub(crate) const TURNING: u8 = 8;
+/// A preset that is not known.
+pub(crate) const PRESET: u8 = 64;
+/// A shift that belongs to a plane, or to the system outside of it: which one is not known.
+pub(crate) const INSIDE: u8 = 32;
 /// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.
 pub(crate) const OTHER: u8 = 16;
 
@@ -25,6 +29,7 @@ impl Klartext<'_> {
     /// Coordinates say nothing from here on, for a reason.
     pub(crate) fn lose(&mut self, reason: u8) {
         self.memory.lost |= reason;
+        self.memory.shifted = 0;
         self.core.forget_linear();
         self.core.state.zero.lose(true);
     }
@@ -135,20 +140,34 @@ impl Klartext<'_> {
                 None => unknown = true,
             }
         }
-        let shifts = found.given & 7 != 0 && (0..3).any(|axis| local[axis] != self.memory.frames.local[axis]);
+        // where several shifts are possible the same value again is not the same shift
+        let shifts = found.given & 7 != 0;
         let zero = local[..3] == [0.0; 3];
         if unknown {
             // the value was reported
             return self.lose(DATUM);
         }
-        if shifts && !zero && (self.is_tilted() || !self.memory.frames.shape.is_identity()) {
-            self.not_modelled_once("cycle 7 in a tilted, turned, mirrored or scaled system", report);
+        if shifts && !zero && !self.memory.frames.shape.is_identity() {
+            self.not_modelled_once("cycle 7 in a turned, mirrored or scaled system", report);
             self.memory.frames.local = local;
             return self.lose(DATUM);
         }
+        let tilted = self.is_tilted();
+        if shifts && tilted && !self.shifts_in_plane() {
+            let what = "cycle 7 in a tilted plane, with a shift from before the plane: which of both it replaces";
+            self.not_modelled_once(what, report);
+            self.memory.frames.local = local;
+            return self.lose(INSIDE);
+        }
         self.memory.frames.local = local;
-        if self.memory.lost & DATUM != 0 && (zero || found.given & 7 == 7) {
+        let level = shifts && !tilted && self.memory.frames.tilt.is_some();
+        self.memory.level_shift = !zero && (level || self.memory.level_shift);
+        self.memory.shifted |= found.given & !found.incremental & 7;
+        if zero || self.memory.shifted == 7 {
             self.found(DATUM);
+            if !tilted {
+                self.found(INSIDE);
+            }
         }
         self.refresh_zero();
     }
@@ -156,9 +175,10 @@ impl Klartext<'_> {
     /// The machine stays where it is, so the position moves against the zero point.
     pub(crate) fn refresh_zero(&mut self) {
         let mut zero = self.memory.frames.selected;
-        for (value, local) in zero.iter_mut().zip(self.memory.frames.local) {
-            *value += local;
+        for (axis, value) in zero.iter_mut().enumerate() {
+            *value += self.memory.frames.outer_local(axis);
         }
+        self.shift_plane();
         let before = self.core.state.zero.values();
         if zero == before {
             return;
@@ -184,8 +204,9 @@ impl Klartext<'_> {
             .filter(|number| number.fract() == 0.0 && *number >= 0.0)
         else {
             Self::not_modelled("cycle 247: which preset", report);
-            return self.lose(DATUM);
+            return self.lose(PRESET);
         };
+        self.found(PRESET);
         let name = format!("preset {number}");
         let declared = self.core.setup.work_offset(&name).map(|offset| offset.values);
         if declared.is_none() && self.core.offsets_reported.first(&name) {

@@ -208,7 +208,7 @@ impl Klartext<'_> {
 
     /// Q202 of a cycle that drills in steps, and Q204: what is missing or negative is reported.
     fn unclear_steps(&mut self, hole: &Hole, report: &mut Report<'_>) -> bool {
-        let steps = matches!(hole.cycle, 200 | 203 | 205 | 208);
+        let steps = matches!(hole.cycle, 200 | 203 | 205);
         let needed = [(202, hole.peck, steps), (204, hole.second, true)];
         for (number, value, _) in needed.iter().filter(|needed| needed.2) {
             match value {

@@ -4,7 +4,7 @@
 //! the normal. POINTS: x from the first point to the second, the third on the side of y; the datum stays. Sources: TNC guide, PLANE SPATIAL;
 //! TNC 640 DIN/ISO 34059x p. 420 and 424. RELATIV: one angle, about an axis of the plane that is active (iTNC 530 340 422 user's manual, p. 456:
 //! it acts incrementally; TNC7 81762x-17: it is a transformation in the system of the working plane). Where the swivel leaves a rotary axis free,
-//! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED is not followed; AXIAL is in `axial`.
+//! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED is not followed; AXIAL is in `axial`, shifts inside a plane are in `plane_shift`.
 use super::Klartext;
 use super::datum::PLANE;
 use super::positioning::Positioning;
@@ -52,7 +52,7 @@ impl Klartext<'_> {
         let Some(turn) = turn else {
             Self::not_modelled(format!("PLANE {name}: its values, or the form itself"), report);
             self.memory.angles_wait = None;
-            return self.unknown_plane();
+            return self.unknown_plane(report);
         };
         self.set_plane(turn, Some(positioning), report);
         if positioning.turns_table && positioning.swivel.is_some() && turn[(2, 2)] == 1.0 {
@@ -81,14 +81,15 @@ impl Klartext<'_> {
         self.unknown_motion(report);
     }
 
-    pub(super) fn unknown_plane(&mut self) {
-        self.tilt_to(None);
+    pub(super) fn unknown_plane(&mut self, report: &mut Report<'_>) {
+        self.tilt_to(None, report);
         self.lose(PLANE);
     }
 
     fn reset_plane(&mut self, positioning: Positioning, report: &mut Report<'_>) {
         self.found(PLANE);
-        self.tilt_to(None);
+        self.tilt_to(None, report);
+        self.nothing_is_shifted();
         self.memory.angles_wait = None;
         if let Some(swivel) = positioning.swivel {
             self.turn_back(swivel, positioning.feed, report);
@@ -142,11 +143,7 @@ impl Klartext<'_> {
             return self.lose(PLANE);
         }
         // zero angles are a plane too: they do not reset, and the plane follows the part on an axis that stays turned
-        self.tilt_to(Some(Tilted {
-            origin: Vec3::zeros(),
-            turn,
-            programmed: false,
-        }));
+        self.tilt_to(Some(Tilted::turned(turn)), report);
         let posture = positioning.map_or(Posture::ByRule, |positioning| positioning.posture);
         self.memory.angles_wait = Some(posture);
         if let Some(Positioning {
@@ -169,7 +166,8 @@ impl Klartext<'_> {
     }
 
     /// Positions are in the coordinates of another plane from here on; the machine stays where it is.
-    fn tilt_to(&mut self, tilt: Option<Tilted>) {
+    fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
+        self.leave_plane(tilt.is_some_and(|tilt| tilt.turn != Mat3::identity()), report);
         if self.memory.frames.tilt == tilt {
             return;
         }
@@ -240,7 +238,7 @@ impl Klartext<'_> {
         let found = self.path_words(words, report);
         let zero = (3..6).all(|axis| found.given & (1 << axis) == 0 || found.values[axis] == Some(0.0));
         self.found(PLANE);
-        self.tilt_to(None);
+        self.tilt_to(None, report);
         if !zero {
             Self::not_modelled("cycle 19: a machine parameter decides what its angles are", report);
             self.lose(PLANE);

@@ -132,7 +132,12 @@ impl Klartext<'_> {
                 self.core.forget_position();
                 self.memory.parameters.lose();
             }
-            "TRANS" | "PRESET" => self.lose(super::datum::DATUM),
+            // cycle 7 ends a shift, but no rotation, mirror image or scaling
+            "TRANS" | "PRESET" => self.lose(match start.get(1).map(|word| word.to_ascii_uppercase()).as_deref() {
+                Some("DATUM") => super::datum::DATUM,
+                Some("SELECT") => super::datum::PRESET,
+                _ => super::datum::OTHER,
+            }),
             _ => {
                 self.core.forget_everything();
                 self.memory.parameters.lose();

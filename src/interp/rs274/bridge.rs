@@ -86,16 +86,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.fault(at, TextRange::default(), FaultKind::NotModelled { what });
     }
 
-    /// Reports compensation that begins with a radius of zero, because the tool is not declared.
-    pub(super) fn radius_unset(&mut self, state: &State, at: At) {
-        let on = state.side != trunnion_ngc::Side::Off;
-        let was = std::mem::replace(&mut self.calls.compensated, on);
-        if on && !was && state.radius == 0.0 && !state.radius_given {
-            let what = "cutter radius compensation: the diameter of the tool is not declared and is taken as zero";
-            self.not_modelled(at, 410..=422, what.to_owned());
-        }
-    }
-
     #[inline]
     pub(super) fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
         self.motion_to(kind, [end, shift.machine(&end)], shift, feed, at, state);

@@ -21,6 +21,8 @@ pub(super) struct CallState {
     pub(super) synced: Option<Rate>,
     /// G92 and the tool offset, mm and deg: that of the interpreter keeps its number when the unit changes, that of the machine its length.
     pub(super) g92: Pose,
+    /// The zero point in effect was taken from an undeclared position of the machine.
+    pub(super) set_here: bool,
     /// It was reported that no G5.3 has ended the spline.
     pub(super) spline_said: bool,
     /// The program has set the shift of G92, or cleared it: what the program before left no longer counts.

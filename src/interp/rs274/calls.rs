@@ -181,7 +181,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             Canon::G92Offset(ref offset) => {
                 self.calls.g92 = Shift::metric(offset, unit);
-                self.core.state.zero.set_here(self.calls.g92 != [0.0; 9]);
+                self.zero_set_here();
             }
             Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {
@@ -221,7 +221,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 self.tool_offset(offset, at, state);
             }
             Canon::G5xOffset(index, ref offset) => {
-                self.work_offset(index, offset, at);
+                self.work_offset(index, offset, at, state);
             }
             Canon::Units(units) => {
                 // the first one is the control's own, before the program

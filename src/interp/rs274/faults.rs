@@ -54,6 +54,10 @@ pub(super) fn fault_of(error: &Error) -> FaultKind {
             caller: None,
         };
     }
+    if let Some(message) = error.abort() {
+        let message = message.to_owned();
+        return FaultKind::ProgramAlarm { message };
+    }
     let refusal = match error.problem.class {
         Class::ProgramEnd => return FaultKind::MissingProgramEnd,
         Class::NotModelled => {

@@ -1,6 +1,6 @@
 //! The modal state for rules.
 use super::frames::Shift;
-use crate::{FeedMode, ModalState};
+use crate::{Beside, FeedMode, ModalState};
 use trunnion_dialect::Action;
 use trunnion_ngc::{DistanceMode, Side, State};
 
@@ -15,6 +15,11 @@ fn motion(code: i16) -> Option<Action> {
         _ if code < 0 || code == 800 => return None,
         _ => Action::NotModelled,
     })
+}
+
+/// Compensation with a radius of zero that the program does not give: nothing declares the tool.
+pub(super) fn lacks_radius(state: &State) -> bool {
+    state.side != Side::Off && state.radius == 0.0 && !state.radius_given
 }
 
 /// Copies the modal state of the interpreter except feed, spindle, tool and offsets, which calls set in step with motions.
@@ -36,6 +41,11 @@ pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
         Side::Off => 0,
         Side::Left => 41,
         Side::Right => 42,
+    };
+    modal.beside = if lacks_radius(state) {
+        Beside::Radius
+    } else {
+        Beside::Computed
     };
     modal.zero.set(shift.zero);
 }

@@ -4,6 +4,7 @@ use super::frames::Shift;
 use super::setup::{FIRST_SYSTEM, SYSTEMS};
 use crate::{FaultKind, LengthOf, Sink};
 use trunnion_ngc::{At, Canon, Pose, State};
+use trunnion_syntax::TextRange;
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
@@ -73,7 +74,38 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.fault(at, range, FaultKind::NotModelled { what });
     }
 
-    pub(super) fn work_offset(&mut self, index: i32, offset: &Pose, at: At) {
+    /// Reports compensation that begins with a radius of zero, because the tool is not declared.
+    pub(super) fn radius_unset(&mut self, state: &State, at: At) {
+        let on = state.side != trunnion_ngc::Side::Off;
+        let was = std::mem::replace(&mut self.calls.compensated, on);
+        if on
+            && !was
+            && super::modal::lacks_radius(state)
+            && !std::mem::replace(&mut self.core.compensation_reported, true)
+        {
+            let d = self.code_range(at, b'D', |_| true);
+            let tool = if d == TextRange::default() {
+                let name = self.core.tools.name();
+                if name == "T" {
+                    "the tool in use".to_owned()
+                } else {
+                    name
+                }
+            } else {
+                self.program.text(d).into_owned()
+            };
+            let range = self.code_range(at, b'G', |code| (410..=422).contains(&code));
+            self.fault(at, range, FaultKind::radius_lacks(&tool));
+        }
+    }
+
+    /// Says whether the zero point was set where the machine stands.
+    pub(super) fn zero_set_here(&mut self) {
+        let here = self.calls.set_here || self.calls.g92 != [0.0; 9];
+        self.core.state.zero.set_here(here);
+    }
+
+    pub(super) fn work_offset(&mut self, index: i32, offset: &Pose, at: At, state: &State) {
         let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
             return;
         };
@@ -88,8 +120,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let undeclared = if declared {
             0
         } else {
-            self.zeros_without_value(index, offset)
+            // what was taken from the position of the machine is as undeclared as this position
+            let from_position = state
+                .set_from_position
+                .get(index.unsigned_abs() as usize)
+                .copied()
+                .unwrap_or_default();
+            let known = if changed { 0 } else { !self.core.state.zero.undeclared() };
+            let rests = from_position & !known;
+            self.calls.set_here = rests != 0;
+            self.zeros_without_value(index, offset) | rests
         };
+        self.zero_set_here();
         self.core.state.zero.choose(Some((*name).into()), undeclared);
         let begun = self.core.last_content.is_some();
         if begun && changed && zero && !declared && self.core.offsets_reported.first(name) {

@@ -29,12 +29,12 @@ impl Iso<'_> {
                 self.core.unknown.end(off);
                 self.tcp_off();
             }
-            (Some(1), Some(first), _) if !on => self.tcp_on(first, false),
+            (Some(1), Some(first), _) if !on => self.tcp_on(first, false, report),
             (Some(1), ..) => {}
             (_, Some(first), _) => {
                 let what = format!("CYCLE832 with the mode {mode}: which transformation is on after it");
                 report.fault(found.range, FaultKind::NotModelled { what });
-                self.tcp_on(first, false);
+                self.tcp_on(first, false, report);
                 self.core.unknown.begin(first, true);
                 self.core.forget_position();
             }

@@ -10,7 +10,8 @@ use crate::{At, Canon, Class, Engine, Error, Problem, Sink};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
-const ABORT: Problem = Problem {
+/// The program stops itself.
+pub(crate) const ABORT: Problem = Problem {
     class: Class::Other,
     message: "Unknown error, bad error code",
     help: "The program itself stops here with (ABORT,...).",

@@ -19,11 +19,18 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     }
     let (stored, stored_rotation) = engine.stored_origin(index);
     let rotation = block.word(b'R').unwrap_or(stored_rotation);
-    let origin = if block.word(b'L') == Some(20.0) {
+    let from_position = block.word(b'L') == Some(20.0);
+    let origin = if from_position {
         origin_of_position(engine, block, &stored, rotation)
     } else {
         engine.over(block, stored)
     };
+    if let Some(axes) = engine.state.set_from_position.get_mut(index.unsigned_abs() as usize) {
+        let given = (0..9)
+            .filter(|axis| block.has(super::ends::AXES[*axis]))
+            .fold(0, |mask, axis| mask | 1 << axis);
+        *axes = if from_position { *axes | given } else { *axes & !given };
+    }
     let first = access::system(index);
     engine.store_pose(first, &origin);
     engine.set_parameter(first + 9, rotation);

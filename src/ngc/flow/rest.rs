@@ -8,6 +8,8 @@ impl Engine {
     /// Reports the errors of the text of lines that did not run: skipped branches, subprograms that are never called, what follows an
     /// undecided jump. After the end of the main program only subprograms are read: other text there is not part of the program.
     ///
+    /// Of a called file the first line with errors stands for all: often it is written for something else.
+    ///
     /// Values are not computed and codes are not run, so this finds less than a run.
     pub fn read_rest(&mut self, sink: &mut dyn Sink) {
         for file in 0..self.files.len() as u32 {
@@ -37,8 +39,9 @@ impl Engine {
             if behind && is_head(&compiled) {
                 inside = true;
             }
-            if (inside || !behind) && !self.flow.lines(file).has_run(place.line()) {
-                tell(&compiled, file, sink);
+            let unread = (inside || !behind) && !self.flow.lines(file).has_run(place.line());
+            if unread && tell(&compiled, file, sink) && file != FileId::MAIN {
+                return;
             }
             if behind && is_end(&compiled) {
                 inside = false;
@@ -88,15 +91,18 @@ fn is_end(compiled: &Compiled) -> bool {
         .is_some_and(|line| matches!(line.keyword, Keyword::EndSub | Keyword::ReturnNumbered))
 }
 
-fn tell(compiled: &Compiled, file: FileId, sink: &mut dyn Sink) {
+/// Reports the errors of a line; whether it has any.
+fn tell(compiled: &Compiled, file: FileId, sink: &mut dyn Sink) -> bool {
     let at = At {
         file,
         line: compiled.place.line(),
         ..At::default()
     };
+    let mut said = false;
     let mut say = |error: &Error| {
         let error = Error { file, ..error.clone() };
         sink.error(&error, at);
+        said = true;
     };
     if let Some(flaw) = &compiled.flaw {
         say(flaw);
@@ -114,4 +120,5 @@ fn tell(compiled: &Compiled, file: FileId, sink: &mut dyn Sink) {
             say(error);
         }
     }
+    said
 }

@@ -126,7 +126,11 @@ impl Engine {
         }
         self.put_back(compiled, keep);
         match *halt.0 {
-            Why::Refused(error) => self.refuse(&error, sink),
+            Why::Refused(error) => {
+                // what follows does not run
+                self.flow.ended |= error.abort().is_some();
+                self.refuse(&error, sink)
+            }
             Why::Told => Step::Refused,
             Why::Undecided(why) => self.give_up(why),
             Why::Endless(place) => {

@@ -78,6 +78,40 @@ pub(super) const UNKNOWN_VALUES: &[Item] = &[
         [2, 2],
     ),
     (
+        "a loop around a program that is missing",
+        ["fanuc-30i", ""],
+        [HEAD, "N10 G0 X10.\nM98 P9000\nGOTO 10\nM30\n"],
+        &["6 unknown not-decided", "7 error missing-subprogram"],
+        [2, 1_000_006],
+    ),
+    (
+        "an alarm of the program ends it",
+        ["linuxcnc", ""],
+        [
+            "",
+            "G21 G90 G54 G17 G94\nG0 X1 Y1 Z1\n(ABORT, no tool)\nG2 X5 Y5 R0\nM2\n",
+        ],
+        &["3 warning program-alarm"],
+        [1, 1],
+    ),
+    (
+        "two axes are a whole end where the third is never named",
+        ["linuxcnc", ""],
+        ["", "G21 G90 G18 G94\nM3 S100\nG0 X5 Z5\nG1 Z-5 F100\nX6 Z#100\nM2\n"],
+        &["5 unknown not-modelled"],
+        [2, 3],
+    ),
+    (
+        "cycle 208 has no Q202",
+        ["heidenhain-klartext", ""],
+        [
+            KLARTEXT,
+            "CYCL DEF 208 A ~\nQ200=2 ~\nQ201=-5 ~\nQ206=100 ~\nQ334=1 ~\nQ203=+0 ~\nQ204=20 ~\nQ335=20 ~\nQ342=0\nL X+5 FMAX M99\nL Z+100 FMAX\nM30\nEND PGM A MM\n",
+        ],
+        &["13 unknown not-modelled"],
+        [6, 7],
+    ),
+    (
         "two codes of one group where the last one wins",
         ["fanuc-30i", ""],
         [HEAD, "G90 G91 G28 Z0\nM30\n"],

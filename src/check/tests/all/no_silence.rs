@@ -17,7 +17,7 @@ const DIALECTS: [&str; 7] = [
     "okuma-osp",
 ];
 
-const CODES: [&str; 84] = [
+const CODES: [&str; 93] = [
     "G15 H1",
     "G16 H1",
     "G16 H0",
@@ -97,11 +97,20 @@ const CODES: [&str; 84] = [
     "TRAORI",
     "TRAFOOF",
     "TRANS",
+    "ATRANS",
     "ROT RPL=30",
+    "AROT",
+    "ASCALE",
+    "AMIRROR",
+    "TOROT",
+    "TOROTOF",
     "CYCLE81(5,0,2,-3)",
     "CYCLE83(5,0,2,-9,,-3,,1,,,1)",
     "MCALL",
     "CYCLE800()",
+    "CYCLE800(0,\"\",0,57,5,0,0,0,30,0,0,0,0,0)",
+    "CYCLE800(0,\"\",0,27,0,0,0,0,0,30,0,0,0,1)",
+    "CYCLE800(0,\"\",1,57,0,0,0,0,30,0,0,0,0,0)",
 ];
 
 /// A word with a number, or nothing.

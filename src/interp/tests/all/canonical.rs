@@ -221,8 +221,8 @@ fn letters_of_further_axes_are_words_where_the_machine_has_them() {
 fn a_diameter_of_zero_that_the_program_says_is_declared() {
     let told = |code: &str| faults("linuxcnc", &format!("G21 F100\nG0 X0 Y0\n{code}\nG1 X20\nG40\nM2\n"));
     assert_eq!(told("G41.1 D0"), [""; 0]);
-    assert!(told("G41")[0].contains("the diameter of the tool is not declared"));
-    assert!(told("G42 D3")[0].contains("the diameter of the tool is not declared"));
+    assert!(told("G41")[0].contains("the radius of the tool in use is not declared"));
+    assert!(told("G42 D3")[0].contains("the radius of D3 is not declared"));
 }
 
 #[test]

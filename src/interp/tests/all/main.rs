@@ -22,6 +22,7 @@ mod files;
 mod fold_samples;
 mod four_controls;
 mod frames;
+mod frames_in_planes;
 mod haas_planes;
 mod hand_parts;
 mod klartext;

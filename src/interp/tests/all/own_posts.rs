@@ -202,3 +202,38 @@ fn the_milled_part_of_the_folder_on_all_controls() {
     assert_eq!(left.count(), 0);
     assert!(inside > 20 && klartext.len() > 650, "{inside} {}", klartext.len());
 }
+
+/// Where each block of a program leads that names an axis: X Y Z A C, `None` where an axis is not known. Returns to the reference point, the dwells and
+/// places in machine coordinates do not count.
+fn targets(path: &str, dialect: &str) -> Option<Vec<[Option<f64>; 5]>> {
+    let motions = run_bytes(dialect, &shared(path)?, &Setup::default()).1.motions;
+    let counts = |motion: &&Motion| {
+        !motion.machine_coordinates
+            && matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_))
+    };
+    let place = |motion: &Motion| [0, 1, 2, 3, 5].map(|axis| motion.end.get(axis));
+    Some(motions.iter().filter(counts).map(place).collect())
+}
+
+/// The 761 blocks with an axis of the Fanuc program lead to the same 761 places, in their order, as those of the Sinumerik.
+#[test]
+fn the_milled_part_of_the_folder_has_761_targets() {
+    let (Some(fanuc), Some(siemens)) = (
+        targets("four-controls/fanuc/2.5D_MILLING.NC", "fanuc-30i"),
+        targets("four-controls/siemens/2.5D_Milling.mpf", "sinumerik-840d"),
+    ) else {
+        return;
+    };
+    assert_eq!((fanuc.len(), siemens.len()), (761, 761));
+    let mut whole = 0;
+    for (at, (one, two)) in fanuc.iter().zip(&siemens).enumerate() {
+        let same = one.iter().zip(two).all(|axes| match axes {
+            (Some(one), Some(two)) => (one - two).abs() <= 1e-3,
+            (one, two) => one.is_none() && two.is_none(),
+        });
+        assert!(same, "target {at}: {one:?} and {two:?}");
+        whole += usize::from(one.iter().all(Option::is_some));
+    }
+    // before the first block with Z after each of the four tool changes, Z is not known
+    assert_eq!(whole, 753);
+}

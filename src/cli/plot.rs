@@ -266,7 +266,7 @@ fn named(file: &Path, error: Drawing) -> Failure {
 }
 
 /// The header of a picture of a program on a machine.
-fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header {
+pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header {
     header_assuming(title, loaded, machine, &loaded.assumptions())
 }
 

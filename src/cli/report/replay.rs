@@ -154,3 +154,55 @@ pub(super) fn line_text(source: &[u8], index: &LineIndex, line: u32) -> String {
     }
     cut
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trunnion_plot::{Block, Sample};
+
+    /// Cuts of two samples each, every tenth of them after a rapid.
+    fn record(blocks: usize) -> Record {
+        let mut record = Record::default();
+        for at in 0..blocks {
+            let first = record.samples.len();
+            for _ in 0..2 {
+                record.samples.push(Sample {
+                    way: 0.0,
+                    time: 0.0,
+                    joints: Default::default(),
+                    tip: trunnion_geometry::Vec3::zeros(),
+                    axis: trunnion_geometry::Vec3::z(),
+                });
+            }
+            record.blocks.push(Block {
+                line: at as u32 + 1,
+                rapid: at % 10 == 0,
+                samples: first..first + 2,
+                joined: true,
+                deviation: None,
+                feed: [None; 2],
+                planned: None,
+                pole_angle: 0.0,
+            });
+        }
+        record
+    }
+
+    #[test]
+    fn a_long_run_has_no_more_points_than_a_browser_turns() {
+        let count = |blocks: usize, marked: &[u32]| {
+            let kept = kept(&record(blocks), &marked.iter().copied().collect());
+            (kept.iter().filter(|kept| **kept).count(), kept)
+        };
+        assert_eq!(count(MOST / 2, &[]).0, MOST);
+        for blocks in [MOST / 2 + 1, 100_000, 300_000] {
+            let (points, kept) = count(blocks, &[777, 77_777]);
+            assert!(points <= MOST && points >= MOST / 4, "{blocks} blocks: {points} points");
+            // the ends of what is found, and of the run
+            let ends = [777, 77_777].into_iter().filter(|line| *line <= blocks).chain([blocks]);
+            assert!(ends.into_iter().all(|line| kept[2 * line - 1]), "{blocks}");
+        }
+        // of a run that fits nearly, a rapid begins where it did
+        assert!(count(MOST / 2 + 1, &[]).1[20]);
+    }
+}

@@ -124,7 +124,7 @@ fn junit_obeys_its_schema() {
     let folder = folder();
     write(&folder, "h<o>&\"'.nc", "(<!-- ]]> \x01 -->)\nG1 X1\nG99999\n");
     let file = folder.path().join("report.xml");
-    let output = check(&folder, &[".", "--format", "junit", "-o", str(&file)]);
+    let output = check(&folder, &[".", "--format", "junit", "--statistics", "-o", str(&file)]);
     assert_eq!(status(&output), 1, "{}", text(&output.stderr));
     let schema = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/schemas/junit.xsd");
     match Command::new("xmllint")
@@ -212,6 +212,36 @@ fn an_output_file_holds_what_standard_output_would() {
     assert_eq!(status(&refused), 2, "{}", text(&refused.stderr));
 }
 
+/// The file of `-o` has the verdicts, and what was not covered, below the annotations.
+#[test]
+fn annotations_in_a_file_say_what_was_not_covered() {
+    let folder = folder();
+    write(
+        &folder,
+        "sub.nc",
+        &super::GOOD.replace("M30\n", "M30\nO7\nG1 X5. F100.\nM99\n"),
+    );
+    for arguments in [
+        &[".", "--format", "github", "-o", "out.txt"][..],
+        &["-q", ".", "--format", "github", "-o", "out.txt"],
+    ] {
+        check(&folder, arguments);
+        let file = std::fs::read_to_string(folder.path().join("out.txt")).expect("written");
+        for wanted in [
+            "\nFAIL ./bad.nc",
+            "\nPASS ./good.nc on mill-3axis: 10 of 10 blocks run",
+            "\n  not judged: corner-error: the machine file does not declare ",
+            "\n  not run: lines 13 to 15: subprogram-not-called\n",
+            "\n  assumed: tool length of H1 = 0",
+            "\n3 files: ",
+        ] {
+            assert!(file.contains(wanted), "{wanted:?} {file}");
+        }
+    }
+    let printed = text(&check(&folder, &[".", "--format", "github"]).stdout);
+    assert!(printed.contains("\n  not judged: corner-error"), "{printed}");
+}
+
 /// The log of a CI job shows what does not pass, and the sum.
 #[test]
 fn of_many_files_the_log_names_those_that_do_not_pass() {
@@ -250,8 +280,17 @@ fn statistics_count_each_rule() {
     let rows = document["statistics"].as_array().expect("rows");
     let sum: u64 = rows.iter().map(|row| row["errors"].as_u64().expect("a number")).sum();
     assert_eq!(document["summary"]["errors"].as_u64(), Some(sum));
-    let text = text(&check(&folder, &[".", "--format", "short", "--statistics"]).stdout);
-    assert!(text.contains("missing-feed"), "{text}");
+    for format in ["short", "pretty", "github", "sarif", "junit"] {
+        let said = text(&check(&folder, &[".", "--format", format, "--statistics"]).stdout);
+        let without = text(&check(&folder, &[".", "--format", format]).stdout);
+        let count = |text: &str| text.matches("missing-feed").count();
+        assert!(count(&said) > count(&without), "{format}: {said}");
+    }
+    let junit = text(&check(&folder, &[".", "--format", "junit", "--statistics"]).stdout);
+    assert!(
+        junit.contains("<property name=\"statistics.missing-feed\" value=\"error 1, warning 0, info 0, unknown 0\"/>"),
+        "{junit}"
+    );
 }
 
 #[test]

@@ -17,13 +17,8 @@ pub(crate) fn see(p: &Vec3) -> (f64, f64) {
     ((p.x + p.y) * ACROSS, (p.y - p.x) * UP + p.z * 2.0 * UP)
 }
 
-/// The floor of the box about the part, with ticks along X and Y in front and along Z at the left.
-pub(crate) fn draw_box(
-    flat: &Panel<'_>,
-    (unit, names): (Unit, &[String; 3]),
-    low: &Vec3,
-    high: &Vec3,
-) -> Result<(), PlotError> {
+/// The floor of the box about the part, and its edge along Z.
+pub(crate) fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
     let at = |x: f64, y: f64, z: f64| see(&Vec3::new(x, y, z));
     let floor = [
         at(low.x, low.y, low.z),
@@ -37,7 +32,16 @@ pub(crate) fn draw_box(
         [at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(),
         FLOOR,
         1.0,
-    )?;
+    )
+}
+
+/// The names of the axes, with ticks along X and Y in front and along Z at the left.
+pub(crate) fn draw_scale(
+    flat: &Panel<'_>,
+    (unit, names): (Unit, &[String; 3]),
+    low: &Vec3,
+    high: &Vec3,
+) -> Result<(), PlotError> {
     let size = (high - low).max().max(1e-3);
     let shown = unit.of_mm(size);
     let step = unit.to_mm(step(shown / 6.0));
@@ -80,7 +84,12 @@ pub(crate) fn draw_box(
         if axis == 2 && (ticks < 0 || !flat.shows(see(&(middle + beside * 3.0)))) {
             // no room beside the edge: above it
             let top = see(&place(high.z));
-            flat.write_inside(top, (0.0, -14.0), &name, (15.0, HPos::Center, VPos::Bottom))?;
+            let (off, side) = if ticks < 0 {
+                (6.0, HPos::Left)
+            } else {
+                (-6.0, HPos::Right)
+            };
+            flat.write_inside(top, (off, -14.0), &name, (15.0, side, VPos::Bottom))?;
         } else {
             flat.write_inside(see(&middle), (0.0, 0.0), &name, (15.0, anchor.0, anchor.1))?;
         }

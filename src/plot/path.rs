@@ -1,7 +1,7 @@
 //! The path of the tool tip in space: isometric with three views beside it, or in its plane where it lies in one.
 use crate::canvas::{Area, BLUE, Entry, GREY, Header, ORANGE, PlotError, Swatch, VERMILION, px, sheet};
 use crate::grid::{Frame, Panel, equal};
-use crate::isometric::{draw_box, see};
+use crate::isometric::{draw_box, draw_scale, see};
 use crate::record::{Block, Record};
 use crate::scale::{counted, range};
 use trunnion_geometry::Vec3;
@@ -109,7 +109,7 @@ impl<'r> Part<'r> {
         let rapids = record.blocks.iter().filter(|block| block.rapid).count();
         let cut_off = match self.cut_off {
             0 => String::new(),
-            some => format!(" ({some} of {rapids} reach beyond the frame)"),
+            some => format!(" ({some} of {rapids} reach beyond a view)"),
         };
         legend.push((Swatch::Dashed(GREY), format!("rapid{cut_off}")));
         if self.tilts {
@@ -190,8 +190,10 @@ impl<'r> Part<'r> {
     fn draw_space(&self, area: &Area<'_>) -> Result<(), PlotError> {
         let panel = Panel::bare(area, self.corners().map(|corner| see(&corner)));
         let names = LETTERS.map(|letter| self.record.axis_name(letter));
-        draw_box(&panel, (self.record.unit, &names), &self.low, &self.high)?;
-        self.draw(&panel, see)
+        draw_box(&panel, &self.low, &self.high)?;
+        self.draw(&panel, see)?;
+        // last: lines pass behind the texts
+        draw_scale(&panel, (self.record.unit, &names), &self.low, &self.high)
     }
 
     /// Seen at right angles to a plane, with the name of the view where there are several.

@@ -121,8 +121,8 @@ fn turns(worst: &ServoSpot) -> Result<(), PlotError> {
 /// The axes of the picture: along the incoming leg, across it, error.
 fn names(unit: Unit) -> [&'static str; 3] {
     match unit {
-        Unit::Mm => ["along the incoming leg / mm", "across it / mm", "error / um"],
-        Unit::Inch => ["along the incoming leg / in", "across it / in", "error / 0.001 in"],
+        Unit::Mm => ["along the incoming leg / mm", "across / mm", "error / um"],
+        Unit::Inch => ["along the incoming leg / in", "across / in", "error / 0.001 in"],
     }
 }
 

@@ -171,7 +171,7 @@ fn axes(found: &Diagnostic, machine: Option<&Machine>) -> Vec<char> {
     if let (Some(letter), None) = (letters.next(), letters.next()) {
         return vec![letter];
     }
-    let turns = matches!(found.rule, "pole-crossing" | "excess-rotary-travel");
+    let turns = matches!(found.rule, "pole-crossing" | "branch-swap" | "excess-rotary-travel");
     let rotary = machine.into_iter().filter(|_| turns).flat_map(Machine::own_axes);
     let rotary = rotary.filter(|(_, axis)| axis.kind == AxisKind::Rotary);
     rotary.map(|(_, axis)| char::from(axis.letter)).collect()

@@ -33,7 +33,7 @@ fn holes_and_rapids_that_leave_the_frame_are_seen() {
     }
     let all = record(&moves, UP);
     let svg = drawn(&all);
-    assert!(svg.contains("feed seen end-on (hole, plunge)") && svg.contains("rapid (1 of 6 reach beyond the frame)"));
+    assert!(svg.contains("feed seen end-on (hole, plunge)") && svg.contains("rapid (1 of 6 reach beyond a view)"));
     // one in the legend, three from above
     assert_eq!(svg.matches("<circle").count(), 4);
     assert!(!svg.contains("tool axis"), "it never turns");

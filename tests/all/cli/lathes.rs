@@ -209,11 +209,11 @@ fn a_report_on_a_lathe_says_radius_and_what_it_assumes() {
     let page = std::fs::read_to_string(folder.path().join("page.html")).expect("written");
     assert!(page.contains("UNKNOWN"), "{}", text(&output.stderr));
     for wanted in [
-        "<td>X programmed, as radius (words of X are diameters)</td><td>0 mm</td><td>31 mm</td>",
+        "<td>X programmed, as radius (words of X are diameters)</td><td>10 mm</td><td>50 mm</td>",
         "<td>X of the machine, as radius (words of X are diameters)</td>",
         "X (radius) / mm",
         "\"radius\":true",
-        "tool offset 1 = 0 (not declared): in pictures, replay and set-up sheet; the check leaves it open</li>",
+        "<li>the tool offset 1 = 0 (not declared): in pictures, replay and set-up sheet; the check leaves it open</li>",
         "; assuming ",
         "beyond a limit: X, Z",
     ] {

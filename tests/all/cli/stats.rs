@@ -32,7 +32,7 @@ fn the_counts_of_check_stats_and_plot_agree() {
     let klartext = "BEGIN PGM A MM\nL X+0 Y+0 FMAX\nL Z+5 FMAX\nL X+1 F100\nM30\nEND PGM A MM\n";
     for (name, program, dialect, blocks) in [
         ("a.nc", loop_of, "fanuc-30i", 11),
-        ("a.h", klartext, "heidenhain-klartext", 6),
+        ("a.h", klartext, "heidenhain-klartext", 5),
     ] {
         let file = write(&folder, name, program);
         let on = |command: &[&str]| {

@@ -212,36 +212,6 @@ fn an_output_file_holds_what_standard_output_would() {
     assert_eq!(status(&refused), 2, "{}", text(&refused.stderr));
 }
 
-/// The file of `-o` has the verdicts, and what was not covered, below the annotations.
-#[test]
-fn annotations_in_a_file_say_what_was_not_covered() {
-    let folder = folder();
-    write(
-        &folder,
-        "sub.nc",
-        &super::GOOD.replace("M30\n", "M30\nO7\nG1 X5. F100.\nM99\n"),
-    );
-    for arguments in [
-        &[".", "--format", "github", "-o", "out.txt"][..],
-        &["-q", ".", "--format", "github", "-o", "out.txt"],
-    ] {
-        check(&folder, arguments);
-        let file = std::fs::read_to_string(folder.path().join("out.txt")).expect("written");
-        for wanted in [
-            "\nFAIL ./bad.nc",
-            "\nPASS ./good.nc on mill-3axis: 10 of 10 blocks run",
-            "\n  not judged: corner-error: the machine file does not declare ",
-            "\n  not run: lines 13 to 15: subprogram-not-called\n",
-            "\n  assumed: tool length of H1 = 0",
-            "\n3 files: ",
-        ] {
-            assert!(file.contains(wanted), "{wanted:?} {file}");
-        }
-    }
-    let printed = text(&check(&folder, &[".", "--format", "github"]).stdout);
-    assert!(printed.contains("\n  not judged: corner-error"), "{printed}");
-}
-
 /// The log of a CI job shows what does not pass, and the sum.
 #[test]
 fn of_many_files_the_log_names_those_that_do_not_pass() {

@@ -42,6 +42,17 @@ pub(crate) struct Panel<'a> {
 const LEFT: f64 = 78.0;
 const BELOW: f64 = 50.0;
 
+/// A line that is longer than so many times width and height of its field is not dashed.
+const MOST_DASHED: f64 = 40.0;
+
+/// Length of a polyline.
+fn length(points: &[(f64, f64)]) -> f64 {
+    let parts = points
+        .windows(2)
+        .map(|two| trunnion_geometry::math::hypot(two[1].0 - two[0].0, two[1].1 - two[0].1));
+    parts.sum()
+}
+
 /// Ranges of equal scale about the given ones for the field of an area of this size (with labels at left and below).
 pub(crate) fn equal(x: [f64; 2], y: [f64; 2], size: (u32, u32), right: f64) -> ([f64; 2], [f64; 2]) {
     let scale = f64::from(SCALE);
@@ -208,8 +219,14 @@ impl<'a> Panel<'a> {
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        let runs = self.visible(points).into_iter();
-        self.strokes(runs.flat_map(|run| dashes(&run, 7.0, 5.0)), colour, pixels)
+        let runs = self.visible(points);
+        let length: f64 = runs.iter().map(|run| length(run)).sum();
+        if length > MOST_DASHED * (self.width + self.height) {
+            // it fills the field: dashes would not be told apart, and each is an element of its own
+            let whole = runs.into_iter().map(|run| run.into_iter().map(Self::whole).collect());
+            return self.strokes(whole, colour, 0.5 * pixels);
+        }
+        self.strokes(runs.iter().flat_map(|run| dashes(run, 7.0, 5.0)), colour, pixels)
     }
 
     fn strokes(

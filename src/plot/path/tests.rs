@@ -1,3 +1,4 @@
+//! Views, marks and legends of a path.
 use super::*;
 use crate::texts::{header, overlaps, record};
 

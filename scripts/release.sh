@@ -51,7 +51,7 @@ else
   rest+=("documentation site: mdBook is not installed (cargo install mdbook --locked; then: bash scripts/site.sh)")
 fi
 for target in x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu x86_64-apple-darwin aarch64-apple-darwin x86_64-pc-windows-msvc; do
-  [ "$target" = "$host" ] || rest+=("binary for $target: build it on such a computer with this script")
+  [ "$target" = "$host" ] || rest+=("binary, Python wheel and VS Code package for $target: build them on such a computer with this script")
 done
 
 echo "built in $out:"

@@ -1,5 +1,5 @@
 //! What requests read, immutable: a parsed version of a document, and its analysis.
-use crate::{part::LARGE, position::line_starts};
+use crate::{part::LARGE, position::Lines};
 use std::{
     path::PathBuf,
     sync::{Arc, OnceLock},
@@ -20,7 +20,7 @@ pub(crate) struct Parsed {
     /// Text, which is UTF-8: the source of the program.
     pub(crate) text: Arc<Vec<u8>>,
     /// Line starts of the text.
-    pub(crate) starts: Vec<u32>,
+    pub(crate) starts: Lines,
     /// The program with its settings; or why the settings cannot be used.
     pub(crate) outcome: Result<Source, LoadError>,
     /// It is a settings or machine file, and no program.
@@ -39,7 +39,7 @@ impl Parsed {
         let program = &source.program;
         let begins = |(block, start): (Block<'_>, &u32)| block.range().start == *start;
         // an empty line after the last line end is no block
-        program.block_count() + 1 >= self.starts.len() && program.blocks().zip(&self.starts).all(begins)
+        program.block_count() + 1 >= self.starts.len() && program.blocks().zip(self.starts.iter()).all(begins)
     }
 }
 
@@ -127,7 +127,7 @@ pub(crate) fn settings_of(uri: &Url, text: &[u8], overrides: &Overrides) -> Resu
 /// Parses a version of a document, a long one on this many threads.
 pub(crate) fn parse(uri: Url, version: i32, text: String, overrides: &Overrides, threads: usize) -> Parsed {
     let toml = toml_file(&uri, &text);
-    let starts = line_starts(text.as_bytes());
+    let starts = Lines::new(text.as_bytes());
     let text = text.into_bytes();
     let settings = if toml.is_some() {
         Err(LoadError::new("this is no program"))

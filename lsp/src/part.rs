@@ -5,13 +5,14 @@
 //! what it finds replaces what a part found.
 use crate::{
     analysis::{Analysed, Parsed, Source, settings_of},
+    position::Lines,
     text::Text,
 };
 use core::ops::Range;
 use std::{sync::Arc, time::Duration};
 use tower_lsp::lsp_types::Url;
 use trunnion_check::Session;
-use trunnion_syntax::{BlockId, Program, line_starts_after, parse_after};
+use trunnion_syntax::{BlockId, Program, parse_after};
 use trunnion_workspace::{Overrides, Resolved};
 
 /// Documents with more bytes are read in parts.
@@ -115,7 +116,7 @@ impl Plan {
         Parsed {
             uri: self.uri.clone(),
             version: self.version,
-            starts: line_starts_after(before as u32, text.as_bytes()),
+            starts: Lines::after(before as u32, text.as_bytes()),
             text: program.shared_source(),
             outcome: Ok(Source::new(program, resolved)),
             toml: None,

@@ -1,8 +1,9 @@
 //! The text of a document in pieces, so that an edit copies one of them and not the file.
-use crate::position::{Encoding, line_starts, offset};
+use crate::position::{Encoding, Lines, offset};
 use core::ops::Range;
 use std::sync::Arc;
 use tower_lsp::lsp_types::Position;
+use trunnion_syntax::line_starts;
 
 /// Pieces have about this many bytes.
 const PIECE: usize = 1 << 15;
@@ -83,7 +84,7 @@ impl Text {
         };
         let inside = Position::new(position.line - first as u32, position.character);
         let text = piece.text.as_bytes();
-        byte + offset(text, &line_starts(text), inside, encoding)
+        byte + offset(text, &Lines::new(text), inside, encoding)
     }
 
     /// Whole lines.
@@ -157,12 +158,12 @@ impl Text {
 #[cfg(test)]
 mod tests {
     use super::{PIECE, Text};
-    use crate::position::{Encoding, line_starts, offset};
+    use crate::position::{Encoding, Lines, offset};
     use tower_lsp::lsp_types::Position;
 
     fn compare(text: &Text, plain: &str) {
         assert_eq!(text.whole(), plain);
-        let starts = line_starts(plain.as_bytes());
+        let starts = Lines::new(plain.as_bytes());
         assert_eq!(text.lines(), starts.len());
         let half = starts.len() / 2;
         assert_eq!(text.behind(half).collect::<String>(), plain[starts[half] as usize..]);

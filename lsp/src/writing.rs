@@ -191,7 +191,7 @@ pub(crate) fn colours(snapshot: &Snapshot, range: Range) -> Vec<SemanticToken> {
         return Vec::new();
     };
     let list = tokens(piece, source.resolved.dialect.lex, source.resolved.dialect);
-    let local = crate::position::line_starts(piece);
+    let local = crate::position::Lines::new(piece);
     let mut found = Vec::with_capacity(list.len());
     let (mut last_line, mut last_column) = (0, 0);
     for token in list {

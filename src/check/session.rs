@@ -56,8 +56,8 @@ struct CheckPoint {
     pass: PassMemory,
 }
 
-/// An analysed program with check-points, 1024 executed blocks or more apart: where a run has named many labels each check-point copies
-/// them, and they are as many blocks apart, so that all together take memory in proportion to the program.
+/// An analysed program with check-points, 1024 executed blocks or more apart: where a run has named many labels, reported many faults or set many
+/// variables, each check-point copies them, and they are as many blocks apart, so that all together take memory in proportion to the program.
 #[derive(Clone)]
 pub struct Session {
     /// The report.

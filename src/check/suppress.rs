@@ -4,7 +4,7 @@
 //! `broken-directive` says so.
 use core::cell::Cell;
 use trunnion_interp::Directive;
-use trunnion_syntax::{BlockId, Item, Program, TextRange};
+use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// One comment that allows a rule.
 struct Allowed {
@@ -96,24 +96,7 @@ impl Suppressions {
 /// Whether a block has more than comments and the `%` that frames a tape.
 #[inline]
 pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
-    let first = program.block(block).first_byte();
-    first.is_some_and(|byte| byte.is_ascii_alphabetic()) || has_code_inside(program, block)
-}
-
-#[inline(never)]
-fn has_code_inside(program: &Program, block: BlockId) -> bool {
-    let view = program.block(block);
-    let text = &program.source()[view.range().as_usize()];
-    match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
-        None => return false,
-        // a letter begins a word, a name or a record in either format
-        Some(byte) if byte.is_ascii_alphabetic() => return true,
-        Some(_) => {}
-    }
-    view.record().is_some()
-        || view
-            .items()
-            .any(|item| !matches!(item, Item::Comment(_) | Item::Percent(_)))
+    program.block(block).has_code()
 }
 
 #[cfg(test)]

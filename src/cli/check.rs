@@ -141,8 +141,10 @@ fn once(global: &Global, command: &Check) -> Result<Done, Failure> {
 enum Lines {
     /// Into the document, after all files.
     Last,
-    /// Into the document, after their file.
+    /// Into the document, after their file, each with what was not covered.
     Here,
+    /// The same, and to standard error, because the document is a file.
+    HereAndRemarks,
     /// To standard error.
     Remarks,
     /// Nowhere: the document has the verdicts itself.
@@ -152,6 +154,7 @@ enum Lines {
 impl Lines {
     fn of(job: &Job<'_>) -> Self {
         match job.format {
+            CheckFormat::Github if job.command.output.is_some() => Self::HereAndRemarks,
             _ if job.command.output.is_some() => Self::Remarks,
             CheckFormat::Pretty => Self::Last,
             CheckFormat::Github => Self::Here,
@@ -188,11 +191,18 @@ fn print(
                 failed.get_or_insert(error);
             }
             match lines {
+                Lines::HereAndRemarks => {
+                    // it is part of the file that was asked for
+                    let _ = document.line(&format!("{}{}", file.line, file.about));
+                    if !brief || file.verdict != "pass" {
+                        remark(quiet, &file.line);
+                    }
+                }
                 _ if brief && file.verdict == "pass" => {}
                 Lines::Last => last_lines.push(file.line),
                 Lines::Here if !quiet => {
                     // standard output keeps its errors for the end
-                    let _ = document.line(&file.line);
+                    let _ = document.line(&format!("{}{}", file.line, file.about));
                 }
                 Lines::Remarks => {
                     document.flush();
@@ -207,6 +217,9 @@ fn print(
         return Err(error.into());
     }
     document.end(tally, job.command.statistics)?;
+    if lines == Lines::HereAndRemarks && found.walked {
+        let _ = document.line(&tally.line());
+    }
     if !quiet {
         let note = if brief && tally.pass > 0 {
             " (-v prints a line for each file that passes too)"
@@ -220,7 +233,7 @@ fn print(
                     let _ = document.line(line);
                 }
             }
-            Lines::Remarks => last_lines.iter().for_each(|line| remark(false, line)),
+            Lines::Remarks | Lines::HereAndRemarks => last_lines.iter().for_each(|line| remark(false, line)),
             Lines::Nowhere => {}
         }
     }

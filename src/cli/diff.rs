@@ -6,7 +6,6 @@ use super::{
     Done,
     args::{ClaimOf, Global},
     failure::{Failure, remark},
-    json::write_json,
     load, waiting,
 };
 use crate::cli::out::Out;
@@ -73,7 +72,7 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
     let mut out = Out::standard();
     match command.format {
-        DiffFormat::Json => write_json(&mut out, &json::json(&before, &after, &found, tolerance))?,
+        DiffFormat::Json => json::write(&mut out, [&before, &after], &found, tolerance)?,
         DiffFormat::Pretty => out.text(&show::text(&before, &after, &found, tolerance, limit)),
     }
     out.flush()?;

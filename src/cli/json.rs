@@ -1,6 +1,7 @@
 //! JSON for people's programs: the document of `check` (its files are made by `document`), and how any document is written.
 use super::failure::Failure;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
+use serde_json::Value;
 use std::io::Write;
 pub(super) use trunnion_document::{File, Item, tidy};
 
@@ -28,6 +29,38 @@ impl NotChecked {
         } else {
             format!("{place}: {message}")
         }
+    }
+}
+
+/// A document with a long list, which is made and written item by item: a whole list of JSON values takes many times the bytes that are written.
+pub(super) struct Listed<F> {
+    /// The document, with any value under the key of the list.
+    pub(super) document: serde_json::Map<String, Value>,
+    /// The key.
+    pub(super) key: &'static str,
+    /// Makes the items.
+    pub(super) items: F,
+}
+
+impl<I: Iterator<Item = Value>, F: Fn() -> I> Serialize for Listed<F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.document.len()))?;
+        for (key, value) in &self.document {
+            if key == self.key {
+                map.serialize_entry(key, &Items(&self.items))?;
+            } else {
+                map.serialize_entry(key, value)?;
+            }
+        }
+        map.end()
+    }
+}
+
+struct Items<'a, F>(&'a F);
+
+impl<I: Iterator<Item = Value>, F: Fn() -> I> Serialize for Items<'_, F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((self.0)())
     }
 }
 

@@ -116,16 +116,8 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         }
         record
     });
-    if record.unknown > 0 {
-        let count = record.unknown;
-        remark(
-            global.quiet,
-            &format!(
-                "{}: not drawn: {} without a known start or end; see `trunnion check`",
-                loaded.name,
-                crate::cli::verdict::counted(count as u64, "motion")
-            ),
-        );
+    if let Some(left_out) = record.not_drawn() {
+        remark(global.quiet, &format!("{}: {left_out}", loaded.name));
     }
     if let Some(line) = record.coarse_from {
         remark(
@@ -275,6 +267,11 @@ fn named(file: &Path, error: Drawing) -> Failure {
 
 /// The header of a picture of a program on a machine.
 pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header {
+    header_assuming(title, loaded, machine, &loaded.assumptions())
+}
+
+/// The same of a program that is known to assume these values: they are part of what is drawn.
+pub(super) fn header_assuming(title: &str, loaded: &Loaded, machine: &Machine, assumed: &[String]) -> Header {
     let file = Path::new(&loaded.name);
     let name = file
         .file_name()
@@ -282,9 +279,27 @@ pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header 
     let subtitle = format!(
         "machine {} ({}), dialect {}",
         machine.name, machine.id, loaded.resolved.dialect.name
-    );
+    ) + &assuming(assumed);
     Header {
         title: shown(&format!("{title}: {name}")).into_owned(),
         subtitle: shown(&subtitle).into_owned(),
     }
+}
+
+/// `; assuming tool offset 1 = 0, G54 = 0 and 3 more`.
+fn assuming(assumed: &[String]) -> String {
+    const MOST: usize = 3;
+    if assumed.is_empty() {
+        return String::new();
+    }
+    let named: Vec<&str> = assumed
+        .iter()
+        .take(MOST)
+        .map(|text| text.trim_end_matches(" (not declared)"))
+        .collect();
+    let more = match assumed.len() {
+        0..=MOST => String::new(),
+        all => format!(" and {} more", all - MOST),
+    };
+    format!("; assuming {}{more}", named.join(", "))
 }

@@ -125,10 +125,12 @@ struct Part {
     /// Name and value: machine, dialect, scope, coverage.
     facts: Vec<(&'static str, String)>,
     assumptions: Vec<String>,
+    /// What only pictures, replay and set-up sheet assume: the check leaves it open.
+    drawn_with: Vec<String>,
     findings: Vec<page::Shown>,
     /// Title and SVG, or why there is none.
     pictures: Vec<(&'static str, Result<String, String>)>,
-    replay: Option<String>,
+    replay: Option<replay::Data>,
     sheet: Vec<sheet::Table>,
     /// The program moves in inch: its pictures are in inch.
     inch: bool,
@@ -141,7 +143,7 @@ impl Part {
             .pictures
             .iter()
             .map(|(_, drawn)| drawn.as_ref().map_or(0, String::len));
-        pictures.sum::<usize>() + self.replay.as_ref().map_or(0, String::len)
+        pictures.sum::<usize>() + self.replay.as_ref().map_or(0, |data| data.json.len())
     }
 }
 
@@ -176,14 +178,17 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     let findings = page::findings(&loaded, &report);
     // the verdict is that of a check; pictures and tables are of every step
     loaded.resolved.setup.limits = loaded.resolved.setup.limits.of_steps();
+    let assumed = if readable { loaded.assumptions() } else { Vec::new() };
     let (pictures, replay) = match &loaded.resolved.machine {
-        Some(machine) if readable => drawn(&loaded, machine, &report),
+        Some(machine) if readable => drawn(&loaded, machine, &report, &assumed),
         _ => (Vec::new(), None),
     };
     let tally = readable.then(|| Tally::of(loaded.input()));
-    let sheet = tally
-        .as_ref()
-        .map_or_else(Vec::new, |tally| sheet::tables(&loaded, tally, report.cycle_time_s));
+    let sheet = tally.as_ref().map_or_else(Vec::new, |tally| {
+        sheet::tables(&loaded, &assumed, tally, report.cycle_time_s)
+    });
+    let known = |text: &String| !report.assumptions.contains(text);
+    let drawn_with = assumed.into_iter().filter(known).collect();
     let part = Part {
         verdict,
         judged_in,
@@ -192,6 +197,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         facts,
         findings,
         assumptions: report.assumptions,
+        drawn_with,
         pictures,
         replay,
         sheet,
@@ -207,11 +213,12 @@ fn drawn(
     loaded: &Loaded,
     machine: &Machine,
     report: &Checked,
-) -> (Vec<(&'static str, Result<String, String>)>, Option<String>) {
+    assumed: &[String],
+) -> (Vec<(&'static str, Result<String, String>)>, Option<replay::Data>) {
     let mut record = plot::gather(loaded, machine, None);
     plot::plan(loaded, machine, &mut record);
     let marks = plot::marks_of(report, loaded, None);
-    let head = |title: &str| plot::header(title, loaded, machine);
+    let head = |title: &str| plot::header_assuming(title, loaded, machine, assumed);
     let text = |drawn: Result<String, PlotError>| drawn.map_err(|error| error.0);
     let tolerance = machine.tolerances.tip_mm;
     let mut pictures = vec![

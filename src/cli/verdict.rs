@@ -63,7 +63,7 @@ pub(super) fn not_looked_at(file: &Judged<'_>) -> Vec<String> {
     if c.motions_known < c.motions {
         let unknown = c.motions - c.motions_known;
         left.push(format!(
-            "the path of {unknown} of {}, which is unknown",
+            "where {unknown} of {} end, which is unknown",
             counted(c.motions, "motion")
         ));
     }

@@ -91,6 +91,9 @@ pub enum BlockBudget {
     },
 }
 
+/// A call stores as much as so many entries of other lists: its variables.
+const CALL: usize = 16;
+
 /// Loops that are counted; others are named by the block that ran last.
 const LOOPS: usize = 1 << 16;
 
@@ -153,6 +156,11 @@ impl<L> Course<L> {
     /// How many calls and repeated sections are open.
     pub fn depth(&self) -> usize {
         self.calls.len()
+    }
+
+    /// How many entries of lists that grow with the program a clone copies.
+    pub fn copied(&self) -> usize {
+        self.calls.len() * CALL + self.turns.len() + self.ran.copied()
     }
 
     /// Whether a block of the main program's file ran before the current range.

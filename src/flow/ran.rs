@@ -9,6 +9,11 @@ pub struct Ran {
 }
 
 impl Ran {
+    /// Words that a clone copies.
+    pub fn copied(&self) -> usize {
+        self.bits.len()
+    }
+
     /// The range up to `end` (not included) has run; another begins at `next`.
     pub fn jump(&mut self, end: u32, next: u32) {
         self.add(self.from, end);

@@ -125,6 +125,14 @@ impl Trail {
 }
 
 impl Flow {
+    /// How many entries of lists that grow with the program a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        let trail = self.trail.as_ref();
+        let deep = self.deep.as_ref();
+        trail.map_or(0, |trail| trail.course.copied() + trail.reported.copied())
+            + deep.map_or(0, |deep| deep.variables.copied())
+    }
+
     /// What jumps, loops and calls need.
     pub(crate) fn trail(&mut self) -> &mut Trail {
         self.trail.get_or_insert_default()

@@ -122,6 +122,9 @@ impl<'d> Engine<'d> for Klartext<'d> {
     fn core_mut(&mut self) -> &mut Core<'d> {
         &mut self.core
     }
+    fn copied(&self) -> usize {
+        self.flow.course.copied() + self.flow.reported.copied() + self.memory.parameters.copied()
+    }
     fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         self.run_next(program, sink)
     }

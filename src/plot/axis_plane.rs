@@ -355,6 +355,7 @@ mod tests {
                     .map(|(line, rule)| Mark {
                         line,
                         rule: (*rule).to_owned(),
+                        axes: Vec::new(),
                     })
                     .collect();
                 for within in [

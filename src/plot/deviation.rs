@@ -3,12 +3,13 @@ use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, shee
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
 use crate::scale::{Height, counted, range};
+use crate::unit::Unit;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Draws it; `tolerance` in mm.
 ///
 /// # Errors
-/// No deviation of any feed block is known.
+/// No deviation of any feed block is known, or all are proven to be too small to be seen.
 pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<String, PlotError> {
     let known: Vec<(&Block, [f64; 2])> = record
         .blocks
@@ -26,6 +27,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         .iter()
         .filter(|block| !block.rapid && block.deviation.is_none())
         .count();
+    nothing(&known, unjudged, tolerance, record.unit)?;
     // far above the tolerance a linear scale would hide it
     let decades = *most > 20.0 * tolerance;
     let unit = record.unit;
@@ -93,6 +95,31 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
     })
 }
 
+/// A deviation below this share of the tolerance is not seen beside it.
+const UNSEEN: f64 = 0.02;
+
+/// Says in a sentence what a picture of nothing would show.
+fn nothing(known: &[(&Block, [f64; 2])], unjudged: usize, tolerance: f64, unit: Unit) -> Result<(), PlotError> {
+    let most = known.iter().map(|(_, [_, bound])| *bound).fold(0.0, f64::max);
+    if most > UNSEEN * tolerance {
+        return Ok(());
+    }
+    let digits = unit.digits(4);
+    let rest = match unjudged {
+        0 => "feed block".to_owned(),
+        some => format!(
+            "feed block where it is known; it is unknown in {}",
+            counted(some, "block")
+        ),
+    };
+    Err(PlotError(format!(
+        "nothing to draw: the tip stays within {} {} of the programmed segment (proven; tolerance {}) in every {rest}",
+        above(unit.of_mm(most), digits),
+        unit.name(),
+        unit.declared(tolerance)
+    )))
+}
+
 /// A bound with some decimals, never below itself.
 fn above(bound: f64, digits: usize) -> String {
     let parts = (0..digits).fold(1.0, |parts, _| parts * 10.0);
@@ -113,7 +140,26 @@ fn legend(tolerance: &str, unjudged: usize) -> Vec<Entry> {
 
 #[cfg(test)]
 mod tests {
-    use super::above;
+    use super::*;
+    use crate::texts::{header, record};
+    use trunnion_geometry::Vec3;
+
+    #[test]
+    fn where_nothing_is_seen_a_sentence_says_so() {
+        let moves = [0.0, 9.0, 20.0, 30.0].map(|x| ('f', Vec3::new(x, 0.0, 0.0)));
+        let mut record = record(&moves, |_| Vec3::z());
+        let refused = deviation(&header(), &record, 0.01).expect_err("nothing").0;
+        assert!(
+            refused.ends_with("0.0001 mm of the programmed segment (proven; tolerance 0.01 mm) in every feed block"),
+            "{refused}"
+        );
+        record.blocks[0].deviation = None;
+        let refused = deviation(&header(), &record, 0.01).expect_err("nothing").0;
+        assert!(refused.ends_with("it is unknown in 1 block"), "{refused}");
+        // the proven bound counts, not the largest sample
+        record.blocks[2].deviation = Some([0.0, 0.003]);
+        assert!(deviation(&header(), &record, 0.01).is_ok());
+    }
 
     #[test]
     fn a_bound_is_above_itself() {

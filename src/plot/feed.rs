@@ -78,15 +78,18 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
                 gap.into_iter().chain([(from, at), (to, at)])
             })
         };
-        panel.line(stairs(1), BLUE, 1.6)?;
-        panel.dashed(stairs(0), VERMILION, 1.8)?;
         let height = |feed: f64| value(feed.min(top)).max(upwards[0]);
-        panel.dots(places(record, not_reached(&cuts), height), VERMILION, 3.0)?;
-        if !planned {
-            return Ok(());
+        panel.line(stairs(1), BLUE, 1.6)?;
+        if planned {
+            panel.line(course(record, height).into_iter(), GREEN, 1.8)?;
         }
-        panel.line(course(record, height).into_iter(), GREEN, 1.2)?;
-        panel.dots(places(record, slow(&cuts), height), GREEN, 3.0)
+        // dashed, over the others: both are seen where they are the same
+        panel.dashed(stairs(0), VERMILION, 1.4)?;
+        panel.dots(places(record, not_reached(&cuts), height), VERMILION, 3.0)?;
+        if planned {
+            panel.dots(places(record, slow(&cuts), height), GREEN, 3.0)?;
+        }
+        Ok(())
     })
 }
 
@@ -142,31 +145,32 @@ fn places<'b>(
 }
 
 fn legend(cuts: &[&Block], planned: bool, (top, unit): (f64, Unit)) -> Vec<Entry> {
-    let above = |block: &&&Block| block.feed[1].is_some_and(|feed| feed > top * (1.0 + 1e-9));
-    let limit = if cuts.iter().any(|block| above(&block)) {
-        format!(
-            "highest feed that no axis limits, where it is below {}/min",
-            unit.text(top, 0)
-        )
-    } else {
-        "highest feed that no axis limits".to_owned()
-    };
+    let is_above = |feed: f64| feed > top * (1.0 + 1e-9);
+    let limits = || cuts.iter().filter_map(|block| block.feed[1]);
+    let mut legend: Vec<Entry> = vec![(Swatch::Dashed(VERMILION), "programmed feed".into())];
+    let top = format!("{}/min", unit.text(top, 0));
+    let drawn = limits().any(|feed| !is_above(feed));
+    match (drawn, limits().any(is_above)) {
+        (true, true) => legend.push((
+            Swatch::Line(BLUE),
+            format!("highest feed that the axes allow (not drawn above {top})"),
+        )),
+        (true, false) => legend.push((Swatch::Line(BLUE), "highest feed that the axes allow".into())),
+        (false, true) => legend.push((Swatch::Plain, format!("the axes allow more than {top}"))),
+        (false, false) => {}
+    }
     let low = not_reached(cuts).count();
-    let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), limit),
-        (Swatch::Dashed(VERMILION), "programmed feed".into()),
-        (
-            Swatch::Dot(VERMILION),
-            format!("not reached in {}", counted(low, "block")),
-        ),
-    ];
+    if low > 0 {
+        let text = format!("not reached in {}", counted(low, "block"));
+        legend.push((Swatch::Dot(VERMILION), text));
+    }
     if planned {
-        let slow = slow(cuts).count();
         legend.push((Swatch::Line(GREEN), "planned feed (corners, acceleration, jerk)".into()));
-        legend.push((
-            Swatch::Dot(GREEN),
-            format!("mean below 80 % of F in {}", counted(slow, "block")),
-        ));
+        let slow = slow(cuts).count();
+        if slow > 0 {
+            let text = format!("mean below 80 % of F in {}", counted(slow, "block"));
+            legend.push((Swatch::Dot(GREEN), text));
+        }
     }
     legend
 }
@@ -217,6 +221,50 @@ mod tests {
     use super::*;
     use crate::texts::{header, record};
     use trunnion_geometry::Vec3;
+
+    /// The legend names what is drawn and nothing else.
+    #[test]
+    fn the_legend_names_the_lines_that_are_drawn() {
+        let moves = [0.0, 9.0, 20.0].map(|x| ('f', Vec3::new(x, 0.0, 0.0)));
+        let mut record = record(&moves, |_| Vec3::z());
+        let texts = |record: &Record| {
+            let cuts: Vec<&Block> = record.blocks.iter().collect();
+            let entries = legend(&cuts, false, (1100.0, Unit::Mm));
+            entries.into_iter().map(|entry| entry.1).collect::<Vec<_>>()
+        };
+        assert_eq!(texts(&record), ["programmed feed"]);
+        for block in &mut record.blocks {
+            block.feed[1] = Some(9000.0);
+        }
+        assert_eq!(
+            texts(&record),
+            ["programmed feed", "the axes allow more than 1100 mm/min"]
+        );
+        record.blocks[0].feed[1] = Some(500.0);
+        assert_eq!(
+            texts(&record),
+            [
+                "programmed feed",
+                "highest feed that the axes allow (not drawn above 1100 mm/min)",
+                "not reached in 1 block"
+            ]
+        );
+    }
+
+    /// A programmed feed that changes in each of a hundred thousand blocks is one line, not a dash for each twelve pixels.
+    #[test]
+    fn a_picture_of_many_blocks_stays_small() {
+        let moves: Vec<(char, Vec3)> = (0..100_000).map(|x| ('f', Vec3::new(f64::from(x), 0.0, 0.0))).collect();
+        let mut record = record(&moves, |_| Vec3::z());
+        for (at, block) in record.blocks.iter_mut().enumerate() {
+            block.feed = [Some(200.0 + 100.0 * (at % 7) as f64), Some(900.0)];
+        }
+        let svg = feed(&header(), &record).expect("drawn");
+        assert!(svg.len() < 400_000, "{} bytes", svg.len());
+        record.blocks.truncate(50);
+        let few = feed(&header(), &record).expect("drawn");
+        assert!(few.matches("<polyline").count() > 100, "dashes");
+    }
 
     #[test]
     fn a_tip_that_rests_has_no_feed_over_its_travel() {

@@ -1,11 +1,12 @@
 //! One field of a picture: axes with ticks and units, and drawing in the units of the data.
-use crate::canvas::{Area, GREY, INK, PALE, PlotError, SCALE, anchored, dashes, draw_symbol, font, px};
-use crate::labels::{Labels, Wish};
+mod text;
+
+use crate::canvas::{Area, GREY, PALE, PlotError, SCALE, dashes, draw_symbol, font, px};
+use crate::labels::Labels;
 use crate::marks::Marked;
 use crate::scale::{power, short};
 use crate::thin::{clip, thin};
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
 
 /// How a field is framed.
 pub(crate) struct Frame<'t> {
@@ -40,6 +41,17 @@ pub(crate) struct Panel<'a> {
 /// Room for the labels at the left and below, pixels.
 const LEFT: f64 = 78.0;
 const BELOW: f64 = 50.0;
+
+/// A line that is longer than so many times width and height of its field is not dashed.
+const MOST_DASHED: f64 = 40.0;
+
+/// Length of a polyline.
+fn length(points: &[(f64, f64)]) -> f64 {
+    let parts = points
+        .windows(2)
+        .map(|two| trunnion_geometry::math::hypot(two[1].0 - two[0].0, two[1].1 - two[0].1));
+    parts.sum()
+}
 
 /// Ranges of equal scale about the given ones for the field of an area of this size (with labels at left and below).
 pub(crate) fn equal(x: [f64; 2], y: [f64; 2], size: (u32, u32), right: f64) -> ([f64; 2], [f64; 2]) {
@@ -207,8 +219,14 @@ impl<'a> Panel<'a> {
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        let runs = self.visible(points).into_iter();
-        self.strokes(runs.flat_map(|run| dashes(&run, 7.0, 5.0)), colour, pixels)
+        let runs = self.visible(points);
+        let length: f64 = runs.iter().map(|run| length(run)).sum();
+        if length > MOST_DASHED * (self.width + self.height) {
+            // it fills the field: dashes would not be told apart, and each is an element of its own
+            let whole = runs.into_iter().map(|run| run.into_iter().map(Self::whole).collect());
+            return self.strokes(whole, colour, 0.5 * pixels);
+        }
+        self.strokes(runs.iter().flat_map(|run| dashes(run, 7.0, 5.0)), colour, pixels)
     }
 
     fn strokes(
@@ -247,7 +265,8 @@ impl<'a> Panel<'a> {
         pixels: f64,
     ) -> Result<(), PlotError> {
         for spot in self.spots(points, pixels) {
-            self.area.draw(&Circle::new(spot, px(pixels), colour.filled()))?;
+            let spot = self.outward(spot);
+            self.around.draw(&Circle::new(spot, px(pixels), colour.filled()))?;
         }
         Ok(())
     }
@@ -261,7 +280,8 @@ impl<'a> Panel<'a> {
         filled: bool,
     ) -> Result<(), PlotError> {
         for spot in self.spots(points, pixels) {
-            draw_symbol(&self.area, spot, (look.shape, look.colour), pixels, filled)?;
+            let spot = self.outward(spot);
+            draw_symbol(&self.around, spot, (look.shape, look.colour), pixels, filled)?;
         }
         Ok(())
     }
@@ -275,8 +295,8 @@ impl<'a> Panel<'a> {
     pub(crate) fn ring(&self, x: f64, y: f64, colour: RGBColor, pixels: f64) -> Result<(), PlotError> {
         let p = self.at(x, y);
         if self.holds(p) {
-            self.area.draw(&Circle::new(
-                Self::whole(p),
+            self.around.draw(&Circle::new(
+                self.outward(Self::whole(p)),
                 px(pixels),
                 colour.stroke_width(px(2.0) as u32),
             ))?;
@@ -291,10 +311,11 @@ impl<'a> Panel<'a> {
         colour: RGBColor,
         opacity: f64,
     ) -> Result<(), PlotError> {
-        let points: Vec<(i32, i32)> = points
+        let points: Vec<(f64, f64)> = points
             .map(|(x, y)| self.at(x, y))
-            .map(|(x, y)| Self::whole((x.clamp(0.0, self.width), y.clamp(0.0, self.height))))
+            .map(|(x, y)| (x.clamp(0.0, self.width), y.clamp(0.0, self.height)))
             .collect();
+        let points = thin(&points).into_iter().map(Self::whole).collect::<Vec<_>>();
         self.area.draw(&Polygon::new(points, colour.mix(opacity)))?;
         Ok(())
     }
@@ -304,81 +325,21 @@ impl<'a> Panel<'a> {
         (self.width, self.height)
     }
 
-    /// Place on the area around the field.
-    fn beside(&self, (x, y): (f64, f64)) -> (i32, i32) {
+    /// Place on the area around the field of a place on the field: what is drawn there is not cut off at the edge of the field.
+    fn outward(&self, p: (i32, i32)) -> (i32, i32) {
         let (own, around) = (self.area.get_base_pixel(), self.around.get_base_pixel());
-        let p = Self::whole(self.at(x, y));
         (p.0 + own.0 - around.0, p.1 + own.1 - around.1)
+    }
+
+    /// Place of a value on the area around the field.
+    fn beside(&self, (x, y): (f64, f64)) -> (i32, i32) {
+        self.outward(Self::whole(self.at(x, y)))
     }
 
     /// A filled polygon that may be outside the field.
     pub(crate) fn fill_outside(&self, points: &[(f64, f64)], colour: RGBColor) -> Result<(), PlotError> {
         let points: Vec<(i32, i32)> = points.iter().map(|p| self.beside(*p)).collect();
         self.around.draw(&Polygon::new(points, colour.filled()))?;
-        Ok(())
-    }
-
-    /// A text that may be outside the field.
-    pub(crate) fn write_outside(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
-        let style = anchored(13.0, h, v).color(&INK);
-        self.around
-            .draw(&Text::new(text.to_owned(), self.beside((x, y)), style))?;
-        Ok(())
-    }
-
-    /// A text in its own style.
-    pub(crate) fn write(&self, (x, y): (f64, f64), text: &str, style: TextStyle<'static>) -> Result<(), PlotError> {
-        let p = self.at(x, y);
-        if self.holds(p) {
-            self.area.draw(&Text::new(text.to_owned(), Self::whole(p), style))?;
-        }
-        Ok(())
-    }
-
-    /// A text next to a position, where it covers no other one: if not at the side that is asked for, at another. Left out where there
-    /// is no room, and outside of the field. `symbol`: the radius of what stands at the position, pixels.
-    pub(crate) fn text(
-        &self,
-        (x, y): (f64, f64),
-        text: &str,
-        colour: RGBColor,
-        side: (HPos, VPos),
-        symbol: f64,
-    ) -> Result<(), PlotError> {
-        let p = self.at(x, y);
-        if !self.holds(p) {
-            return Ok(());
-        }
-        let wish = Wish {
-            point: p,
-            side,
-            off: f64::from(px(symbol + 4.0)),
-            size: (f64::from(px(7.2)) * text.chars().count() as f64, f64::from(px(15.0))),
-        };
-        let Some(((h, v), from)) = self.labels.take(&wish, (self.width, self.height)) else {
-            return Ok(());
-        };
-        let style = anchored(13.0, h, v).color(&colour);
-        let at = Self::whole((from, p.1));
-        self.area.draw(&Text::new(text.to_owned(), at, style))?;
-        Ok(())
-    }
-
-    /// No text that asks for a free place covers what is drawn there with this radius.
-    pub(crate) fn keep_free(&self, (x, y): (f64, f64), pixels: f64) {
-        let (p, radius) = (self.at(x, y), f64::from(px(pixels)));
-        self.labels
-            .keep_free([p.0 - radius, p.1 - radius, p.0 + radius, p.1 + radius]);
-    }
-
-    /// A text in the upper right corner, on white.
-    pub(crate) fn note(&self, text: &str) -> Result<(), PlotError> {
-        let at = Self::whole((self.width - f64::from(px(6.0)), f64::from(px(4.0))));
-        let wide = px(7.2 * text.chars().count() as f64 + 8.0);
-        let white = [(at.0 - wide, at.1), (at.0 + px(4.0), at.1 + px(18.0))];
-        self.area.draw(&Rectangle::new(white, WHITE.filled()))?;
-        let style = anchored(13.0, HPos::Right, VPos::Top).color(&INK);
-        self.area.draw(&Text::new(text.to_owned(), at, style))?;
         Ok(())
     }
 }

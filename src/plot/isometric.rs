@@ -1,7 +1,6 @@
 //! The isometric view of a part, and a box about it that has a scale.
 use crate::canvas::{INK, PlotError, anchored};
 use crate::grid::Panel;
-use crate::path::LETTERS;
 use crate::scale::short;
 use crate::unit::Unit;
 use plotters::prelude::RGBColor;
@@ -18,8 +17,8 @@ pub(crate) fn see(p: &Vec3) -> (f64, f64) {
     ((p.x + p.y) * ACROSS, (p.y - p.x) * UP + p.z * 2.0 * UP)
 }
 
-/// The floor of the box about the part, with ticks along X and Y in front and along Z at the left.
-pub(crate) fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
+/// The floor of the box about the part, and its edge along Z.
+pub(crate) fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> {
     let at = |x: f64, y: f64, z: f64| see(&Vec3::new(x, y, z));
     let floor = [
         at(low.x, low.y, low.z),
@@ -33,15 +32,24 @@ pub(crate) fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) ->
         [at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(),
         FLOOR,
         1.0,
-    )?;
+    )
+}
+
+/// The names of the axes, with ticks along X and Y in front and along Z at the left.
+pub(crate) fn draw_scale(
+    flat: &Panel<'_>,
+    (unit, names): (Unit, &[String; 3]),
+    low: &Vec3,
+    high: &Vec3,
+) -> Result<(), PlotError> {
     let size = (high - low).max().max(1e-3);
     let shown = unit.of_mm(size);
     let step = unit.to_mm(step(shown / 6.0));
     for axis in 0..3 {
-        let letter = LETTERS[axis];
         let span = high[axis] - low[axis];
-        // a flat part has no scale of its own there
+        // a flat part has no scale of its own there: its name has the range
         let ticks = ((high[axis] / step).floor() - (low[axis] / step).ceil()).max(-1.0) as i64;
+        let ticks = if ticks < 1 { -1 } else { ticks };
         let (anchor, beside) = match axis {
             0 => ((HPos::Right, VPos::Top), Vec3::new(0.0, -0.03 * size, 0.0)),
             1 => ((HPos::Left, VPos::Top), Vec3::new(0.03 * size, 0.0, 0.0)),
@@ -67,17 +75,38 @@ pub(crate) fn draw_box(flat: &Panel<'_>, unit: Unit, low: &Vec3, high: &Vec3) ->
                 anchored(13.0, anchor.0, anchor.1).color(&INK),
             )?;
         }
-        if ticks < 0 && span < 0.05 * size {
-            continue;
-        }
+        let name = if ticks < 0 {
+            range(&names[axis], unit, [low[axis], high[axis]])
+        } else {
+            format!("{} / {}", names[axis], unit.name())
+        };
         let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
-        flat.write(
-            see(&middle),
-            &format!("{letter} / {}", unit.name()),
-            anchored(15.0, anchor.0, anchor.1).color(&INK),
-        )?;
+        if axis == 2 && (ticks < 0 || !flat.shows(see(&(middle + beside * 3.0)))) {
+            // no room beside the edge: above it
+            let top = see(&place(high.z));
+            let (off, side) = if ticks < 0 {
+                (6.0, HPos::Left)
+            } else {
+                (-6.0, HPos::Right)
+            };
+            flat.write_inside(top, (off, -14.0), &name, (15.0, side, VPos::Bottom))?;
+        } else {
+            flat.write_inside(see(&middle), (0.0, 0.0), &name, (15.0, anchor.0, anchor.1))?;
+        }
     }
     Ok(())
+}
+
+/// `Z −0.1 to 0 in`, `Z = 5 mm`.
+fn range(name: &str, unit: Unit, ends: [f64; 2]) -> String {
+    let [low, high] = ends.map(|end| unit.of_mm(end));
+    let of = (high - low).max(unit.of_mm(0.01));
+    let [from, to] = [low, high].map(|end| short(end, of));
+    if from == to {
+        format!("{name} = {from} {}", unit.name())
+    } else {
+        format!("{name} {from} to {to} {}", unit.name())
+    }
 }
 
 fn step(value: f64) -> f64 {
@@ -90,6 +119,12 @@ fn step(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_range_has_the_digits_that_it_needs() {
+        assert_eq!(range("Z", Unit::Inch, [-2.54, 0.0]), "Z \u{2212}0.1 to 0 in");
+        assert_eq!(range("Y", Unit::Mm, [5.0, 5.0]), "Y = 5 mm");
+    }
 
     #[test]
     fn the_view_is_isometric() {

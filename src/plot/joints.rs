@@ -62,14 +62,7 @@ pub fn joints(
         ));
     }
     let rules = Rules::of(marks);
-    let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), "feed".into()),
-        (Swatch::Line(GREY), "rapid".into()),
-    ];
-    if machine.axes.iter().any(|axis| matches!(axis.limits, Limits::Range(..))) {
-        legend.push((Swatch::Dashed(VERMILION), "limit".into()));
-    }
-    legend.extend(rules.entries());
+    let legend = legend(machine, record, &rules);
     sheet(header, &legend, |body| {
         let count = machine.own_axes().count();
         let (width, height) = body.dim_in_pixel();
@@ -85,7 +78,7 @@ pub fn joints(
                 AxisKind::Rotary => "deg",
                 AxisKind::Linear => record.unit.name(),
             };
-            let name = format!("{} / {sign}", char::from(axis.letter));
+            let name = format!("{} / {sign}", record.axis_name(char::from(axis.letter)));
             let at = |sample: &Sample| shown(record.unit, axis, sample.joints[joint]);
             let values = range(record.samples.iter().map(at), shown(record.unit, axis, LEAST));
             let limits = travel(record.unit, axis);
@@ -104,13 +97,12 @@ pub fn joints(
                     y: upwards,
                     x_name: last.then_some(along.name(record.unit)),
                     y_name: &name,
-                    labels: [10, (each / 350).clamp(2, 6) as usize],
+                    labels: [10, (each / 220).clamp(3, 8) as usize],
                     decades: false,
                     right: 0.0,
                 },
             )?;
             draw_limits(&panel, (limits, digits), across, upwards)?;
-            draw_marks(&panel, record, marks, &rules, spot)?;
             for rapid in [true, false] {
                 let points = curve(record, rapid, spot);
                 panel.line(
@@ -119,9 +111,71 @@ pub fn joints(
                     if rapid { 1.2 } else { 1.8 },
                 )?;
             }
+            if let Some(limits) = limits {
+                panel.line(beyond(record, limits, spot).into_iter(), VERMILION, 3.0)?;
+            }
+            let own = |mark: &&Mark| mark.axes.is_empty() || mark.axes.contains(&char::from(axis.letter));
+            let own: Vec<&Mark> = marks.iter().filter(own).collect();
+            draw_marks(&panel, record, &own, &rules, spot)?;
         }
         Ok(())
     })
+}
+
+fn legend(machine: &Machine, record: &Record, rules: &Rules) -> Vec<Entry> {
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "feed".into()),
+        (Swatch::Line(GREY), "rapid".into()),
+    ];
+    if machine.axes.iter().any(|axis| matches!(axis.limits, Limits::Range(..))) {
+        legend.push((Swatch::Dashed(VERMILION), "limit".into()));
+    }
+    let leaves = machine.own_axes().filter(|(joint, axis)| {
+        let limits = travel(record.unit, axis);
+        let out = |sample: &Sample| {
+            limits.is_some_and(|limits| is_beyond(shown(record.unit, axis, sample.joints[*joint]), limits))
+        };
+        record.samples.iter().any(out)
+    });
+    let leaves: Vec<String> = leaves.map(|(_, axis)| char::from(axis.letter).to_string()).collect();
+    if !leaves.is_empty() {
+        legend.push((
+            Swatch::Line(VERMILION),
+            format!("beyond a limit: {}", leaves.join(", ")),
+        ));
+    }
+    legend.extend(rules.entries());
+    legend
+}
+
+/// Rounding does not leave a limit, mm or deg (or inch).
+const ROUNDING: f64 = 1e-6;
+
+fn is_beyond(value: f64, [low, high]: [f64; 2]) -> bool {
+    value < low - ROUNDING || value > high + ROUNDING
+}
+
+/// The parts of the curve beyond the limits, cut where they are crossed.
+fn beyond(record: &Record, limits: [f64; 2], spot: impl Fn(&Sample) -> (f64, f64)) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    for block in &record.blocks {
+        for two in record.of(block).windows(2) {
+            let [from, to] = [spot(&two[0]), spot(&two[1])];
+            let sides = [(-1.0, limits[0]), (1.0, limits[1])];
+            for (sign, limit) in sides {
+                // how far beyond this limit
+                let [a, b] = [from.1, to.1].map(|value| sign * (value - limit));
+                if a.max(b) <= ROUNDING {
+                    continue;
+                }
+                let cross = |share: f64| (from.0 + share * (to.0 - from.0), limit);
+                let start = if a < 0.0 { cross(a / (a - b)) } else { from };
+                let end = if b < 0.0 { cross(a / (a - b)) } else { to };
+                points.extend([(f64::NAN, f64::NAN), start, end]);
+            }
+        }
+    }
+    points
 }
 
 /// The samples of rapids (or feeds), parted where others lie between.
@@ -199,7 +253,7 @@ fn draw_limits(
 fn draw_marks(
     panel: &Panel<'_>,
     record: &Record,
-    marks: &[Mark],
+    marks: &[&Mark],
     rules: &Rules,
     spot: impl Fn(&Sample) -> (f64, f64),
 ) -> Result<(), PlotError> {
@@ -217,4 +271,74 @@ fn draw_marks(
         panel.symbols(dots.into_iter(), marked, 7.0 - place as f64, true)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texts::{header, record};
+    use trunnion_geometry::Vec3;
+    use trunnion_machine::builtin;
+
+    /// X of a mill goes to these positions, cut by cut.
+    fn along_x(values: &[f64]) -> Record {
+        let moves: Vec<(char, Vec3)> = values.iter().map(|x| ('f', Vec3::new(*x, 0.0, 0.0))).collect();
+        let mut record = record(&moves, |_| Vec3::z());
+        for sample in &mut record.samples {
+            sample.joints[0] = sample.tip.x;
+        }
+        record
+    }
+
+    #[test]
+    fn what_is_beyond_a_limit_is_cut_at_the_limit() {
+        let record = along_x(&[-10.0, 5.0, 0.0, -5.0]);
+        let spot = |sample: &Sample| (sample.way, sample.joints[0]);
+        let parts = beyond(&record, [-8.0, 0.0], spot);
+        let parts: Vec<_> = parts.into_iter().filter(|p| p.0.is_finite()).collect();
+        assert_eq!(
+            parts,
+            [
+                (0.0, -10.0),
+                (2.0, -8.0),
+                (10.0, 0.0),
+                (15.0, 5.0),
+                (15.0, 5.0),
+                (20.0, 0.0)
+            ]
+        );
+        assert!(beyond(&record, [-10.0, 5.0], spot).is_empty());
+    }
+
+    #[test]
+    fn the_legend_names_the_axes_beyond_their_limits() {
+        let machine = builtin("mill-3axis").expect("built in");
+        let (_, axis) = machine.own_axes().next().expect("an axis");
+        let Limits::Range(low, high) = axis.limits else {
+            panic!("no limits")
+        };
+        let texts = |end: f64| {
+            let legend = legend(machine, &along_x(&[low, end]), &Rules::of(&[]));
+            legend.into_iter().map(|entry| entry.1).collect::<Vec<_>>().join("; ")
+        };
+        assert_eq!(texts(high), "feed; rapid; limit");
+        assert_eq!(texts(high + 1.0), "feed; rapid; limit; beyond a limit: X");
+    }
+
+    /// A symbol stands in the field of its axis alone, whole.
+    #[test]
+    fn a_mark_stands_at_the_axis_that_it_is_about() {
+        let machine = builtin("mill-3axis").expect("built in");
+        let polygons = |axes: &[char]| {
+            let mark = Mark {
+                line: 2,
+                rule: "axis-limit".to_owned(),
+                axes: axes.to_vec(),
+            };
+            let svg = joints(&header(), machine, &along_x(&[0.0, 10.0, 20.0]), &[mark], Along::Way).expect("drawn");
+            svg.matches("<polygon").count()
+        };
+        // one more in the legend
+        assert_eq!((polygons(&[]), polygons(&['Y']), polygons(&['Q'])), (4, 2, 1));
+    }
 }

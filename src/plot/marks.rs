@@ -159,6 +159,7 @@ mod tests {
         let mark = |(line, rule): (u32, &&str)| Mark {
             line,
             rule: (*rule).to_owned(),
+            axes: Vec::new(),
         };
         (1..).zip(rules).map(mark).collect()
     }

@@ -1,7 +1,7 @@
 //! The path of the tool tip in space: isometric with three views beside it, or in its plane where it lies in one.
 use crate::canvas::{Area, BLUE, Entry, GREY, Header, ORANGE, PlotError, Swatch, VERMILION, px, sheet};
 use crate::grid::{Frame, Panel, equal};
-use crate::isometric::{draw_box, see};
+use crate::isometric::{draw_box, draw_scale, see};
 use crate::record::{Block, Record};
 use crate::scale::{counted, range};
 use trunnion_geometry::Vec3;
@@ -14,32 +14,8 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     if record.samples.is_empty() {
         return Err(PlotError("nothing to draw: no path is known".into()));
     }
-    let straying = record.blocks.iter().filter(|block| strays(block, tolerance)).count();
-    let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), "feed".into()),
-        (Swatch::Dashed(GREY), "rapid".into()),
-        (Swatch::Line(ORANGE), "tool axis".into()),
-    ];
-    if straying > 0 {
-        legend.push((
-            Swatch::Line(VERMILION),
-            format!(
-                "deviates more than {} ({})",
-                record.unit.declared(tolerance),
-                counted(straying, "block")
-            ),
-        ));
-    }
-    if record.unknown > 0 {
-        legend.push((
-            Swatch::Plain,
-            format!(
-                "{} without a known start or end not drawn",
-                counted(record.unknown, "motion")
-            ),
-        ));
-    }
     let part = Part::of(record, tolerance);
+    let legend = part.legend();
     sheet(header, &legend, |body| {
         if let Some(view) = part.flat() {
             return part.draw_plane(body, view, None);
@@ -76,6 +52,9 @@ const VIEWS: [(View, &str); 3] = [
 /// What is thinner has no extent in that direction, mm.
 const THIN: f64 = 1e-6;
 
+/// What is shorter is seen as a point, mm.
+const END_ON: f64 = 1e-4;
+
 /// A path and the box about it.
 struct Part<'r> {
     record: &'r Record,
@@ -84,6 +63,10 @@ struct Part<'r> {
     high: Vec3,
     /// Ends of rapids near the box: all that is shown lies in it or is one of them.
     near: Vec<Vec3>,
+    /// Rapids that begin or end farther away: the frame cuts them off.
+    cut_off: usize,
+    /// The tool axis turns: else it says nothing, and looks like moves.
+    tilts: bool,
     tolerance: f64,
 }
 
@@ -99,14 +82,68 @@ impl<'r> Part<'r> {
         }
         // a rapid from far away must not make the part small: it is cut off at the edge
         let reach = 0.35 * (high - low).norm();
-        let near = tips(true).filter(|tip| (tip - tip.sup(&low).inf(&high)).norm() < reach);
+        let is_near = |tip: &Vec3| (tip - tip.sup(&low).inf(&high)).norm() < reach;
+        let rapids = record.blocks.iter().filter(|block| block.rapid);
+        let cut_off = rapids.filter(|block| !record.of(block).iter().all(|sample| is_near(&sample.tip)));
+        let first = record.samples.first().map_or(Vec3::z(), |sample| sample.axis);
         Self {
-            near: near.collect(),
+            near: tips(true).filter(is_near).collect(),
+            cut_off: cut_off.count(),
+            tilts: record.samples.iter().any(|sample| (sample.axis - first).norm() > 1e-9),
             record,
             low,
             high,
             tolerance,
         }
+    }
+
+    fn legend(&self) -> Vec<Entry> {
+        let record = self.record;
+        let mut legend: Vec<Entry> = vec![(Swatch::Line(BLUE), "feed".into())];
+        let views = self
+            .flat()
+            .map_or_else(|| VIEWS.map(|view| view.0).to_vec(), |view| vec![view]);
+        if views.iter().any(|view| self.end_on(*view).next().is_some()) {
+            legend.push((Swatch::Dot(BLUE), "feed seen end-on (hole, plunge)".into()));
+        }
+        let rapids = record.blocks.iter().filter(|block| block.rapid).count();
+        let cut_off = match self.cut_off {
+            0 => String::new(),
+            some => format!(" ({some} of {rapids} reach beyond a view)"),
+        };
+        legend.push((Swatch::Dashed(GREY), format!("rapid{cut_off}")));
+        if self.tilts {
+            legend.push((Swatch::Line(ORANGE), "tool axis".into()));
+        }
+        let straying = record
+            .blocks
+            .iter()
+            .filter(|block| strays(block, self.tolerance))
+            .count();
+        if straying > 0 {
+            let (limit, blocks) = (record.unit.declared(self.tolerance), counted(straying, "block"));
+            legend.push((
+                Swatch::Line(VERMILION),
+                format!("deviates more than {limit} ({blocks})"),
+            ));
+        }
+        legend.extend(record.not_drawn().map(|text| (Swatch::Plain, text)));
+        legend
+    }
+
+    /// Cuts along the line of sight: each is a point.
+    fn end_on(&self, view: View) -> impl Iterator<Item = Vec3> {
+        let seen = move |from: &Vec3, tip: &Vec3| {
+            let [across, upwards] = [view.across, view.upwards].map(|axis| (tip[axis] - from[axis]).abs());
+            across.max(upwards)
+        };
+        let cuts = self.record.blocks.iter().filter(|block| !block.rapid);
+        cuts.filter_map(move |block| {
+            let samples = self.record.of(block);
+            let from = samples.first()?.tip;
+            let moves = samples.iter().any(|sample| (sample.tip - from).norm() > 1e-3);
+            (moves && samples.iter().all(|sample| seen(&from, &sample.tip) <= END_ON)).then_some(from)
+        })
     }
 
     fn size(&self) -> f64 {
@@ -152,8 +189,11 @@ impl<'r> Part<'r> {
     /// Seen isometrically, with a box that has a scale.
     fn draw_space(&self, area: &Area<'_>) -> Result<(), PlotError> {
         let panel = Panel::bare(area, self.corners().map(|corner| see(&corner)));
-        draw_box(&panel, self.record.unit, &self.low, &self.high)?;
-        self.draw(&panel, see)
+        let names = LETTERS.map(|letter| self.record.axis_name(letter));
+        draw_box(&panel, &self.low, &self.high)?;
+        self.draw(&panel, see)?;
+        // last: lines pass behind the texts
+        draw_scale(&panel, (self.record.unit, &names), &self.low, &self.high)
     }
 
     /// Seen at right angles to a plane, with the name of the view where there are several.
@@ -164,8 +204,8 @@ impl<'r> Part<'r> {
         let x = range(self.corners().map(|corner| see(&corner).0), least);
         let y = range(self.corners().map(|corner| see(&corner).1), least);
         let (x, y) = equal(x, y, area.dim_in_pixel(), 0.0);
-        let [mut across, upwards] =
-            [view.across, view.upwards].map(|axis| format!("{} / {}", LETTERS[axis], unit.name()));
+        let [mut across, upwards] = [view.across, view.upwards]
+            .map(|axis| format!("{} / {}", self.record.axis_name(LETTERS[axis]), unit.name()));
         if let Some(name) = name {
             across = format!("{across} (seen {name})");
         }
@@ -178,13 +218,17 @@ impl<'r> Part<'r> {
             decades: false,
             right: 0.0,
         };
-        self.draw(&Panel::new(area, &frame)?, see)
+        let panel = Panel::new(area, &frame)?;
+        self.draw(&panel, see)?;
+        panel.dots(self.end_on(view).map(|tip| see(&tip)), BLUE, 3.0)
     }
 
     /// The tool axis, rapids, and cuts, as a view sees them.
     fn draw(&self, panel: &Panel<'_>, see: impl Fn(&Vec3) -> (f64, f64)) -> Result<(), PlotError> {
         let record = self.record;
-        draw_axes(panel, record, self.size(), &see)?;
+        if self.tilts {
+            draw_axes(panel, record, self.size(), &see)?;
+        }
         for rapid in [true, false] {
             let mut points = Vec::new();
             for block in &record.blocks {
@@ -216,7 +260,7 @@ fn strays(block: &Block, tolerance: f64) -> bool {
 }
 
 /// The coordinates.
-pub(crate) const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
+const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
 fn extent(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     let empty = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
@@ -256,67 +300,4 @@ fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64, see: impl Fn(&Vec3) -
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::texts::{header, overlaps, record};
-
-    fn drawn(record: &Record) -> String {
-        let svg = path(&header(), record, 0.01).expect("drawn");
-        assert_eq!(overlaps(&svg), []);
-        svg
-    }
-    const UP: fn(usize) -> Vec3 = |_| Vec3::z();
-
-    #[test]
-    fn a_part_is_seen_from_three_sides_too() {
-        let moves = [
-            ('r', Vec3::new(0.0, 0.0, 50.0)),
-            ('r', Vec3::new(0.0, 0.0, 2.0)),
-            ('f', Vec3::new(0.0, 0.0, -4.0)),
-            ('f', Vec3::new(40.0, 0.0, -4.0)),
-            ('f', Vec3::new(40.0, 30.0, -4.0)),
-        ];
-        let svg = drawn(&record(&moves, UP));
-        for (_, name) in VIEWS {
-            assert!(svg.contains(name), "{name}");
-        }
-    }
-
-    /// A lathe's path lies in one plane: Z across, and X, along which its tools stand, upwards.
-    #[test]
-    fn a_path_in_one_plane_is_seen_at_right_angles() {
-        let turned = [
-            ('r', Vec3::new(30.0, 0.0, 5.0)),
-            ('r', Vec3::new(20.0, 0.0, 5.0)),
-            ('f', Vec3::new(20.0, 0.0, -60.0)),
-            ('f', Vec3::new(24.0, 0.0, -60.0)),
-        ];
-        let view = |record: &Record| Part::of(record, 0.01).flat().map(|view| [view.across, view.upwards]);
-        let lathe = record(&turned, |_| Vec3::x());
-        assert_eq!(view(&lathe), Some([2, 0]));
-        let svg = drawn(&lathe);
-        assert!(svg.contains("Z / mm") && svg.contains("X / mm") && !svg.contains("Y / mm") && !svg.contains("from "));
-        // the same in a mill, and in the other planes
-        assert_eq!(view(&record(&turned, UP)), Some([0, 2]));
-        let swapped = turned.map(|(kind, p)| (kind, Vec3::new(p.y, p.x, p.z)));
-        assert_eq!(view(&record(&swapped, UP)), Some([1, 2]));
-        let level = turned.map(|(kind, p)| (kind, Vec3::new(p.x, p.z, p.y)));
-        assert_eq!(view(&record(&level, UP)), Some([0, 1]));
-    }
-
-    /// Only the tool axis moves in the cut: the scale is that of the rapids.
-    #[test]
-    fn cuts_in_one_point_are_seen_with_the_rapids() {
-        let tip = Vec3::new(0.0, 0.0, 10.0);
-        let moves = [
-            ('r', Vec3::new(0.0, 0.0, 110.0)),
-            ('r', tip),
-            ('f', tip),
-            ('f', tip),
-            ('r', Vec3::new(0.0, 0.0, 80.0)),
-        ];
-        let svg = drawn(&record(&moves, UP));
-        let numbers = crate::texts::texts(&svg);
-        assert!(numbers.iter().any(|(text, _)| text == "100"), "{numbers:?}");
-    }
-}
+mod tests;

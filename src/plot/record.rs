@@ -1,4 +1,5 @@
 //! The record of a run for pictures: samples along the real path, block by block.
+use crate::scale::counted;
 use crate::unit::Unit;
 use core::ops::Range;
 use std::collections::BTreeMap;
@@ -88,6 +89,8 @@ pub struct Mark {
     pub line: u32,
     /// Why: the name of a rule.
     pub rule: String,
+    /// The letters of the axes that it is about; empty: of all.
+    pub axes: Vec<char>,
 }
 
 /// A run.
@@ -97,8 +100,12 @@ pub struct Record {
     pub samples: Vec<Sample>,
     /// Blocks in the order of the run.
     pub blocks: Vec<Block>,
-    /// Motions whose path is unknown.
+    /// Motions that move something and are not drawn: their start or end on the machine is not known.
     pub unknown: usize,
+    /// Their lines, in the order of the run, each once; no more than [`NAMED_LINES`] and one.
+    pub unknown_lines: Vec<u32>,
+    /// X is a radius: words of X are diameters.
+    pub radius: bool,
     /// The first line whose block is drawn by its ends alone, because the record holds as many samples as are kept.
     pub coarse_from: Option<u32>,
     /// In what people read its lengths.
@@ -109,6 +116,36 @@ impl Record {
     /// Samples of a block.
     pub fn of(&self, block: &Block) -> &[Sample] {
         &self.samples[block.samples.clone()]
+    }
+    /// What is not drawn, and in which lines: `2 motions not drawn: start or end not known (lines 4, 9)`.
+    pub fn not_drawn(&self) -> Option<String> {
+        let lines: Vec<String> = self
+            .unknown_lines
+            .iter()
+            .take(NAMED_LINES)
+            .map(ToString::to_string)
+            .collect();
+        let plural = if self.unknown_lines.len() == 1 { "" } else { "s" };
+        let more = if self.unknown_lines.len() > NAMED_LINES {
+            " and more"
+        } else {
+            ""
+        };
+        (self.unknown > 0).then(|| {
+            format!(
+                "{} not drawn: start or end not known (line{plural} {}{more})",
+                counted(self.unknown, "motion"),
+                lines.join(", ")
+            )
+        })
+    }
+    /// The name of an axis: with a note where X is a radius.
+    pub(crate) fn axis_name(&self, letter: char) -> String {
+        if self.radius && letter == 'X' {
+            "X (radius)".to_owned()
+        } else {
+            letter.to_string()
+        }
     }
     /// Travel at a sample, as it is shown.
     pub(crate) fn way(&self, sample: &Sample) -> f64 {
@@ -123,6 +160,9 @@ impl Record {
         lines
     }
 }
+
+/// So many lines of motions that are not drawn are named.
+const NAMED_LINES: usize = 3;
 
 /// Records legs.
 pub struct Recorder<'m> {
@@ -171,9 +211,13 @@ impl<'m> Recorder<'m> {
             self.time += block_duration_s(self.machine, leg).unwrap_or(f64::NAN);
             return;
         }
+        self.record.radius |= leg.motion.radii;
         let Some(way) = BlockPath::new(self.machine, leg) else {
-            // the first motion has no known start: nothing of it is missing
-            self.record.unknown += usize::from(leg.start.is_some() || leg.end.is_err());
+            self.record.unknown += 1;
+            let lines = &mut self.record.unknown_lines;
+            if lines.len() <= NAMED_LINES && !lines.contains(&line) {
+                lines.push(line);
+            }
             self.broken = true;
             return;
         };

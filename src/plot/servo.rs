@@ -118,11 +118,11 @@ fn turns(worst: &ServoSpot) -> Result<(), PlotError> {
     ))
 }
 
-/// The axes of the picture: along the leg in, across it, error.
+/// The axes of the picture: along the incoming leg, across it, error.
 fn names(unit: Unit) -> [&'static str; 3] {
     match unit {
-        Unit::Mm => ["along the leg in / mm", "across / mm", "error / um"],
-        Unit::Inch => ["along the leg in / in", "across / in", "error / 0.001 in"],
+        Unit::Mm => ["along the incoming leg / mm", "across / mm", "error / um"],
+        Unit::Inch => ["along the incoming leg / in", "across / in", "error / 0.001 in"],
     }
 }
 

@@ -6,4 +6,4 @@ mod stop;
 mod tally;
 
 pub use calls::Call;
-pub use tally::{Range, Tally, ToolUse};
+pub use tally::{MOST_LINES, Range, Tally, ToolUse};

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{
     AXIS_LETTERS, AxisLetter, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, ProgramRun, Sink,
-    Tool,
+    Tool, is_program_end,
 };
 use trunnion_machine::{AxisKind, Follower, Leg, Machine, excursions, leads_tip, linear_travel, turns};
 use trunnion_same::Input;
-use trunnion_syntax::{BlockId, Item, LineIndex};
+use trunnion_syntax::{BlockId, LineIndex};
 
 /// Lowest and highest of the values seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +50,12 @@ pub struct ToolUse {
 pub struct Tally {
     /// The program moves in inch.
     pub inch: bool,
-    /// Blocks with content.
+    /// Blocks with content, counted as the coverage of a check counts them.
     pub blocks: u64,
-    /// Blocks that ran, repeated ones each time.
+    /// Those of them that ran at least once.
     pub run: u64,
+    /// How often one of them ran: repeated ones each time.
+    pub runs: u64,
     /// Motions by kind.
     pub motions: BTreeMap<&'static str, u64>,
     /// Rapid motions.
@@ -62,8 +64,12 @@ pub struct Tally {
     pub feed_mm: f64,
     /// Of `feed_mm`, with the spindle off.
     pub spindle_off_mm: f64,
-    /// Motions whose length is unknown.
+    /// Motions whose length is unknown: their start or end in the part is not known.
     pub unmeasured: u64,
+    /// Their lines, in the order of the run, each once; no more than [`MOST_LINES`].
+    pub unmeasured_lines: Vec<u32>,
+    /// X is a radius here, though words of X are diameters.
+    pub radii: bool,
     /// Time of feed motions at the programmed feed.
     pub feed_s: f64,
     /// Feed motions whose time is not known.
@@ -90,6 +96,9 @@ pub struct Tally {
     pub stop: Option<(u32, String)>,
 }
 
+/// Lines of motions of unknown length that are kept.
+pub const MOST_LINES: usize = 4;
+
 /// Excursions between the ends of a motion that are smaller are left out, mm: no digit of them is shown.
 const SMALLEST_MM: f64 = 1e-4;
 
@@ -101,6 +110,8 @@ struct Counting<'a> {
     tally: Tally,
     tool: Option<u32>,
     stops: Stops,
+    /// By block: it ran.
+    ran: Vec<bool>,
 }
 
 impl Tally {
@@ -109,7 +120,6 @@ impl Tally {
         let program = input.program;
         let lines = LineIndex::new(program.source());
         let mut tally = Self {
-            blocks: program.blocks().filter(|block| has_content(block)).count() as u64,
             calls: calls(program, &lines),
             ..Self::default()
         };
@@ -126,6 +136,7 @@ impl Tally {
             tally,
             tool: None,
             stops: Stops::default(),
+            ran: vec![false; program.block_count()],
         };
         let mut setup = input.setup.clone();
         // on a chain of linear axes an axis that is never named changes nothing of the others, wherever it stands
@@ -138,6 +149,7 @@ impl Tally {
         }
         let stop = counting.stops.last();
         let stop = stop.map(|stop| (counting.line(stop.block), stop.why.clone()));
+        counting.count_blocks();
         let mut tally = counting.tally;
         tally.stop = stop;
         // what always stands is no extent
@@ -155,11 +167,6 @@ impl Tally {
     pub fn motions(&self) -> u64 {
         self.motions.values().sum()
     }
-}
-
-/// Whether a block has anything but blanks and comments.
-fn has_content(block: &trunnion_syntax::Block<'_>) -> bool {
-    block.items().any(|item| !matches!(item, Item::Comment(_)))
 }
 
 /// The name of a motion's kind, as `trace` has it.
@@ -226,6 +233,15 @@ impl Counting<'_> {
             .0
     }
 
+    /// The end of a Klartext program counts only where it ran.
+    fn count_blocks(&mut self) {
+        for block in self.input.program.blocks().filter(trunnion_syntax::Block::has_code) {
+            let ran = self.ran.get(block.id().0 as usize).is_some_and(|ran| *ran);
+            self.tally.run += u64::from(ran);
+            self.tally.blocks += u64::from(ran || !is_program_end(&block, self.input.dialect));
+        }
+    }
+
     /// Of what is programmed in the part: machine coordinates (G53, SUPA, M91) are others.
     fn extents(&mut self, motion: &Motion) {
         if motion.machine_coordinates {
@@ -266,10 +282,14 @@ impl Counting<'_> {
     }
 
     /// Distances, feeds and times.
-    fn path(&mut self, motion: &Motion) {
+    fn path(&mut self, motion: &Motion, line: u32) {
         let length = length(motion);
         let tally = &mut self.tally;
         tally.unmeasured += u64::from(length.is_none());
+        let lines = &mut tally.unmeasured_lines;
+        if length.is_none() && lines.len() < MOST_LINES && !lines.contains(&line) {
+            lines.push(line);
+        }
         let known = length.unwrap_or_default();
         if let MotionKind::Dwell(seconds) = motion.kind {
             tally.dwell_s += seconds.unwrap_or_default();
@@ -310,14 +330,15 @@ impl Sink for Counting<'_> {
         *self.tally.motions.entry(kind(motion)).or_default() += 1;
         self.extents(motion);
         self.joints(motion);
+        self.tally.radii |= motion.radii;
+        let line = self.line(motion.block);
         let before = self.tally.feed_mm;
-        self.path(motion);
+        self.path(motion, line);
         if motion.spindle_on == Some(true)
             && let Some(speed) = motion.spindle_rpm
         {
             widen(&mut self.tally.spindle, speed);
         }
-        let line = self.line(motion.block);
         let added = self.tally.feed_mm - before;
         let used = self.tally.tools.entry(motion.tool).or_insert(ToolUse {
             line,
@@ -337,7 +358,10 @@ impl Sink for Counting<'_> {
 
     fn block_done(&mut self, block: BlockId, run: &dyn ProgramRun) {
         self.stops.block_done();
-        self.tally.run += u64::from(has_content(&self.input.program.block(block)));
+        self.tally.runs += u64::from(self.input.program.block(block).has_code());
+        if let Some(ran) = self.ran.get_mut(block.0 as usize) {
+            *ran = true;
+        }
         if run.state().tool.number() != self.tool {
             self.tool = run.state().tool.number();
             self.tally.tool_changes += 1;

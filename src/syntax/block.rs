@@ -125,6 +125,25 @@ impl<'p> Block<'p> {
         let start = self.program.tokens.start(self.program.blocks[self.id.0 as usize]);
         self.program.source.get(start as usize).copied()
     }
+    /// It has more than blanks, comments and percent signs: what is counted as a block of a program.
+    #[inline]
+    pub fn has_code(&self) -> bool {
+        self.first_byte().is_some_and(|byte| byte.is_ascii_alphabetic()) || self.has_code_inside()
+    }
+    #[inline(never)]
+    fn has_code_inside(&self) -> bool {
+        let text = &self.program.source[self.range().as_usize()];
+        match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
+            None => return false,
+            // a letter begins a word, a name or a record in either format
+            Some(byte) if byte.is_ascii_alphabetic() => return true,
+            Some(_) => {}
+        }
+        self.record().is_some()
+            || self
+                .items()
+                .any(|item| !matches!(item, Item::Comment(_) | Item::Percent(_)))
+    }
     /// Its items, ISO format. In APT format: comments, and every other token but blanks as [`Item::Other`].
     #[inline]
     pub fn items(&self) -> Items<'p> {

@@ -1,20 +1,23 @@
 //! Every command ends on every hostile program, in every dialect: with status 0, 1 or 2, with a message where it has no answer, and in the long
 //! form within 10 s of processor time and 1 GB. Promise: SECURITY.md.
 //!
-//! CI runs small files and a sample: each program with one command of each group, in one dialect after the other. `TRUNNION_BOUNDS=full` runs
-//! large files: each program with each command, each program in each dialect, each command in each dialect. `TRUNNION_BOUNDS=matrix` runs every
-//! combination. Both print the worst runs (CONTRIBUTING.md). A program that is written for one control meets the others in the matrix only. `TRUNNION_BOUNDS_ONLY=TEXT,TEXT` takes only runs with one of the texts in `COMMAND PROGRAM DIALECT`.
+//! CI runs small files and a sample: each program with one command of each group, in one dialect after the other. `TRUNNION_BOUNDS=full` takes
+//! large files: each program with each command, each program in each dialect, each command in each dialect. `TRUNNION_BOUNDS=matrix` takes every
+//! combination. Both run each combination on two small files first and estimate the large one; only what may come near the bound, and a fixed
+//! share of the rest, runs on the large file (`screen`). `TRUNNION_BOUNDS_UNSCREENED=1` runs all on the large file. Both print the worst runs (CONTRIBUTING.md). A program that is written for one control meets the others in the matrix only. `TRUNNION_BOUNDS_ONLY=TEXT,TEXT` takes only runs with one of the texts in `COMMAND PROGRAM DIALECT`.
 //! `TRUNNION_BOUNDS_KEEP=FOLDER` works in that folder and leaves the programs there, to run a command on one of them by hand.
 #![cfg(unix)]
 #![expect(clippy::print_stdout, reason = "the long form prints a table")]
 mod beside;
 pub(crate) mod commands;
 mod inputs;
+mod journal;
 pub(crate) mod measure;
+mod screen;
 
 use commands::COMMANDS;
 use inputs::Input;
-use measure::Measured;
+use journal::Journal;
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
@@ -56,6 +59,10 @@ struct Form {
     all: bool,
     /// Default limits; time and memory are asserted.
     long: bool,
+    /// The full size only where an estimate asks for it.
+    screened: bool,
+    /// What was measured before.
+    journal: Journal,
     /// Part of the names.
     only: Option<String>,
 }
@@ -68,6 +75,8 @@ impl Form {
             size: if long { 480_000 } else { 200 },
             all: form == "matrix",
             long,
+            journal: Journal::asked(),
+            screened: long && std::env::var_os("TRUNNION_BOUNDS_UNSCREENED").is_none(),
             only: std::env::var("TRUNNION_BOUNDS_ONLY").ok(),
         }
     }
@@ -119,9 +128,18 @@ fn name(inputs: &[Input], (input, command, dialect): Cell) -> String {
     format!("{} {} {dialect}", COMMANDS[command].name, inputs[input].name)
 }
 
-/// Runs one cell; what is wrong with it, and what it took.
-fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> (String, Measured, Option<String>) {
-    let name = name(inputs, cell);
+/// What a run took, and what is wrong with it.
+struct Outcome {
+    cell: Cell,
+    /// Processor time.
+    seconds: f64,
+    /// The most memory at once.
+    bytes: u64,
+    wrong: Option<String>,
+}
+
+/// Runs one cell on the program that lies in the folder.
+fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> Outcome {
     let (input, command, dialect) = cell;
     let (command, dialect) = (&COMMANDS[command], BUILTIN_NAMES[dialect]);
     let file = format!("{}.nc", inputs[input].name);
@@ -132,23 +150,82 @@ fn run(folder: &Path, form: &Form, inputs: &[Input], cell: Cell) -> (String, Mea
         command.talks(folder, &file),
         patience,
     );
-    let wrong = wrong(form, command, &measured);
-    (name, measured, wrong)
+    let (seconds, bytes) = (measured.seconds, measured.bytes);
+    let wrong = command.broken(&measured).or_else(|| {
+        if form.long && seconds > MOST_SECONDS {
+            return Some(format!("took {seconds:.1} s"));
+        }
+        (form.long && bytes > MOST_BYTES).then(|| format!("took {} MB", bytes / 1_000_000))
+    });
+    if let (true, Some(wrong)) = (form.long, &wrong) {
+        println!("{}: {wrong}", name(inputs, cell));
+    }
+    Outcome {
+        cell,
+        seconds,
+        bytes,
+        wrong,
+    }
 }
 
-/// What a run may not do.
-fn wrong(form: &Form, command: &commands::Command, measured: &Measured) -> Option<String> {
-    let broken = command.broken(measured);
-    if broken.is_some() {
-        return broken;
+/// What the journal says of a run.
+fn known(form: &Form, inputs: &[Input], size: usize, cell: Cell) -> Option<Outcome> {
+    let (seconds, bytes, wrong) = form.journal.of(size, &name(inputs, cell))?;
+    Some(Outcome {
+        cell,
+        seconds,
+        bytes,
+        wrong,
+    })
+}
+
+/// Runs cells on programs of `size` elements, in the order in which the programs come first in the list. A worker takes all runs of one program, so
+/// that each file is written once and few large ones exist at a time.
+fn sweep(folder: &Path, form: &Form, inputs: &[Input], size: usize, cells: &[Cell]) -> Vec<Outcome> {
+    let mut order: Vec<usize> = Vec::new();
+    let mut own: BTreeMap<usize, Vec<Cell>> = BTreeMap::new();
+    for cell in cells {
+        let runs = own.entry(cell.0).or_default();
+        if runs.is_empty() {
+            order.push(cell.0);
+        }
+        runs.push(*cell);
     }
-    if form.long && measured.seconds > MOST_SECONDS {
-        return Some(format!("took {:.1} s", measured.seconds));
-    }
-    if form.long && measured.bytes > MOST_BYTES {
-        return Some(format!("took {} MB", measured.bytes / 1_000_000));
-    }
-    None
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let kept = std::env::var_os("TRUNNION_BOUNDS_KEEP").is_some();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut outcomes = Vec::new();
+        while let Some(&input) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let file = format!("{}.nc", inputs[input].name);
+            let known = own[&input].iter().map(|&cell| known(form, inputs, size, cell));
+            let mut left = Vec::new();
+            for (known, &cell) in known.zip(&own[&input]) {
+                match known {
+                    Some(outcome) => outcomes.push(outcome),
+                    None => left.push(cell),
+                }
+            }
+            if left.is_empty() {
+                continue;
+            }
+            commands::write_program(folder, &file, &inputs[input].bytes(size));
+            for cell in left {
+                let outcome = run(folder, form, inputs, cell);
+                form.journal.write(size, &name(inputs, cell), &outcome);
+                outcomes.push(outcome);
+            }
+            if !kept {
+                commands::remove_program(folder, &file);
+            }
+        }
+        outcomes
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let ended = workers.into_iter().flat_map(|worker| worker.join().expect("no panic"));
+        ended.collect()
+    })
 }
 
 #[test]
@@ -163,51 +240,23 @@ fn every_command_ends_on_every_hostile_program() {
     std::fs::write(folder.join("trunnion.toml"), settings).expect("written");
     commands::write_helpers(folder);
     let cells = form.cells(&inputs);
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let next = AtomicUsize::new(0);
-    // a worker takes all runs of one program, so that large files exist one at a time
-    let mut results: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..workers)
-            .map(|_| {
-                scope.spawn(|| {
-                    let mut results = Vec::new();
-                    loop {
-                        let input = next.fetch_add(1, Ordering::Relaxed);
-                        if input >= inputs.len() {
-                            return results;
-                        }
-                        let own: Vec<Cell> = cells.iter().copied().filter(|cell| cell.0 == input).collect();
-                        if own.is_empty() {
-                            continue;
-                        }
-                        let file = format!("{}.nc", inputs[input].name);
-                        commands::write_program(folder, &file, &inputs[input].bytes(form.size));
-                        for cell in own {
-                            let result = run(folder, &form, &inputs, cell);
-                            if let (true, Some(wrong)) = (form.long, &result.2) {
-                                println!("{}: {wrong}", result.0);
-                            }
-                            results.push(result);
-                        }
-                        if kept.is_none() {
-                            commands::remove_program(folder, &file);
-                        }
-                    }
-                })
-            })
-            .collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| worker.join().expect("no panic"))
-            .collect()
-    });
+    let outcomes = if form.screened {
+        screen::run(folder, &form, &inputs, &cells)
+    } else {
+        let outcomes = sweep(folder, &form, &inputs, form.size, &cells);
+        assert_eq!(outcomes.len(), cells.len());
+        outcomes
+    };
     if form.long {
-        table(&mut results);
+        let runs = outcomes.iter();
+        table(
+            runs.map(|run| (name(&inputs, run.cell), run.seconds, run.bytes))
+                .collect(),
+        );
     }
-    assert_eq!(results.len(), cells.len());
-    let wrong: Vec<String> = results
+    let wrong: Vec<String> = outcomes
         .iter()
-        .filter_map(|(name, _, wrong)| wrong.as_ref().map(|wrong| format!("{name}: {wrong}")))
+        .filter_map(|run| Some(format!("{}: {}", name(&inputs, run.cell), run.wrong.as_ref()?)))
         .collect();
     assert!(
         wrong.is_empty(),
@@ -218,19 +267,18 @@ fn every_command_ends_on_every_hostile_program() {
     );
 }
 
-/// Prints the runs that took most time and most memory.
-fn table(results: &mut [(String, Measured, Option<String>)]) {
-    println!("{} runs", results.len());
-    let print = |results: &[(String, Measured, Option<String>)]| {
-        for (name, measured, _) in results.iter().take(25) {
-            let memory = measured.bytes / 1_000_000;
-            println!("{:8.1} s {memory:8} MB   {name}", measured.seconds);
+/// Prints the runs that took most time and most memory: names, seconds, bytes.
+fn table(mut runs: Vec<(String, f64, u64)>) {
+    println!("{} runs", runs.len());
+    let print = |runs: &[(String, f64, u64)]| {
+        for (name, seconds, bytes) in runs.iter().take(25) {
+            println!("{seconds:8.1} s {:8} MB   {name}", bytes / 1_000_000);
         }
     };
-    results.sort_by(|a, b| b.1.seconds.total_cmp(&a.1.seconds));
+    runs.sort_by(|a, b| b.1.total_cmp(&a.1));
     println!("most processor time:");
-    print(results);
-    results.sort_by_key(|result| std::cmp::Reverse(result.1.bytes));
+    print(&runs);
+    runs.sort_by_key(|run| std::cmp::Reverse(run.2));
     println!("most memory:");
-    print(results);
+    print(&runs);
 }

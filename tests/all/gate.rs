@@ -1,6 +1,7 @@
 //! The gate in front of the machine: formats for CI, the baseline, schemas, the recipes, and the report page.
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
+mod annotations;
 mod arguments;
 mod baseline;
 mod formats;

@@ -92,6 +92,9 @@ impl<'o> Document<'o> {
             }
             CheckFormat::Junit => {
                 self.out.write_all(junit::not_checked(&tally.not_checked).as_bytes())?;
+                if statistics {
+                    self.out.write_all(junit::statistics(&tally.statistics).as_bytes())?;
+                }
                 writeln!(self.out, "</testsuites>")
             }
             CheckFormat::Github | CheckFormat::Pretty | CheckFormat::Short => {

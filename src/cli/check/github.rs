@@ -37,6 +37,30 @@ pub(super) fn annotations(file: &File, denied: impl Fn(&Item) -> bool) -> String
     out
 }
 
+/// What stands below the line with the verdict: blocks that did not run, rules that judged nothing, where the run was given up, what is assumed. Each in a
+/// line of its own, indented: none of them is a command.
+pub(super) fn coverage(file: &File) -> String {
+    let c = &file.coverage;
+    let not_run = c
+        .not_run
+        .iter()
+        .map(|part| format!("not run: lines {} to {}: {}", part.line, part.last_line, part.reason));
+    let not_judged = c.not_judged.iter().map(|lacking| {
+        let (rule, needs) = (&lacking.rule, &lacking.needs);
+        format!("not judged: {rule}: the machine file does not declare {needs}")
+    });
+    let given_up = c
+        .given_up
+        .iter()
+        .map(|end| format!("given up: line {}: {}", end.line, end.reason));
+    let assumed = file.assumptions.iter().map(|text| format!("assumed: {text}"));
+    let lines: Vec<String> = not_run.chain(not_judged).chain(given_up).chain(assumed).collect();
+    lines
+        .iter()
+        .map(|line| format!("\n  {}", shown(&line.replace('\n', " "))))
+        .collect()
+}
+
 /// A file that could not be checked.
 pub(super) fn not_checked(failed: &NotChecked) -> String {
     format!("::error title=not checked::{}\n", data(&failed.text()))

@@ -1,6 +1,7 @@
 //! JUnit XML: one test suite for each file, one test case for its verdict and one for each finding.
 //!
 //! Source: the elements and attributes that Apache Ant writes and Jenkins reads; tests/schemas/junit.xsd lists those used here.
+use super::statistics::Statistics;
 use crate::cli::{
     failure::shown,
     json::{File, Item, NotChecked},
@@ -109,6 +110,31 @@ pub(super) fn not_checked(all: &[NotChecked]) -> String {
         );
     }
     out.push_str("  </testsuite>\n");
+    out
+}
+
+/// The suite that counts the findings of each rule: a property for each, and the table of the other formats.
+pub(super) fn statistics(all: &Statistics) -> String {
+    let mut out =
+        "  <testsuite name=\"statistics\" tests=\"1\" failures=\"0\" errors=\"0\" skipped=\"0\">\n".to_owned();
+    let rows: Vec<_> = all.rows().collect();
+    if !rows.is_empty() {
+        out.push_str("    <properties>\n");
+        for (rule, counts) in rows {
+            let counts = counts.map(|(word, count)| format!("{word} {count}")).join(", ");
+            let _ = writeln!(
+                out,
+                "      <property name=\"statistics.{}\" value=\"{counts}\"/>",
+                escape(rule)
+            );
+        }
+        out.push_str("    </properties>\n");
+    }
+    let table = escape_text(&all.table());
+    let _ = writeln!(
+        out,
+        "    <testcase classname=\"trunnion\" name=\"findings by rule\"><system-out>{table}</system-out></testcase>\n  </testsuite>"
+    );
     out
 }
 

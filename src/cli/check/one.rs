@@ -71,7 +71,7 @@ pub(super) struct Checked {
     pub(super) name: String,
     /// Its part of the document: findings as text, an object, a test suite.
     pub(super) text: String,
-    /// What stands in another place of the document (SARIF: the file itself).
+    /// What stands in another place of the document: of SARIF the file itself, of annotations what was not covered.
     pub(super) about: String,
     /// Its verdict in one line.
     pub(super) line: String,
@@ -246,7 +246,7 @@ impl Job<'_> {
         match self.format {
             CheckFormat::Sarif => (sarif::results(&file), sarif::artifact(&file)),
             CheckFormat::Junit => (junit::suite(&file, line, denied), String::new()),
-            CheckFormat::Github => (github::annotations(&file, denied), String::new()),
+            CheckFormat::Github => (github::annotations(&file, denied), github::coverage(&file)),
             _ => {
                 let text = serde_json::to_string_pretty(&file).unwrap_or_default();
                 (text.replace('\n', "\n    "), String::new())

@@ -55,6 +55,11 @@ impl Statistics {
         }
         out
     }
+    /// Each rule with its four counts and their words.
+    pub(super) fn rows(&self) -> impl Iterator<Item = (&str, [(&'static str, u64); 4])> {
+        let named = |counts: &[u64; 4]| std::array::from_fn(|at| (COLUMNS[at], counts[at]));
+        self.0.iter().map(move |(rule, counts)| (rule.as_str(), named(counts)))
+    }
     /// As a list of objects.
     pub(super) fn json(&self) -> serde_json::Value {
         let rows = self.0.iter().map(|(rule, [errors, warnings, infos, unknown])| Row {

@@ -2,6 +2,7 @@
 use super::expression::{Part, parts};
 use crate::cli::{
     failure::{Failure, is_hidden},
+    json::Listed,
     load::Loaded,
 };
 use serde_json::{Value, json};
@@ -129,8 +130,8 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
         let comma = if number == 0 { "\n" } else { ",\n" };
         write!(out, "{comma}{{\"end\":{end},\"items\":[")?;
         for (at, node) in nodes(loaded, &block).enumerate() {
-            let value = node_json(loaded, &block, &node);
-            write!(out, "{}{value}", if at == 0 { "" } else { "," })?;
+            out.write_all(if at == 0 { b"" } else { b"," })?;
+            node_json(out, loaded, &block, &node)?;
         }
         write!(out, "],\"line\":{line},\"start\":{start}}}")?;
     }
@@ -140,20 +141,33 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     Ok(())
 }
 
-fn node_json(loaded: &Loaded, block: &Block<'_>, node: &Node) -> Value {
+/// Writes a node; its parts one after the other: each byte of a file may be one.
+fn node_json(out: &mut impl Write, loaded: &Loaded, block: &Block<'_>, node: &Node) -> Result<(), Failure> {
     let program = &loaded.program;
-    let mut value = json!({ "kind": node.kind, "start": node.range.start, "end": node.range.end, "text": program.text(node.range) });
-    for (key, fact) in &node.facts {
-        value[*key] = fact.clone();
+    let mut document = serde_json::Map::new();
+    let own = [("kind", json!(node.kind)), ("text", json!(program.text(node.range)))];
+    let places = [("start", json!(node.range.start)), ("end", json!(node.range.end))];
+    let facts = node.facts.iter().cloned();
+    document.extend(
+        own.into_iter()
+            .chain(places)
+            .chain(facts)
+            .map(|(key, value)| (key.to_owned(), value)),
+    );
+    let inside = node.inside.map(|range| parts(program, block, range));
+    if inside.is_some() {
+        document.insert("parts".to_owned(), Value::Null);
     }
-    if let Some(range) = node.inside {
-        let part = |part: &Part| {
-            json!({ "kind": part.kind, "depth": part.depth, "start": part.range.start, "end": part.range.end,
-                    "text": program.text(part.range) })
-        };
-        value["parts"] = parts(program, block, range).iter().map(part).collect();
-    }
-    value
+    let part = |part: &Part| {
+        json!({ "kind": part.kind, "depth": part.depth, "start": part.range.start, "end": part.range.end,
+                "text": program.text(part.range) })
+    };
+    let whole = Listed {
+        document,
+        key: "parts",
+        items: || inside.iter().flatten().map(part),
+    };
+    serde_json::to_writer(out, &whole).map_err(|error| Failure::from(std::io::Error::from(error)))
 }
 
 /// The problems of the text, one after the other: each byte of a file may be one.

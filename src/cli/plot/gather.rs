@@ -5,9 +5,9 @@ use crate::cli::{
     load::Loaded,
 };
 use std::collections::{BTreeMap, VecDeque};
-use trunnion_check::{Report, Status};
+use trunnion_check::{Diagnostic, Report, Status, ValueKey};
 use trunnion_interp::{ModalState, MotionKind, Setup};
-use trunnion_machine::{BlockPath, Leg, Machine};
+use trunnion_machine::{AxisKind, BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
 use trunnion_plot::{Mark, PlannedFeed, Record, Recorder, Unit};
 use trunnion_syntax::LineIndex;
@@ -127,27 +127,52 @@ pub(crate) fn marks(loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
 pub(crate) fn marks_of(report: &Report, loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
     let index = LineIndex::new(loaded.program.source());
     let line = |at: u32| index.line_column(loaded.program.source(), at).0;
-    let mut spans = BTreeMap::<&str, Vec<(u32, u32)>>::new();
+    let mut spans = BTreeMap::<(&str, Vec<char>), Vec<(u32, u32)>>::new();
     for found in report.findings() {
         if found.status == Status::Fail && SHOWN.contains(&found.rule) {
             let (from, to) = (line(found.range.start), line(found.last.start));
-            spans.entry(found.rule).or_default().push((from, to.max(from)));
+            let of = (found.rule, axes(found, loaded.resolved.machine.as_ref()));
+            spans.entry(of).or_default().push((from, to.max(from)));
         }
     }
-    let mut marks = Vec::new();
-    for (rule, mut spans) in spans {
+    let mut found = BTreeMap::<(&str, u32), Vec<Vec<char>>>::new();
+    for ((rule, axes), mut spans) in spans {
         spans.sort_unstable();
         // findings overlap: a line is marked once
         let mut next = 0;
         for (from, to) in spans {
             for line in from.max(next)..=to {
                 if lines.is_none_or(|(first, last)| (first..=last).contains(&line)) {
-                    let rule = rule.to_owned();
-                    marks.push(Mark { line, rule });
+                    found.entry((rule, line)).or_default().push(axes.clone());
                 }
             }
             next = next.max(to + 1);
         }
     }
-    marks
+    let marks = found.into_iter().map(|((rule, line), about)| {
+        // one finding about all axes is about all of them
+        let all = about.iter().any(Vec::is_empty);
+        let mut axes = if all { Vec::new() } else { about.concat() };
+        axes.sort_unstable();
+        axes.dedup();
+        let rule = rule.to_owned();
+        Mark { line, rule, axes }
+    });
+    marks.collect()
+}
+
+/// The letters of the axes that a finding is about; empty: of all.
+fn axes(found: &Diagnostic, machine: Option<&Machine>) -> Vec<char> {
+    let named = found.values.iter().find_map(|(key, value)| match value {
+        ValueKey::Text(name) if *key == "axis" => Some(name.as_str()),
+        _ => None,
+    });
+    let mut letters = named.unwrap_or_default().chars();
+    if let (Some(letter), None) = (letters.next(), letters.next()) {
+        return vec![letter];
+    }
+    let turns = matches!(found.rule, "pole-crossing" | "branch-swap" | "excess-rotary-travel");
+    let rotary = machine.into_iter().filter(|_| turns).flat_map(Machine::own_axes);
+    let rotary = rotary.filter(|(_, axis)| axis.kind == AxisKind::Rotary);
+    rotary.map(|(_, axis)| char::from(axis.letter)).collect()
 }

@@ -1,5 +1,8 @@
 //! The page: everything in one file, nothing loaded from elsewhere. Text of programs is escaped at one place, [`escape`].
-use super::{Part, replay::line_text};
+use super::{
+    Part,
+    replay::{self, line_text},
+};
 use crate::cli::{failure::shown, load::Loaded, short};
 use std::fmt::Write;
 use trunnion_check::{Diagnostic, Report, Scope, Verdict};
@@ -70,7 +73,7 @@ pub(super) fn facts(loaded: &Loaded, report: &Report, scope: Scope) -> Vec<(&'st
         ("Judged", scope.name().to_owned()),
         ("Blocks run", format!("{} of {}", c.blocks_run, c.blocks)),
         (
-            "Motions with a known path",
+            "Motions with a known end",
             format!("{} of {}", c.motions_known, c.motions),
         ),
     ];
@@ -192,12 +195,19 @@ fn program(out: &mut String, at: usize, part: &Part) {
         let _ = writeln!(out, "<tr><th scope=\"row\">{name}</th><td>{}</td></tr>", escape(value));
     }
     out.push_str("</table>");
-    if part.assumptions.is_empty() {
+    if part.assumptions.is_empty() && part.drawn_with.is_empty() {
         out.push_str("<p>Nothing is assumed.</p>");
     } else {
         out.push_str("<h4>Assumptions</h4><ul>");
         for text in &part.assumptions {
             let _ = write!(out, "<li>{}</li>", escape(text));
+        }
+        for text in &part.drawn_with {
+            let _ = write!(
+                out,
+                "<li>{}: in pictures, replay and set-up sheet; the check leaves it open</li>",
+                escape(text)
+            );
         }
         out.push_str("</ul>");
     }
@@ -224,7 +234,7 @@ fn program(out: &mut String, at: usize, part: &Part) {
     }
     out.push_str("</section>\n");
     if let Some(data) = &part.replay {
-        replay(out, data);
+        show_replay(out, data);
     }
     if !part.pictures.is_empty() {
         out.push_str("<section class=\"pictures\"><h3>Pictures</h3>\n");
@@ -260,7 +270,9 @@ fn program(out: &mut String, at: usize, part: &Part) {
     out.push_str("</article>\n");
 }
 
-fn replay(out: &mut String, data: &str) {
+fn show_replay(out: &mut String, data: &replay::Data) {
+    let thinned = data.thinned().map_or_else(String::new, |text| format!(" {text}"));
+    let data = &data.json;
     let _ = writeln!(
         out,
         "<section class=\"replay\"><h3>Replay</h3>\n<canvas width=\"1100\" height=\"560\" tabindex=\"0\" aria-label=\"The path of the tool tip in \
@@ -269,7 +281,7 @@ fn replay(out: &mut String, data: &str) {
          <button type=\"button\" data-do=\"iso\">Iso</button><button type=\"button\" data-do=\"front\">Front</button>\
          <button type=\"button\" data-do=\"right\">Right</button><button type=\"button\" data-do=\"top\">Top</button></div>\n\
          <p class=\"state\"></p><pre class=\"now\"></pre>\n\
-         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Orange: run so far. Red squares: findings about axes. Drag to turn, scroll to zoom, shift and drag to move.</p>\n\
+         <p class=\"hint\">Blue: feed. Grey, dashed: rapid. Orange: run so far. Red squares: findings about axes. Drag to turn, scroll to zoom, shift and drag to move; rapids may reach beyond the frame.{thinned}</p>\n\
          <script type=\"application/json\">{data}</script></section>"
     );
 }

@@ -102,7 +102,7 @@ for (const section of document.querySelectorAll(".replay")) {
     const rule = marked.has(data.lines[at]) ? `; finding: ${marked.get(data.lines[at])}` : "";
     section.querySelector(".state").textContent =
       `Line ${data.lines[at]}, ${data.kinds[at] & 1 ? "rapid" : "feed"}, ${time < 0 ? "time unknown" : time.toFixed(2) + " s"}; ` +
-      `tip ${tip.map((value) => value.toFixed(data.digits)).join(", ")} ${data.unit}; joints ${joints.join(", ")}${rule}`;
+      `tip${data.radius ? " (X as radius)" : ""} ${tip.map((value) => value.toFixed(data.digits)).join(", ")} ${data.unit}; joints ${joints.join(", ")}${rule}`;
     section.querySelector(".now").textContent = data.texts[data.lines[at]];
     slider.value = String(Math.round(at / Math.max(count - 1, 1) * 1000));
   };

@@ -12,10 +12,10 @@ pub(super) struct Table {
 }
 
 /// The tables of a program.
-pub(super) fn tables(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Vec<Table> {
+pub(super) fn tables(loaded: &Loaded, assumed: &[String], tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Vec<Table> {
     let mut tables = vec![
         tools(tally),
-        offsets(loaded),
+        offsets(loaded, assumed),
         extents(tally),
         Table {
             title: "Time and distance",
@@ -52,7 +52,7 @@ fn tools(tally: &Tally) -> Table {
     }
 }
 
-fn offsets(loaded: &Loaded) -> Table {
+fn offsets(loaded: &Loaded, assumed: &[String]) -> Table {
     let rows = loaded.resolved.setup.work_offsets.iter().map(|offset| {
         let values = AXIS_LETTERS
             .iter()
@@ -69,8 +69,7 @@ fn offsets(loaded: &Loaded) -> Table {
         vec![offset.name.clone(), values]
     });
     let mut rows: Vec<Vec<String>> = rows.collect();
-    let assumed = loaded.assumptions();
-    rows.extend(assumed.into_iter().map(|text| vec!["assumed".to_owned(), text]));
+    rows.extend(assumed.iter().map(|text| vec!["assumed".to_owned(), text.clone()]));
     Table {
         title: "Work offsets",
         head: vec!["offset", "part zero in machine coordinates / mm, deg"],
@@ -79,6 +78,13 @@ fn offsets(loaded: &Loaded) -> Table {
 }
 
 fn extents(tally: &Tally) -> Table {
+    let radius = |letter: char| {
+        if tally.radii && letter == 'X' {
+            ", as radius (words of X are diameters)"
+        } else {
+            ""
+        }
+    };
     let programmed = AXIS_LETTERS
         .iter()
         .zip(tally.axes)
@@ -87,7 +93,7 @@ fn extents(tally: &Tally) -> Table {
             let range = range?;
             let unit = if (3..6).contains(&axis) { "deg" } else { "mm" };
             Some(vec![
-                format!("{} programmed", char::from(*letter)),
+                format!("{} programmed{}", char::from(*letter), radius(char::from(*letter))),
                 format!("{} {unit}", short(range.low)),
                 format!("{} {unit}", short(range.high)),
             ])
@@ -96,7 +102,7 @@ fn extents(tally: &Tally) -> Table {
         let range = (*range)?;
         let unit = if *rotary { "deg" } else { "mm" };
         Some(vec![
-            format!("{letter} of the machine"),
+            format!("{letter} of the machine{}", radius(*letter)),
             format!("{} {unit}", short(range.low)),
             format!("{} {unit}", short(range.high)),
         ])

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use trunnion_check::with_inches;
 use trunnion_interp::AXIS_LETTERS;
-use trunnion_stats::{Call, Range, Tally};
+use trunnion_stats::{Call, MOST_LINES, Range, Tally};
 
 /// Units of F, per minute, per turn, inverse time.
 const FEEDS: [(&str, &str); 3] = [
@@ -33,8 +33,7 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
     let mut row = |name: &str, text: &str| {
         let _ = writeln!(out, "  {name:<12}  {text}");
     };
-    let blocks = format!("{} written, {} run", number(tally.blocks), number(tally.run));
-    row("blocks", &blocks);
+    row("blocks", &blocks(tally));
     row("motions", &motions(tally));
     row("path", &path(tally));
     row("time", &time(loaded, tally, cycle_time_s));
@@ -85,6 +84,16 @@ fn rows_of(row: &mut impl FnMut(&str, &str), name: &str, texts: &[String], count
     }
 }
 
+/// `38 of 38 run`, in the words of `check`.
+fn blocks(tally: &Tally) -> String {
+    let again = if tally.runs > tally.run {
+        format!(", {} times in all", number(tally.runs))
+    } else {
+        String::new()
+    };
+    format!("{} of {} run{again}", number(tally.run), number(tally.blocks))
+}
+
 fn motions(tally: &Tally) -> String {
     let kinds: Vec<String> = tally
         .motions
@@ -113,11 +122,23 @@ fn path(tally: &Tally) -> String {
     if tally.unmeasured > 0 {
         let _ = write!(
             text,
-            "; {} from or to an unknown position not counted",
-            many(tally.unmeasured, "motion")
+            "; without {} whose start or end in the part is not known ({})",
+            many(tally.unmeasured, "motion"),
+            in_lines(&tally.unmeasured_lines)
         );
     }
     text
+}
+
+/// `line 4`, `lines 4, 8, 10`, `lines 4, 8, 10 and more`.
+fn in_lines(lines: &[u32]) -> String {
+    const NAMED: usize = MOST_LINES - 1;
+    let named: Vec<String> = lines.iter().take(NAMED).map(ToString::to_string).collect();
+    let (plural, more) = (
+        if lines.len() == 1 { "" } else { "s" },
+        if lines.len() > NAMED { " and more" } else { "" },
+    );
+    format!("line{plural} {}{more}", named.join(", "))
 }
 
 fn time(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> String {
@@ -141,15 +162,27 @@ fn time(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Strin
 fn extents(tally: &Tally) -> Vec<String> {
     let known = AXIS_LETTERS.iter().zip(tally.axes).enumerate();
     known
-        .filter_map(|(axis, (letter, range))| Some(wide(char::from(*letter), range?, is_rotary(axis))))
+        .filter_map(|(axis, (letter, range))| {
+            let row = wide(char::from(*letter), range?, is_rotary(axis));
+            Some(row + radius(tally, char::from(*letter)))
+        })
         .collect()
+}
+
+/// What follows the values of X where its words are diameters.
+fn radius(tally: &Tally, letter: char) -> &'static str {
+    if tally.radii && letter == 'X' {
+        " (radius; words of X are diameters)"
+    } else {
+        ""
+    }
 }
 
 fn joints(tally: &Tally) -> Vec<String> {
     tally
         .joints
         .iter()
-        .filter_map(|(letter, rotary, range)| Some(wide(*letter, (*range)?, *rotary)))
+        .filter_map(|(letter, rotary, range)| Some(wide(*letter, (*range)?, *rotary) + radius(tally, *letter)))
         .collect()
 }
 
@@ -312,6 +345,7 @@ pub(super) fn json<'t>(
         "machine": resolved.machine.as_ref().map(|machine| &machine.id),
         "blocks": tally.blocks,
         "blocks_run": tally.run,
+        "block_runs": tally.runs,
         "motions": tally.motions(),
         "motions_by_kind": tally.motions,
         "rapid_length_mm": tidy(tally.rapid_mm),
@@ -324,6 +358,7 @@ pub(super) fn json<'t>(
         "dwell_s": tidy(tally.dwell_s),
         "extents": extents,
         "joints": joints,
+        "x_is_radius": tally.radii,
         "feed": feeds,
         "spindle_rpm": tally.spindle.map(ends),
         "tools": tools.collect::<Vec<_>>(),

@@ -14,6 +14,12 @@ pub(crate) struct ReportedFaults(HashSet<Key>);
 const KEPT: usize = 100_000;
 
 impl ReportedFaults {
+    /// What a clone copies, as entries of other lists: a fault is a few numbers. A program may have one in each block, and check-points
+    /// that are as many blocks apart would be far from what an editor shows.
+    pub(crate) fn copied(&self) -> usize {
+        self.0.len() / 8
+    }
+
     /// Whether the fault is new. `again`: its block has run before, so that facts of its text alone were reported then.
     pub(crate) fn is_new(&mut self, file: u16, fault: &Fault, again: bool) -> bool {
         if again && is_textual(&fault.kind) {

@@ -53,6 +53,9 @@ impl<'d> Engine<'d> for Iso<'d> {
         }
         Some(block)
     }
+    fn copied(&self) -> usize {
+        self.flow.copied() + self.memory.own.copied()
+    }
     fn returns_to_r(&self) -> bool {
         self.memory.cycle.to_r
     }

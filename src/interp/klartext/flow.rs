@@ -55,7 +55,7 @@ pub(crate) struct Flow {
     repeats: HashMap<(u16, u32, usize), u32>,
     turns: u64,
     pub(super) selected: Option<String>,
-    reported: crate::flow::reported::ReportedFaults,
+    pub(super) reported: crate::flow::reported::ReportedFaults,
 }
 
 impl Klartext<'_> {

@@ -25,6 +25,11 @@ pub(crate) struct Parameters {
 }
 
 impl Parameters {
+    /// How many entries a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        self.numbers.len() + self.texts.len() + self.causes.len()
+    }
+
     /// The value; parameters that the program has not set are unknown, since they keep their values from programs before.
     pub(crate) fn get(&self, parameter: Parameter) -> Value {
         self.numbers.get(&parameter).copied().flatten()

@@ -72,6 +72,11 @@ pub(crate) fn class(index: i64) -> Class {
 }
 
 impl Variables {
+    /// How many a clone copies, apart from those of the level that runs and of the setup: these do not grow with the program.
+    pub(crate) fn copied(&self) -> usize {
+        self.common.len() + self.named.len() + self.reasons.len()
+    }
+
     /// With what a setup declares, by number.
     pub(crate) fn with(declared: &[(u32, Held)]) -> Self {
         let mut variables = Self::default();

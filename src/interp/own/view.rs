@@ -11,6 +11,16 @@ pub(super) struct View<'a> {
     pub(super) unknown: RefCell<Option<String>>,
 }
 
+impl Own {
+    /// How many entries of lists that grow with the program a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        let scope = &self.scope;
+        let declared = scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len();
+        let values = self.parameters.len() + self.others.len() + self.texts.len() + self.before_loss.len();
+        declared + values + self.counted_to.len() + self.missing.len()
+    }
+}
+
 impl View<'_> {
     fn give(&self, value: Option<f64>, why: impl FnOnce() -> String) -> f64 {
         value.unwrap_or_else(|| {

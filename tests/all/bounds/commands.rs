@@ -120,6 +120,12 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("lsp", "lsp", &["lsp"]),
 ];
 
+/// Bytes and lines of the longer beginning of a program: what `diff` reads by default.
+const HALF: (usize, usize) = (32_000_000, 400_000);
+
+/// Those of the shorter beginning: what `fmt` reads by default.
+const SHORTER: (usize, usize) = (16_000_000, 400_000);
+
 /// Files that commands need beside the program.
 pub(crate) fn write_helpers(folder: &Path) {
     let required =
@@ -151,13 +157,13 @@ fn shorter(file: &str) -> String {
 
 /// Writes a program and what commands read beside it: its beginnings, as much as `diff` and `fmt` read by default, and the changed copy.
 pub(crate) fn write_program(folder: &Path, file: &str, program: &[u8]) {
-    let beginning = |bytes, lines| super::inputs::cut_off(program, bytes, lines);
-    let half_of_it = beginning(32_000_000, 400_000);
+    let beginning = |(bytes, lines)| super::inputs::cut_off(program, bytes, lines);
+    let half_of_it = beginning(HALF);
     let write = |name: &str, bytes: &[u8]| std::fs::write(folder.join(name), bytes).expect("written");
     write(file, program);
     write(&half(file), half_of_it);
     write(&other(file), &changed(half_of_it));
-    write(&shorter(file), beginning(16_000_000, 400_000));
+    write(&shorter(file), beginning(SHORTER));
 }
 
 /// Removes them, and the path that the server wrote.
@@ -180,6 +186,17 @@ fn changed(program: &[u8]) -> Vec<u8> {
 }
 
 impl Command {
+    /// The most bytes and lines that it is given of a program.
+    pub(super) fn reads(&self) -> (usize, usize) {
+        let whole = super::inputs::Input::MOST;
+        let words = self.arguments.iter();
+        words.fold(whole, |most, word| match *word {
+            "HALF" => HALF,
+            "SHORTER" => SHORTER,
+            _ => most,
+        })
+    }
+
     /// The arguments for a program, in a dialect or in the one that it seems to be written in.
     pub(crate) fn arguments(&self, file: &str, dialect: Option<&str>) -> Vec<String> {
         let (half, other, shorter) = (half(file), other(file), shorter(file));

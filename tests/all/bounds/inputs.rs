@@ -21,6 +21,8 @@ impl Input {
     /// No file is larger, and none has more lines: `--max-file-mb` and `--max-lines` refuse more by default.
     pub(super) const MOST_BYTES: usize = 64_000_000;
     const MOST_LINES: usize = 1_200_000;
+    /// Both.
+    pub(super) const MOST: (usize, usize) = (Self::MOST_BYTES, Self::MOST_LINES);
 
     const fn new(name: &'static str, make: fn(usize) -> Vec<u8>) -> Self {
         Self {

@@ -29,7 +29,6 @@ fn pictures_of_an_inch_program_are_in_inch() {
     for (kind, only_in_inch) in [
         ("path", "X / in"),
         ("joints", "Z / in"),
-        ("deviation", "tolerance 0.0003937 in"),
         ("feed", "feed of the tip / in/min"),
     ] {
         let (metric, imperial) = (drawn("mm.nc", mm, kind), drawn("inch.nc", inch, kind));
@@ -37,6 +36,23 @@ fn pictures_of_an_inch_program_are_in_inch() {
         assert!(!imperial.contains(" mm") && !metric.contains("/ in"), "{kind}");
         assert!(metric.contains("mm") && !metric.contains(only_in_inch), "{kind}");
     }
+    // straight lines of three axes do not deviate: a sentence says so
+    let refused = |name: &str| {
+        let file = folder.path().join(name);
+        let of = ["plot", str(&file), "--machine", "mill-3axis", "--dialect", "fanuc-30i"];
+        let output = trunnion(&[&of[..], &["--assume", "work-offset,tool-length", "--kind", "deviation"]].concat());
+        assert_eq!(status(&output), 2);
+        text(&output.stderr)
+    };
+    let (metric, imperial) = (refused("mm.nc"), refused("inch.nc"));
+    assert!(
+        metric.contains("stays within 0.0001 mm") && metric.contains("tolerance 0.01 mm"),
+        "{metric}"
+    );
+    assert!(
+        imperial.contains("tolerance 0.0003937 in") && !imperial.contains(" mm"),
+        "{imperial}"
+    );
     let page = folder.path().join("page.html");
     let file = folder.path().join("inch.nc");
     let output = trunnion(&[

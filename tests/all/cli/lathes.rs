@@ -200,3 +200,59 @@ fn a_linuxcnc_lathe_has_a_path_too() {
         .collect();
     assert_eq!(tips, ["22.0 0.0 2.0", "22.0 0.0 -10.0", "25.0 0.0 -10.0"], "{csv}");
 }
+
+/// Words of X are diameters, what is shown are radii: each place says so. What pictures take as zero stands with the assumptions.
+#[test]
+fn a_report_on_a_lathe_says_radius_and_what_it_assumes() {
+    let folder = folder("machine = \"lathe-2axis\"\n", PLAIN);
+    let output = trunnion_in(folder.path(), &["report", "a.nc", "-o", "page.html"]);
+    let page = std::fs::read_to_string(folder.path().join("page.html")).expect("written");
+    assert!(page.contains("UNKNOWN"), "{}", text(&output.stderr));
+    for wanted in [
+        "<td>X programmed, as radius (words of X are diameters)</td><td>10 mm</td><td>50 mm</td>",
+        "<td>X of the machine, as radius (words of X are diameters)</td>",
+        "X (radius) / mm",
+        "\"radius\":true",
+        "<li>the tool offset 1 = 0 (not declared): in pictures, replay and set-up sheet; the check leaves it open</li>",
+        "; assuming ",
+        "beyond a limit: X, Z",
+    ] {
+        assert!(page.contains(wanted), "{wanted}");
+    }
+    let assumptions = page
+        .split("<h4>Assumptions</h4>")
+        .nth(1)
+        .and_then(|rest| rest.split("</ul>").next());
+    assert!(
+        assumptions.is_some_and(|list| list.contains("tool offset 1 = 0")),
+        "{assumptions:?}"
+    );
+    let stats = trunnion_in(folder.path(), &["stats", "a.nc"]);
+    let stats = text(&stats.stdout);
+    assert_eq!(
+        stats.matches("(radius; words of X are diameters)").count(),
+        2,
+        "{stats}"
+    );
+    let stats = json(&trunnion_in(folder.path(), &["stats", "--format", "json", "a.nc"]));
+    assert_eq!(stats["files"][0]["x_is_radius"], true);
+    // a mill has none of it
+    write(
+        &folder,
+        "a.nc",
+        "G21 G90 G17 G94\nS1 M3\nG0 X0 Y0 Z5\nG1 X20 F100\nM30\n",
+    );
+    let mill = ["--machine", "mill-3axis", "--dialect", "fanuc-30i"];
+    let stats = text(&trunnion_in(folder.path(), &[&["stats", "a.nc"][..], &mill].concat()).stdout);
+    assert!(!stats.contains("radius"), "{stats}");
+    let page = trunnion_in(
+        folder.path(),
+        &[&["report", "a.nc", "-o", "page.html"][..], &mill].concat(),
+    );
+    let page = (
+        page,
+        std::fs::read_to_string(folder.path().join("page.html")).expect("written"),
+    )
+        .1;
+    assert!(!page.contains("X (radius)") && !page.contains("as radius ("));
+}

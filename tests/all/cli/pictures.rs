@@ -191,7 +191,6 @@ fn pictures_are_whole_and_labelled() {
                 "pole-flip",
             ],
         ),
-        ("deviation", &["travel of the tool tip / mm", "tolerance 0.01 mm"]),
         ("path", &["Y / mm", "feed", "rapid"]),
     ] {
         let output = trunnion(&[
@@ -212,6 +211,29 @@ fn pictures_are_whole_and_labelled() {
         }
         assert!(picture.len() < 200_000, "{kind}: {} bytes", picture.len());
     }
+}
+
+/// The saddle that deviates has a picture; five short lines that do not have a sentence.
+#[test]
+fn a_deviation_is_a_picture_or_a_sentence() {
+    let folder = TempDir::new().expect("works");
+    let (saddle, _) = saddle(&folder, "saddle.mpf", "naive");
+    let flip = write(&folder, "flip.nc", FLIP);
+    let drawn = |file: &PathBuf, dialect: &str| {
+        let of = ["plot", str(file), "--kind", "deviation", "--machine", MACHINE];
+        trunnion(&[&of[..], &["--dialect", dialect]].concat())
+    };
+    let picture = drawn(&saddle, "sinumerik-840d");
+    assert_eq!(status(&picture), 0, "{}", text(&picture.stderr));
+    let picture = text(&picture.stdout);
+    assert!(picture.contains("travel of the tool tip / mm") && picture.contains("tolerance 0.01 mm"));
+    let refused = drawn(&flip, "fanuc-30i");
+    assert_eq!(status(&refused), 2);
+    let said = text(&refused.stderr);
+    assert!(
+        said.contains("the tip stays within 0.0001 mm of the programmed segment"),
+        "{said}"
+    );
 }
 
 /// A second program over the first, and the neighbourhood of the pole alone.

@@ -244,7 +244,7 @@ fn its_picture() {
     let drawn = std::fs::read_to_string(&picture).expect("written");
     for wanted in [
         "Corner at line 4",
-        "along the leg in / mm",
+        "along the incoming leg / mm",
         "time from the corner / ms",
         "22.",
     ] {

@@ -24,6 +24,70 @@ fn a_program_in_numbers() {
     assert_eq!(file["feed"]["mm_min"], serde_json::json!([50.0, 300.0]));
 }
 
+/// A block is what `check` counts as one, and motions that are not measured are those that a picture does not draw.
+#[test]
+fn the_counts_of_check_stats_and_plot_agree() {
+    let folder = TempDir::new().expect("a folder");
+    let loop_of = "%\n(HEAD)\nO1\n\nG21 G90 G17 G94 G54\nS1000 M3\nG0 X0 Y0\nG43 H1 Z5\n#1 = 0\nWHILE [#1 LT 3] DO1\n#1 = #1 + 1\nG1 X[#1] F100\nEND1\nM30\n%\n";
+    let klartext = "BEGIN PGM A MM\nL X+0 Y+0 FMAX\nL Z+5 FMAX\nL X+1 F100\nM30\nEND PGM A MM\n";
+    for (name, program, dialect, blocks) in [
+        ("a.nc", loop_of, "fanuc-30i", 11),
+        ("a.h", klartext, "heidenhain-klartext", 5),
+    ] {
+        let file = write(&folder, name, program);
+        let on = |command: &[&str]| {
+            let of = [
+                str(&file),
+                "--machine",
+                "mill-3axis",
+                "--dialect",
+                dialect,
+                "--assume",
+                "work-offset,tool-length",
+            ];
+            trunnion(&[command, &of].concat())
+        };
+        let checked = json(&on(&["check", "--format", "json"]));
+        let coverage = &checked["files"][0]["coverage"];
+        let counted = json(&on(&["stats", "--format", "json"]));
+        let counted = &counted["files"][0];
+        assert_eq!(
+            [&coverage["blocks"], &coverage["blocks_run"]],
+            [&counted["blocks"], &counted["blocks_run"]],
+            "{name}"
+        );
+        assert_eq!(counted["blocks_run"].as_u64(), Some(blocks), "{name}");
+        let said = text(&on(&["stats"]).stdout);
+        assert!(
+            said.contains(&format!("  blocks        {blocks} of {blocks} run")),
+            "{said}"
+        );
+        let again = counted["block_runs"].as_u64().expect("a number");
+        assert_eq!(
+            (again > blocks, said.contains(&format!("run, {again} times in all"))),
+            (name == "a.nc", name == "a.nc"),
+            "{said}"
+        );
+        let unknown = counted["motions_of_unknown_length"].as_u64().expect("a number");
+        assert_eq!(unknown, 2, "{said}");
+        let lines = if name == "a.nc" { "(lines 7, 8)" } else { "(lines 2, 3)" };
+        assert!(
+            said.contains(&format!(
+                "without 2 motions whose start or end in the part is not known {lines}"
+            )),
+            "{said}"
+        );
+        let drawn = on(&["plot", "--kind", "path"]);
+        let picture = text(&drawn.stdout);
+        let wanted = format!("2 motions not drawn: start or end not known {lines}");
+        assert!(
+            picture.contains(&wanted) && text(&drawn.stderr).contains(&wanted),
+            "{}",
+            text(&drawn.stderr)
+        );
+    }
+}
+
 /// A retract in machine coordinates says nothing about the part.
 #[test]
 fn machine_coordinates_are_no_extents() {

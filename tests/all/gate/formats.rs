@@ -124,7 +124,7 @@ fn junit_obeys_its_schema() {
     let folder = folder();
     write(&folder, "h<o>&\"'.nc", "(<!-- ]]> \x01 -->)\nG1 X1\nG99999\n");
     let file = folder.path().join("report.xml");
-    let output = check(&folder, &[".", "--format", "junit", "-o", str(&file)]);
+    let output = check(&folder, &[".", "--format", "junit", "--statistics", "-o", str(&file)]);
     assert_eq!(status(&output), 1, "{}", text(&output.stderr));
     let schema = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/schemas/junit.xsd");
     match Command::new("xmllint")
@@ -250,8 +250,17 @@ fn statistics_count_each_rule() {
     let rows = document["statistics"].as_array().expect("rows");
     let sum: u64 = rows.iter().map(|row| row["errors"].as_u64().expect("a number")).sum();
     assert_eq!(document["summary"]["errors"].as_u64(), Some(sum));
-    let text = text(&check(&folder, &[".", "--format", "short", "--statistics"]).stdout);
-    assert!(text.contains("missing-feed"), "{text}");
+    for format in ["short", "pretty", "github", "sarif", "junit"] {
+        let said = text(&check(&folder, &[".", "--format", format, "--statistics"]).stdout);
+        let without = text(&check(&folder, &[".", "--format", format]).stdout);
+        let count = |text: &str| text.matches("missing-feed").count();
+        assert!(count(&said) > count(&without), "{format}: {said}");
+    }
+    let junit = text(&check(&folder, &[".", "--format", "junit", "--statistics"]).stdout);
+    assert!(
+        junit.contains("<property name=\"statistics.missing-feed\" value=\"error 1, warning 0, info 0, unknown 0\"/>"),
+        "{junit}"
+    );
 }
 
 #[test]

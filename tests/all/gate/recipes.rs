@@ -107,6 +107,22 @@ fn the_pre_commit_hook_fails_on_a_bad_program_and_passes_with_the_baseline() {
     assert_eq!(status, 0, "{said}");
 }
 
+/// pre-commit hands over the files whose names match: each kind of file in which `check` looks for programs.
+#[test]
+fn the_pre_commit_hook_gets_every_program() {
+    let yaml = fs::read_to_string(root().join(".pre-commit-hooks.yaml")).expect("read");
+    let mut known = trunnion_dialect::program_extensions();
+    known.sort_unstable();
+    known.dedup();
+    assert!(
+        known
+            .iter()
+            .all(|ending| ending.bytes().all(|byte| byte.is_ascii_alphanumeric()))
+    );
+    let wanted = format!(r"  files: (?i)\.({})(\.[0-9]+)?$", known.join("|"));
+    assert!(yaml.lines().any(|line| line == wanted), "the pattern must be\n{wanted}");
+}
+
 #[test]
 fn the_hook_after_posting_reports_what_it_found() {
     let hook = root().join("integrations/freecad/trunnion_check.py");

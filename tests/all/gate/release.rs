@@ -67,6 +67,16 @@ fn a_part_that_fails_fails_the_release_and_is_named() {
     assert!(said.contains("Python wheel: maturin is not installed"), "{said}");
     assert!(said.contains("VS Code package: npm is not installed"), "{said}");
 
+    // what belongs to other computers is listed, each part of it
+    for target in [
+        "x86_64-unknown-linux-gnu",
+        "aarch64-apple-darwin",
+        "x86_64-pc-windows-msvc",
+    ] {
+        let line = format!("binary, Python wheel and VS Code package for {target}: build them on such a computer");
+        assert!(said.contains(&line), "{said}");
+    }
+
     computer.tool("maturin", "exit 1");
     computer.tool("npm", "exit 1");
     let output = computer.release();

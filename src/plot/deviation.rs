@@ -22,11 +22,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
             "nothing to draw: the deviation is unknown in every feed block".into(),
         ));
     };
-    let unjudged = record
-        .blocks
-        .iter()
-        .filter(|block| !block.rapid && block.deviation.is_none())
-        .count();
+    let unjudged = record.blocks.iter().filter(|block| is_unjudged(block)).count();
     nothing(&known, unjudged, tolerance, record.unit)?;
     // far above the tolerance a linear scale would hide it
     let decades = *most > 20.0 * tolerance;
@@ -93,6 +89,11 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         let side = if left { HPos::Right } else { HPos::Left };
         panel.text(place, &text, VERMILION, (side, VPos::Bottom), 8.0)
     })
+}
+
+/// A cut whose deviation is unknown.
+fn is_unjudged(block: &Block) -> bool {
+    !block.rapid && block.deviation.is_none()
 }
 
 /// A deviation below this share of the tolerance is not seen beside it.

@@ -261,6 +261,10 @@ mod tests {
         }
         let svg = feed(&header(), &record).expect("drawn");
         assert!(svg.len() < 400_000, "{} bytes", svg.len());
+        // the last number below is whole
+        for (text, [left, _, right, _]) in crate::texts::texts(&svg) {
+            assert!(left >= 0.0 && right <= 12_000.0, "{text}");
+        }
         record.blocks.truncate(50);
         let few = feed(&header(), &record).expect("drawn");
         assert!(few.matches("<polyline").count() > 100, "dashes");

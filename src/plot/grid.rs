@@ -41,6 +41,10 @@ pub(crate) struct Panel<'a> {
 /// Room for the labels at the left and below, pixels.
 const LEFT: f64 = 78.0;
 const BELOW: f64 = 50.0;
+/// Room at the right for half of the last label below, at the top, and below the labels, pixels.
+const RIGHT: f64 = 26.0;
+const TOP: f64 = 8.0;
+const BOTTOM: f64 = 4.0;
 
 /// A line that is longer than so many times width and height of its field is not dashed.
 const MOST_DASHED: f64 = 40.0;
@@ -57,8 +61,8 @@ fn length(points: &[(f64, f64)]) -> f64 {
 pub(crate) fn equal(x: [f64; 2], y: [f64; 2], size: (u32, u32), right: f64) -> ([f64; 2], [f64; 2]) {
     let scale = f64::from(SCALE);
     let (width, height) = (
-        f64::from(size.0) / scale - LEFT - 24.0 - right,
-        f64::from(size.1) / scale - BELOW - 24.0,
+        f64::from(size.0) / scale - LEFT - RIGHT - right,
+        f64::from(size.1) / scale - BELOW - TOP - BOTTOM,
     );
     let per_px = ((x[1] - x[0]) / width).max((y[1] - y[0]) / height);
     let about = |range: [f64; 2], pixels: f64| {
@@ -74,10 +78,10 @@ impl<'a> Panel<'a> {
         let below = if frame.x_name.is_some() { BELOW } else { 6.0 };
         let mut builder = ChartBuilder::on(area);
         builder
-            .margin_top(px(8.0))
+            .margin_top(px(TOP))
             .margin_left(px(12.0))
-            .margin_bottom(px(4.0))
-            .margin_right(px(frame.right + 12.0))
+            .margin_bottom(px(BOTTOM))
+            .margin_right(px(frame.right + RIGHT))
             .x_label_area_size(px(below))
             .y_label_area_size(px(LEFT - 12.0));
         let ([x0, x1], [y0, y1]) = (frame.x, frame.y);

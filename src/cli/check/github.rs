@@ -55,10 +55,11 @@ pub(super) fn coverage(file: &File) -> String {
         .map(|end| format!("given up: line {}: {}", end.line, end.reason));
     let assumed = file.assumptions.iter().map(|text| format!("assumed: {text}"));
     let lines: Vec<String> = not_run.chain(not_judged).chain(given_up).chain(assumed).collect();
-    lines
-        .iter()
-        .map(|line| format!("\n  {}", shown(&line.replace('\n', " "))))
-        .collect()
+    let mut out = String::new();
+    for line in &lines {
+        let _ = write!(out, "\n  {}", shown(&line.replace('\n', " ")));
+    }
+    out
 }
 
 /// A file that could not be checked.

@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(count(MOST / 2, &[]).0, MOST);
         for blocks in [MOST / 2 + 1, 100_000, 300_000] {
             let (points, kept) = count(blocks, &[777, 77_777]);
-            assert!(points <= MOST && points >= MOST / 4, "{blocks} blocks: {points} points");
+            assert!((MOST / 4..=MOST).contains(&points), "{blocks} blocks: {points} points");
             // the ends of what is found, and of the run
             let ends = [777, 77_777].into_iter().filter(|line| *line <= blocks).chain([blocks]);
             assert!(ends.into_iter().all(|line| kept[2 * line - 1]), "{blocks}");

@@ -54,7 +54,9 @@ pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Ve
             Format::Iso | Format::Osp => blocks.stays(&block),
         };
         if !(own_ending.is_empty() && stays()) {
-            out.extend_from_slice(ending);
+            // after a lone carriage return that ends a continuation, a line feed would belong to it
+            let joins = ending == b"\n" && out.ends_with(b"\r");
+            out.extend_from_slice(if joins { own_ending } else { ending });
         }
     }
     out

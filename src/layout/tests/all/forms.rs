@@ -238,6 +238,7 @@ fn an_apt_text_that_ends_with_a_continuation_gets_no_line_end_in_it() {
     for line in ["$ Y1\r \n", "GOTO/1,2,3$\r \n"] {
         assert_eq!(laid(&format!("\n{line}"), "apt"), line);
     }
+    assert_eq!(laid("$\r\r\n\n", "apt"), "$\r\r\n");
 }
 
 /// What comes after such a block would not be compared.

@@ -102,7 +102,7 @@ pub struct Record {
     pub blocks: Vec<Block>,
     /// Motions that move something and are not drawn: their start or end on the machine is not known.
     pub unknown: usize,
-    /// Their lines, in the order of the run, each once; no more than [`NAMED_LINES`] and one.
+    /// Their lines, in the order of the run, each once; no more than `NAMED_LINES` and one.
     pub unknown_lines: Vec<u32>,
     /// X is a radius: words of X are diameters.
     pub radius: bool,

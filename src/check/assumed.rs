@@ -71,8 +71,9 @@ impl Assumed {
         whole.into_iter().chain(self.radii.iter().cloned())
     }
 
-    /// No axis limit is proven to be broken in a subprogram that does not say what its caller does. An axis that leaves its travel only as such numbers are read is no error: it is unknown how they are meant. Where rotary axes turn part
-    /// or tool (`turns`), each position depends on all words.
+    /// No axis limit is proven to be broken in a subprogram that does not say what its caller does. An axis that leaves its travel only as
+    /// such numbers are read is no error: it is unknown how they are meant. Where rotary axes turn part or tool (`turns`), each position
+    /// depends on all words.
     pub(crate) fn weigh(&self, found: &mut [Diagnostic], turns: bool) {
         if !self.whole && !self.of_caller {
             return;

@@ -82,7 +82,7 @@ impl ModalState {
         };
         Undeclared {
             beside,
-            by_radius: self.beside == Beside::Radius,
+            by_radius: beside != 0 && self.beside == Beside::Radius,
             zero: self.zero.undeclared(),
             length: self.length.is_undeclared(),
             by_turret: match self.length.of() {

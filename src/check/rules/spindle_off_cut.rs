@@ -30,7 +30,8 @@
 //! S0 is not reported where the dialect says that S may be the power of a laser (grbl), and is a warning where other
 //! motions of the same tool have a speed. Where the same tool probes (G38.2 to G38.5, G31) without a cut with a turning
 //! spindle between, it is a warning too, and in a subprogram that starts no spindle it is not reported: the tool is a
-//! probe, or is measured. Where a code opens or closes the chuck of a lathe among the feed motions, it is a warning: a bar puller may move the bar. Before the first code of the spindle its state is unknown, as it is in a subprogram and after
+//! probe, or is measured. Where a code opens or closes the chuck of a lathe among the feed motions, it is unknown whether
+//! they cut or a bar puller moves the bar. Before the first code of the spindle its state is unknown, as it is in a subprogram and after
 //! a code of the machine builder. Feed motions in machine coordinates, and probing, are not judged. Whether there is
 //! material is not known.
 //!
@@ -38,6 +39,7 @@
 //! * docs/contract.md#what-counts-as-a-cut
 use crate::cuts::{Still, StillCuts};
 use crate::prelude::*;
+use trunnion_dialect::Code;
 use trunnion_syntax::{Address, BlockId, Value, Word};
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::Still(check)]);
@@ -54,9 +56,10 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
             .note("the same tool probes near it: if it is a probe, or is measured, this is intended")
             .help("switch the spindle on (M3, M4) before the first cut, or allow the rule and give that reason"),
         Still::Off if moves_chuck(out, still) => out
-            .report_block("this feed motion runs with the spindle off")
-            .severity(Warning)
-            .note("the chuck opens or closes near it: if a bar puller or a stop moves the bar, this is intended")
+            .report_block("this feed motion runs with the spindle off: whether it cuts, or a bar puller moves the bar, is not known")
+            .severity(Info)
+            .unknown()
+            .note("the chuck opens or closes among these feed motions")
             .help("switch the spindle on (M3, M4) before the first cut, or allow the rule and give that reason"),
         Still::Off => out
             .report_block("this feed motion runs with the spindle off")
@@ -86,19 +89,17 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
 
 /// Whether a code of the stretch opens or closes the chuck of a lathe.
 fn moves_chuck(out: &Reporter<'_>, still: &StillCuts) -> bool {
-    let (program, codes) = (out.program(), out.dialect().codes());
-    let of_chuck = |word: Word| {
-        let Value::Number(number) = word.value else {
-            return false;
-        };
-        let id = format!("M{}", number.to_f64());
-        let group = codes
-            .iter()
-            .find(|code| code.id == id)
-            .and_then(|code| code.group.as_deref());
-        word.address == Address::Letter(b'M') && group == Some("chuck")
+    let of_chuck = |code: &&Code| code.group.as_deref() == Some("chuck");
+    let codes: Vec<&Code> = out.dialect().codes().iter().filter(of_chuck).collect();
+    let moves = |word: Word| match (word.address, word.value) {
+        (Address::Letter(b'M'), Value::Number(number)) => {
+            let id = format!("M{}", number.to_f64());
+            codes.iter().any(|code| code.id == id)
+        }
+        _ => false,
     };
-    (still.first.0..=still.last.0).any(|block| program.block(BlockId(block)).words().any(of_chuck))
+    let program = out.program();
+    !codes.is_empty() && (still.first.0..=still.last.0).any(|block| program.block(BlockId(block)).words().any(moves))
 }
 
 #[cfg(test)]
@@ -160,17 +161,17 @@ mod tests {
     /// A bar puller moves the bar while the chuck is open and the spindle stands.
     #[test]
     fn a_bar_is_pulled_with_the_spindle_off() {
-        let severity = |body: &str| {
+        let status = |body: &str| {
             let dialect = trunnion_dialect::builtin("haas-lathe").expect("built in");
             let text =
                 format!("O1\nG21 G18 G99 G40\nT0101\nM3 S500\nG1 X40. Z2. F.2\nM5\nT0202\nG1 Z-20. F5.\n{body}\nM30\n");
             let program = trunnion_syntax::parse(text.into_bytes(), dialect.lex);
             let report = check(&program, &Settings::new(dialect, None, Setup::default()));
             let own = report.diagnostics.iter().filter(|d| d.rule == "spindle-off-cut");
-            own.map(|d| (d.severity, d.count)).collect::<Vec<_>>()
+            own.map(|d| (d.status, d.count)).collect::<Vec<_>>()
         };
-        assert_eq!(severity("M11\nG1 Z5. F5.\nM10\nG1 Z9."), [(Severity::Warning, 3)]);
-        assert_eq!(severity("G1 Z5. F5.\nG1 Z9."), [(Severity::Error, 3)]);
+        assert_eq!(status("M11\nG1 Z5. F5.\nM10\nG1 Z9."), [(Status::Unknown, 3)]);
+        assert_eq!(status("G1 Z5. F5.\nG1 Z9."), [(Status::Fail, 3)]);
     }
 
     #[test]

@@ -116,9 +116,8 @@ impl Shape {
     }
 
     /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a second sign: motions in X and Z alone. With
-    /// them a turret's T0101 is enough where M6 changes no tool, and so is surface speed. G43, M6 with T
-    /// (but for T0707), and motions in Y without a turret are evidence against a lathe. On a machine that has no Y
-    /// (`no_y`), motions in X and Z alone are enough.
+    /// them a turret's T0101 is enough where M6 changes no tool, and so is surface speed. G43, M6 with T (but for T0707), and motions in Y
+    /// without a turret are evidence against a lathe. On a machine that has no Y (`no_y`), motions in X and Z alone are enough.
     pub(super) fn lathe(&self, no_y: bool) -> Option<Lathe> {
         let flat = self.y == 0 && self.xz >= 2;
         if self.mill || (self.y > 0 && !self.turret) {

@@ -25,7 +25,7 @@ const NEAR: f64 = 0.5;
 /// Of the runs that are not near, one in so many is made. It shares no factor with the number of commands, so that each of them comes up.
 const CONTROL: usize = 37;
 
-/// What a run takes before it reads the program, which does not grow, and the least that is told from nothing: the ticks of the system's clock.
+/// What a run takes before it reads the program, which does not grow. Less cannot be measured: the clock of the system has ticks of 10 ms.
 const SECONDS: Start = Start {
     took: 0.01,
     least: 0.01,

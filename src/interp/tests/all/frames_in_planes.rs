@@ -1,5 +1,6 @@
 //! Frames that the program sets inside a tilted plane: TRANS, ROT, SCALE and MIRROR after CYCLE800, cycle 7 after PLANE. The places of the first tests are
 //! worked out by hand, those of the random ones by matrices that know nothing of the interpreter.
+use crate::planes_agree::ORDERS;
 use crate::support::{faults, run_text};
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -291,16 +292,6 @@ fn turn(axis: usize, degrees: f64) -> Mat3 {
     (turn[(a, a)], turn[(a, b)], turn[(b, a)], turn[(b, b)]) = (cos, -sin, sin, cos);
     turn
 }
-
-/// The six orders of the axes with the mode of CYCLE800.
-const ORDERS: [(u32, [usize; 3]); 6] = [
-    (57, [0, 1, 2]),
-    (45, [0, 2, 1]),
-    (54, [1, 0, 2]),
-    (30, [1, 2, 0]),
-    (39, [2, 0, 1]),
-    (27, [2, 1, 0]),
-];
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]

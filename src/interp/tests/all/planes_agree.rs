@@ -7,6 +7,16 @@ use trunnion_geometry::math::{asin, atan2, cos, hypot, sin};
 use trunnion_geometry::{Mat3, Vec3};
 use trunnion_interp::{FrameAngles, RollPitchYaw, Setup};
 
+/// The six orders of the axes with the mode of CYCLE800.
+pub(crate) const ORDERS: [(u32, [usize; 3]); 6] = [
+    (57, [0, 1, 2]),
+    (45, [0, 2, 1]),
+    (54, [1, 0, 2]),
+    (30, [1, 2, 0]),
+    (39, [2, 0, 1]),
+    (27, [2, 1, 0]),
+];
+
 const SIEMENS: &str = "sinumerik-840d";
 const KLARTEXT: &str = "heidenhain-klartext";
 const FANUC: &str = "fanuc-30i";
@@ -73,15 +83,7 @@ fn turns(a: f64, b: f64, c: f64) -> [(&'static str, String); 4] {
 /// The forms of a plane: name, control, and the blocks that begin it.
 fn forms(turn: &Mat3) -> Vec<(String, &'static str, String)> {
     let mut forms = Vec::new();
-    let orders = [
-        (57, [0, 1, 2]),
-        (45, [0, 2, 1]),
-        (54, [1, 0, 2]),
-        (30, [1, 2, 0]),
-        (39, [2, 0, 1]),
-        (27, [2, 1, 0]),
-    ];
-    for (mode, order) in orders {
+    for (mode, order) in ORDERS {
         let [a, b, c] = angles(order, turn);
         let call = format!("CYCLE800(0,\"T\",0,{mode},0,0,0,{a:.13},{b:.13},{c:.13},0,0,0,0)\n");
         forms.push((format!("CYCLE800 {mode}"), SIEMENS, call));

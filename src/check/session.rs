@@ -92,7 +92,7 @@ impl Order {
 
 /// Keeps check-points while a program runs.
 struct Keeper<'c> {
-    blocks: usize,
+    program: &'c Program,
     check_points: Vec<CheckPoint>,
     order: Order,
     /// Some block ran for the first time since the last check-point: without, no further one is needed.
@@ -107,9 +107,14 @@ impl Watch for Keeper<'_> {
         if (self.news && executed >= self.next) || executed == 0 {
             self.news = false;
             self.next = executed + interpreter.copied() as u64;
+            let mut interpreter = interpreter.clone();
+            if executed == 0 {
+                // once, not for each of the first blocks that is described
+                interpreter.reads_whole(self.program);
+            }
             self.check_points.push(CheckPoint {
                 executed,
-                interpreter: interpreter.clone(),
+                interpreter,
                 pass: pass.memory(),
             });
         }
@@ -126,7 +131,7 @@ impl Watch for Keeper<'_> {
             Order::Straight(ran) if u64::from(block.0) == executed => *ran = executed + 1,
             Order::Straight(ran) => {
                 let mut order: Vec<u64> = (0..*ran).collect();
-                order.resize(self.blocks, u64::MAX);
+                order.resize(self.program.block_count(), u64::MAX);
                 self.order = Order::First(order);
                 self.ran(executed, block, first);
             }
@@ -144,7 +149,7 @@ impl Session {
     /// Checks and keeps check-points. `cancelled` is polled every 1024 executed blocks; `None` when it returned true.
     pub fn new(program: &Program, settings: &Settings<'_>, cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let mut keeper = Keeper {
-            blocks: program.block_count(),
+            program,
             check_points: Vec::new(),
             order: Order::Straight(0),
             news: false,

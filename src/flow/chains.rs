@@ -34,6 +34,11 @@ impl Chains {
         self.enter(parent, file, block | 1 << 31, frame)
     }
 
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.calls.len()
+    }
+
     /// Its calls, outermost first.
     pub fn frames(&self, chain: ChainId) -> Vec<Frame> {
         let mut frames = Vec::new();

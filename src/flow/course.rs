@@ -94,6 +94,9 @@ pub enum BlockBudget {
 /// A call stores as much as so many entries of other lists: its variables.
 const CALL: usize = 16;
 
+/// A chain of calls stores as much as so many: two texts and its key.
+const CHAIN: usize = 8;
+
 /// Loops that are counted; others are named by the block that ran last.
 const LOOPS: usize = 1 << 16;
 
@@ -160,7 +163,9 @@ impl<L> Course<L> {
 
     /// How many entries of lists that grow with the program a clone copies.
     pub fn copied(&self) -> usize {
-        self.calls.len() * CALL + self.turns.len() + self.ran.copied()
+        // a clone shares the chains until the next new one
+        let chains = self.chains.count() * CHAIN;
+        self.calls.len() * CALL + self.turns.len() + self.ran.copied() + chains
     }
 
     /// Whether a block of the main program's file ran before the current range.

@@ -52,7 +52,7 @@ pub fn hints(
         let block = program.block(id);
         let computed = wanted(HintKind::Value) && has_expression(&block);
         let begins = wanted(HintKind::Modal) && starts.contains(&block.range().start);
-        if !(computed || begins) || described == MOST_DESCRIBED {
+        if !(computed || begins) || described == MOST_DESCRIBED || !session.reaches(id) {
             continue;
         }
         described += 1;

@@ -9,6 +9,10 @@ pub(crate) trait Engine<'d>: Clone {
     fn core(&self) -> &Core<'d>;
     /// The same, to be changed.
     fn core_mut(&mut self) -> &mut Core<'d>;
+    /// Reads what the run needs of the whole text before its first block. The first [`Self::advance`] does it otherwise.
+    fn read_whole(&mut self, program: &Program) {
+        self.core_mut().declare(program);
+    }
     /// Runs the next block in the control's order; see [`crate::Interpreter::advance`].
     fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId>;
     /// The calls that led to a motion.

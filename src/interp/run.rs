@@ -101,8 +101,8 @@ impl<'d> Interpreter<'d> {
     /// Reads what the run needs of the whole text before its first block; whether that could be something else if the text went on.
     pub fn reads_whole(&mut self, program: &Program) -> bool {
         with_engine!(&mut self.engine, engine => {
-            let core = engine.core_mut();
-            core.declare(program);
+            engine.read_whole(program);
+            let core = engine.core();
             core.standing.is_open() || core.drawing.is_open()
         })
     }

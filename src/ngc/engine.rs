@@ -110,9 +110,9 @@ impl Engine {
     pub fn is_defining(&self) -> bool {
         self.flow.is_defining()
     }
-    /// How many names and labels a check-point copies.
-    pub fn labels(&self) -> usize {
-        self.flow.labels()
+    /// How many names, labels and chains of calls a check-point copies.
+    pub fn copied(&self) -> usize {
+        self.flow.copied()
     }
     /// How many files the run has opened, the main program among them.
     pub fn file_count(&self) -> usize {

@@ -295,7 +295,8 @@ impl Iso<'_> {
             _ => false,
         };
         if steps {
-            let what = format!("{}: the steps in the hole", call.id);
+            let full = self.is_full().then(|| format!(" ({})", self.full()));
+            let what = format!("{}: the steps in the hole{}", call.id, full.unwrap_or_default());
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
             self.down(plan, MotionKind::Unknown, Some(plan.bottom), report);
         } else {

@@ -32,10 +32,10 @@ struct Pecks {
 }
 
 impl Pecks {
-    /// `None`: a number that selects another meaning, or is not known.
-    fn of(call: &HoleCall, unit: f64) -> Option<Self> {
-        let number = |place: usize| call.number(place).or_zero();
-        let [_, begin, bottom] = call.levels()?;
+    /// An error: a number that selects another meaning, or is not known, and how many steps were computed before that was seen.
+    fn of(call: &HoleCall, unit: f64) -> Result<Self, usize> {
+        let number = |place: usize| call.number(place).or_zero().ok_or(0_usize);
+        let [_, begin, bottom] = call.levels().ok_or(0_usize)?;
         let surface = number(1)?;
         let total = (surface - bottom) * unit;
         let first = match (number(5)?, number(6)?) {
@@ -43,7 +43,7 @@ impl Pecks {
             (depth, 0.0) => surface - depth,
             (0.0, below) => below.abs(),
             (depth, below) if (surface - depth - below.abs()).abs() <= TINY => below.abs(),
-            _ => return None,
+            _ => return Err(0),
         };
         let depths = depths(
             total,
@@ -58,14 +58,14 @@ impl Pecks {
             0.0 => None,
             1.0 if above > 0.0 => Some(above),
             1.0 if metric && (begin - bottom) <= SHALLOW => Some(ABOVE),
-            _ => return None,
+            _ => return Err(depths.len()),
         };
         let lift = match lift {
-            0.0 if clears.is_none() && !metric => return None,
+            0.0 if clears.is_none() && !metric => return Err(depths.len()),
             0.0 => LIFT,
             lift => lift,
         };
-        Some(Self {
+        Ok(Self {
             depths,
             first_feed: (first_feed > 0.0 && first_feed <= 1.0).then_some(first_feed),
             clears,
@@ -80,10 +80,11 @@ fn unit_of(degression: f64, unit: f64) -> f64 {
 }
 
 /// Depths after each step, mm below the surface. `degression` is DAM: by how much each step is less than the one before; negative: its
-/// factor; 0: steps stay. `least` is _MDEP. `None`: no step, or the sources do not say how the rest is divided.
-fn depths(total: f64, first: f64, degression: f64, least: f64) -> Option<Vec<f64>> {
+/// factor; 0: steps stay. `least` is _MDEP. An error: no step, too many, or the sources do not say how the rest is divided; it counts the steps
+/// that were computed.
+fn depths(total: f64, first: f64, degression: f64, least: f64) -> Result<Vec<f64>, usize> {
     if !(first > TINY && total > TINY) {
-        return None;
+        return Err(0);
     }
     let least = if degression == 0.0 { first } else { least.abs() };
     let (factor, smallest) = match degression {
@@ -101,7 +102,7 @@ fn depths(total: f64, first: f64, degression: f64, least: f64) -> Option<Vec<f64
             next = left;
         } else if halved {
             // only what is left after the half is documented
-            return None;
+            return Err(depths.len());
         } else if rest < smallest - TINY {
             if degression > 0.0 && left > 2.0 * degression + TINY {
                 next = left - degression;
@@ -111,13 +112,13 @@ fn depths(total: f64, first: f64, degression: f64, least: f64) -> Option<Vec<f64
             }
         }
         if next <= TINY || depths.len() >= MOST_STEPS {
-            return None;
+            return Err(depths.len());
         }
         done = if rest <= TINY { total } else { done + next };
         step = next;
         depths.push(done);
     }
-    Some(depths)
+    Ok(depths)
 }
 
 /// A share of a feed.
@@ -133,8 +134,16 @@ impl Iso<'_> {
     /// CYCLE83 from the level above the surface to the bottom, with its dwells; whether its numbers are understood.
     pub(super) fn deep_steps(&mut self, call: &HoleCall, plan: &Plan, report: &mut Report<'_>) -> bool {
         let unit = self.core.state.coordinates.unit_mm();
-        let Some(pecks) = Pecks::of(call, unit) else {
+        if self.is_full() {
             return false;
+        }
+        let pecks = match Pecks::of(call, unit) {
+            Ok(pecks) => pecks,
+            Err(computed) => {
+                // each of many holes could compute steps that become no motion: they count as motions do
+                self.cycle_motions += computed as u64;
+                return false;
+            }
         };
         let Some(surface) = call.number(1).or_zero().map(|surface| surface * unit) else {
             return false;
@@ -178,11 +187,11 @@ impl Iso<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::depths;
+    use super::{MOST_STEPS, depths};
 
     #[test]
     fn steps_are_divided_as_the_cycle_does() {
-        let near = |found: Option<Vec<f64>>, wanted: &[f64]| {
+        let near = |found: Result<Vec<f64>, usize>, wanted: &[f64]| {
             let found = found.expect("known");
             assert_eq!(found.len(), wanted.len(), "{found:?}");
             for (found, wanted) in found.iter().zip(wanted) {
@@ -204,7 +213,8 @@ mod tests {
         near(depths(15.0, 5.0, 0.0, 0.0), &[5.0, 10.0, 15.0]);
         near(depths(3.0, 5.0, 0.0, 0.0), &[3.0]);
         for (first, degression) in [(0.0, 1.0), (f64::NAN, 1.0), (1.0, -1e-6)] {
-            assert_eq!(depths(10.0, first, degression, 0.0), None, "{first} {degression}");
+            assert!(depths(10.0, first, degression, 0.0).is_err(), "{first} {degression}");
         }
+        assert_eq!(depths(100.0, 0.005, 0.0, 0.0), Err(MOST_STEPS));
     }
 }

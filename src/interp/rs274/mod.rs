@@ -128,16 +128,15 @@ impl<'d> Engine<'d> for Ngc<'d> {
     fn core_mut(&mut self) -> &mut Core<'d> {
         &mut self.core
     }
-    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
-        let empty = || program.source().iter().all(|byte| *byte <= b' ');
-        if self.run.is_none() && empty() {
-            return None;
-        }
+    fn read_whole(&mut self, program: &Program) {
         self.core.declare(program);
-        let mut run = match self.run.take() {
-            Some(run) => run,
-            None => Box::new(Rs274::begin(program, &self.core)),
-        };
+        if self.run.is_none() && program.source().iter().any(|byte| *byte > b' ') {
+            self.run = Some(Box::new(Rs274::begin(program, &self.core)));
+        }
+    }
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        self.read_whole(program);
+        let mut run = self.run.take()?;
         let block = if run.done {
             None
         } else {
@@ -160,7 +159,8 @@ impl<'d> Engine<'d> for Ngc<'d> {
         self.run.as_ref().is_some_and(|run| run.motions_wait())
     }
     fn copied(&self) -> usize {
-        self.run.as_ref().map_or(0, |run| run.engine.labels())
+        let run = self.run.as_ref();
+        run.map_or(0, |run| run.engine.copied() + run.calls.places.copied())
     }
     fn variable(&self, text: &str) -> Option<f64> {
         self.run.as_ref()?.variable(text)

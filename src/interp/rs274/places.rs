@@ -25,6 +25,10 @@ pub(super) struct Places {
 }
 
 impl Places {
+    /// How many entries the first change after a copy copies.
+    pub(super) fn copied(&self) -> usize {
+        self.table.places.len() + self.table.callers.len()
+    }
     /// A line has run: `block` where it is one of the main program.
     #[inline]
     pub(super) fn ran(&mut self, chain: ChainId, block: Option<BlockId>) {

@@ -78,6 +78,10 @@ impl Chains {
         table.known.add(key, id);
         id
     }
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.0.links.len()
+    }
     /// The calls of a chain, outermost first.
     pub(crate) fn frames(&self, id: ChainId, labels: &Labels) -> Vec<Frame> {
         let mut frames = Vec::new();

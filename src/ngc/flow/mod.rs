@@ -215,9 +215,9 @@ impl Flow {
         self.seeking
             .is_some_and(|seeking| matches!(seeking.goal, Goal::Definition(_)))
     }
-    /// How many names and labels a copy copies.
-    pub(crate) fn labels(&self) -> usize {
-        self.labels.count()
+    /// How many names, labels and chains of calls a copy copies, or the first change after it.
+    pub(crate) fn copied(&self) -> usize {
+        self.labels.count() + self.chains.count()
     }
     /// Whether the bound on lines is reached.
     pub(crate) fn is_spent(&self) -> bool {

@@ -81,3 +81,27 @@ fn cycles_in_a_loop_are_given_up() {
         assert!(said.iter().any(|said| said.contains(why)), "{dialect}: {said:?}");
     }
 }
+
+/// Steps that are computed and make no motion, because they are too many, count as well: else each hole of a long program computes them again.
+#[test]
+fn steps_in_vain_count_for_the_bound() {
+    let hole = |step: &str| format!("X1\nMCALL CYCLE83(10,0,2,-100,,,{step},0,0,0,1,0,3)\nX2\nMCALL\n");
+    let source = format!("G0 X0 Y0 Z50\nF100\n{}{}M30\n", hole("0.001").repeat(3), hole("50"));
+    let said = |blocks: u64| {
+        let mut setup = Setup::default();
+        setup.limits.blocks = blocks;
+        let (program, log) = run_bytes("sinumerik-840d", source.as_bytes(), &setup);
+        let faults = log.faults.iter().map(|fault| fault_line(&program, fault));
+        faults
+            .filter(|fault| fault.contains("the steps in the hole"))
+            .collect::<Vec<_>>()
+    };
+    // ten thousand steps for each of the three holes
+    assert_eq!(said(40_000).len(), 3);
+    let bounded = said(25_000);
+    assert_eq!(bounded.len(), 4, "{bounded:?}");
+    assert!(
+        bounded[3].contains("more than 25000 motions in the cycles of the program ([limits] blocks)"),
+        "{bounded:?}"
+    );
+}

@@ -158,12 +158,17 @@ impl Tools {
         let merged = lay(self.cutter.as_ref(), merged);
         Some(lay(named(&self.defined), lay(any, merged)))
     }
-    /// The tool in use as it was written, for people.
+    /// The tool in use as it was written, for people; T where it is not known.
     pub(crate) fn name(&self) -> String {
+        self.known_name().unwrap_or_else(|| "T".to_owned())
+    }
+
+    /// The tool in use as it was written, where it is known.
+    pub(crate) fn known_name(&self) -> Option<String> {
         match &self.in_spindle {
-            Chosen::Number(number) => format!("T{number}"),
-            Chosen::Named(name) => name.to_string(),
-            Chosen::Nothing | Chosen::Unread => "T".to_owned(),
+            Chosen::Number(number) => Some(format!("T{number}")),
+            Chosen::Named(name) => Some(name.to_string()),
+            Chosen::Nothing | Chosen::Unread => None,
         }
     }
 }

@@ -29,7 +29,7 @@
 //! them without a new M3 or M4 are unknown.
 //! S0 is not reported where the dialect says that S may be the power of a laser (grbl), and is a warning where other
 //! motions of the same tool have a speed. Where the same tool probes (G38.2 to G38.5, G31) without a cut with a turning
-//! spindle between, it is a warning too, and in a subprogram that starts no spindle it is not reported: the tool is a
+//! spindle between, it is unknown whether the motion cuts, and in a subprogram that starts no spindle it is not reported: the tool is a
 //! probe, or is measured. Where a code opens or closes the chuck of a lathe among the feed motions, it is unknown whether
 //! they cut or a bar puller moves the bar. Before the first code of the spindle its state is unknown, as it is in a subprogram and after
 //! a code of the machine builder. Feed motions in machine coordinates, and probing, are not judged. Whether there is
@@ -51,9 +51,10 @@ fn check(still: &StillCuts, out: &mut Reporter<'_>) {
     }
     match still.why {
         Still::Off if still.probes => out
-            .report_block("this feed motion runs with the spindle off")
-            .severity(Warning)
-            .note("the same tool probes near it: if it is a probe, or is measured, this is intended")
+            .report_block("this feed motion runs with the spindle off: whether it cuts, or moves a probe or a tool that is measured, is not known")
+            .severity(Info)
+            .unknown()
+            .note("the same tool probes near it")
             .help("switch the spindle on (M3, M4) before the first cut, or allow the rule and give that reason"),
         Still::Off if moves_chuck(out, still) => out
             .report_block("this feed motion runs with the spindle off: whether it cuts, or a bar puller moves the bar, is not known")
@@ -201,23 +202,24 @@ mod tests {
                 &settings,
             );
             let own = report.diagnostics.iter().filter(|d| d.rule == "spindle-off-cut");
-            own.map(|d| (d.severity, d.count)).collect::<Vec<_>>()
+            own.map(|d| (d.severity, d.status == Status::Unknown, d.count))
+                .collect::<Vec<_>>()
         };
         let main = "G21 G90 G54\nM3 S100\nG1 X10 F100\nT2 M6\nG1 Z5 F100\nG38.2 Z-10 F50\nG1 Z5\n";
-        assert_eq!(found(&format!("{main}M2\n")), [(Severity::Warning, 2)]);
+        assert_eq!(found(&format!("{main}M2\n")), [(Severity::Info, true, 2)]);
         // another tool, or a cut between, is not that of the probe
         assert_eq!(
             found(&format!("{main}T3 M6\nG1 Z1\nM2\n")),
-            [(Severity::Warning, 2), (Severity::Error, 1)]
+            [(Severity::Info, true, 2), (Severity::Error, false, 1)]
         );
         assert_eq!(
             found(&format!("{main}M3\nG1 Z1\nM5\nG1 Z0\nM2\n")),
-            [(Severity::Warning, 2), (Severity::Error, 1)]
+            [(Severity::Info, true, 2), (Severity::Error, false, 1)]
         );
         let measures =
             |probe: &str| format!("o<setter> sub\nT1 M6\nG1 Z5 F100\n{probe}\nG1 Z5\no<setter> endsub\nM2\n");
         assert_eq!(found(&measures("G38.2 Z-10 F50")), []);
-        assert_eq!(found(&measures("G1 Z-10 F50")), [(Severity::Error, 3)]);
+        assert_eq!(found(&measures("G1 Z-10 F50")), [(Severity::Error, false, 3)]);
     }
 
     #[test]

@@ -58,7 +58,10 @@ fn check_points_hold_faults_and_variables_in_proportion_to_the_program() {
         ("okuma-osp", lines(&|i| format!("V{}=1\nGOTO NA\n", i % 200)), false),
         (
             "okuma-osp",
-            format!("MODIN OA\n{}MODOUT\nM2\nOA\nG1 F50\nRTS\n", lines(&|i| format!("X{i}\n"))),
+            format!(
+                "MODIN OA\n{}MODOUT\nM2\nOA\nG1 F50\nRTS\n",
+                lines(&|i| format!("X{i}\n"))
+            ),
             true,
         ),
         (

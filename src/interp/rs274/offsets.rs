@@ -85,8 +85,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         {
             let d = self.code_range(at, b'D', |_| true);
             let tool = if d == TextRange::default() {
-                let name = self.core.tools.name();
-                if name == "T" { "the tool".to_owned() } else { name }
+                let name = self.core.tools.known_name();
+                name.unwrap_or_else(|| "the tool".to_owned())
             } else {
                 self.program.text(d).into_owned()
             };

@@ -144,6 +144,7 @@ impl Pair<'_> {
                 )
             }
             NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
+            NoStance::TurnsSpent(most) => crate::conversion::turns_spent(*most),
         };
         self.unknown(&format!("in the {which} program, {why}"))
     }

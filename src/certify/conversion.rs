@@ -35,6 +35,7 @@ pub use known::Known;
 pub use proof::{converted, converted_on};
 pub(crate) use reading::is_grave;
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
+pub(crate) use reason::turns_spent;
 pub use track::{Track, carried, rotary};
 pub use words::{moved_axes, same_words};
 pub use zero_names::ZeroNames;

@@ -192,6 +192,7 @@ impl Config {
         }
         let obstacles = self.obstacles.iter().map(|(obstacle, _)| obstacle.clone());
         machine.obstacles.0.extend(obstacles);
+        machine.most_turned = self.setup.limits.blocks;
         machine
     }
 }

@@ -250,6 +250,9 @@ pub(crate) fn open(global: &Global, path: &Path) -> Result<Opened, Failure> {
     let stdin = is_stdin(path);
     let mut resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
     resolved.setup.limits = limits(global, resolved.setup.limits);
+    if let Some(machine) = &mut resolved.machine {
+        machine.most_turned = resolved.setup.limits.blocks;
+    }
     let name = if stdin {
         "<stdin>".to_owned()
     } else {

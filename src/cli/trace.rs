@@ -7,7 +7,8 @@ use super::{
     load::{self, Loaded},
     waiting,
 };
-use serde_json::{Map, Value, json};
+use serde::Serializer as _;
+use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::io::{BufWriter, Write};
 use trunnion_interp::{AxisLetter, Fault, FaultKind, Interpreter, ModalState, Motion, Setup, Sink};
@@ -192,7 +193,8 @@ enum Rows<W: Write> {
     },
     Json {
         out: W,
-        names: Vec<String>,
+        /// Columns and their names, in the order of the names.
+        names: Vec<(usize, String)>,
         first: bool,
     },
 }
@@ -223,6 +225,8 @@ impl<W: Write> Rows<W> {
             TraceFormat::Json => {
                 let id = serde_json::to_string(&machine.id).unwrap_or_default();
                 write!(out, "{{\"schema\":\"trunnion-trace/1\",\"machine\":{id},\"rows\":[")?;
+                let mut names: Vec<(usize, String)> = names.into_iter().enumerate().collect();
+                names.sort_by(|(_, a), (_, b)| a.cmp(b));
                 Ok(Self::Json {
                     out,
                     names,
@@ -244,10 +248,11 @@ impl<W: Write> Rows<W> {
         match self {
             Self::Csv { writer, .. } => writer.write_record(cells.iter().map(text)).map_err(csv_failure),
             Self::Json { out, names, first } => {
-                let object: Map<String, Value> = names.iter().cloned().zip(cells).collect();
                 out.write_all(if *first { b"\n" } else { b",\n" })?;
                 *first = false;
-                serde_json::to_writer(&mut *out, &object).map_err(std::io::Error::from)?;
+                let members = names.iter().map(|(column, name)| (name, &cells[*column]));
+                let mut serializer = serde_json::Serializer::new(&mut *out);
+                serializer.collect_map(members).map_err(std::io::Error::from)?;
                 Ok(())
             }
         }

@@ -37,7 +37,7 @@ impl Library {
     pub fn find<T>(
         &mut self,
         name: &Key,
-        tried: impl Iterator<Item = String>,
+        tried: impl FnOnce() -> Vec<String>,
         lex: LexOptions,
         load: impl Fn(&str) -> Result<(String, T), Vec<Searched>>,
     ) -> Result<u16, Vec<Searched>>
@@ -51,7 +51,7 @@ impl Library {
             return Err(searched.clone());
         }
         let mut searched = Vec::new();
-        for file in tried {
+        for file in tried() {
             match load(&file) {
                 Ok((path, bytes)) if self.files.len() < usize::from(u16::MAX) - 1 => {
                     self.files.push(Arc::new(Called {

@@ -10,7 +10,7 @@ const MOST_BLOCKS: u64 = 2_000_000;
 /// The time of the motions whose blocks lie from each start to the next one, s; `None` where one of them is not known. Without a machine
 /// nothing is known.
 pub fn operation_times(program: &Program, settings: &Settings<'_>, starts: &[BlockId]) -> Vec<Option<f64>> {
-    let Some(machine) = settings.machine else {
+    let Some(machine) = settings.machine.filter(|_| !starts.is_empty()) else {
         return vec![None; starts.len()];
     };
     let mut timer = Timer {

@@ -5,13 +5,15 @@ use trunnion_machine::{
     ObstacleKind, Obstacles, PostureWords, Tolerances,
 };
 
-// The rest is prose, or the axes in a form made for speed, or bodies, or how the control plans speeds, which no proof looks at.
+// The rest is prose, or the axes in a form made for speed, or bodies, or how the control plans speeds, which no proof looks at, or
+// a bound of the run.
 record! {
     Machine {
         id = 1, axes = 2, tool_axis = 3, gauge_point = 4, home = 5, control = 6, tolerances = 7, gantries = 8,
         absent = 9, obstacles = 10,
     } without {
         name, sources, rotary, linear, joint_of_letter, constants, bodies, not_used, warnings, checks, not_judged,
+        most_turned,
     }
 }
 

@@ -29,10 +29,16 @@ pub(super) fn reason(why: &NoStance) -> String {
         NoStance::PlaneMisaligned(off) => {
             format!("the tool is {:.4} deg off the normal of the tilted plane", deg(*off))
         }
+        NoStance::TurnsSpent(most) => turns_spent(*most),
         NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         NoStance::RotaryOffset(letter) => format!(
             "a work offset in {} under tool centre point control is not modelled",
             char::from(*letter)
         ),
     }
+}
+
+/// The run has turned the rotary axes too much.
+pub(crate) fn turns_spent(most: u64) -> String {
+    format!("its path is not computed: the rotary axes turn too far in too many motions ([limits] blocks = {most})")
 }

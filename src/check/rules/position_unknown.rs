@@ -49,6 +49,7 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     match lost.why {
         NoStance::PositionUnknown(letters) => not_positioned(letters, lost, out),
         NoStance::RotaryOffset(axis) => rotary_offset(*axis, lost, out),
+        NoStance::TurnsSpent(most) => turns_spent(*most, lost, out),
         NoStance::HeldElsewhere { axis, value, held } => held_elsewhere(*axis, [*value, *held], lost, out),
         _ => {}
     }
@@ -63,6 +64,18 @@ fn of_caller(ending: &Ending<'_>, out: &mut Reporter<'_>) {
         .note("it was checked as if they were in effect")
         .help("check the program that calls it, write the codes into the subprogram, or assume the usual state: --assume power-on")
         .unknown();
+}
+
+/// The run has no more work for motions in which rotary axes turn far.
+fn turns_spent(most: u64, lost: &LegView<'_>, out: &mut Reporter<'_>) {
+    out.unknown(lost, Merge::once(hash("turns")), |draft| {
+        draft
+            .say("the path of this motion is not computed: the rotary axes turn by more than 8 deg in too many motions")
+            .note(format!(
+                "together more than {most} pieces of 2 deg; posture, speeds and deviation are not checked here"
+            ))
+            .help("divide the program, or raise `[limits] blocks` in trunnion.toml");
+    });
 }
 
 /// The linear axes cannot reach the tip.
@@ -284,5 +297,23 @@ mod tests {
     #[test]
     fn a_machine_without_rotary_axes_needs_none() {
         assert_drawn("gcode mill-3axis", "N1 G0 X0 Y0\nN2 G0 Z50\nN3 G1 X10 F500\n");
+    }
+
+    #[test]
+    fn long_turns_beyond_the_bound_are_unknown_once() {
+        let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("built in").clone();
+        machine.most_turned = 50;
+        let dialect = trunnion_dialect::builtin("fanuc-30i").expect("built in");
+        let body = "X10. C90.\nX20. C0.\n".repeat(4);
+        let text = format!("G21 G90 G94 G54\nT1 M6\nG43.4 H1\nM3 S1000\nG1 X0. Y0. Z0. A-20. C0. F100.\n{body}M30\n");
+        let settings = crate::Settings::new(dialect, Some(&machine), trunnion_interp::Setup::default());
+        let report = crate::check(&trunnion_syntax::parse(text.into_bytes(), dialect.lex), &settings);
+        let own: Vec<_> = report
+            .diagnostics
+            .iter()
+            .filter(|d| d.message.contains("is not computed: the rotary axes turn"))
+            .map(|d| (d.status, d.count))
+            .collect();
+        assert_eq!(own, [(crate::Status::Unknown, 6)], "{:?}", report.diagnostics);
     }
 }

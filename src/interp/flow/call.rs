@@ -142,15 +142,17 @@ impl Iso<'_> {
         let Some(library) = &self.core.setup.library.0 else {
             return Err(Vec::new());
         };
-        let tried = if dialect.quirks.declares_names() {
-            sinumerik::files(name)
-        } else if dialect.quirks.user_task() {
-            crate::osp::files(name)
-        } else {
-            crate::macro_b::files(name)
+        let tried = || {
+            if dialect.quirks.declares_names() {
+                sinumerik::files(name)
+            } else if dialect.quirks.user_task() {
+                crate::osp::files(name)
+            } else {
+                crate::macro_b::files(name)
+            }
         };
         let load = |file: &str| library.load(file).map(|loaded| (loaded.path, loaded.bytes));
-        let file = trail.library.find(name, tried.into_iter(), dialect.lex, load)?;
+        let file = trail.library.find(name, tried, dialect.lex, load)?;
         let found = self.first_block(file, name);
         if self.is_of_others(file, name) {
             let called = self.flow.trail().library.file(file);

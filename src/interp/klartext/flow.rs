@@ -301,7 +301,7 @@ impl Klartext<'_> {
                 let load = |file: &str| library.load(file).map(|loaded| (loaded.path, loaded.bytes));
                 self.flow
                     .library
-                    .find(&key, files(base).into_iter(), self.core.dialect.lex, load)
+                    .find(&key, || files(base), self.core.dialect.lex, load)
             }
             None => Err(Vec::new()),
         };

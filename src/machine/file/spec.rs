@@ -108,6 +108,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     let mut machine = Machine {
         not_used: not_used(raw),
         not_judged: not_judged(raw),
+        most_turned: crate::kinematics::chain::MOST_TURNED,
         id: id.to_owned(),
         name: raw.name.clone().unwrap_or_else(|| id.to_owned()),
         tool_axis: carried.turn(&tool_axis),

@@ -14,6 +14,13 @@ use trunnion_interp::{Motion, MotionKind, Orientation, Position, Swivel};
 /// How far the tool may be off the normal of a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
 const PLANE_TOLERANCE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
+/// Turn of a piece of a guided motion, rad: 2 deg, as the plan of the speed divides it.
+const PIECE: f64 = 2.0 * core::f64::consts::PI / 180.0;
+/// The most pieces of one motion.
+const MOST_PIECES: f64 = 24.0;
+/// A motion with no more pieces takes little more work than one that does not turn: 8 deg.
+const FREE_PIECES: u64 = 4;
+
 /// What a follower remembers between two motions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
@@ -31,6 +38,8 @@ pub(crate) struct State {
     pub(crate) named: u16,
     /// Whether the last motion's X Y Z were tip coordinates.
     pub(crate) tip_words: bool,
+    /// Pieces that the long turns of the run have taken.
+    pub(crate) turned: u64,
 }
 
 /// Follows motions; cloning it makes a check-point.
@@ -57,6 +66,7 @@ impl<'m> Follower<'m> {
             aimed: 0,
             named: 0,
             tip_words: false,
+            turned: 0,
         };
         Self::at(machine, &state)
     }
@@ -135,7 +145,32 @@ impl<'m> Follower<'m> {
         }
         self.measure(&mut leg);
         self.remember(&leg);
+        self.count_turn(&mut leg);
         leg
+    }
+
+    /// A guided motion takes work in proportion to the turn of its rotary axes, up to [`MOST_PIECES`]: what is beyond [`FREE_PIECES`] is
+    /// counted, and the path is not computed once the run has no more. The machine is at its end all the same.
+    #[inline]
+    fn count_turn(&mut self, leg: &mut Leg) {
+        let turn = leg.rotary_change[0].max(leg.rotary_change[1]);
+        if turn <= 0.0 || leg.end.is_err() || !leads_path(&leg.motion) {
+            return;
+        }
+        let swept = match &leg.motion.kind {
+            MotionKind::Arc(Some(arc)) => arc.sweep.abs() * 0.25,
+            _ => 0.0,
+        };
+        let pieces = (turn.max(swept) / PIECE).min(MOST_PIECES) as u64;
+        if pieces <= FREE_PIECES {
+            return;
+        }
+        let most = self.machine.most_turned;
+        self.state.turned = self.state.turned.saturating_add(pieces - FREE_PIECES);
+        if self.state.turned > most {
+            leg.end = Err(NoStance::TurnsSpent(most));
+            leg.open = None;
+        }
     }
 
     #[inline]

@@ -238,6 +238,9 @@ pub enum NoStance {
     RotaryOffset(u8),
     /// The tool is not perpendicular to the tilted plane in which X Y Z are programmed: angle between tool axis and normal, rad.
     PlaneMisaligned(f64),
+    /// The path is not computed: the long guided motions of the run have turned the rotary axes by more pieces than that
+    /// ([`crate::Machine::most_turned`]).
+    TurnsSpent(u64),
 }
 
 /// What the machine does in one motion.

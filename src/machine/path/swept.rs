@@ -6,8 +6,9 @@ use crate::path::orientation::{Circle, axis_bend, strays};
 use crate::{Deviation, Leg, Machine, tool_axis_at};
 use trunnion_interp::MotionKind;
 
-/// If sample and bound are this near, mm, more samples are useless.
+/// If sample and bound are this near, mm or as a share, more samples are useless.
 const CLOSE_MM: f64 = 1e-4;
+const CLOSE_SHARE: f64 = 1e-3;
 
 /// Samples spent on closeness; beyond them a bound within the ratio is enough.
 const CLOSE_SAMPLES: u32 = 64;
@@ -77,7 +78,9 @@ pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_m
     };
     let room = (tolerance_mm - rounding).max(0.0);
     let found = stray.farthest(|bound, sampled, samples| {
-        bound <= room || bound <= sampled + CLOSE_MM || (samples > CLOSE_SAMPLES && bound <= sampled * RATIO)
+        bound <= room
+            || bound <= sampled + CLOSE_MM.max(CLOSE_SHARE * sampled)
+            || (samples > CLOSE_SAMPLES && bound <= sampled * RATIO)
     });
     Some(Deviation {
         sampled_mm: (found.sampled - rounding).max(0.0),

@@ -51,6 +51,7 @@ pub(crate) fn unknown_position(points: &[Point], line: impl Fn(usize) -> u32) ->
                     | NoStance::RotaryOffset(_)
                     | NoStance::HeldElsewhere { .. }
                     | NoStance::PlaneMisaligned(_)
+                    | NoStance::TurnsSpent(_)
             )
         };
         point.feed && point.end.as_ref().is_err_and(unknown)

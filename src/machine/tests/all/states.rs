@@ -355,3 +355,39 @@ fn no_motion_makes_it_panic_or_hang() {
         }
     }
 }
+
+/// Motions that turn far take work in proportion to the turn: a run has so many pieces of 2 deg beyond the first four of each. Then their paths
+/// are unknown, short turns are followed as before, and the machine is where the words say.
+#[test]
+fn long_turns_are_followed_until_they_are_too_many() {
+    let mut machine = mikron().clone();
+    machine.most_turned = 50;
+    let mut follower = Follower::new(&machine);
+    let go = |follower: &mut Follower<'_>, from: Position, to: Position| {
+        let motion = Motion {
+            tcp: true,
+            ..words(from, to)
+        };
+        follower.follow(&motion)
+    };
+    let at = |c: f64| place(10.0, 0.0, 0.0, -20.0, c);
+    assert!(go(&mut follower, Position::default(), at(0.0)).end.is_ok());
+    // 45 pieces count as 24: 20 each
+    assert!(go(&mut follower, at(0.0), at(90.0)).end.is_ok());
+    assert!(go(&mut follower, at(90.0), at(0.0)).end.is_ok());
+    let memory = follower.memory();
+    for mut follower in [follower, Follower::resume(&machine, &memory)] {
+        let lost = go(&mut follower, at(0.0), at(90.0));
+        assert_eq!(lost.end, Err(NoStance::TurnsSpent(50)));
+        assert_eq!(
+            lost.known_joints.0[machine.joint(b'C').expect("axis")],
+            90.0_f64.to_radians()
+        );
+        let short = go(&mut follower, at(90.0), at(97.0));
+        assert_eq!(joint(&short, b'C'), 97.0_f64.to_radians());
+        assert!(short.start.is_some());
+        // axes in their own words are not guided
+        let free = words(at(97.0), at(0.0));
+        assert!(follower.follow(&free).end.is_ok());
+    }
+}

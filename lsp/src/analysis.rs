@@ -120,7 +120,7 @@ pub(crate) fn settings_of(uri: &Url, text: &[u8], overrides: &Overrides) -> Resu
     });
     let mut resolved = resolve(path.as_deref(), text, overrides)?;
     // a document is judged at every key stroke
-    resolved.setup.limits = resolved.setup.limits.of_steps();
+    resolved.bound_steps();
     Ok(resolved)
 }
 

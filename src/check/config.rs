@@ -192,7 +192,7 @@ impl Config {
         }
         let obstacles = self.obstacles.iter().map(|(obstacle, _)| obstacle.clone());
         machine.obstacles.0.extend(obstacles);
-        machine.most_turned = self.setup.limits.blocks;
+        machine.most_turned = self.setup.limits.turned();
         machine
     }
 }

@@ -249,10 +249,7 @@ pub(crate) fn open(global: &Global, path: &Path) -> Result<Opened, Failure> {
     let (source, seen) = read_program(global, path)?;
     let stdin = is_stdin(path);
     let mut resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
-    resolved.setup.limits = limits(global, resolved.setup.limits);
-    if let Some(machine) = &mut resolved.machine {
-        machine.most_turned = resolved.setup.limits.blocks;
-    }
+    resolved.bound(limits(global, resolved.setup.limits));
     let name = if stdin {
         "<stdin>".to_owned()
     } else {
@@ -269,8 +266,7 @@ pub(crate) fn open(global: &Global, path: &Path) -> Result<Opened, Failure> {
 /// [`load`] for a command that lists or draws every step.
 pub(crate) fn load_for_steps(global: &Global, path: &Path) -> Result<Loaded, Failure> {
     let mut loaded = load(global, path)?;
-    let limits = &mut loaded.resolved.setup.limits;
-    *limits = limits.of_steps();
+    loaded.resolved.bound_steps();
     Ok(loaded)
 }
 

@@ -177,7 +177,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     let facts = page::facts(&loaded, &report, scope);
     let findings = page::findings(&loaded, &report);
     // the verdict is that of a check; pictures and tables are of every step
-    loaded.resolved.setup.limits = loaded.resolved.setup.limits.of_steps();
+    loaded.resolved.bound_steps();
     let assumed = if readable { loaded.assumptions() } else { Vec::new() };
     let (pictures, replay) = match &loaded.resolved.machine {
         Some(machine) if readable => drawn(&loaded, machine, &report, &assumed),

@@ -5,6 +5,12 @@ use std::sync::Arc;
 use trunnion_syntax::{LexOptions, Program, parse};
 use trunnion_vocabulary::Searched;
 
+/// So many different programs that are missing are looked for; no real program calls so many that do not exist.
+const MOST_MISSING: usize = 4096;
+
+/// A missing program stores as much as so many entries of other lists.
+const MISSING: usize = 4;
+
 /// Another file that is called.
 #[derive(Debug)]
 pub struct Called {
@@ -25,6 +31,11 @@ pub struct Library {
 }
 
 impl Library {
+    /// How many entries of other lists a clone copies: names and the folders that were searched.
+    pub fn copied(&self) -> usize {
+        self.files.len() + self.missing.len() * MISSING
+    }
+
     /// A file by its number.
     pub fn file(&self, number: u16) -> Option<Arc<Called>> {
         self.files.get(usize::from(number).checked_sub(1)?).map(Arc::clone)
@@ -50,6 +61,13 @@ impl Library {
         if let Some(searched) = self.missing.get(name) {
             return Err(searched.clone());
         }
+        if self.missing.len() >= MOST_MISSING {
+            let why = format!("{MOST_MISSING} other programs that are called are missing, so it was not looked for");
+            return Err(vec![Searched {
+                folder: "no folder".to_owned(),
+                refused: Some(why),
+            }]);
+        }
         let mut searched = Vec::new();
         for file in tried() {
             match load(&file) {
@@ -73,5 +91,38 @@ impl Library {
         }
         self.missing.insert(name.clone(), searched.clone());
         Err(searched)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Library, MOST_MISSING};
+    use crate::Key;
+    use core::cell::Cell;
+    use trunnion_vocabulary::Searched;
+
+    /// A program of a million calls of different programs looked for each under many names, and kept the answer.
+    #[test]
+    fn missing_programs_are_looked_for_once_and_not_without_bound() {
+        let (mut library, asked) = (Library::default(), Cell::new(0_usize));
+        let mut find = |number: usize| {
+            let load = |_: &str| {
+                asked.set(asked.get() + 1);
+                Err::<(String, Vec<u8>), _>(vec![Searched::from("programs")])
+            };
+            let tried = || vec![format!("O{number}"), format!("O{number}.nc")];
+            let lex = trunnion_syntax::LexOptions::default();
+            library
+                .find(&Key::Number(number as u32), tried, lex, load)
+                .expect_err("missing")
+        };
+        for number in 0..MOST_MISSING + 100 {
+            let searched = find(number);
+            let again = find(number);
+            assert_eq!(searched.len(), 1);
+            assert_eq!(searched[0].refused.is_some(), number >= MOST_MISSING, "{number}");
+            assert!(searched == again);
+        }
+        assert_eq!(asked.get(), 2 * MOST_MISSING);
     }
 }

@@ -129,8 +129,9 @@ impl Flow {
     pub(crate) fn copied(&self) -> usize {
         let trail = self.trail.as_ref();
         let deep = self.deep.as_ref();
-        trail.map_or(0, |trail| trail.course.copied() + trail.reported.copied())
-            + deep.map_or(0, |deep| deep.variables.copied())
+        trail.map_or(0, |trail| {
+            trail.course.copied() + trail.reported.copied() + trail.library.copied()
+        }) + deep.map_or(0, |deep| deep.variables.copied())
     }
 
     /// What jumps, loops and calls need.

@@ -117,4 +117,10 @@ impl Limits {
             ..self
         }
     }
+
+    /// How many pieces of 2 deg the long turns of guided motions may take together.
+    #[must_use]
+    pub fn turned(self) -> u64 {
+        self.blocks / 4
+    }
 }

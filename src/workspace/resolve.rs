@@ -9,7 +9,7 @@ use std::sync::Arc;
 use trunnion_check::config::{FixSettings, FormatSettings, parse_tool_flag};
 use trunnion_check::{Assume, Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Detected, Dialect, Foreign, Modeline, Surroundings};
-use trunnion_interp::{ControlData, Files, Library, Setup};
+use trunnion_interp::{ControlData, Files, Library, Limits, Setup};
 use trunnion_machine::Machine;
 
 /// Options of the user: they override the files.
@@ -82,6 +82,17 @@ impl Resolved {
             Some(Foreign::NotAProgram(_)) => None,
             None => Some(&self.dialect.name),
         }
+    }
+    /// Sets the bounds of a run.
+    pub fn bound(&mut self, limits: Limits) {
+        self.setup.limits = limits;
+        if let Some(machine) = &mut self.machine {
+            machine.most_turned = limits.turned();
+        }
+    }
+    /// Those of a run in which every step is compared, proved, listed or drawn.
+    pub fn bound_steps(&mut self) {
+        self.bound(self.setup.limits.of_steps());
     }
     /// In the form of the check floor.
     pub fn settings(&self) -> Settings<'_> {

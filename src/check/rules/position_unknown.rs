@@ -72,7 +72,7 @@ fn turns_spent(most: u64, lost: &LegView<'_>, out: &mut Reporter<'_>) {
         draft
             .say("the path of this motion is not computed: the rotary axes turn by more than 8 deg in too many motions")
             .note(format!(
-                "together more than {most} pieces of 2 deg; posture, speeds and deviation are not checked here"
+                "together these turns take more than {most} pieces of 2 deg, a quarter of [limits] blocks; posture, speeds and deviation are not checked here"
             ))
             .help("divide the program, or raise `[limits] blocks` in trunnion.toml");
     });

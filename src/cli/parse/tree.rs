@@ -2,12 +2,12 @@
 use super::expression::{Part, parts};
 use crate::cli::{
     failure::{Failure, is_hidden},
-    json::Listed,
     load::Loaded,
 };
+use serde::{Serialize, Serializer, ser::SerializeMap as _};
 use serde_json::{Value, json};
-use std::io::Write;
-use trunnion_syntax::{Address, AptArg, Block, Item, LineIndex, TextRange, Value as Said, Word};
+use std::{borrow::Cow, io::Write};
+use trunnion_syntax::{Address, AptArg, Block, Item, LineIndex, Program, TextRange, Value as Said, Word};
 
 /// Deeper parts are indented no further.
 const DEEPEST: u32 = 20;
@@ -144,30 +144,82 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
 /// Writes a node; its parts one after the other: each byte of a file may be one.
 fn node_json(out: &mut impl Write, loaded: &Loaded, block: &Block<'_>, node: &Node) -> Result<(), Failure> {
     let program = &loaded.program;
-    let mut document = serde_json::Map::new();
     let own = [("kind", json!(node.kind)), ("text", json!(program.text(node.range)))];
     let places = [("start", json!(node.range.start)), ("end", json!(node.range.end))];
-    let facts = node.facts.iter().cloned();
-    document.extend(
-        own.into_iter()
-            .chain(places)
-            .chain(facts)
-            .map(|(key, value)| (key.to_owned(), value)),
-    );
+    let mut members: Vec<(&str, Value)> = own
+        .into_iter()
+        .chain(places)
+        .chain(node.facts.iter().cloned())
+        .collect();
     let inside = node.inside.map(|range| parts(program, block, range));
     if inside.is_some() {
-        document.insert("parts".to_owned(), Value::Null);
+        members.push((PARTS, Value::Null));
     }
-    let part = |part: &Part| {
-        json!({ "kind": part.kind, "depth": part.depth, "start": part.range.start, "end": part.range.end,
-                "text": program.text(part.range) })
-    };
-    let whole = Listed {
-        document,
-        key: "parts",
-        items: || inside.iter().flatten().map(part),
+    // as the members of every other document
+    members.sort_by_key(|(key, _)| *key);
+    let whole = NodeJson {
+        members,
+        parts: inside.unwrap_or_default(),
+        program,
     };
     serde_json::to_writer(out, &whole).map_err(|error| Failure::from(std::io::Error::from(error)))
+}
+
+/// The key of the parts of a node.
+const PARTS: &str = "parts";
+
+/// A node with its members; the one of the parts is a place for them.
+struct NodeJson<'p> {
+    members: Vec<(&'static str, Value)>,
+    parts: Vec<Part>,
+    program: &'p Program,
+}
+
+impl Serialize for NodeJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.members.len()))?;
+        for (key, value) in &self.members {
+            if *key == PARTS {
+                map.serialize_entry(key, &PartsJson(&self.parts, self.program))?;
+            } else {
+                map.serialize_entry(key, value)?;
+            }
+        }
+        map.end()
+    }
+}
+
+/// The parts, made as they are written.
+struct PartsJson<'p>(&'p [Part], &'p Program);
+
+impl Serialize for PartsJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(|part| PartJson {
+            depth: part.depth,
+            end: part.range.end,
+            kind: part.kind,
+            start: part.range.start,
+            text: self.1.text(part.range),
+        }))
+    }
+}
+
+/// A part of an expression, its members in the order of their names.
+#[derive(Serialize)]
+struct PartJson<'p> {
+    depth: u32,
+    end: u32,
+    kind: &'static str,
+    start: u32,
+    text: Cow<'p, str>,
+}
+
+/// A problem of the text, its members in the order of their names.
+#[derive(Serialize)]
+struct ErrorJson {
+    end: u32,
+    kind: String,
+    start: u32,
 }
 
 /// The problems of the text, one after the other: each byte of a file may be one.
@@ -175,15 +227,20 @@ pub(super) fn errors_json(out: &mut impl Write, loaded: &Loaded) -> Result<(), F
     let errors = loaded.program.errors().iter();
     list_json(
         out,
-        errors.map(|e| json!({ "kind": format!("{:?}", e.kind), "start": e.range.start, "end": e.range.end })),
+        errors.map(|error| ErrorJson {
+            end: error.range.end,
+            kind: format!("{:?}", error.kind),
+            start: error.range.start,
+        }),
     )
 }
 
 /// A list of documents, of which one is held at a time.
-pub(super) fn list_json(out: &mut impl Write, list: impl Iterator<Item = Value>) -> Result<(), Failure> {
+pub(super) fn list_json(out: &mut impl Write, list: impl Iterator<Item = impl Serialize>) -> Result<(), Failure> {
     out.write_all(b"[")?;
     for (at, value) in list.enumerate() {
-        write!(out, "{}{value}", if at == 0 { "" } else { "," })?;
+        out.write_all(if at == 0 { b"" } else { b"," })?;
+        serde_json::to_writer(&mut *out, &value).map_err(|error| Failure::from(std::io::Error::from(error)))?;
     }
     out.write_all(b"]")?;
     Ok(())

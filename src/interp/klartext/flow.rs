@@ -47,7 +47,7 @@ pub(crate) struct Flow {
     next: u32,
     begun: bool,
     finished: bool,
-    library: Library,
+    pub(super) library: Library,
     labels: HashMap<u16, Arc<Index<()>>>,
     /// Labels that a file has more than once.
     doubled: HashSet<(u16, Key)>,

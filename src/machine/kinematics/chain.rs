@@ -366,12 +366,12 @@ pub struct Machine {
     /// Those of `not_used` that could change a verdict of the rules there are: with them nothing passes.
     pub not_judged: Vec<String>,
     /// How much the rotary axes may turn in the long guided motions of a run, in pieces of 2 deg ([`crate::NoStance::TurnsSpent`]). It belongs to
-    /// the run: `[limits] blocks` of the settings.
+    /// the run: a quarter of `[limits] blocks` of the settings.
     pub most_turned: u64,
 }
 
 /// [`Machine::most_turned`] unless the settings say otherwise.
-pub(crate) const MOST_TURNED: u64 = 1_000_000;
+pub(crate) const MOST_TURNED: u64 = 250_000;
 
 impl Machine {
     /// The joint that a letter drives (either case); `None` when the machine has no such axis.

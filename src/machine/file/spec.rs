@@ -14,6 +14,9 @@ use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::AXIS_LETTERS;
 
+/// [`Machine::most_turned`] unless the settings say otherwise.
+const MOST_TURNED: u64 = 250_000;
+
 /// Two directions nearer than this are taken as parallel, rad.
 const PARALLEL: f64 = 1e-3;
 
@@ -108,7 +111,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     let mut machine = Machine {
         not_used: not_used(raw),
         not_judged: not_judged(raw),
-        most_turned: crate::kinematics::chain::MOST_TURNED,
+        most_turned: MOST_TURNED,
         id: id.to_owned(),
         name: raw.name.clone().unwrap_or_else(|| id.to_owned()),
         tool_axis: carried.turn(&tool_axis),

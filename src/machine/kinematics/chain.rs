@@ -319,8 +319,7 @@ pub struct Home {
     pub gauge_point: Vec3,
 }
 
-/// A machine: validated, ready for kinematics. Only `load` makes one; the axes and `constants` belong together, so change the file,
-/// not the fields.
+/// A machine: validated, ready for kinematics. Only `load` makes one; the axes and `constants` belong together: change the file, not the fields.
 #[derive(Clone, Debug)]
 pub struct Machine {
     /// `mikron-ucp710`.
@@ -333,7 +332,7 @@ pub struct Machine {
     pub tool_axis: Vec3,
     /// Gauge point at home with all moving joints zero, machine frame, carried by the held axes, mm.
     pub gauge_point: Vec3,
-    /// Tool axis and gauge point with all joints zero, also those of held axes; the same two where nothing is held.
+    /// The same two with all joints zero, also those of held axes.
     pub home: Home,
     /// Control.
     pub control: Control,
@@ -361,17 +360,13 @@ pub struct Machine {
     pub not_used: Vec<String>,
     /// What is suspicious about the file but usable, one sentence each.
     pub warnings: Vec<String>,
-    /// How many `[[check]]` rows the file has; all of them hold, else it does not load.
+    /// How many `[[check]]` rows the file has: all hold.
     pub checks: usize,
     /// Those of `not_used` that could change a verdict of the rules there are: with them nothing passes.
     pub not_judged: Vec<String>,
-    /// How much the rotary axes may turn in the long guided motions of a run, in pieces of 2 deg ([`crate::NoStance::TurnsSpent`]). It belongs to
-    /// the run: a quarter of `[limits] blocks` of the settings.
+    /// The most pieces of 2 deg of the long turns of a run ([`crate::NoStance::TurnsSpent`]): a quarter of `[limits] blocks`, not of the file.
     pub most_turned: u64,
 }
-
-/// [`Machine::most_turned`] unless the settings say otherwise.
-pub(crate) const MOST_TURNED: u64 = 250_000;
 
 impl Machine {
     /// The joint that a letter drives (either case); `None` when the machine has no such axis.
@@ -396,11 +391,5 @@ impl Machine {
             }
         }
         codes
-    }
-
-    /// The axes that are held, with the joint values they are held at, rad.
-    pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let axes = self.axes.iter().enumerate();
-        axes.filter_map(|(joint, axis)| Some((joint, axis.extra.hold?)))
     }
 }

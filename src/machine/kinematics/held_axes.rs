@@ -48,6 +48,12 @@ impl Carried {
 }
 
 impl Machine {
+    /// The axes that are held, with the joint values they are held at, rad.
+    pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let axes = self.axes.iter().enumerate();
+        axes.filter_map(|(joint, axis)| Some((joint, axis.extra.hold?)))
+    }
+
     /// Whether no axis is held, as on nearly every machine.
     pub(crate) fn all_move(&self) -> bool {
         self.constants.rotary_count + self.constants.linear_count == self.axes.len()

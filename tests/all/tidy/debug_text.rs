@@ -26,7 +26,7 @@ const PRINTED: &[(&str, &str)] = &[
         "src/cli/parse.rs",
         "json!({ \"kind\": format!(\"{:?}\", tokens.kind(id))",
     ),
-    ("src/cli/parse/tree.rs", "\"kind\": format!(\"{:?}\", e.kind)"),
+    ("src/cli/parse/tree.rs", "kind: format!(\"{:?}\", error.kind)"),
     (
         "src/machine/file/validate.rs",
         "message: format!(\"{:?} {why}\", word.get_ref()),",

@@ -41,6 +41,6 @@ pub(super) fn reason(why: &NoStance) -> String {
 /// The run has turned the rotary axes too much.
 pub(crate) fn turns_spent(most: u64) -> String {
     format!(
-        "its path is not computed: motions with turns of more than 8 deg take more than {most} pieces of 2 deg, a quarter of [limits] blocks"
+        "its path is not computed: motions with turns of more than 8 deg take more than {most} pieces of 2 deg, half of [limits] steps"
     )
 }

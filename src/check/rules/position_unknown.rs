@@ -72,9 +72,9 @@ fn turns_spent(most: u64, lost: &LegView<'_>, out: &mut Reporter<'_>) {
         draft
             .say("the path of this motion is not computed: the rotary axes turn by more than 8 deg in too many motions")
             .note(format!(
-                "together these turns take more than {most} pieces of 2 deg, a quarter of [limits] blocks; posture, speeds and deviation are not checked here"
+                "together these turns take more than {most} pieces of 2 deg, half of `[limits] steps`; posture, speeds and deviation are not checked here"
             ))
-            .help("divide the program, or raise `[limits] blocks` in trunnion.toml");
+            .help("divide the program, or raise `[limits] steps` in trunnion.toml (--max-steps)");
     });
 }
 

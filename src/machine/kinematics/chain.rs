@@ -364,7 +364,7 @@ pub struct Machine {
     pub checks: usize,
     /// Those of `not_used` that could change a verdict of the rules there are: with them nothing passes.
     pub not_judged: Vec<String>,
-    /// The most pieces of 2 deg of the long turns of a run ([`crate::NoStance::TurnsSpent`]): a quarter of `[limits] blocks`, not of the file.
+    /// The most pieces of 2 deg of the long turns of a run ([`crate::NoStance::TurnsSpent`]): half of `[limits] steps`, not of the file.
     pub most_turned: u64,
 }
 

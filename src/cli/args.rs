@@ -92,6 +92,9 @@ pub(crate) struct Global {
     /// Print more: which dialect, machine and settings are used, and why.
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
+    /// Where the run of a long program is; watched where a terminal shows it.
+    #[arg(skip)]
+    pub(crate) progress: trunnion_interp::Progress,
 }
 
 /// `--block-delete`.
@@ -201,6 +204,9 @@ pub(crate) struct Trace {
     pub(crate) file: PathBuf,
     #[arg(long, value_enum, default_value = "csv")]
     pub(crate) format: TraceFormat,
+    /// Where to write. Default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 /// Formats of `trace`.
@@ -227,6 +233,9 @@ pub(crate) struct Canon {
     /// Additional decimals of each number after those that rs274 prints.
     #[arg(long, value_name = "N", default_value_t = 0, hide = true)]
     pub(crate) more_decimals: u8,
+    /// Where to write. Default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 /// `certify`

@@ -3,7 +3,7 @@ use super::{
     Done,
     args::{Canon as Command, Global, Switch},
     failure::{Failure, remark},
-    load,
+    load, waiting,
 };
 use std::{
     io::{BufWriter, Write},
@@ -41,15 +41,49 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| Kept::read(path, &mut outputs))
         .transpose()?;
+    let target = command
+        .output
+        .as_ref()
+        .map(|path| outputs.output("-o", path))
+        .transpose()?;
     let mut setup = setup(command, global, &sources, kept.as_ref())?;
     let lines = memchr::memchr_iter(b'\n', main.bytes()).count() as u64;
     setup.limits = load::limits(global, setup.limits).of_steps();
     // the lines of the text itself are always read
     setup.limits.blocks = setup.limits.blocks.saturating_add(lines);
     remark(false, "executing");
-    let mut engine = Engine::new(main, &setup);
+    let list = |out: &mut dyn Write| listed(command, &setup, main, sources, out);
+    let ran = match target {
+        None => waiting::beside_output(global, "executing", &command.file, || {
+            list(&mut BufWriter::new(std::io::stdout().lock()))
+        }),
+        Some(target) => waiting::during(global, "executing", &command.file, || target.fill(list)),
+    }?;
+    if let Some(kept) = kept {
+        kept.save(&ran.parameters)?;
+    }
+    Ok(if ran.refused { Done::Found } else { Done::Clean })
+}
+
+/// What is left of a run that is listed.
+struct Ran {
+    /// The program has an error.
+    refused: bool,
+    /// The parameter file after it.
+    parameters: Vec<u8>,
+}
+
+/// Lists what a run does.
+fn listed(
+    command: &Command,
+    setup: &Setup,
+    main: Arc<Source>,
+    sources: Sources,
+    out: &mut dyn Write,
+) -> Result<Ran, Failure> {
+    let mut engine = Engine::new(main, setup);
     let mut out = Printer {
-        out: BufWriter::new(std::io::stdout().lock()),
+        out,
         listing: Listing {
             more: usize::from(command.more_decimals),
             ..Listing::default()
@@ -90,11 +124,11 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         return Err(error.into());
     }
     out.out.flush()?;
-    if let Some(kept) = kept {
-        let text = engine.kept_parameters().text_with(usize::from(command.more_decimals));
-        kept.save(text.as_bytes())?;
-    }
-    Ok(if out.refused { Done::Found } else { Done::Clean })
+    let parameters = engine.kept_parameters().text_with(usize::from(command.more_decimals));
+    Ok(Ran {
+        refused: out.refused,
+        parameters: parameters.into_bytes(),
+    })
 }
 
 /// The parameter file: read at the start, written back at the end as the control does. The old one is kept next to it as `.bak`.

@@ -86,7 +86,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     if command.write {
         trunnion_files::sweep_beside(&command.file);
     }
-    let chosen = choose(command, &loaded)?;
+    let chosen = waiting::during(global, "checking", &command.file, || choose(command, &loaded))?;
     if chosen.is_empty() && !retarget::wanted(command) {
         remark(
             global.quiet,
@@ -226,7 +226,7 @@ fn apply_all(
         steps: Vec::new(),
     };
     let mut program = loaded.program.clone();
-    let bar = progress(global.quiet, chosen.len());
+    let bar = progress(global, chosen.len());
     let mut only_in_g_code = Vec::new();
     let mut straight = Straight::default();
     for rewrite in chosen {
@@ -281,13 +281,14 @@ fn apply_all(
 }
 
 /// Which rewrite is at work, on a terminal.
-fn progress(quiet: bool, rewrites: usize) -> ProgressBar {
-    if quiet || !std::io::stderr().is_terminal() {
+fn progress(global: &Global, rewrites: usize) -> ProgressBar {
+    if global.quiet || !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::with_draw_target(Some(rewrites as u64), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {pos}/{len} rewrites, {elapsed}: {msg}") {
-        bar.set_style(style);
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {pos}/{len} rewrites, {elapsed}: {msg}{share}")
+    {
+        bar.set_style(waiting::with_share(style, global.progress.clone()));
     }
     bar.enable_steady_tick(std::time::Duration::from_millis(200));
     bar

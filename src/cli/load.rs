@@ -250,6 +250,7 @@ pub(crate) fn open(global: &Global, path: &Path) -> Result<Opened, Failure> {
     let stdin = is_stdin(path);
     let mut resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
     resolved.bound(limits(global, resolved.setup.limits));
+    resolved.setup.progress = global.progress.clone();
     let name = if stdin {
         "<stdin>".to_owned()
     } else {

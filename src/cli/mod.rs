@@ -72,6 +72,7 @@ pub(crate) fn run() -> ExitCode {
         Err(error) => return refused(&error),
     };
     args.global.bound_text(&args.command);
+    args.global.progress = waiting::progress(args.global.quiet);
     let global = &args.global;
     let result = match &args.command {
         Command::Check(command) => check::run(global, command),

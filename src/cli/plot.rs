@@ -128,7 +128,10 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
             ),
         );
     }
-    let text = draw(global, command, &loaded, machine, &record, lines).map_err(|error| named(&command.file, error))?;
+    let text = waiting::during(global, "drawing", &command.file, || {
+        draw(global, command, &loaded, machine, &record, lines)
+    })
+    .map_err(|error| named(&command.file, error))?;
     load::put(output.as_ref(), text.as_bytes())?;
     Ok(Done::Clean)
 }

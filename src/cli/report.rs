@@ -1,5 +1,6 @@
-//! `report`: one self-contained HTML page about programs, for people who do not run commands.
+//! `report`: self-contained HTML pages about programs, for people who do not run commands.
 mod page;
+mod pages;
 mod replay;
 mod sheet;
 
@@ -11,14 +12,23 @@ use super::{
     plot, waiting, walk,
 };
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use std::{io::IsTerminal, path::Path};
+use page::Row;
+use pages::Pages;
+use rayon::prelude::*;
+use std::{
+    io::IsTerminal,
+    path::{Path, PathBuf},
+};
 use trunnion_check::{Report as Checked, Verdict, check};
 use trunnion_files::Outputs;
 use trunnion_machine::Machine;
 use trunnion_plot::{Along, PlotError, axis_plane, deviation, feed, joints, path};
 use trunnion_stats::Tally;
 
-/// Writes the page.
+/// Files that are looked at before the first of them is written.
+const AT_ONCE: usize = 8;
+
+/// Writes the page, or the pages.
 pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     let found = walk::programs(&command.paths)?;
     found.remark(global.quiet, global.verbose);
@@ -26,7 +36,7 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     for file in &found.files {
         outputs.input(file);
     }
-    let target = outputs.output("-o", &command.output)?;
+    let mut pages = Pages::new(&command.output, &found.files, &mut outputs)?;
     let mut failures: Vec<String> = Vec::new();
     for failure in &found.failures {
         failure.print();
@@ -37,35 +47,37 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
     } else {
         ProgressBar::with_draw_target(Some(found.files.len() as u64), ProgressDrawTarget::stderr())
     };
-    let mut parts: Vec<Part> = Vec::new();
+    let mut rows: Vec<Row> = Vec::new();
     let mut denied = false;
-    let (mut held, found_files) = (0, found.files.len());
-    for file in &found.files {
-        match judged(global, file, found.files.len()) {
-            Ok((part, found)) => {
-                denied |= found;
-                held += part.bytes();
-                parts.push(part);
-                fits(held, parts.len(), found_files)?;
-            }
-            Err(failure) => {
-                bar.suspend(|| failure.print());
-                failures.push(format!("{}: {}", failure.place(), failure.message()));
+    let files: Vec<(usize, &PathBuf)> = found.files.iter().enumerate().collect();
+    for some in files.chunks(AT_ONCE) {
+        let look = |&(at, file): &(usize, &PathBuf)| {
+            let program = judged(global, file, found.files.len()).map(|part| part.written(at, pages.link(at)));
+            bar.inc(1);
+            (at, program)
+        };
+        let programs: Vec<_> = some.par_iter().map(look).collect();
+        for (at, program) in programs {
+            match program {
+                Ok(program) => {
+                    denied |= program.denied;
+                    rows.push(pages.put(at, found.files.len(), program)?);
+                }
+                Err(failure) => {
+                    bar.suspend(|| failure.print());
+                    failures.push(format!("{}: {}", failure.place(), failure.message()));
+                }
             }
         }
-        bar.inc(1);
     }
     bar.finish_and_clear();
-    if parts.is_empty() && !failures.is_empty() {
+    if rows.is_empty() && !failures.is_empty() {
         return Err(Failure::new(
             "no program could be read (see above), so no page was written",
         ));
     }
-    target.write(page::page(&parts, &failures).as_bytes(), None)?;
-    remark(
-        global.quiet,
-        &format!("{}: {}", command.output.display(), total(&parts)),
-    );
+    pages.finish(&rows, &failures)?;
+    remark(global.quiet, &format!("{}: {}", command.output.display(), total(&rows)));
     if !failures.is_empty() {
         return Err(Failure::new("not every file could be checked (see above)"));
     }
@@ -73,7 +85,7 @@ pub(super) fn run(global: &Global, command: &Report) -> Result<Done, Failure> {
 }
 
 /// The part of one file. Several files have the bar.
-fn judged(global: &Global, file: &Path, files: usize) -> Result<(Part, bool), Failure> {
+fn judged(global: &Global, file: &Path, files: usize) -> Result<Part, Failure> {
     match files {
         1 => waiting::during(global, "reporting on", file, || part(global, file)),
         _ => part(global, file),
@@ -81,11 +93,11 @@ fn judged(global: &Global, file: &Path, files: usize) -> Result<(Part, bool), Fa
 }
 
 /// How many programs, and their verdicts.
-fn total(parts: &[Part]) -> String {
-    let of = |verdict: Verdict| parts.iter().filter(|part| part.verdict == verdict).count();
-    let programs = super::verdict::counted(parts.len() as u64, "program");
-    let in_part = |part: &&Part| part.verdict == Verdict::Pass && !part.not_looked_at.is_empty();
-    let in_part = match parts.iter().filter(in_part).count() {
+fn total(rows: &[Row]) -> String {
+    let of = |verdict: Verdict| rows.iter().filter(|row| row.verdict == verdict).count();
+    let programs = page::counted(rows.len());
+    let in_part = |row: &&Row| row.verdict == Verdict::Pass && !row.not_looked_at.is_empty();
+    let in_part = match rows.iter().filter(in_part).count() {
         0 => String::new(),
         some => format!(" ({some} looked at in part)"),
     };
@@ -97,19 +109,12 @@ fn total(parts: &[Part]) -> String {
     )
 }
 
-/// A page holds no more in pictures and replays, bytes: a browser must open it, and it is in memory until it is written.
-const MOST_BYTES: usize = 200_000_000;
-
-/// An error where the pictures of the first `done` of all programs are too much for one page.
-fn fits(bytes: usize, done: usize, all: usize) -> Result<(), Failure> {
-    if bytes <= MOST_BYTES {
-        return Ok(());
-    }
-    Err(Failure::new(format!(
-        "the pictures of the first {done} of {all} programs take more than {} MB: nothing was written; name fewer programs for one page, \
-         or use `trunnion check FOLDER` for the verdicts alone",
-        MOST_BYTES / 1_000_000
-    )))
+/// A program as a page shows it.
+struct Written {
+    row: Row,
+    body: String,
+    /// Something is found at the level of --deny.
+    denied: bool,
 }
 
 /// What the page says about one program.
@@ -134,20 +139,29 @@ struct Part {
     sheet: Vec<sheet::Table>,
     /// The program moves in inch: its pictures are in inch.
     inch: bool,
+    /// Something is found at the level of --deny.
+    denied: bool,
 }
 
 impl Part {
-    /// Bytes of what is drawn.
-    fn bytes(&self) -> usize {
-        let pictures = self
-            .pictures
-            .iter()
-            .map(|(_, drawn)| drawn.as_ref().map_or(0, String::len));
-        pictures.sum::<usize>() + self.replay.as_ref().map_or(0, |data| data.json.len())
+    /// As HTML: number and place of the program in the report.
+    fn written(self, at: usize, link: String) -> Written {
+        Written {
+            body: page::program(at, &self),
+            denied: self.denied,
+            row: Row {
+                verdict: self.verdict,
+                judged_in: self.judged_in,
+                name: self.name,
+                not_looked_at: self.not_looked_at,
+                inch: self.inch,
+                link,
+            },
+        }
     }
 }
 
-fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
+fn part(global: &Global, file: &Path) -> Result<Part, Failure> {
     let mut loaded = load::load_any(global, file)?;
     let settings = loaded.resolved.settings();
     let scope = settings.scope();
@@ -189,7 +203,7 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
     });
     let known = |text: &String| !report.assumptions.contains(text);
     let drawn_with = assumed.into_iter().filter(known).collect();
-    let part = Part {
+    Ok(Part {
         verdict,
         judged_in,
         not_looked_at,
@@ -203,8 +217,8 @@ fn part(global: &Global, file: &Path) -> Result<(Part, bool), Failure> {
         sheet,
         inch: tally.is_some_and(|tally| tally.inch),
         name: loaded.name,
-    };
-    Ok((part, denied))
+        denied,
+    })
 }
 
 /// The pictures and the replay of a program on a machine.
@@ -251,20 +265,4 @@ fn drawn(
     ));
     pictures.push(("Feed", text(feed(&head("Feed of the tool tip"), &record))));
     (pictures, replay::data(loaded, machine, &record, &marks))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{MOST_BYTES, fits};
-
-    #[test]
-    fn a_page_that_grows_too_large_is_refused_with_what_to_do() {
-        assert!(fits(MOST_BYTES, 3, 9).is_ok());
-        let refused = fits(MOST_BYTES + 1, 3, 9).expect_err("too large");
-        let said = refused.message();
-        assert!(
-            said.contains("first 3 of 9 programs") && said.contains("200 MB") && said.contains("name fewer"),
-            "{said}"
-        );
-    }
 }

@@ -46,12 +46,60 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         remark(false, &loaded.explanation());
     }
     let machine = loaded.machine_or_fail("trace")?;
+    let mut outputs = loaded.outputs();
+    let target = command
+        .output
+        .as_ref()
+        .map(|path| outputs.output("-o", path))
+        .transpose()?;
+    let traced = match target {
+        None => {
+            let out = BufWriter::new(std::io::stdout().lock());
+            let trace = || write(command, &loaded, machine, out);
+            waiting::beside_output(global, "tracing", &command.file, trace)
+        }
+        Some(target) => waiting::during(global, "tracing", &command.file, || {
+            target.fill(|out| write(command, &loaded, machine, BufWriter::new(out)))
+        }),
+    }?;
+    traced.say(global, &loaded)
+}
+
+/// What there is to say about a trace that is written.
+struct Traced {
+    /// Problems of the program.
+    problems: usize,
+    /// Why it is incomplete.
+    given_up: Option<String>,
+}
+
+impl Traced {
+    fn say(self, global: &Global, loaded: &Loaded) -> Result<Done, Failure> {
+        let problems = self.problems;
+        if problems > 0 {
+            let noun = if problems == 1 { "problem" } else { "problems" };
+            let text = format!(
+                "{}: {problems} {noun} in the program; see `trunnion check`",
+                loaded.name
+            );
+            remark(global.quiet, &text);
+        }
+        if let Some(why) = self.given_up {
+            remark(false, &why);
+            return Ok(Done::Found);
+        }
+        // A trace shows what the machine does and judges nothing: it never reports a finding, whatever `check` would report.
+        Ok(Done::Clean)
+    }
+}
+
+/// Writes all rows.
+fn write<W: Write>(command: &Trace, loaded: &Loaded, machine: &Machine, out: W) -> Result<Traced, Failure> {
     let lines = LineIndex::new(loaded.program.source());
-    let out = BufWriter::new(std::io::stdout().lock());
-    let setup = flat_setup(&loaded, machine);
+    let setup = flat_setup(loaded, machine);
     let mut tracer = Tracer {
-        loaded: &loaded,
-        unnamed: unnamed(&loaded, &setup),
+        loaded,
+        unnamed: unnamed(loaded, &setup),
         lines: &lines,
         machine,
         waiting: VecDeque::new(),
@@ -60,28 +108,15 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         faults: 0,
         given_up: None,
     };
-    waiting::beside_output(global, "tracing", &command.file, || {
-        time(&loaded.program, loaded.resolved.dialect, &setup, machine, &mut tracer);
-    });
+    time(&loaded.program, loaded.resolved.dialect, &setup, machine, &mut tracer);
     if let Some(failure) = tracer.error {
         return Err(failure);
     }
-    let problems = tracer.faults + loaded.program.errors().len();
     tracer.writer.finish()?;
-    if problems > 0 {
-        let noun = if problems == 1 { "problem" } else { "problems" };
-        let text = format!(
-            "{}: {problems} {noun} in the program; see `trunnion check`",
-            loaded.name
-        );
-        remark(global.quiet, &text);
-    }
-    if let Some(why) = tracer.given_up {
-        remark(false, &why);
-        return Ok(Done::Found);
-    }
-    // A trace shows what the machine does and judges nothing: it never reports a finding, whatever `check` would report.
-    Ok(Done::Clean)
+    Ok(Traced {
+        problems: tracer.faults + loaded.program.errors().len(),
+        given_up: tracer.given_up,
+    })
 }
 
 struct Tracer<'a, W: Write> {

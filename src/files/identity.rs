@@ -2,7 +2,7 @@
 use std::{fs::Metadata, path::Path};
 
 /// Two paths with the same identity point to the same file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Identity {
     /// Device and inode.
     #[cfg(unix)]

@@ -10,10 +10,12 @@ mod patient;
 mod read;
 #[cfg(not(target_family = "wasm"))]
 mod temporary;
+#[cfg(not(target_family = "wasm"))]
+mod used;
 
 pub use error::FileError;
 #[cfg(not(target_family = "wasm"))]
-pub use output::{Outputs, Target, unless_closed};
+pub use output::{Outputs, Target, folder, unless_closed};
 #[cfg(not(target_family = "wasm"))]
 pub use patient::Patient;
 pub use read::{Input, Seen, read, read_settings, read_text};

@@ -4,6 +4,7 @@ use crate::identity::{Identity, special};
 use crate::patient::Patient;
 use crate::read::{Seen, read};
 use crate::temporary;
+use crate::used::Used;
 use std::{
     fs::{self, File, Metadata, OpenOptions},
     io::{self, Write},
@@ -14,16 +15,7 @@ use std::{
 /// file, before anything is computed.
 #[derive(Debug, Default)]
 pub struct Outputs {
-    used: Vec<Used>,
-}
-
-/// A file that the command reads or writes.
-#[derive(Debug)]
-struct Used {
-    identity: Option<Identity>,
-    place: PathBuf,
-    /// `the input`, or the option that names it.
-    role: String,
+    used: Used,
 }
 
 /// Where one output goes.
@@ -61,20 +53,15 @@ impl Outputs {
         if metadata.as_ref().is_some_and(|metadata| special(metadata).is_some()) {
             return;
         }
-        self.used.push(Used {
-            identity: metadata.map(|metadata| Identity::of(path, &metadata)),
-            place: resolved(path),
-            role: "also an input of this command".to_owned(),
-        });
+        let identity = metadata.map(|metadata| Identity::of(path, &metadata));
+        self.used
+            .add(resolved(path), identity, "also an input of this command".to_owned());
     }
 
     /// Standard output, where `what` goes: no output option may name it too.
     pub fn standard(&mut self, what: &str) {
-        self.used.push(Used {
-            identity: None,
-            place: PathBuf::from("-"),
-            role: format!("also where {what} goes"),
-        });
+        self.used
+            .add(PathBuf::from("-"), None, format!("also where {what} goes"));
     }
 
     /// The file next to `original` that keeps it, named as it is with `.bak` behind; `option` asked for it.
@@ -107,27 +94,19 @@ impl Outputs {
         match &target.kind {
             Kind::Stream => {}
             Kind::Standard => {
-                if let Some(other) = self.used.iter().find(|used| used.place == Path::new("-")) {
-                    return Err(clash(&other.role));
+                if let Some(other) = self.used.role(Path::new("-"), None) {
+                    return Err(clash(other));
                 }
-                self.used.push(Used {
-                    identity: None,
-                    place: PathBuf::from("-"),
-                    role: format!("also the output of {option}"),
-                });
+                self.used
+                    .add(PathBuf::from("-"), None, format!("also the output of {option}"));
             }
             Kind::Regular { place, before } => {
                 let identity = before.as_ref().map(|seen| &seen.identity);
-                let same =
-                    |used: &&Used| used.place == *place || identity.is_some() && used.identity.as_ref() == identity;
-                if let Some(other) = self.used.iter().find(same) {
-                    return Err(clash(&other.role));
+                if let Some(other) = self.used.role(place, identity) {
+                    return Err(clash(other));
                 }
-                self.used.push(Used {
-                    identity: identity.cloned(),
-                    place: place.clone(),
-                    role: format!("also the output of {option}"),
-                });
+                self.used
+                    .add(place.clone(), identity.cloned(), format!("also the output of {option}"));
             }
         }
         Ok(target)
@@ -335,6 +314,18 @@ impl Target {
             &self.path,
             format!("{what}, and was not overwritten; run the command again"),
         ))
+    }
+}
+
+/// A folder for outputs, made where it does not exist; the folder that it is in must.
+///
+/// # Errors
+/// It is a file, or it cannot be made.
+pub fn folder(path: &Path) -> Result<(), FileError> {
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => Ok(()),
+        Ok(_) => Err(FileError::new(path, "is not a folder; name another one")),
+        Err(_) => fs::create_dir(path).map_err(|error| FileError::io(path, "make the folder", &error)),
     }
 }
 

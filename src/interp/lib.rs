@@ -76,8 +76,8 @@ pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, Beside, ChainId, Clamp, ClampCodes, Clamps, ControlData,
     DrillingAxis, Effect, Fault, FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks,
     LengthOf, LengthUnit, Library, Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation,
-    OuterCorner, Placed, Position, Posture, ProgramRun, Reach, Refusal, RollPitchYaw, RotaryTurn, RoughingEscape,
-    Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolLength, ToolOffsets, ToolShape,
-    Undeclared, UnknownName, Value, Ways, WorkOffset, is_left, same_number,
+    OuterCorner, Placed, Position, Posture, ProgramRun, Progress, Reach, Refusal, RollPitchYaw, RotaryTurn,
+    RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolLength, ToolOffsets,
+    ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

@@ -95,7 +95,15 @@ impl<'d> Interpreter<'d> {
     /// of the main program ends the run: one pass is run.
     #[inline]
     pub fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
-        with_engine!(&mut self.engine, engine => engine.advance(program, sink))
+        with_engine!(&mut self.engine, engine => {
+            let ran = engine.advance(program, sink);
+            let progress = &engine.core().setup.progress;
+            match ran {
+                Some(block) => progress.reach(block.0, program.block_count()),
+                None => progress.end(),
+            }
+            ran
+        })
     }
 
     /// Reads what the run needs of the whole text before its first block; whether that could be something else if the text went on.

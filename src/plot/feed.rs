@@ -51,7 +51,14 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     );
     let across = [across[0].max(0.0), across[1]];
     let planned = cuts.iter().any(|block| block.planned.is_some());
-    let legend = legend(&cuts, planned, (top, unit));
+    let mut legend = legend(&cuts, planned, (top, unit));
+    legend.extend(turned(record).map(|feed| {
+        let text = format!(
+            "turns round without a stop at up to {}/min: the corner model of the machine",
+            unit.text(feed, 0)
+        );
+        (Swatch::Plain, text)
+    }));
     let name = scale.name("feed of the tip", "/min");
     sheet(header, &legend, |body| {
         let frame = Frame {
@@ -175,6 +182,23 @@ fn legend(cuts: &[&Block], planned: bool, (top, unit): (f64, Unit)) -> Vec<Entry
     legend
 }
 
+/// The highest planned feed with which a cut ends where the path turns round, as at the bottom of a hole. The machine file lets an axis change its
+/// speed by so much at once.
+fn turned(record: &Record) -> Option<f64> {
+    let pairs = record.blocks.windows(2).filter_map(|two| {
+        let (cut, next) = (&two[0], &two[1]);
+        let end = cut
+            .planned
+            .filter(|plan| !cut.rapid && next.joined && plan.end > 0.0)?
+            .end;
+        let (before, after) = (record.of(cut), record.of(next));
+        let comes = before.last()?.tip - before.len().checked_sub(2).and_then(|at| before.get(at))?.tip;
+        let goes = after.get(1)?.tip - after.first()?.tip;
+        (comes.dot(&goes) < -0.999 * comes.norm() * goes.norm()).then_some(end)
+    });
+    pairs.reduce(f64::max)
+}
+
 /// Feeds between two others, at even acceleration: where, 0..=1, and how much.
 fn ramp(before: f64, after: f64) -> [(f64, f64); 3] {
     [0.1, 0.35, 0.65].map(|way| {
@@ -219,6 +243,7 @@ fn course(record: &Record, height: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::PlannedFeed;
     use crate::texts::{header, record};
     use trunnion_geometry::Vec3;
 
@@ -268,6 +293,35 @@ mod tests {
         record.blocks.truncate(50);
         let few = feed(&header(), &record).expect("drawn");
         assert!(few.matches("<polyline").count() > 100, "dashes");
+    }
+
+    /// At the bottom of a hole the planned line does not reach 0: the legend says why.
+    #[test]
+    fn the_legend_explains_a_feed_at_which_the_path_turns_round() {
+        let hole = [('r', 2.0), ('f', -18.0), ('r', 2.0)].map(|(kind, z)| (kind, Vec3::new(0.0, 0.0, z)));
+        let mut record = record(&hole, |_| Vec3::z());
+        let ends_at = |record: &mut Record, end: f64| {
+            for block in record.blocks.iter_mut().filter(|block| !block.rapid) {
+                block.feed[0] = Some(300.0);
+                block.planned = Some(PlannedFeed {
+                    most: 300.0,
+                    end,
+                    length: 20.0,
+                    seconds: 4.0,
+                });
+            }
+        };
+        ends_at(&mut record, 240.0);
+        assert_eq!(turned(&record), Some(240.0));
+        let svg = feed(&header(), &record).expect("drawn");
+        assert!(svg.contains("turns round without a stop at up to 240 mm/min"), "{svg}");
+        ends_at(&mut record, 0.0);
+        assert_eq!(turned(&record), None);
+        // straight on
+        let on = [('r', 2.0), ('f', -18.0), ('r', -20.0)].map(|(kind, z)| (kind, Vec3::new(0.0, 0.0, z)));
+        let mut on = crate::texts::record(&on, |_| Vec3::z());
+        ends_at(&mut on, 240.0);
+        assert_eq!(turned(&on), None);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! One field of a picture: axes with ticks and units, and drawing in the units of the data.
 mod text;
 
-use crate::canvas::{Area, GREY, PALE, PlotError, SCALE, dashes, draw_symbol, font, px};
+use crate::canvas::{Area, GREY, PALE, PlotError, SCALE, draw_symbol, font, px};
+use crate::dash::{dashed, distinct};
 use crate::labels::Labels;
 use crate::marks::Marked;
 use crate::scale::{power, short};
@@ -216,21 +217,21 @@ impl<'a> Panel<'a> {
         )
     }
 
-    /// A dashed line.
+    /// A dashed line, which stays dashed where it goes to and fro.
     pub(crate) fn dashed(
         &self,
         points: impl Iterator<Item = (f64, f64)>,
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        let runs = self.visible(points);
+        let runs = distinct(self.visible(points));
         let length: f64 = runs.iter().map(|run| length(run)).sum();
         if length > MOST_DASHED * (self.width + self.height) {
             // it fills the field: dashes would not be told apart, and each is an element of its own
             let whole = runs.into_iter().map(|run| run.into_iter().map(Self::whole).collect());
             return self.strokes(whole, colour, 0.5 * pixels);
         }
-        self.strokes(runs.iter().flat_map(|run| dashes(run, 7.0, 5.0)), colour, pixels)
+        self.strokes(dashed(&runs, 7.0, 5.0).into_iter(), colour, pixels)
     }
 
     fn strokes(

@@ -3,6 +3,7 @@
 //! It does not know files, rules or terminals: records of legs and marks come in, text goes out.
 mod axis_plane;
 mod canvas;
+mod dash;
 mod deviation;
 mod feed;
 mod grid;

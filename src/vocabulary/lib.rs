@@ -10,6 +10,7 @@ mod fault;
 mod library;
 mod modal;
 mod motion;
+mod progress;
 mod setup;
 mod sink;
 
@@ -26,6 +27,7 @@ pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
     Ways,
 };
+pub use progress::Progress;
 pub use setup::{
     ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner,
     RollPitchYaw, RotaryTurn, RoughingEscape, Setup, TcpCodes, Tool, ToolOffsets, ToolShape, WorkOffset,

@@ -1,5 +1,5 @@
 //! What a program is run with: tools, offsets, bounds, other programs. All lengths mm, angles deg.
-use crate::{Files, Limits};
+use crate::{Files, Limits, Progress};
 use std::sync::Arc;
 
 /// Shape of a tool's cutting part.
@@ -289,6 +289,8 @@ pub struct Setup {
     pub variables: Vec<(u32, Option<f64>)>,
     /// The same for variables with names.
     pub named_variables: NamedVariables,
+    /// Where whoever waits sees how far the run is.
+    pub progress: Progress,
 }
 
 /// Variables with names that have a value before the program runs, as their language writes them, sorted, each once: `R1` (Sinumerik), `Q5`, `QR1`

@@ -12,7 +12,7 @@ record! {
         tool_offsets = 34,
     } without {
         // no proof asks for the others
-        library, unnamed_stand, enter_definitions,
+        library, unnamed_stand, enter_definitions, progress,
     }
 }
 

@@ -8,8 +8,8 @@ pub(crate) struct Report {
     /// Files and directories; `-` reads standard input.
     #[arg(required = true)]
     pub(crate) paths: Vec<PathBuf>,
-    /// The page to write.
-    #[arg(short, long, value_name = "FILE")]
+    /// The page to write. A folder (`-o reports/`): a page for each program, and index.html with all verdicts.
+    #[arg(short, long, value_name = "FILE|FOLDER/")]
     pub(crate) output: PathBuf,
 }
 

@@ -102,43 +102,66 @@ pub(super) fn facts(loaded: &Loaded, report: &Report, scope: Scope) -> Vec<(&'st
     facts
 }
 
-/// The whole page.
-pub(super) fn page(parts: &[Part], failures: &[String]) -> String {
-    let title = match parts {
+/// What the page of a program says in one line of an overview.
+pub(super) struct Row {
+    pub(super) verdict: Verdict,
+    /// In what it was found: ` on mill-3axis`.
+    pub(super) judged_in: String,
+    pub(super) name: String,
+    pub(super) not_looked_at: Vec<String>,
+    /// The program moves in inch.
+    pub(super) inch: bool,
+    /// Where the rest is.
+    pub(super) link: String,
+}
+
+/// The title of a page about these programs.
+pub(super) fn title(rows: &[Row]) -> String {
+    match rows {
         [one] => format!("{}{}: {}", word(one.verdict), one.judged_in, one.name),
-        many => format!("{} programs", many.len()),
-    };
-    let mut out = format!(
+        many => counted(many.len()),
+    }
+}
+
+/// The title of an index.
+pub(super) fn counted(programs: usize) -> String {
+    crate::cli::verdict::counted(programs as u64, "program")
+}
+
+/// The page up to its programs. `inch`: one of them moves in inch. `index`: the page that lists all programs, beside this one.
+pub(super) fn begin(title: &str, inch: bool, index: Option<&str>) -> String {
+    let title = escape(title);
+    let index = index.map_or_else(String::new, |name| {
+        format!("<nav><a href=\"{name}\">All programs</a></nav>\n")
+    });
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n\
-         <header><h1>{}</h1><p>Report of trunnion {}. {}, angles in degrees.</p></header>\n",
-        escape(&title),
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n<style>\n{}</style>\n</head>\n<body>\n\
+         {index}<header><h1>{title}</h1><p>Report of trunnion {}. {}, angles in degrees.</p></header>\n",
         include_str!("page.css"),
-        escape(&title),
         env!("CARGO_PKG_VERSION"),
-        if parts.iter().any(|part| part.inch) {
+        if inch {
             "Distances in mm, on pictures of inch programs in inch"
         } else {
             "Distances in mm"
         },
-    );
-    if parts.len() != 1 || !failures.is_empty() {
-        overview(&mut out, parts, failures);
-    }
-    for (at, part) in parts.iter().enumerate() {
-        program(&mut out, at, part);
-    }
-    let _ = writeln!(
-        out,
-        "<script>\n{}</script>\n</body>\n</html>",
-        include_str!("replay.js")
-    );
-    out
+    )
 }
 
-fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
-    let count = |verdict| parts.iter().filter(|part| part.verdict == verdict).count();
+/// The page after its programs, with what moves the replays if there may be some.
+pub(super) fn end(replays: bool) -> String {
+    if replays {
+        format!("<script>\n{}</script>\n</body>\n</html>\n", include_str!("replay.js"))
+    } else {
+        "</body>\n</html>\n".to_owned()
+    }
+}
+
+/// All programs, one line each.
+pub(super) fn overview(rows: &[Row], failures: &[String]) -> String {
+    let mut out = String::new();
+    let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
     let _ = writeln!(
         out,
         "<section><h2>Overview</h2><p>{} pass, {} fail, {} unknown, {} not checked</p><table><tr><th>verdict</th><th>program</th><th>not looked at</th></tr>",
@@ -147,15 +170,16 @@ fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
         count(Verdict::Unknown),
         failures.len()
     );
-    for (at, part) in parts.iter().enumerate() {
-        let verdict = part.verdict.name();
+    for row in rows {
+        let verdict = row.verdict.name();
         let _ = writeln!(
             out,
-            "<tr><td class=\"{verdict}\">{}{}</td><td><a href=\"#p{at}\">{}</a></td><td>{}</td></tr>",
-            word(part.verdict),
-            escape(&part.judged_in),
-            escape(&part.name),
-            escape(&part.not_looked_at.join("; "))
+            "<tr><td class=\"{verdict}\">{}{}</td><td><a href=\"{}\">{}</a></td><td>{}</td></tr>",
+            word(row.verdict),
+            escape(&row.judged_in),
+            escape(&row.link),
+            escape(&row.name),
+            escape(&row.not_looked_at.join("; "))
         );
     }
     for failure in failures {
@@ -166,6 +190,7 @@ fn overview(out: &mut String, parts: &[Part], failures: &[String]) {
         );
     }
     out.push_str("</table></section>\n");
+    out
 }
 
 /// The verdict, in what it was found, and what it says nothing about.
@@ -188,7 +213,10 @@ fn head(out: &mut String, at: usize, part: &Part) {
     let _ = writeln!(out, "<p class=\"line\">{}</p>", escape(&part.line));
 }
 
-fn program(out: &mut String, at: usize, part: &Part) {
+/// Everything about one program.
+pub(super) fn program(at: usize, part: &Part) -> String {
+    let mut text = String::new();
+    let out = &mut text;
     head(out, at, part);
     out.push_str("<section><h3>Coverage</h3><table>");
     for (name, value) in &part.facts {
@@ -268,6 +296,7 @@ fn program(out: &mut String, at: usize, part: &Part) {
         out.push_str("</section>\n");
     }
     out.push_str("</article>\n");
+    text
 }
 
 fn show_replay(out: &mut String, data: &replay::Data) {

@@ -5,7 +5,7 @@ mod streams;
 mod walking;
 mod writers;
 
-use super::tools::{FLIP, status, str, text, trunnion, write};
+use super::tools::{FLIP, status, str, text, trunnion, trunnion_in, write};
 use std::{
     fs,
     os::unix::fs::{FileTypeExt, symlink},
@@ -58,6 +58,8 @@ fn no_output_replaces_an_input() {
         &["edit", p, "--mirror", "X", "-o", p],
         &["fix", p, "--certificate", p],
         &["canon", p, "--parameters", p],
+        &["canon", p, "-o", p],
+        &["trace", p, "-o", p],
     ];
     for arguments in commands {
         let output = trunnion(arguments);
@@ -95,6 +97,32 @@ fn two_outputs_of_one_command_are_two_files() {
         text(&output.stderr)
     );
     assert!(!out.exists());
+}
+
+/// The file of `-o` holds what standard output would, whole or not at all.
+#[test]
+fn lists_go_into_a_file() {
+    let folder = folder();
+    write(&folder, "p.nc", FLIP);
+    write(&folder, "p.ngc", "G21\nG1 X1 F100\nM2\n");
+    let commands: [&[&str]; 3] = [
+        &["trace", "p.nc", "--machine", MACHINE],
+        &["trace", "p.nc", "--machine", MACHINE, "--format", "json"],
+        &["canon", "p.ngc"],
+    ];
+    for command in commands {
+        let shown = trunnion_in(folder.path(), command);
+        let written = trunnion_in(folder.path(), &[command, &["-o", "out"]].concat());
+        assert_eq!(status(&written), status(&shown), "{}", text(&written.stderr));
+        assert!(written.stdout.is_empty() && !shown.stdout.is_empty(), "{command:?}");
+        assert_eq!(content(&folder.path().join("out")), text(&shown.stdout), "{command:?}");
+    }
+    // a run that does not end leaves the old file
+    write(&folder, "p.ngc", "o1 while [1]\no1 endwhile\nM2\n");
+    let before = content(&folder.path().join("out"));
+    let output = trunnion_in(folder.path(), &["canon", "p.ngc", "-o", "out"]);
+    assert_eq!(status(&output), 2, "{}", text(&output.stderr));
+    assert_eq!(content(&folder.path().join("out")), before);
 }
 
 /// The program goes into the file of `-o`, a document or a diff to standard output, and never both to one place.

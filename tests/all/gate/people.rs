@@ -74,6 +74,54 @@ fn completions_and_the_manual_page_name_every_command() {
     }
 }
 
+/// What bash offers after some words.
+fn offered(script: &Path, folder: &Path, words: &[&str]) -> Option<Vec<String>> {
+    let ask = "source \"$1\"; shift; COMP_WORDS=(trunnion \"$@\"); COMP_CWORD=$#; _trunnion trunnion \"${COMP_WORDS[$#]}\" \
+               \"${COMP_WORDS[$#-1]}\"; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    let mut bash = Command::new("bash");
+    bash.args(["--norc", "-c", ask, "bash", str(script)]).args(words);
+    let output = bash.current_dir(folder).output().ok()?;
+    Some(text(&output.stdout).lines().map(str::to_owned).collect())
+}
+
+#[test]
+fn completions_offer_the_names_of_machines_dialects_and_rules() {
+    let folder = TempDir::new().expect("a folder");
+    let script = write(
+        &folder,
+        "trunnion.bash",
+        &text(&trunnion(&["completions", "bash"]).stdout),
+    );
+    write(&folder, "mill-own.toml", "");
+    let mills = ["mill-3axis", "mill-4axis-a", "mill-turn-bc"];
+    let cases: [(&[&str], &[&str]); 6] = [
+        (
+            &["check", "--machine", "mill-"],
+            &[mills[0], mills[1], mills[2], "mill-own.toml"],
+        ),
+        (
+            &["convert", "--to-machine", "mill-"],
+            &[mills[0], mills[1], mills[2], "mill-own.toml"],
+        ),
+        (&["check", "--dialect", "okuma"], &["okuma-osp"]),
+        (&["convert", "--to", "heid"], &["heidenhain-klartext"]),
+        (&["explain", "pole-f"], &["pole-flip"]),
+        (&["fix", "--rewrite", "unwind"], &["unwind-rotary"]),
+    ];
+    for (words, wanted) in cases {
+        // where there is no bash, the other shells are still looked at
+        if let Some(found) = offered(&script, folder.path(), words) {
+            assert_eq!(found, wanted, "{words:?}");
+        }
+    }
+    let zsh = text(&trunnion(&["completions", "zsh"]).stdout);
+    assert!(zsh.contains("NAME|FILE:{compadd -- mikron-ucp710 ") && zsh.contains("; _files}'"));
+    assert!(zsh.contains(":NAME:(iso-6983 linuxcnc "), "dialects");
+    let fish = text(&trunnion(&["completions", "fish"]).stdout);
+    assert!(fish.contains("-l machine ") && fish.contains("-r -F -a \"mikron-ucp710\\t''\n"));
+    assert!(fish.contains("-r -f -a \"iso-6983\\t''\n"), "dialects");
+}
+
 fn page(folder: &Path, arguments: &[&str]) -> (String, i32) {
     let mut all = vec!["report"];
     all.extend(arguments);
@@ -167,6 +215,61 @@ fn a_report_of_a_folder_lists_its_programs() {
     assert_eq!(status, 1);
     assert!(page.contains("1 pass, 1 fail, 0 unknown, 0 not checked"));
     assert!(page.contains("href=\"#p1\""));
+}
+
+/// Into a folder goes a page for each program, written as they come, and an index.
+#[test]
+fn a_report_into_a_folder_has_a_page_for_each_program() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("more")).expect("made");
+    write(&folder, "more/good one.nc", super::GOOD);
+    let (whole, _) = page(folder.path(), &["."]);
+    fs::remove_file(folder.path().join("page.html")).expect("removed");
+    let output = trunnion_in(folder.path(), &["report", ".", "-o", "pages/"]);
+    assert_eq!(status(&output), 1, "{}", text(&output.stderr));
+    let mut names: Vec<String> = fs::read_dir(folder.path().join("pages"))
+        .expect("there")
+        .map(|entry| entry.expect("read").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    assert_eq!(
+        names,
+        ["bad.nc.html", "good.nc.html", "index.html", "more_good_one.nc.html"]
+    );
+    let read = |name: &str| fs::read_to_string(folder.path().join("pages").join(name)).expect("read");
+    let index = read("index.html");
+    assert!(index.contains("2 pass, 1 fail, 0 unknown, 0 not checked"));
+    for name in &names {
+        let text = read(name);
+        let (link, has) = if name == "index.html" {
+            (&names[0], 0)
+        } else {
+            assert!(index.contains(&format!("<a href=\"{name}\">")), "{name}");
+            (&names[2], 1)
+        };
+        assert!(text.contains(&format!("<a href=\"{link}\">")), "{name}");
+        assert_eq!(text.matches("<article").count(), has, "{name}");
+        // a program says the same on its own page and on that of all
+        let article = text.split_once("<section>").map_or("", |(_, rest)| rest);
+        let article = article.split_once("<script>\n").map_or(article, |(before, _)| before);
+        assert!(has == 0 || whole.contains(article), "{name}");
+    }
+    // again into the folder that is there now, without its slash
+    let output = trunnion_in(folder.path(), &["report", ".", "-o", "pages"]);
+    assert_eq!(status(&output), 1);
+    // a page never replaces a program
+    write(&folder, "good.nc.html", super::GOOD);
+    let output = trunnion_in(folder.path(), &["report", "good.nc", "good.nc.html", "-o", "./"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        text(&output.stderr).contains("also an input"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(
+        fs::read_to_string(folder.path().join("good.nc.html")).expect("there"),
+        super::GOOD
+    );
 }
 
 #[test]

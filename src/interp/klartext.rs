@@ -24,6 +24,7 @@ mod plane_shift;
 mod positioning;
 mod sentence;
 mod tool;
+mod trans_datum;
 mod values;
 mod words;
 
@@ -58,6 +59,8 @@ pub(crate) struct Memory {
     level_shift: bool,
     /// X Y Z that cycle 7 has given since then.
     shifted: u16,
+    /// The shift of some axis is not known, until each of X, Y, Z is given anew.
+    shift_unknown: bool,
     /// CC: coordinates of the pole, and whether there was one.
     pole: [Option<f64>; 3],
     has_pole: bool,

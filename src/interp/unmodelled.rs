@@ -1,4 +1,5 @@
 //! Codes that are not modelled: what they make unknown, and until when.
+use crate::FaultKind;
 use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::ROTARY;
 use crate::core::Report;
@@ -98,6 +99,20 @@ impl<'d> Iso<'d> {
             return;
         }
         not_modelled(found, report);
+        self.frame_begins(found, words, block);
+    }
+
+    /// A frame that begins here is not modelled, for a reason.
+    pub(crate) fn frame_unknown(
+        &mut self,
+        why: &str,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let what = format!("{} {why}", found.code.id);
+        report.fault(found.range, FaultKind::NotModelled { what });
         self.frame_begins(found, words, block);
     }
 

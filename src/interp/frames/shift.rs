@@ -50,8 +50,17 @@ impl<'d> Iso<'d> {
         let unclear = self.core.state.coordinates.incremental()
             && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
         if unclear || !self.shifts_plainly(words) {
-            self.frame_change(found, words, block, report);
-            return;
+            let frames = &self.memory.frames;
+            let why = if frames.tilt.is_some() {
+                "in a tilted plane: whether its shift lies in the plane is not taken from a source"
+            } else if !frames.shape.is_identity() {
+                "in a turned, mirrored or scaled system: whether its shift is turned too is not taken from a source"
+            } else if self.core.state.tool_axis.tcp() {
+                "while the tip of the tool is guided"
+            } else {
+                "with increments, or with a value that is not known"
+            };
+            return self.frame_unknown(why, found, words, block, report);
         }
         for axis in 0..9 {
             if let Some(value) = self.axis_value(words, axis) {

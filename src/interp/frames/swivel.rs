@@ -1,5 +1,5 @@
 //! Codes of tilted working planes: G68.2, G68.4, G53.1, G53.6 of a Fanuc; CYCLE800 of a Sinumerik.
-use super::swivel_call::{SwivelCall, deselects};
+use super::swivel_call::{SwivelCall, deselects, why_not_read};
 use super::{Tilted, XYZ};
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
@@ -275,10 +275,15 @@ impl<'d> Iso<'d> {
         let shifted = self.memory.frames.local != [0.0; 9] || outer.is_some_and(|outer| outer.programmed);
         let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy() && !shifted;
         let read = SwivelCall::read(&text, value);
+        let is_read = read.is_some();
         let Some(call) = read.filter(|call| plain && (!call.adds || outer.is_some())) else {
+            let why = if is_read {
+                "with a frame of the program or radius compensation before it, or added to a plane that there is not"
+            } else {
+                why_not_read(&text, value)
+            };
             self.end_tilt(report);
-            self.frame_change(found, words, block, report);
-            return;
+            return self.frame_unknown(why, found, words, block, report);
         };
         let ended = self.core.unknown.end(found.code);
         self.core.forget_if(ended);

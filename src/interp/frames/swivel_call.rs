@@ -53,6 +53,23 @@ impl SwivelCall {
     }
 }
 
+/// Why a call is not modelled: bits 7 and 6 of its mode say how its angles are meant (SINUMERIK Operate, operating manual: swivelling).
+pub(super) fn why_not_read(text: &str, own: impl Fn(&str) -> Option<f64>) -> &'static str {
+    let values = inside(text).map(arguments).unwrap_or_default();
+    let mode = match values.get(3).copied().unwrap_or_default() {
+        "" => Some(0.0),
+        value => number(value, own),
+    };
+    match mode.map(|mode| mode as i64 >> 6) {
+        Some(3) => {
+            "with positions of the rotary axes: the control works out the plane, whose X and Y are not taken from a source"
+        }
+        Some(2) => "with projection angles: how the third one turns the plane is not taken from a source",
+        Some(1) => "with solid angles: about which axes they turn is not taken from a source",
+        _ => "with an argument that is not known or not modelled",
+    }
+}
+
 /// What is between the brackets of a call.
 fn inside(text: &str) -> Option<&str> {
     text.split_once('(')?.1.trim_end().strip_suffix(')')

@@ -30,6 +30,7 @@ impl Klartext<'_> {
     pub(crate) fn lose(&mut self, reason: u8) {
         self.memory.lost |= reason;
         self.memory.shifted = 0;
+        self.memory.shift_unknown |= reason & DATUM != 0;
         self.core.forget_linear();
         self.core.state.zero.lose(true);
     }
@@ -125,6 +126,11 @@ impl Klartext<'_> {
         if found.given == 0 {
             return;
         }
+        self.shift_datum("cycle 7", &found, report);
+    }
+
+    /// Axes that are not given keep their shift.
+    pub(super) fn shift_datum(&mut self, name: &str, found: &PathWords, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let mut local = self.memory.frames.local;
         let mut unknown = false;
@@ -148,14 +154,18 @@ impl Klartext<'_> {
             return self.lose(DATUM);
         }
         if shifts && !zero && !self.memory.frames.shape.is_identity() {
-            self.not_modelled_once("cycle 7 in a turned, mirrored or scaled system", report);
+            self.not_modelled_once(&format!("{name} in a turned, mirrored or scaled system"), report);
             self.memory.frames.local = local;
-            return self.lose(DATUM);
+            let unknown = self.memory.shift_unknown;
+            self.lose(DATUM);
+            // the shift itself is known: taking it back ends it
+            self.memory.shift_unknown = unknown;
+            return;
         }
         let tilted = self.is_tilted();
         if shifts && tilted && !self.shifts_in_plane() {
-            let what = "cycle 7 in a tilted plane, with a shift from before the plane: which of both it replaces";
-            self.not_modelled_once(what, report);
+            let what = "in a tilted plane, with a shift from before the plane: which of both it replaces";
+            self.not_modelled_once(&format!("{name} {what}"), report);
             self.memory.frames.local = local;
             return self.lose(INSIDE);
         }
@@ -163,7 +173,8 @@ impl Klartext<'_> {
         let level = shifts && !tilted && self.memory.frames.tilt.is_some();
         self.memory.level_shift = !zero && (level || self.memory.level_shift);
         self.memory.shifted |= found.given & !found.incremental & 7;
-        if zero || self.memory.shifted == 7 {
+        self.memory.shift_unknown &= self.memory.shifted != 7;
+        if (zero || self.memory.shifted == 7) && !self.memory.shift_unknown {
             self.found(DATUM);
             if !tilted {
                 self.found(INSIDE);

@@ -31,6 +31,8 @@ impl Klartext<'_> {
             after.push(Effect::Event(vec![Argument::code("STOP")]));
         } else if first.is("CYCL") || first.is("CYCLE") {
             unmodelled |= self.cycle_effects(text, block);
+        } else if first.is("TRANS") && words.clone().next().is_some_and(|word| word.is("DATUM")) {
+            // a shift is in the motions; a form that is not followed has said so
         } else if let Said::Parameter(..) = first.value {
             // values are compared where they are used; those that outlive the program at its end
         } else if !HELD.contains(&name.as_str()) && !is_words(&name) {

@@ -68,6 +68,7 @@ impl Klartext<'_> {
                 self.core.forget_position();
                 self.unknown_motion(report);
             }
+            b"TRANS" if words.takes_word("DATUM") => self.trans_datum(&mut words, report),
             b"TCH" | b"TRANS" | b"PRESET" | b"CONTOUR" | b"DECLARE" => {
                 self.not_followed(first.name(), report);
             }
@@ -134,7 +135,6 @@ impl Klartext<'_> {
             }
             // cycle 7 ends a shift, but no rotation, mirror image or scaling
             "TRANS" | "PRESET" => self.lose(match start.get(1).map(|word| word.to_ascii_uppercase()).as_deref() {
-                Some("DATUM") => super::datum::DATUM,
                 Some("SELECT") => super::datum::PRESET,
                 _ => super::datum::OTHER,
             }),

@@ -61,5 +61,7 @@ mod support;
 mod threads;
 mod tilted;
 mod tools;
+mod trans_datum;
+mod unknown_by_name;
 mod words;
 mod words_of_controls;

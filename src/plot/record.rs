@@ -176,7 +176,7 @@ pub struct Recorder<'m> {
 /// Most samples of a block.
 const MOST: f64 = 240.0;
 /// Samples of a whole record, some hundred bytes each. Blocks after them are recorded by their ends.
-const MOST_SAMPLES: usize = 1_000_000;
+const MOST_SAMPLES: usize = 400_000;
 /// How far the tip may lie off the line between two samples, mm.
 const NEAR: f64 = 0.02;
 /// How far a rotary axis may turn between two samples, rad.

@@ -1,5 +1,5 @@
 //! Every command ends on every hostile program, in every dialect: with status 0, 1 or 2, with a message where it has no answer, and in the long
-//! form within 10 s of processor time and 1 GB. Promise: SECURITY.md.
+//! form within 10 s of processor time and 1 GB; of a session with the server, each request. Promise: SECURITY.md.
 //!
 //! CI runs small files and a sample: each program with one command of each group, in one dialect after the other. `TRUNNION_BOUNDS=full` takes
 //! large files: each program with each command, each program in each dialect, each command in each dialect. `TRUNNION_BOUNDS=matrix` takes every

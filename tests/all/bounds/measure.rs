@@ -8,7 +8,7 @@ use std::{
     process::{ChildStdin, Command, Stdio},
     sync::{
         Arc,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicUsize, Ordering},
     },
     time::{Duration, Instant},
 };
@@ -30,7 +30,8 @@ pub(crate) struct Part {
 pub(crate) struct Measured {
     /// Its exit status; `None` after a signal.
     pub(crate) status: Option<i32>,
-    /// Processor time, as far as the system shows it (Linux), else the time that passed.
+    /// Processor time, as far as the system shows it (Linux), else the time that passed; of a session with the server, the most that one request
+    /// takes with the notifications before it.
     pub(crate) seconds: f64,
     /// The most memory that it held at once, as far as the system shows it (Linux).
     pub(crate) bytes: u64,
@@ -59,7 +60,7 @@ fn program() -> String {
 }
 
 /// Says all parts. The run may end without reading them.
-fn say(mut pipe: ChildStdin, parts: Vec<Part>, output: &File, ended: &AtomicBool) {
+fn say(mut pipe: ChildStdin, parts: Vec<Part>, output: &File, ended: &AtomicBool, answered: &AtomicUsize) {
     let mut seen = 0;
     for part in parts {
         if pipe.write_all(&part.bytes).is_err() {
@@ -70,6 +71,7 @@ fn say(mut pipe: ChildStdin, parts: Vec<Part>, output: &File, ended: &AtomicBool
         while !ended.load(Ordering::Relaxed) && !answers(output, &mut seen, answer.as_bytes()) {
             std::thread::sleep(Duration::from_millis(2));
         }
+        answered.fetch_add(1, Ordering::Relaxed);
     }
 }
 
@@ -108,19 +110,29 @@ pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<Part>, patienc
     let pipe = child.stdin.take().expect("piped");
     let printed = output.try_clone().expect("a handle");
     let ended = Arc::new(AtomicBool::new(false));
-    let over = Arc::clone(&ended);
-    let writer = std::thread::spawn(move || say(pipe, input, &printed, &over));
+    let answered = Arc::new(AtomicUsize::new(0));
+    let (over, answers) = (Arc::clone(&ended), Arc::clone(&answered));
+    let writer = std::thread::spawn(move || say(pipe, input, &printed, &over, &answers));
     let process = format!("/proc/{}", child.id());
     let (mut ticks, mut bytes) = (None, 0);
     let mut pause = Duration::from_millis(1);
+    // of the request that is not answered: its number, when it came, what those before it took at most
+    let (mut request, mut since, mut longest) = (0, 0.0, 0.0_f64);
     let status = loop {
         // asked before it is waited for: an ended process shows its time until then
         bytes = held(&process).unwrap_or(0).max(bytes);
         ticks = used(&process).or(ticks);
+        let passed = ticks.map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| ticks as f64 / TICKS);
+        let taken = passed - since;
+        longest = longest.max(taken);
         if let Some(status) = child.try_wait().expect("waited for") {
             break status.code();
         }
-        let taken = ticks.map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| ticks as f64 / TICKS);
+        let now = answered.load(Ordering::Relaxed);
+        if now != request {
+            (request, since) = (now, passed);
+            continue;
+        }
         if taken > patience.as_secs_f64() || begun.elapsed() > ABANDONED {
             child.kill().expect("killed");
             child.wait().expect("ended");
@@ -138,7 +150,7 @@ pub(crate) fn run(folder: &Path, arguments: &[String], input: Vec<Part>, patienc
     let _ = output.rewind();
     Measured {
         status,
-        seconds: ticks.map_or_else(|| begun.elapsed().as_secs_f64(), |ticks| ticks as f64 / TICKS),
+        seconds: longest,
         bytes,
         said: String::from_utf8_lossy(&said).into_owned(),
         output,

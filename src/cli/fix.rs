@@ -231,6 +231,7 @@ fn apply_all(
     let mut straight = Straight::default();
     for rewrite in chosen {
         bar.set_message(rewrite.name);
+        global.progress.begin();
         let index = LineIndex::new(program.source());
         let line = |at: u32| index.line_column(program.source(), at).0;
         let touches = |place: &Place| {

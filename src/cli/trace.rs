@@ -62,7 +62,7 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
             target.fill(|out| write(command, &loaded, machine, BufWriter::new(out)))
         }),
     }?;
-    traced.say(global, &loaded)
+    Ok(traced.say(global, &loaded))
 }
 
 /// What there is to say about a trace that is written.
@@ -74,7 +74,7 @@ struct Traced {
 }
 
 impl Traced {
-    fn say(self, global: &Global, loaded: &Loaded) -> Result<Done, Failure> {
+    fn say(self, global: &Global, loaded: &Loaded) -> Done {
         let problems = self.problems;
         if problems > 0 {
             let noun = if problems == 1 { "problem" } else { "problems" };
@@ -86,10 +86,10 @@ impl Traced {
         }
         if let Some(why) = self.given_up {
             remark(false, &why);
-            return Ok(Done::Found);
+            return Done::Found;
         }
         // A trace shows what the machine does and judges nothing: it never reports a finding, whatever `check` would report.
-        Ok(Done::Clean)
+        Done::Clean
     }
 }
 

@@ -23,6 +23,7 @@ pub(super) fn during<T>(global: &Global, doing: &str, file: &Path, work: impl Fn
     if global.quiet || !std::io::stderr().is_terminal() {
         return work();
     }
+    global.progress.begin();
     let message = format!("{doing} {}", super::failure::shown(&file.display().to_string()));
     with_line(PATIENCE, line, || said(&message, &global.progress), work)
 }

@@ -30,11 +30,8 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     let least = least.min(top);
     let decades = top > 20.0 * least;
     let unit = record.unit;
-    let scale = Height {
-        unit,
-        decades,
-        floor: 1e-3,
-    };
+    let floor = 1e-3;
+    let scale = Height { unit, decades, floor };
     let value = |feed: f64| scale.of(feed);
     let upwards = if decades {
         [value(least) - 0.2, value(top) + 0.1]
@@ -52,13 +49,7 @@ pub fn feed(header: &Header, record: &Record) -> Result<String, PlotError> {
     let across = [across[0].max(0.0), across[1]];
     let planned = cuts.iter().any(|block| block.planned.is_some());
     let mut legend = legend(&cuts, planned, (top, unit));
-    legend.extend(turned(record).map(|feed| {
-        let text = format!(
-            "turns round without a stop at up to {}/min: the corner model of the machine",
-            unit.text(feed, 0)
-        );
-        (Swatch::Plain, text)
-    }));
+    legend.extend(turned(record, unit));
     let name = scale.name("feed of the tip", "/min");
     sheet(header, &legend, |body| {
         let frame = Frame {
@@ -182,9 +173,16 @@ fn legend(cuts: &[&Block], planned: bool, (top, unit): (f64, Unit)) -> Vec<Entry
     legend
 }
 
+/// Why the planned feed does not fall to 0 where the path turns round.
+fn turned(record: &Record, unit: Unit) -> Option<Entry> {
+    let feed = unit.text(turning_feed(record)?, 0);
+    let text = format!("turns round without a stop at up to {feed}/min: the corner model of the machine");
+    Some((Swatch::Plain, text))
+}
+
 /// The highest planned feed with which a cut ends where the path turns round, as at the bottom of a hole. The machine file lets an axis change its
 /// speed by so much at once.
-fn turned(record: &Record) -> Option<f64> {
+fn turning_feed(record: &Record) -> Option<f64> {
     let pairs = record.blocks.windows(2).filter_map(|two| {
         let (cut, next) = (&two[0], &two[1]);
         let end = cut
@@ -312,16 +310,16 @@ mod tests {
             }
         };
         ends_at(&mut record, 240.0);
-        assert_eq!(turned(&record), Some(240.0));
+        assert_eq!(turning_feed(&record), Some(240.0));
         let svg = feed(&header(), &record).expect("drawn");
         assert!(svg.contains("turns round without a stop at up to 240 mm/min"), "{svg}");
         ends_at(&mut record, 0.0);
-        assert_eq!(turned(&record), None);
+        assert_eq!(turning_feed(&record), None);
         // straight on
         let on = [('r', 2.0), ('f', -18.0), ('r', -20.0)].map(|(kind, z)| (kind, Vec3::new(0.0, 0.0, z)));
         let mut on = crate::texts::record(&on, |_| Vec3::z());
         ends_at(&mut on, 240.0);
-        assert_eq!(turned(&on), None);
+        assert_eq!(turning_feed(&on), None);
     }
 
     #[test]

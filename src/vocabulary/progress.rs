@@ -32,6 +32,14 @@ impl Progress {
         Self(Some(Arc::default()))
     }
 
+    /// Other work begins: its runs are counted from 1.
+    pub fn begin(&self) {
+        if let Some(place) = &self.0 {
+            place.at.store(0, Relaxed);
+            place.ended.store(0, Relaxed);
+        }
+    }
+
     /// A run did this block of so many.
     #[inline]
     pub fn reach(&self, block: u32, blocks: usize) {
@@ -81,6 +89,10 @@ mod tests {
         progress.end();
         progress.reach(1024, 102_400);
         assert_eq!(seen.share(), Some((1, 2)), "an end without a share is not counted");
+        progress.begin();
+        assert_eq!(seen.share(), None);
+        progress.reach(1024, 102_400);
+        assert_eq!(seen.share(), Some((1, 1)));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 use super::{
     Part,
     replay::{self, line_text},
+    sheet::Table,
 };
 use crate::cli::{failure::shown, load::Loaded, short};
 use std::fmt::Write;
@@ -274,10 +275,18 @@ pub(super) fn program(at: usize, part: &Part) -> String {
         }
         out.push_str("</section>\n");
     }
-    if !part.sheet.is_empty() {
-        out.push_str("<section class=\"sheet\"><h3>Set-up sheet</h3>\n");
+    show_sheet(out, &part.sheet);
+    out.push_str("</article>\n");
+    text
+}
+
+/// The set-up sheet.
+fn show_sheet(out: &mut String, tables: &[Table]) {
+    if tables.is_empty() {
+        return;
     }
-    for table in part.sheet.iter().filter(|table| !table.rows.is_empty()) {
+    out.push_str("<section class=\"sheet\"><h3>Set-up sheet</h3>\n");
+    for table in tables.iter().filter(|table| !table.rows.is_empty()) {
         let _ = write!(out, "<h4>{}</h4><div class=\"wide\"><table><tr>", table.title);
         for cell in &table.head {
             let _ = write!(out, "<th>{cell}</th>");
@@ -292,11 +301,7 @@ pub(super) fn program(at: usize, part: &Part) -> String {
         }
         out.push_str("</table></div>\n");
     }
-    if !part.sheet.is_empty() {
-        out.push_str("</section>\n");
-    }
-    out.push_str("</article>\n");
-    text
+    out.push_str("</section>\n");
 }
 
 fn show_replay(out: &mut String, data: &replay::Data) {

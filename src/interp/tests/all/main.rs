@@ -42,6 +42,7 @@ mod own_codes;
 mod own_posts;
 mod plane_axial;
 mod planes_agree;
+mod progress;
 mod properties;
 mod repeated;
 mod roughing;

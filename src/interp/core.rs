@@ -319,6 +319,12 @@ impl<'d> Core<'d> {
         } else {
             LINEAR
         };
+        // such a coordinate moves its axis to an unknown place
+        for axis in (0..9).filter(|axis| hidden & 1 << axis != 0) {
+            let to = motion.end.get(axis);
+            let moves = to.is_some() && to != motion.start.get(axis);
+            motion.says_way |= u16::from(moves) << axis;
+        }
         motion.start.known &= !hidden;
         motion.end.known &= !hidden;
         if let MotionKind::Arc(arc) = &mut motion.kind {

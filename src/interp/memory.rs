@@ -11,6 +11,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) tool_data_written: bool,
     /// Tool centre point control was on since the tool came into the spindle.
     pub(crate) tcp_used: bool,
+    /// The length after tip control of an Okuma is not known, and no motion has said so: the code whose group settles it.
+    pub(crate) tip_length_open: Option<&'d trunnion_dialect::Code>,
     /// The tool for which a missing length under tool centre point control was reported.
     pub(crate) tcp_length_reported: Option<u32>,
     /// The group of the code that switched tool centre point control on.

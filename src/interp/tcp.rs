@@ -1,7 +1,6 @@
 //! Tool centre point control on and off.
 use crate::codes::Found;
-use crate::core::ROTARY;
-use crate::core::Report;
+use crate::core::{LINEAR, ROTARY, Report};
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Motion, Orientation, Position, TcpMistake};
@@ -39,6 +38,21 @@ impl<'d> Iso<'d> {
         if let Some(code) = self.core.dialect.codes().iter().find(ends) {
             self.core.unknown.begin(code, true);
             self.core.forget_linear();
+            self.memory.tip_length_open = Some(code);
+        }
+    }
+
+    /// The first motion for which the length matters says so.
+    pub(crate) fn length_is_open(&mut self, motion: &Motion, named: u16, words: &Words, report: &mut Report<'_>) {
+        let Some(code) = self.memory.tip_length_open else {
+            return;
+        };
+        if !self.core.unknown.holds(code) {
+            self.memory.tip_length_open = None;
+        } else if !motion.machine_coordinates && named & LINEAR != 0 {
+            self.memory.tip_length_open = None;
+            let what = "G170: whether the tool length of G169 stays in effect (write G56 H or G53 after it)".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
         }
     }
 

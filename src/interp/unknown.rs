@@ -73,6 +73,10 @@ impl<'d> Unknown<'d> {
                 .retain(|frame| !(frame.any_code_ends && Some(frame.key) == key));
         }
     }
+    /// Whether positions are unknown because of the code or of one of its group.
+    pub(crate) fn holds(&self, code: &Code) -> bool {
+        self.frames.iter().any(|frame| frame.key == key(code))
+    }
     /// Whether any position is unknown.
     #[inline]
     pub(crate) fn any(&self) -> bool {

@@ -294,6 +294,41 @@ mod tests {
         }
     }
 
+    /// Words in a system that is not known move the axes, which are not taken to stand where tool centre point control left them.
+    #[test]
+    fn words_of_an_unknown_system_after_tool_centre_point_control_are_told() {
+        for (head, text) in [
+            (
+                "okuma-osp",
+                "G15 H1\nG90 G94\nG169 H1\nG0 X0 Y0 Z50 A0 C0\nG1 X10 Y0 Z5 A20 C30 F500\nG170\nG0 Z100\nM2\n",
+            ),
+            (
+                "sinumerik-840d",
+                "G54\nTRAORI\nG0 X0 Y0 Z50 A0 C0\nG1 X10 Z5 A20 C30 F500\nTRAFOOF\nAROT X30\nG0 Z100\nM30\n",
+            ),
+            (
+                "fanuc-30i",
+                "G21 G90 G43.4 H1\nG0 X0. Y0. Z50. A0. C0.\nG1 X10. A20. C30. F500.\nG49\nG68 X0 Y0 R30.\nG0 X90.\nM30\n",
+            ),
+            (
+                "heidenhain-klartext",
+                "0 BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F500\nM128\nL X+0 Y+0 Z+50 A+0 C+0 R0 FMAX\nL X+10 Z+5 A+20 C+30 F500\nM129\nCYCL DEF 7.0 D\nCYCL DEF 7.1 #5\nL Z+100 FMAX\nEND PGM A MM\n",
+            ),
+        ] {
+            let report = crate::fixture::Fixture::parse(&format!("gcode {head} mikron-ucp710"), text)
+                .check()
+                .unwrap();
+            let said =
+                |found: &&crate::Diagnostic| found.rule == "position-unknown" && found.status == crate::Status::Unknown;
+            assert_eq!(
+                report.diagnostics.iter().filter(said).count(),
+                1,
+                "{head}: {:?}",
+                report.diagnostics
+            );
+        }
+    }
+
     #[test]
     fn a_machine_without_rotary_axes_needs_none() {
         assert_drawn("gcode mill-3axis", "N1 G0 X0 Y0\nN2 G0 Z50\nN3 G1 X10 F500\n");

@@ -89,6 +89,16 @@ impl Tilted {
         if !motion.tcp && motion.tilt.swivel == Swivel::No && !self.programmed {
             motion.tilt.normal = Some(self.normal());
             self.leave_free(&mut motion, in_plane);
+        } else {
+            // a coordinate that changes moves its axis, wherever that goes
+            let changes = |axis: &usize| {
+                in_plane
+                    .end
+                    .get(*axis)
+                    .is_some_and(|to| in_plane.start.get(*axis) != Some(to))
+            };
+            let changed = (0..3).filter(changes).fold(0, |all, axis| all | 1 << axis);
+            motion.says_way |= changed & !motion.end.known;
         }
         motion
     }

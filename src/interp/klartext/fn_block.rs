@@ -93,7 +93,16 @@ impl Klartext<'_> {
         }
         let cause = self.memory.parameters.cause_in(words.rest());
         match formula(&mut words, &self.memory.parameters) {
-            Ok(value) if words.rest().trim_ascii().is_empty() => self.memory.parameters.set_from(target, value, cause),
+            Ok(value) if words.rest().trim_ascii().is_empty() => {
+                let own = || {
+                    format!(
+                        "{target}: the formula that sets it (a function before an operator needs brackets: its priority is not taken from a source)"
+                    )
+                };
+                self.memory
+                    .parameters
+                    .set_from(target, value, cause.or_else(|| Some(own())));
+            }
             Ok(_) => {
                 self.memory.parameters.set(target, None);
                 let rest = String::from_utf8_lossy(words.rest()).trim().to_owned();

@@ -195,8 +195,8 @@ impl Klartext<'_> {
         }
         let feed = self.core.feed(kind, TextRange::default, report);
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
-        motion.says_way = words.incremental | unread(words);
-        motion.says_way |= ways.shortest;
+        motion.says_way |= words.incremental | unread(words) | ways.shortest;
+        motion.says_way |= words.given & !motion.end.known;
         motion.ways = ways;
         self.emit(&motion, report);
     }

@@ -10,7 +10,7 @@ use crate::{FaultKind, FeedMode, Refusal};
 use trunnion_syntax::TextRange;
 
 /// First words of FUNCTION blocks after which coordinates mean what they meant: dwells and pulses, files, the counter, monitoring.
-const LEAVES_COORDINATES: [&str; 7] = ["FEED", "S-PULSE", "DWELL", "FILE", "COUNT", "DCM", "LIFTOFF"];
+const LEAVES_COORDINATES: [&str; 6] = ["FEED", "S-PULSE", "FILE", "COUNT", "DCM", "LIFTOFF"];
 
 /// Words of positioning blocks that have three letters or more, and no value.
 const WORDS: [&[u8]; 4] = [b"FMAX", b"FAUTO", b"LEN", b"CCA"];
@@ -154,8 +154,36 @@ impl Klartext<'_> {
         }
     }
 
+    /// FUNCTION DWELL TIME 10: seconds; REV: turns of the spindle (NC-PB/gEdit, docs/planning/syntax/syntax-heidenhain.md, 4.1).
+    fn function_dwell(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        self.flush(report);
+        let kind = words.next();
+        let said = match &kind {
+            Some(word) if word.value == Said::Nothing => {
+                words.blanks();
+                words.value()
+            }
+            Some(word) => word.value,
+            None => Said::Nothing,
+        };
+        match kind {
+            Some(word) if word.is("TIME") => {
+                let seconds = self.said(said, report).filter(|seconds| *seconds >= 0.0);
+                self.dwell(seconds, report);
+            }
+            Some(word) if word.is("REV") => {
+                self.not_modelled_once("FUNCTION DWELL REV: how long its turns take", report);
+                self.dwell(None, report);
+            }
+            _ => Self::rejected(Refusal::MissingWord, "FUNCTION DWELL needs TIME or REV", report),
+        }
+    }
+
     /// FUNCTION TCPM, FUNCTION RESET TCPM.
     fn function_block(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
+        if words.takes_word("DWELL") {
+            return self.function_dwell(words, report);
+        }
         let text = words.rest().to_ascii_uppercase();
         let has = |word: &str| {
             text.split(u8::is_ascii_whitespace)

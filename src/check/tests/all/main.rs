@@ -2,3 +2,4 @@
 mod any_input;
 mod loops;
 mod no_silence;
+mod planted_own;

@@ -325,3 +325,37 @@ fn the_same_part_for_three_controls() {
         assert_eq!(far, 0);
     }
 }
+
+/// Whether G170 leaves the length of G169 in effect is not stated: the first motion says so, unless G56, G53 or machine coordinates come first.
+#[test]
+fn the_length_after_tip_control_is_unknown_by_name() {
+    const TIP: &str = "G0 X0 Y0 Z9 A0 C0\nG169 H1\nG1 X1 Y1 Z1 A10 C20 F100\nG170\n";
+    let open = |blocks: &str| {
+        let found = told(&format!("{TIP}{blocks}"));
+        found
+            .iter()
+            .filter(|fault| fault.contains("the tool length of G169"))
+            .count()
+    };
+    for blocks in [
+        "G0 Z100\nX5\nG1 X1 Y1 Z1\n",
+        "G1 X5\nG0 Z9\n",
+        "G16 H0 Z0\nG0 X1\n",
+        "G15 H1\nG0 A0 C0\nX1\n",
+    ] {
+        assert_eq!(open(blocks), 1, "{blocks}");
+    }
+    for blocks in [
+        "G53\nG0 Z100\n",
+        "G56 H1\nG0 X1 Y1 Z100\n",
+        "G16 H0 Z0\nG53\nG0 X1\n",
+        "G0 A0 C0\nM5\n",
+    ] {
+        assert_eq!(open(blocks), 0, "{blocks}");
+    }
+    let log = run_text(NAME, &format!("{TIP}G0 Z100\nX5\nM2\n"));
+    for (motion, named) in log.motions[2..].iter().zip([4, 1]) {
+        let moved = motion.says_way & !motion.end.known;
+        assert!(motion.end.xyz().is_none() && moved & named == named, "{motion:?}");
+    }
+}

@@ -1,4 +1,4 @@
-//! TRANS DATUM in place of cycle 7. The places are worked out by hand.
+//! TRANS DATUM in place of cycle 7, and FUNCTION DWELL in place of cycle 9. The places are worked out by hand.
 use crate::support::{faults, run_text};
 
 const NAME: &str = "heidenhain-klartext";
@@ -116,4 +116,37 @@ fn one_axis_taken_back_leaves_the_shift_of_a_table() {
         let all = format!("{shift}{}PLANE RESET STAY\n{LINE}", back(&["X", "Y", "Z"]));
         assert_eq!(last(&all), Some([1.0, 2.0, 3.0]), "{shift}");
     }
+}
+
+/// TIME is in seconds; turns take a time that depends on the spindle.
+#[test]
+fn function_dwell_waits() {
+    let waits = |block: &str| {
+        let motions = run_text(NAME, &program(block)).motions;
+        let dwells = motions.iter().filter_map(|motion| match motion.kind {
+            trunnion_interp::MotionKind::Dwell(seconds) => Some(seconds),
+            _ => None,
+        });
+        dwells.collect::<Vec<_>>()
+    };
+    for (block, wanted) in [
+        ("FUNCTION DWELL TIME10", Some(10.0)),
+        ("FUNCTION DWELL TIME 1,5", Some(1.5)),
+        ("Q1 = 3\nFUNCTION DWELL TIMEQ1", Some(3.0)),
+        ("FUNCTION DWELL REV2", None),
+    ] {
+        assert_eq!(waits(block), [wanted], "{block}");
+        assert_eq!(
+            said(block).len(),
+            usize::from(wanted.is_none()),
+            "{block}: {:?}",
+            said(block)
+        );
+    }
+    assert!(
+        said("FUNCTION DWELL")
+            .iter()
+            .any(|fault| fault.contains("needs TIME or REV"))
+    );
+    assert_eq!(last(&format!("FUNCTION DWELL TIME2\n{LINE}")), Some([1.0, 2.0, 3.0]));
 }

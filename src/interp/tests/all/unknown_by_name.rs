@@ -93,6 +93,11 @@ fn each_word_is_named_with_its_reason() {
             "cutter radius compensation",
         ),
         (
+            KLARTEXT,
+            "Q9 = SQ 3 + 1\nL X+Q9 Y+0 Z+0",
+            "Q9: the formula that sets it",
+        ),
+        (
             SIEMENS,
             "GROUP_BEGIN(0,\"ROUGH\",0,0)\nG1 X5\nGROUP_END(0,0)\nX1 Y2 Z3",
             "GROUP_BEGIN",

@@ -81,11 +81,9 @@ impl Iso<'_> {
         if block.machine_coordinates {
             self.in_machine_coordinates(&mut motion, words.axes.given | words.axes.unread);
         }
-        let named = words.axes.given | words.axes.unread;
         motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
-        motion.says_way |= named & !motion.end.known;
         motion.ways = ways;
-        self.length_is_open(&motion, named, words, report);
+        self.hidden_ends(&mut motion, words, report);
         if self.memory.tcp_used {
             self.tcp_mistakes(&motion, words, report);
         }

@@ -42,8 +42,10 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// The first motion for which the length matters says so.
-    pub(crate) fn length_is_open(&mut self, motion: &Motion, named: u16, words: &Words, report: &mut Report<'_>) {
+    /// A word whose end is hidden moves its axis. Of the length after tip control the first motion for which it matters says so.
+    pub(crate) fn hidden_ends(&mut self, motion: &mut Motion, words: &Words, report: &mut Report<'_>) {
+        let named = words.axes.given | words.axes.unread;
+        motion.says_way |= named & !motion.end.known;
         let Some(code) = self.memory.tip_length_open else {
             return;
         };

@@ -365,7 +365,12 @@ mod tests {
     fn symbols_that_lie_on_each_other_are_drawn_once() {
         let machine = builtin("mikron-ucp710").expect("built in");
         let size = |count: u32| {
-            let axis = |step: usize| tool_axis_at(machine, [rad(30.0), rad(if step % 2 == 0 { -5.0 } else { -20.0 })]);
+            let axis = |step: usize| {
+                tool_axis_at(
+                    machine,
+                    [rad(30.0), rad(if step.is_multiple_of(2) { -5.0 } else { -20.0 })],
+                )
+            };
             let moves: Vec<(char, Vec3)> = (0..=count)
                 .map(|i| ('f', Vec3::new(f64::from(i % 9), 0.0, 0.0)))
                 .collect();

@@ -219,10 +219,7 @@ fn folders(command: &Command, ini: &Ini) -> Vec<PathBuf> {
 /// A file that the control would use, but that is not read.
 fn refused(folder: &Path, why: String) -> Searched {
     remark(false, &why);
-    Searched {
-        folder: folder.display().to_string(),
-        refused: Some(why),
-    }
+    Searched::refused(folder.display().to_string(), why)
 }
 
 /// Finds called programs in folders.

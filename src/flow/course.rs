@@ -94,7 +94,7 @@ pub enum BlockBudget {
 /// A call stores as much as so many entries of other lists: its variables.
 const CALL: usize = 16;
 
-/// A chain of calls stores as much as so many: two texts and its key.
+/// What a chain of calls counts among copied entries: it stores two texts and its key.
 const CHAIN: usize = 8;
 
 /// Loops that are counted; others are named by the block that ran last.

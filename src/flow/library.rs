@@ -5,10 +5,10 @@ use std::sync::Arc;
 use trunnion_syntax::{LexOptions, Program, parse};
 use trunnion_vocabulary::Searched;
 
-/// So many different programs that are missing are looked for; no real program calls so many that do not exist.
+/// When so many different programs are missing, no further one is looked for. No real program calls so many that do not exist.
 const MOST_MISSING: usize = 4096;
 
-/// A missing program stores as much as so many entries of other lists.
+/// What a missing program counts among copied entries: its name and the folders that were searched.
 const MISSING: usize = 4;
 
 /// Another file that is called.
@@ -62,11 +62,8 @@ impl Library {
             return Err(searched.clone());
         }
         if self.missing.len() >= MOST_MISSING {
-            let why = format!("{MOST_MISSING} other programs that are called are missing, so it was not looked for");
-            return Err(vec![Searched {
-                folder: "no folder".to_owned(),
-                refused: Some(why),
-            }]);
+            let why = format!("{MOST_MISSING} other programs that are called do not exist");
+            return Err(vec![Searched::skipped(why)]);
         }
         let mut searched = Vec::new();
         for file in tried() {
@@ -120,7 +117,7 @@ mod tests {
             let searched = find(number);
             let again = find(number);
             assert_eq!(searched.len(), 1);
-            assert_eq!(searched[0].refused.is_some(), number >= MOST_MISSING, "{number}");
+            assert_eq!(searched[0].skipped.is_some(), number >= MOST_MISSING, "{number}");
             assert!(searched == again);
         }
         assert_eq!(asked.get(), 2 * MOST_MISSING);

@@ -8,6 +8,7 @@ use crate::marks::Marked;
 use crate::scale::{power, short};
 use crate::thin::{clip, thin};
 use plotters::prelude::*;
+use std::collections::HashSet;
 
 /// How a field is framed.
 pub(crate) struct Frame<'t> {
@@ -249,17 +250,13 @@ impl<'a> Panel<'a> {
 
     /// Where points of a symbol of this radius are drawn: those that would hide each other once.
     fn spots(&self, points: impl Iterator<Item = (f64, f64)>, pixels: f64) -> Vec<(i32, i32)> {
-        let mut last = (f64::NAN, f64::NAN);
-        let half = 0.5 * f64::from(px(pixels));
-        // those that lie one on the other need not follow each other
-        let mut taken = std::collections::HashSet::new();
+        let cell = 0.5 * f64::from(px(pixels));
+        let mut taken = HashSet::new();
         let mut spots = Vec::new();
         for (x, y) in points {
             let p = self.at(x, y);
-            let near = (p.0 - last.0).abs() + (p.1 - last.1).abs() < half;
-            if self.holds(p) && !near && taken.insert(((p.0 / half).floor() as i64, (p.1 / half).floor() as i64)) {
+            if self.holds(p) && taken.insert([p.0, p.1].map(|way| (way / cell).floor() as i64)) {
                 spots.push(Self::whole(p));
-                last = p;
             }
         }
         spots

@@ -26,11 +26,35 @@ pub struct Searched {
     pub folder: String,
     /// A file of that name exists but is not used: which, and why. The control would use it, so no other place is searched.
     pub refused: Option<String>,
+    /// Nothing was searched, so the program may exist: why.
+    pub skipped: Option<String>,
+}
+
+impl Searched {
+    /// A file of that name is in the folder and is not used.
+    pub fn refused(folder: String, why: String) -> Self {
+        Self {
+            refused: Some(why),
+            ..folder.into()
+        }
+    }
+
+    /// Nothing was searched.
+    pub fn skipped(why: String) -> Self {
+        Self {
+            skipped: Some(why),
+            ..String::new().into()
+        }
+    }
 }
 
 impl From<String> for Searched {
     fn from(folder: String) -> Self {
-        Self { folder, refused: None }
+        Self {
+            folder,
+            refused: None,
+            skipped: None,
+        }
     }
 }
 
@@ -42,7 +66,7 @@ impl From<&str> for Searched {
 
 impl core::fmt::Debug for Searched {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match &self.refused {
+        match self.refused.as_ref().or(self.skipped.as_ref()) {
             None => write!(f, "{:?}", self.folder),
             Some(why) => write!(f, "{:?} ({why:?})", self.folder),
         }

@@ -137,8 +137,8 @@ impl Files for Subprograms {
                 Ok(listing) => listing,
                 // the program may be in it
                 Err(why) => {
-                    let refused = Some(format!("{shown} {why}"));
-                    searched.push(Searched { folder: shown, refused });
+                    let why = format!("{shown} {why}");
+                    searched.push(Searched::refused(shown, why));
                     return Err(searched);
                 }
             };
@@ -155,8 +155,7 @@ impl Files for Subprograms {
                 }
                 // the control would take this file, so one of another folder is not taken in its place
                 Err(why) => {
-                    let refused = Some(format!("{} {why}", path.display()));
-                    searched.push(Searched { folder: shown, refused });
+                    searched.push(Searched::refused(shown, format!("{} {why}", path.display())));
                     return Err(searched);
                 }
             }

@@ -16,7 +16,7 @@
 //!
 //! # Guarantee
 //! Sound for the calls that are modelled. On an Okuma, which is supplied with subprograms of its own, it is unknown whether the program is
-//! there. Only the program itself, its folder and the folders in the settings are
+//! there. It is unknown, too, once 4096 other programs are missing: no further one is looked for. Only the program itself, its folder and the folders in the settings are
 //! searched.
 //!
 //! # Sources
@@ -43,6 +43,16 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let in_control = out.dialect().advice.subprograms_in_control;
         let alone = out.part() == Part::Called && out.dialect().quirks.language == Language::Linuxcnc;
         let refused = searched.iter().find_map(|place| place.refused.as_ref());
+        if let Some(why) = searched.iter().find_map(|place| place.skipped.as_ref()) {
+            out.report(
+                fault.range,
+                format!("program `{name}`{caller} was not looked for: {why}"),
+            )
+            .unknown()
+            .help("correct the names of the programs that are not found, or name their folder in trunnion.toml: subprogram_path = [\"subs\"]")
+            .merge(Merge::once(hash("not looked for")));
+            return;
+        }
         let draft = out.report(
             fault.range,
             match refused {
@@ -88,5 +98,43 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 "put it in the folder of the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]"
             })
             .merge(Merge::once(hash(name)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Settings, Status, check};
+    use std::sync::Arc;
+    use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
+
+    #[derive(Debug)]
+    struct Empty;
+
+    impl Files for Empty {
+        fn load(&self, _: &str) -> Result<Loaded, Vec<Searched>> {
+            Err(vec!["subs".into()])
+        }
+    }
+
+    /// Nothing says that they do not exist.
+    #[test]
+    fn programs_that_are_not_looked_for_are_unknown() {
+        let calls: String = (1..=4099).map(|number| format!("M98 P{number}\n")).collect();
+        let dialect = trunnion_dialect::builtin("fanuc-30i").expect("built in");
+        let setup = Setup {
+            library: Library(Some(Arc::new(Empty))),
+            ..Setup::default()
+        };
+        let program = trunnion_syntax::parse(format!("G21 G90\n{calls}M30\n").into_bytes(), dialect.lex);
+        let report = check(&program, &Settings::new(dialect, None, setup));
+        let own = report.diagnostics.iter().filter(|d| d.rule == "missing-subprogram");
+        let open: Vec<_> = own.filter(|d| d.status == Status::Unknown).collect();
+        assert_eq!(open.len(), 1, "{open:?}");
+        assert_eq!(open[0].count, 3);
+        assert!(
+            open[0].message.contains("`O4097` was not looked for: 4096 other programs"),
+            "{}",
+            open[0].message
+        );
     }
 }

@@ -5,7 +5,8 @@
 //! axes are unknown, so limits, postures, speeds and the tip's path were not checked there. An axis that is not
 //! programmed is not assumed to be at zero. A work offset in a rotary axis under tool centre point control is
 //! reported in the same way: controls differ in what it does to X Y Z. So is a position of the rotary axes at which
-//! the linear axes do not span space.
+//! the linear axes do not span space. Motions under tool centre point control that turn a rotary axis by more than
+//! 8 deg are computed up to a number of them; the paths of those after them are unknown.
 //!
 //! # Example
 //! ```gcode mikron-ucp710

@@ -119,20 +119,25 @@ mod tests {
     /// Nothing says that they do not exist.
     #[test]
     fn programs_that_are_not_looked_for_are_unknown() {
-        let calls: String = (1..=4099).map(|number| format!("M98 P{number}\n")).collect();
+        let calls: Vec<String> = (1..=4099).map(|number| format!("M98 P{number}")).collect();
         let dialect = trunnion_dialect::builtin("fanuc-30i").expect("built in");
         let setup = Setup {
             library: Library(Some(Arc::new(Empty))),
             ..Setup::default()
         };
-        let program = trunnion_syntax::parse(format!("G21 G90\n{calls}M30\n").into_bytes(), dialect.lex);
+        let program = trunnion_syntax::parse(
+            format!("G21 G90\n{}\nM30\n", calls.join("\n")).into_bytes(),
+            dialect.lex,
+        );
         let report = check(&program, &Settings::new(dialect, None, setup));
         let own = report.diagnostics.iter().filter(|d| d.rule == "missing-subprogram");
         let open: Vec<_> = own.filter(|d| d.status == Status::Unknown).collect();
         assert_eq!(open.len(), 1, "{open:?}");
         assert_eq!(open[0].count, 3);
         assert!(
-            open[0].message.contains("`O4097` was not looked for: 4096 other programs"),
+            open[0]
+                .message
+                .contains("`O4097` was not looked for: 4096 other programs"),
             "{}",
             open[0].message
         );

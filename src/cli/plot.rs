@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Machine, Space, ToolBody};
 use trunnion_plot::{
-    Along, Header, PlotError, Record, ServoSpot, Unit, axis_plane, deviation, feed, joints, path, route,
+    Along, Header, PlotError, Record, ServoSpot, Shows, Unit, axis_plane, deviation, feed, joints, path, route,
     servo as servo_picture,
 };
 use trunnion_syntax::LineIndex;
@@ -109,7 +109,11 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         let mut record = if command.kind == Kind::Path {
             gather_path(&loaded, machine, lines)
         } else {
-            gather(&loaded, machine, lines)
+            let shows = Shows {
+                deviation: command.kind == Kind::Deviation,
+                feed: command.kind == Kind::Feed,
+            };
+            gather(&loaded, machine, lines, shows)
         };
         if command.kind == Kind::Feed {
             plan(&loaded, machine, &mut record);
@@ -165,7 +169,7 @@ fn draw(
             let after = match &command.after {
                 Some(file) => {
                     let other = load::load_for_steps(global, file)?;
-                    Some(gather(&other, machine, None))
+                    Some(gather(&other, machine, None, Shows::default()))
                 }
                 None => None,
             };
@@ -183,7 +187,10 @@ fn draw(
         Kind::Deviation => deviation(&head("Deviation of the tool tip"), record, tolerance)?,
         Kind::Route => {
             let after = match &command.after {
-                Some(file) => Some(gather(&load::load_for_steps(global, file)?, machine, None)),
+                Some(file) => {
+                    let other = load::load_for_steps(global, file)?;
+                    Some(gather(&other, machine, None, Shows::default()))
+                }
                 None => None,
             };
             let space = space(loaded, machine)?;

@@ -22,7 +22,7 @@ use std::{
 use trunnion_check::{Report as Checked, Verdict, check};
 use trunnion_files::Outputs;
 use trunnion_machine::Machine;
-use trunnion_plot::{Along, PlotError, axis_plane, deviation, feed, joints, path};
+use trunnion_plot::{Along, PlotError, Shows, axis_plane, deviation, feed, joints, path};
 use trunnion_stats::Tally;
 
 /// Files that are looked at before the first of them is written.
@@ -229,7 +229,11 @@ fn drawn(
     report: &Checked,
     assumed: &[String],
 ) -> (Vec<(&'static str, Result<String, String>)>, Option<replay::Data>) {
-    let mut record = plot::gather(loaded, machine, None);
+    let shows = Shows {
+        deviation: true,
+        feed: true,
+    };
+    let mut record = plot::gather(loaded, machine, None, shows);
     plot::plan(loaded, machine, &mut record);
     let marks = plot::marks_of(report, loaded, None);
     let head = |title: &str| plot::header_assuming(title, loaded, machine, assumed);

@@ -151,8 +151,13 @@ pub fn names(program: &Program, dialect: &Dialect) -> Names {
             variables::read(program, dialect, &mut found);
         }
     }
-    found.all.sort_by_key(|one| (one.range.start, one.range.end));
+    let place = |one: &Occurrence| (one.range.start, one.range.end);
+    // sorting needs half as much room again, and a program may have a name in each word
+    if !found.all.is_sorted_by_key(place) {
+        found.all.sort_by_key(place);
+    }
     found.all.dedup_by(|one, other| one.range == other.range);
+    found.all.shrink_to_fit();
     found
 }
 

@@ -95,6 +95,11 @@ impl Report<'_> {
 }
 
 impl<'d> Core<'d> {
+    /// How many entries of lists that grow with the program a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        self.tools.copied() + self.offsets_reported.copied()
+    }
+
     /// At the start of a program.
     pub(crate) fn new(dialect: &'d Dialect, setup: &Setup) -> Self {
         let mut state = crate::start::power_on_state(dialect, &setup.control);

@@ -50,7 +50,7 @@ pub(crate) trait Engine<'d>: Clone {
         let known = self.outliving().into_iter();
         known.map(|(name, value)| Argument::number(name, value)).collect()
     }
-    /// How many entries of lists that grow with the program a check-point copies.
+    /// How many entries of lists that grow with the program a check-point copies, beside those of [`Core`].
     fn copied(&self) -> usize {
         0
     }

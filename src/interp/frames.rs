@@ -32,6 +32,7 @@ use crate::cycles::Pattern;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, MotionKind, Position};
+use std::collections::BTreeMap;
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 
@@ -77,7 +78,7 @@ pub(crate) struct Frames {
     /// Work offsets that the program has written, by name.
     pub(crate) written: Vec<(Box<str>, OffsetValues)>,
     /// Tool offsets that the program has written.
-    pub(crate) tool_offsets: Vec<data_entry::ToolOffset>,
+    pub(crate) tool_offsets: BTreeMap<u32, data_entry::ToolOffset>,
     /// Blocks hold data until G11.
     pub(crate) entering_data: bool,
     /// The intermediate point of the last return to a reference point, work coordinates.
@@ -91,6 +92,11 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
+    /// How many entries of lists that grow with the program a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        self.written.len() + self.tool_offsets.len()
+    }
+
     /// To be called after any change.
     pub(crate) fn refresh(&mut self, work: &Position) {
         self.active = self.is_needed();

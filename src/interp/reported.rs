@@ -7,6 +7,11 @@ use std::collections::BTreeSet;
 pub(crate) struct Reported(BTreeSet<Box<str>>);
 
 impl Reported {
+    /// How many names a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        self.0.len()
+    }
+
     /// Whether this is the first time; from then on it is not.
     pub(crate) fn first(&mut self, what: &str) -> bool {
         let first = !self.0.contains(what);

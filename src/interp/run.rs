@@ -130,7 +130,7 @@ impl<'d> Interpreter<'d> {
 
     /// How many entries of lists that grow with the program a clone copies: so many blocks, at least, should lie between two check-points.
     pub fn copied(&self) -> usize {
-        with_engine!(&self.engine, engine => engine.copied())
+        with_engine!(&self.engine, engine => engine.core().copied() + engine.copied())
     }
 
     /// Whether a jump, loop or call was followed, where the engine says so.

@@ -4,6 +4,7 @@ use crate::iso::Iso;
 use crate::reported::Reported;
 use crate::words::{WordValue, Words};
 use crate::{LengthOf, Setup, Tool};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_dialect::ToolWord;
 use trunnion_syntax::Program;
@@ -30,9 +31,9 @@ pub(crate) struct Tools {
     /// APT: a motion was made with it.
     cutter_used: bool,
     /// Tools that the program's comments declare.
-    declared: Vec<Tool>,
+    declared: BTreeMap<u32, Tool>,
     /// Tools that the program's blocks define (TOOL DEF of Klartext).
-    defined: Vec<Tool>,
+    defined: BTreeMap<u32, Tool>,
     directives_read: bool,
     lengths_reported: Reported,
 }
@@ -106,20 +107,23 @@ impl Tools {
         }
         let directives = crate::directives(program).into_iter();
         let tools = directives.filter_map(|(_, directive)| match directive {
-            crate::Directive::Tool(tool) => Some(tool),
+            crate::Directive::Tool(tool) => Some((tool.number, tool)),
             _ => None,
         });
         self.declared = tools.collect();
         true
     }
-    /// Tools that the program's comments declare.
-    pub(crate) fn declared(&self) -> &[Tool] {
-        &self.declared
+    /// Tools that the program's comments declare, by number.
+    pub(crate) fn declared(&self) -> impl Iterator<Item = &Tool> {
+        self.declared.values()
     }
     /// A block of the program defines a tool.
     pub(crate) fn define(&mut self, tool: Tool) {
-        self.defined.retain(|known| known.number != tool.number);
-        self.defined.push(tool);
+        self.defined.insert(tool.number, tool);
+    }
+    /// How many entries a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        self.declared.len() + self.defined.len() + self.lengths_reported.copied()
     }
     /// Whether this is the first time that a length is found missing.
     pub(crate) fn first_report_of_length(&mut self, tool: &str) -> bool {
@@ -130,13 +134,14 @@ impl Tools {
     /// program's comments, the setup. A program that names no tool uses the only one that its comments declare.
     pub(crate) fn data(&self, number: Option<u32>, setup: &Setup) -> Option<Tool> {
         let declared = &self.declared;
-        let unnamed = self.in_spindle == Chosen::Nothing;
-        let number = number.or_else(|| match &declared[..] {
-            [only] if unnamed && only.number != 0 => Some(only.number),
+        let only = || match declared.first_key_value() {
+            Some((only, _)) if declared.len() == 1 && *only != 0 => Some(*only),
             _ => None,
-        });
+        };
+        let unnamed = self.in_spindle == Chosen::Nothing;
+        let number = number.or_else(|| unnamed.then(only).flatten());
         let any = numbered(&setup.tools, 0);
-        let any_declared = numbered(declared, 0);
+        let any_declared = declared.get(&0);
         if number.is_none() && any.is_none() && any_declared.is_none() && self.cutter.is_none() {
             return None;
         }
@@ -147,16 +152,13 @@ impl Tools {
             length_mm: None,
             holder_mm: None,
         };
-        let named = |tools| {
-            number
-                .filter(|&number| number != 0)
-                .and_then(|number| numbered(tools, number))
-        };
-        let merged = lay(named(&setup.tools), empty);
-        let merged = lay(named(declared), merged);
+        let named = number.filter(|&number| number != 0);
+        let merged = lay(named.and_then(|number| numbered(&setup.tools, number)), empty);
+        let merged = lay(named.and_then(|number| declared.get(&number)), merged);
         let merged = lay(any_declared, merged);
         let merged = lay(self.cutter.as_ref(), merged);
-        Some(lay(named(&self.defined), lay(any, merged)))
+        let defined = named.and_then(|number| self.defined.get(&number));
+        Some(lay(defined, lay(any, merged)))
     }
     /// The tool in use as it was written, for people; T where it is not known.
     pub(crate) fn name(&self) -> String {

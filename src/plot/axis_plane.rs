@@ -137,7 +137,7 @@ fn draw_marks(
     for (place, marked) in rules.drawn.iter().enumerate() {
         let mut spots = Vec::new();
         for mark in marks.iter().filter(|mark| mark.rule == marked.rule) {
-            for block in lines.get(&mark.line).into_iter().flatten() {
+            for block in lines.of(mark.line) {
                 let Some(end) = record.of(block).last() else { continue };
                 let spot = plane.see(&end.axis);
                 if panel.shows(spot) {
@@ -312,6 +312,7 @@ fn trim(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::AxisLetters;
     use crate::texts::{header, overlaps, record};
     use trunnion_machine::builtin;
 
@@ -351,11 +352,11 @@ mod tests {
                     "axis-limit",
                 ];
                 let marks: Vec<Mark> = (1..=40)
-                    .flat_map(|line| rules.iter().take(line as usize % 7).map(move |rule| (line, rule)))
+                    .flat_map(|line| rules.into_iter().take(line as usize % 7).map(move |rule| (line, rule)))
                     .map(|(line, rule)| Mark {
                         line,
-                        rule: (*rule).to_owned(),
-                        axes: Vec::new(),
+                        rule,
+                        axes: AxisLetters::default(),
                     })
                     .collect();
                 for within in [

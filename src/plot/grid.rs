@@ -5,6 +5,7 @@ use crate::canvas::{Area, GREY, PALE, PlotError, SCALE, draw_symbol, font, px};
 use crate::dash::{dashed, distinct};
 use crate::labels::Labels;
 use crate::marks::Marked;
+use crate::runs::Runs;
 use crate::scale::{power, short};
 use crate::thin::{clip, thin};
 use plotters::prelude::*;
@@ -50,6 +51,9 @@ const BOTTOM: f64 = 4.0;
 
 /// A line that is longer than so many times width and height of its field is not dashed.
 const MOST_DASHED: f64 = 40.0;
+
+/// A line of more points runs over itself: segments that were there before are left out.
+const CROWDED: usize = 20_000;
 
 /// Length of a polyline.
 fn length(points: &[(f64, f64)]) -> f64 {
@@ -175,14 +179,14 @@ impl<'a> Panel<'a> {
 
     /// The parts of a polyline inside the field, thinned.
     fn visible(&self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<(f64, f64)>> {
-        let mut runs: Vec<Vec<(f64, f64)>> = Vec::new();
+        let mut runs = Runs::default();
         let mut open: Vec<(f64, f64)> = Vec::new();
         let mut before: Option<(f64, f64)> = None;
         for (x, y) in points {
             let p = self.at(x, y);
             if !(p.0.is_finite() && p.1.is_finite()) {
                 before = None;
-                runs.push(std::mem::take(&mut open));
+                runs.add(std::mem::take(&mut open));
                 continue;
             }
             match before {
@@ -190,7 +194,7 @@ impl<'a> Panel<'a> {
                 Some(from) => {
                     if let Some((a, b)) = clip(from, p, (self.width, self.height)) {
                         if open.last() != Some(&a) {
-                            runs.push(std::mem::take(&mut open));
+                            runs.add(std::mem::take(&mut open));
                             open.push(a);
                         }
                         open.push(b);
@@ -199,8 +203,8 @@ impl<'a> Panel<'a> {
             }
             before = Some(p);
         }
-        runs.push(open);
-        runs.iter().filter(|run| run.len() > 1).map(|run| thin(run)).collect()
+        runs.add(open);
+        runs.finish()
     }
 
     /// A line.
@@ -210,12 +214,12 @@ impl<'a> Panel<'a> {
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        let runs = self.visible(points).into_iter();
-        self.strokes(
-            runs.map(|run| run.into_iter().map(Self::whole).collect()),
-            colour,
-            pixels,
-        )
+        let mut runs = self.visible(points);
+        if runs.iter().map(Vec::len).sum::<usize>() > CROWDED {
+            runs = distinct(runs);
+        }
+        let runs = runs.into_iter().map(|run| run.into_iter().map(Self::whole).collect());
+        self.strokes(runs, colour, pixels)
     }
 
     /// A dashed line, which stays dashed where it goes to and fro.
@@ -352,7 +356,7 @@ impl<'a> Panel<'a> {
 #[cfg(test)]
 mod tests {
     use crate::axis_plane;
-    use crate::record::Mark;
+    use crate::record::{AxisLetters, Mark};
     use crate::texts::{header, record};
     use trunnion_geometry::{Vec3, rad};
     use trunnion_machine::{builtin, tool_axis_at};
@@ -373,8 +377,8 @@ mod tests {
                 .collect();
             let mark = |line| Mark {
                 line,
-                rule: "pole-flip".to_owned(),
-                axes: Vec::new(),
+                rule: "pole-flip",
+                axes: AxisLetters::default(),
             };
             let marks: Vec<Mark> = (1..=count).map(mark).collect();
             let svg = axis_plane(&header(), machine, &record(&moves, axis), &marks, None, None).expect("drawn");

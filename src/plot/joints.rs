@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, GREY, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::marks::Rules;
-use crate::record::{Mark, Record, Sample};
+use crate::record::{ByLine, Mark, Record, Sample};
 use crate::scale::range;
 use crate::unit::Unit;
 use trunnion_geometry::deg;
@@ -63,6 +63,7 @@ pub fn joints(
     }
     let rules = Rules::of(marks);
     let legend = legend(machine, record, &rules);
+    let lines = record.by_line();
     sheet(header, &legend, |body| {
         let count = machine.own_axes().count();
         let (width, height) = body.dim_in_pixel();
@@ -114,9 +115,8 @@ pub fn joints(
             if let Some(limits) = limits {
                 panel.line(beyond(record, limits, spot).into_iter(), VERMILION, 3.0)?;
             }
-            let own = |mark: &&Mark| mark.axes.is_empty() || mark.axes.contains(&char::from(axis.letter));
-            let own: Vec<&Mark> = marks.iter().filter(own).collect();
-            draw_marks(&panel, record, &own, &rules, spot)?;
+            let own = |mark: &Mark| mark.axes.hold(char::from(axis.letter));
+            draw_marks(&panel, (record, &lines), (marks, &own), &rules, spot)?;
         }
         Ok(())
     })
@@ -252,23 +252,16 @@ fn draw_limits(
 
 fn draw_marks(
     panel: &Panel<'_>,
-    record: &Record,
-    marks: &[&Mark],
+    (record, lines): (&Record, &ByLine<'_>),
+    (marks, own): (&[Mark], &dyn Fn(&Mark) -> bool),
     rules: &Rules,
     spot: impl Fn(&Sample) -> (f64, f64),
 ) -> Result<(), PlotError> {
-    let lines = record.by_line();
     // the rarest on top, each a little smaller
     for (place, marked) in rules.drawn.iter().enumerate() {
-        let mut dots = Vec::new();
-        for mark in marks.iter().filter(|mark| mark.rule == marked.rule) {
-            for block in lines.get(&mark.line).into_iter().flatten() {
-                if let Some(end) = record.of(block).last() {
-                    dots.push(spot(end));
-                }
-            }
-        }
-        panel.symbols(dots.into_iter(), marked, 7.0 - place as f64, true)?;
+        let marks = marks.iter().filter(|mark| mark.rule == marked.rule && own(mark));
+        let ends = marks.flat_map(|mark| lines.of(mark.line).filter_map(|block| record.of(block).last()));
+        panel.symbols(ends.map(&spot), marked, 7.0 - place as f64, true)?;
     }
     Ok(())
 }
@@ -276,6 +269,7 @@ fn draw_marks(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::AxisLetters;
     use crate::texts::{header, record};
     use trunnion_geometry::Vec3;
     use trunnion_machine::builtin;
@@ -329,16 +323,17 @@ mod tests {
     #[test]
     fn a_mark_stands_at_the_axis_that_it_is_about() {
         let machine = builtin("mill-3axis").expect("built in");
-        let polygons = |axes: &[char]| {
+        let polygons = |axes: AxisLetters| {
             let mark = Mark {
                 line: 2,
-                rule: "axis-limit".to_owned(),
-                axes: axes.to_vec(),
+                rule: "axis-limit",
+                axes,
             };
             let svg = joints(&header(), machine, &along_x(&[0.0, 10.0, 20.0]), &[mark], Along::Way).expect("drawn");
             svg.matches("<polygon").count()
         };
         // one more in the legend
-        assert_eq!((polygons(&[]), polygons(&['Y']), polygons(&['Q'])), (4, 2, 1));
+        let [y, q] = ['Y', 'Q'].map(AxisLetters::one);
+        assert_eq!((polygons(AxisLetters::default()), polygons(y), polygons(q)), (4, 2, 1));
     }
 }

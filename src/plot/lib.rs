@@ -16,6 +16,7 @@ mod net;
 mod path;
 mod record;
 mod route;
+mod runs;
 mod scale;
 mod servo;
 #[cfg(test)]
@@ -30,7 +31,7 @@ pub use feed::feed;
 pub use height_map::height_map;
 pub use joints::{Along, joints};
 pub use path::path;
-pub use record::{Block, Mark, PlannedFeed, Record, Recorder, Sample};
+pub use record::{AxisLetters, Block, Mark, PlannedFeed, Record, Recorder, Sample, Shows};
 pub use route::route;
 pub use servo::{ServoSpot, servo};
 pub use unit::Unit;

@@ -49,7 +49,7 @@ const LOOKS: [(Shape, RGBColor); 5] = [
 /// A rule that is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Marked {
-    pub(crate) rule: String,
+    pub(crate) rule: &'static str,
     pub(crate) shape: Shape,
     pub(crate) colour: RGBColor,
     count: usize,
@@ -65,14 +65,14 @@ pub(crate) struct Rules {
 
 impl Rules {
     pub(crate) fn of(marks: &[Mark]) -> Self {
-        let mut counts: Vec<(String, usize)> = Vec::new();
+        let mut counts: Vec<(&'static str, usize)> = Vec::new();
         for mark in marks {
             match counts.iter_mut().find(|(rule, _)| *rule == mark.rule) {
                 Some((_, count)) => *count += 1,
-                None => counts.push((mark.rule.clone(), 1)),
+                None => counts.push((mark.rule, 1)),
             }
         }
-        counts.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+        counts.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(b.0)));
         let left_out = counts.iter().skip(LOOKS.len()).map(|(_, count)| count).sum();
         let drawn = counts.into_iter().zip(LOOKS);
         let drawn = drawn.map(|((rule, count), (shape, colour))| Marked {
@@ -154,12 +154,13 @@ impl Groups {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::AxisLetters;
 
-    fn marks(rules: &[&str]) -> Vec<Mark> {
-        let mark = |(line, rule): (u32, &&str)| Mark {
+    fn marks(rules: &[&'static str]) -> Vec<Mark> {
+        let mark = |(line, &rule): (u32, &&'static str)| Mark {
             line,
-            rule: (*rule).to_owned(),
-            axes: Vec::new(),
+            rule,
+            axes: AxisLetters::default(),
         };
         (1..).zip(rules).map(mark).collect()
     }

@@ -2,7 +2,6 @@
 use crate::scale::counted;
 use crate::unit::Unit;
 use core::ops::Range;
-use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::Feed;
 use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration_s, feed_limit, tip_deviation};
@@ -33,14 +32,12 @@ pub struct Block {
     pub samples: Range<usize>,
     /// It starts where the block before ended.
     pub joined: bool,
-    /// Deviation of the tip from the programmed segment, mm: largest sample and proven bound.
+    /// Deviation of the tip from the programmed segment, mm: largest sample and proven bound. `None`: not known, or not asked for.
     pub deviation: Option<[f64; 2]>,
     /// Programmed feed of the tip, and the highest at which no axis exceeds its speed, mm/min.
     pub feed: [Option<f64>; 2],
     /// `None` where no plan was added.
     pub planned: Option<PlannedFeed>,
-    /// Least angle between tool axis and pole, deg.
-    pub pole_angle: f64,
 }
 
 /// How a block is planned.
@@ -83,14 +80,41 @@ impl PlannedFeed {
 }
 
 /// A notable block.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mark {
     /// Line of the block, from 1.
     pub line: u32,
     /// Why: the name of a rule.
-    pub rule: String,
-    /// The letters of the axes that it is about; empty: of all.
-    pub axes: Vec<char>,
+    pub rule: &'static str,
+    /// The axes that it is about.
+    pub axes: AxisLetters,
+}
+
+/// Letters of axes; none: all axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct AxisLetters(u32);
+
+impl AxisLetters {
+    /// One letter, `A` to `Z`; of another character all axes.
+    pub fn one(letter: char) -> Self {
+        let place = u32::from(letter).wrapping_sub(u32::from('A'));
+        Self(if place < 26 { 1 << place } else { 0 })
+    }
+
+    /// Those of either; all, where one is all.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self(if self.0 == 0 || other.0 == 0 {
+            0
+        } else {
+            self.0 | other.0
+        })
+    }
+
+    /// Whether an axis is meant.
+    pub fn hold(self, letter: char) -> bool {
+        self.0 == 0 || self.0 & Self::one(letter).0 != 0
+    }
 }
 
 /// A run.
@@ -151,22 +175,46 @@ impl Record {
     pub(crate) fn way(&self, sample: &Sample) -> f64 {
         self.unit.of_mm(sample.way)
     }
-    /// Blocks by their lines: those of a line in the order of the run.
-    pub(crate) fn by_line(&self) -> BTreeMap<u32, Vec<&Block>> {
-        let mut lines = BTreeMap::<u32, Vec<&Block>>::new();
-        for block in &self.blocks {
-            lines.entry(block.line).or_default().push(block);
-        }
-        lines
+    /// Blocks by their lines.
+    pub(crate) fn by_line(&self) -> ByLine<'_> {
+        let mut order: Vec<(u32, u32)> = (0..).zip(&self.blocks).map(|(at, block)| (block.line, at)).collect();
+        order.sort_unstable();
+        ByLine { record: self, order }
+    }
+}
+
+/// Blocks of a record by their lines.
+pub(crate) struct ByLine<'r> {
+    record: &'r Record,
+    /// Line and place of each block, sorted.
+    order: Vec<(u32, u32)>,
+}
+
+impl<'r> ByLine<'r> {
+    /// The blocks of a line in the order of the run.
+    pub(crate) fn of(&self, line: u32) -> impl Iterator<Item = &'r Block> {
+        let first = self.order.partition_point(|(own, _)| *own < line);
+        let own = self.order[first..].iter().take_while(move |(own, _)| *own == line);
+        own.map(|(_, at)| &self.record.blocks[*at as usize])
     }
 }
 
 /// So many lines of motions that are not drawn are named.
 const NAMED_LINES: usize = 3;
 
+/// What is recorded of a block beside its samples: as much work as all the rest.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shows {
+    /// Its deviation.
+    pub deviation: bool,
+    /// The highest feed that the axes allow.
+    pub feed: bool,
+}
+
 /// Records legs.
 pub struct Recorder<'m> {
     machine: &'m Machine,
+    shows: Shows,
     record: Record,
     way: f64,
     time: f64,
@@ -195,9 +243,10 @@ fn programmed(leg: &Leg) -> Option<f64> {
 
 impl<'m> Recorder<'m> {
     /// Nothing recorded.
-    pub fn new(machine: &'m Machine) -> Self {
+    pub fn new(machine: &'m Machine, shows: Shows) -> Self {
         Self {
             machine,
+            shows,
             record: Record::default(),
             way: 0.0,
             time: 0.0,
@@ -258,16 +307,21 @@ impl<'m> Recorder<'m> {
             });
         }
         self.time += duration;
-        let limit = feed_limit(self.machine, leg).map(|limit| limit.feed_mm_min);
+        let limit = self.shows.feed.then(|| feed_limit(self.machine, leg)).flatten();
+        let limit = limit.map(|limit| limit.feed_mm_min);
+        let deviation = self
+            .shows
+            .deviation
+            .then(|| tip_deviation(self.machine, leg, 1e-4))
+            .flatten();
         self.record.blocks.push(Block {
             line,
             rapid: !leg.motion.is_feed(),
             samples: first..self.record.samples.len(),
             joined: !self.broken,
-            deviation: tip_deviation(self.machine, leg, 1e-4).map(|found| [found.sampled_mm, found.bound_mm]),
+            deviation: deviation.map(|found| [found.sampled_mm, found.bound_mm]),
             feed: [programmed(leg), limit.filter(|limit| limit.is_finite())],
             planned: None,
-            pole_angle: deg(leg.pole_angle_min),
         });
         self.broken = false;
     }
@@ -280,7 +334,21 @@ impl<'m> Recorder<'m> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Block, Record};
+    use super::{AxisLetters, Block, Record};
+
+    #[test]
+    fn no_letters_are_all_axes() {
+        let [x, c] = ['X', 'C'].map(AxisLetters::one);
+        assert!(x.hold('X') && !x.hold('C'));
+        assert!(x.and(c).hold('X') && x.and(c).hold('C') && !x.and(c).hold('Z'));
+        for all in [
+            AxisLetters::default(),
+            x.and(AxisLetters::default()),
+            AxisLetters::one('?'),
+        ] {
+            assert!(all.hold('X') && all.hold('Z'));
+        }
+    }
 
     /// A mark looks up its own blocks: all marks together see no more of them than there are, however many lines are marked.
     #[test]
@@ -293,21 +361,16 @@ mod tests {
             deviation: None,
             feed: [None; 2],
             planned: None,
-            pole_angle: 0.0,
         };
         let record = Record {
             blocks: (0..6000).map(|at| block(at % 3000)).collect(),
             ..Record::default()
         };
         let lines = record.by_line();
-        let seen: usize = (0..3000).map(|line| lines.get(&line).map_or(0, Vec::len)).sum();
-        assert_eq!(seen, record.blocks.len());
-        assert!(
-            lines
-                .values()
-                .flatten()
-                .zip(0..)
-                .all(|(block, at)| block.line == at / 2)
-        );
+        let seen: Vec<u32> = (0..3001)
+            .flat_map(|line| lines.of(line))
+            .map(|block| block.line)
+            .collect();
+        assert_eq!(seen, (0..6000).map(|at| at / 2).collect::<Vec<u32>>());
     }
 }

@@ -84,7 +84,6 @@ pub(crate) fn record(moves: &[(char, Vec3)], axis: impl Fn(usize) -> Vec3) -> Re
             deviation: Some([0.0, 0.0]),
             feed: [Some(1000.0), None],
             planned: None,
-            pole_angle: 0.0,
         });
     }
     record

@@ -17,7 +17,7 @@ pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// Width of a column, tenths of a pixel: of a line from left to right no more than four points of a column are seen.
-const COLUMN: f64 = 10.0;
+pub(crate) const COLUMN: f64 = 10.0;
 
 /// The first, lowest, highest and last point of each column, in their order, of a line that only goes from left to right.
 fn columns(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {

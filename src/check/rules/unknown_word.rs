@@ -47,11 +47,14 @@ fn near_word(text: &str, dialect: &Dialect) -> Option<String> {
     }
     let end = text.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (name, rest) = text.split_at(end);
+    if name.len() < 3 {
+        return None;
+    }
     let known = dialect.codes().iter().flat_map(|code| {
         let words = code.words.iter().map(String::as_str);
         words.chain([code.id.as_str()]).filter(|word| word.len() >= 3)
     });
-    let near = nearest(&name.to_ascii_uppercase(), known).filter(|_| name.len() >= 3)?;
+    let near = nearest(&name.to_ascii_uppercase(), known)?;
     Some(format!("{near}{rest}"))
 }
 

@@ -35,7 +35,7 @@ fn check_points_hold_labels_in_proportion_to_the_program() {
     }
 }
 
-/// What else a copy of a run holds: the faults that it has reported, the variables that it has set, and the calls that led to its lines. Nested `IF THEN` of half a million lines
+/// What else a copy of a run holds: the faults that it has reported, the variables and tools that it has set, and the calls that led to its lines. Nested `IF THEN` of half a million lines
 /// took 1.5 GB.
 #[test]
 fn check_points_hold_faults_and_variables_in_proportion_to_the_program() {
@@ -49,6 +49,13 @@ fn check_points_hold_faults_and_variables_in_proportion_to_the_program() {
         ),
         ("fanuc-30i", lines(&|i| format!("#{}=1\n", 100 + i % 400)), false),
         ("sinumerik-840d", lines(&|i| format!("R{i}=1\n")), true),
+        ("fanuc-30i", lines(&|i| format!("T{i} M6\nG43 H{i} Z1.\n")), true),
+        ("fanuc-30i", lines(&|i| format!("G10 L10 P{i} R1.\n")), true),
+        (
+            "heidenhain-klartext",
+            lines(&|i| format!("TOOL DEF {i} L+9 R+5\n")),
+            true,
+        ),
         ("sinumerik-840d", lines(&|i| format!("DEF REAL A{i}=1\n")), true),
         (
             "heidenhain-klartext",

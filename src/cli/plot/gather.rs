@@ -9,22 +9,26 @@ use trunnion_check::{Diagnostic, Report, Status, ValueKey};
 use trunnion_interp::{ModalState, MotionKind, Setup};
 use trunnion_machine::{AxisKind, BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
-use trunnion_plot::{Mark, PlannedFeed, Record, Recorder, Unit};
+use trunnion_plot::{AxisLetters, Mark, PlannedFeed, Record, Recorder, Shows, Unit};
 use trunnion_syntax::LineIndex;
 
 /// The record of the program, or of the blocks between two lines.
-pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
-    gather_in(loaded, (machine, &loaded.resolved.setup), lines)
+pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>, shows: Shows) -> Record {
+    gather_in(loaded, (machine, &loaded.resolved.setup), lines, shows)
 }
 
 /// The same of its path alone: a linear axis that the program never names stands at 0.
 pub(crate) fn gather_path(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
-    gather_in(loaded, (machine, &flat_setup(loaded, machine)), lines)
+    let shows = Shows {
+        deviation: true,
+        feed: false,
+    };
+    gather_in(loaded, (machine, &flat_setup(loaded, machine)), lines, shows)
 }
 
-fn gather_in(loaded: &Loaded, (machine, setup): (&Machine, &Setup), lines: Option<(u32, u32)>) -> Record {
+fn gather_in(loaded: &Loaded, (machine, setup): (&Machine, &Setup), lines: Option<(u32, u32)>, shows: Shows) -> Record {
     let index = LineIndex::new(loaded.program.source());
-    let mut recorder = Recorder::new(machine);
+    let mut recorder = Recorder::new(machine, shows);
     let mut inch = false;
     let given_up = each_leg_in(loaded, (machine, setup), &index, lines, |leg, line, state| {
         inch |= state.coordinates.is_inch();
@@ -127,7 +131,7 @@ pub(crate) fn marks(loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
 pub(crate) fn marks_of(report: &Report, loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
     let index = LineIndex::new(loaded.program.source());
     let line = |at: u32| index.line_column(loaded.program.source(), at).0;
-    let mut spans = BTreeMap::<(&str, Vec<char>), Vec<(u32, u32)>>::new();
+    let mut spans = BTreeMap::<(&'static str, AxisLetters), Vec<(u32, u32)>>::new();
     for found in report.findings() {
         if found.status == Status::Fail && SHOWN.contains(&found.rule) {
             let (from, to) = (line(found.range.start), line(found.last.start));
@@ -135,44 +139,42 @@ pub(crate) fn marks_of(report: &Report, loaded: &Loaded, lines: Option<(u32, u32
             spans.entry(of).or_default().push((from, to.max(from)));
         }
     }
-    let mut found = BTreeMap::<(&str, u32), Vec<Vec<char>>>::new();
+    let mut marks = Vec::new();
     for ((rule, axes), mut spans) in spans {
         spans.sort_unstable();
         // findings overlap: a line is marked once
         let mut next = 0;
         for (from, to) in spans {
-            for line in from.max(next)..=to {
-                if lines.is_none_or(|(first, last)| (first..=last).contains(&line)) {
-                    found.entry((rule, line)).or_default().push(axes.clone());
-                }
-            }
+            let seen =
+                (from.max(next)..=to).filter(|line| lines.is_none_or(|(first, last)| (first..=last).contains(line)));
+            marks.extend(seen.map(|line| Mark { line, rule, axes }));
             next = next.max(to + 1);
         }
     }
-    let marks = found.into_iter().map(|((rule, line), about)| {
-        // one finding about all axes is about all of them
-        let all = about.iter().any(Vec::is_empty);
-        let mut axes = if all { Vec::new() } else { about.concat() };
-        axes.sort_unstable();
-        axes.dedup();
-        let rule = rule.to_owned();
-        Mark { line, rule, axes }
+    marks.sort_by_key(|mark| (mark.rule, mark.line));
+    marks.dedup_by(|mark, kept| {
+        let same = (mark.rule, mark.line) == (kept.rule, kept.line);
+        if same {
+            kept.axes = kept.axes.and(mark.axes);
+        }
+        same
     });
-    marks.collect()
+    marks
 }
 
-/// The letters of the axes that a finding is about; empty: of all.
-fn axes(found: &Diagnostic, machine: Option<&Machine>) -> Vec<char> {
+/// The axes that a finding is about.
+fn axes(found: &Diagnostic, machine: Option<&Machine>) -> AxisLetters {
     let named = found.values.iter().find_map(|(key, value)| match value {
         ValueKey::Text(name) if *key == "axis" => Some(name.as_str()),
         _ => None,
     });
     let mut letters = named.unwrap_or_default().chars();
     if let (Some(letter), None) = (letters.next(), letters.next()) {
-        return vec![letter];
+        return AxisLetters::one(letter);
     }
     let turns = matches!(found.rule, "pole-crossing" | "branch-swap" | "excess-rotary-travel");
     let rotary = machine.into_iter().filter(|_| turns).flat_map(Machine::own_axes);
     let rotary = rotary.filter(|(_, axis)| axis.kind == AxisKind::Rotary);
-    rotary.map(|(_, axis)| char::from(axis.letter)).collect()
+    let letters = rotary.map(|(_, axis)| AxisLetters::one(char::from(axis.letter)));
+    letters.reduce(AxisLetters::and).unwrap_or_default()
 }

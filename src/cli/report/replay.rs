@@ -182,7 +182,6 @@ mod tests {
                 deviation: None,
                 feed: [None; 2],
                 planned: None,
-                pole_angle: 0.0,
             });
         }
         record

@@ -7,9 +7,8 @@ use crate::{FaultKind, Refusal, Setup, Undeclared};
 use trunnion_dialect::Action;
 
 /// What G10 L10 to L13 have written for one number; mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ToolOffset {
-    pub(crate) number: u32,
     /// L10.
     pub(crate) length: Option<f64>,
     /// L11.
@@ -55,8 +54,7 @@ impl crate::frames::Frames {
 impl<'d> Iso<'d> {
     /// What the program has written for a number.
     pub(crate) fn tool_offset(&self, number: u32) -> Option<&ToolOffset> {
-        let offsets = &self.memory.frames.tool_offsets;
-        offsets.iter().find(|offset| offset.number == number)
+        self.memory.frames.tool_offsets.get(&number)
     }
 
     /// G10 with its L: 2 and 20 work offsets, 10 to 13 tool offsets, 50 and 52 parameters until G11.
@@ -191,25 +189,13 @@ impl<'d> Iso<'d> {
             .data(Some(number), &self.core.setup)
             .and_then(|tool| tool.length_mm);
         let unclear = self.core.dialect.quirks.cutter_offset_ambiguous;
-        let offsets = &mut self.memory.frames.tool_offsets;
-        if !offsets.iter().any(|offset| offset.number == number) {
-            offsets.push(ToolOffset {
-                number,
-                length: None,
-                length_wear: 0.0,
-                radius: None,
-                radius_wear: 0.0,
-                radius_unclear: false,
-            });
+        let offset = self.memory.frames.tool_offsets.entry(number).or_default();
+        match l {
+            10 => offset.length = Some(add(offset.length.or(declared).unwrap_or(0.0))),
+            11 => offset.length_wear = add(offset.length_wear),
+            12 => offset.radius = Some(add(offset.radius.unwrap_or(0.0))),
+            _ => offset.radius_wear = add(offset.radius_wear),
         }
-        if let Some(offset) = offsets.iter_mut().find(|offset| offset.number == number) {
-            match l {
-                10 => offset.length = Some(add(offset.length.or(declared).unwrap_or(0.0))),
-                11 => offset.length_wear = add(offset.length_wear),
-                12 => offset.radius = Some(add(offset.radius.unwrap_or(0.0))),
-                _ => offset.radius_wear = add(offset.radius_wear),
-            }
-            offset.radius_unclear |= unclear && l >= 12;
-        }
+        offset.radius_unclear |= unclear && l >= 12;
     }
 }

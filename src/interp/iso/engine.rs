@@ -54,7 +54,7 @@ impl<'d> Engine<'d> for Iso<'d> {
         Some(block)
     }
     fn copied(&self) -> usize {
-        self.flow.copied() + self.memory.own.copied()
+        self.flow.copied() + self.memory.own.copied() + self.memory.frames.copied()
     }
     fn returns_to_r(&self) -> bool {
         self.memory.cycle.to_r

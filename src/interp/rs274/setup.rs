@@ -44,7 +44,7 @@ fn row(tool: &Tool, units: Units) -> ToolEntry {
 
 /// The setup of the interpreter: declared offsets as parameters, declared tools as its table, further codes of the dialect's table as
 /// the machine's own codes. Offsets that are not declared are zero.
-pub(super) fn at_start(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> CallState {
+pub(super) fn at_start<'t>(setup: &'t Setup, declared: impl Iterator<Item = &'t Tool>, dialect: &Dialect) -> CallState {
     let units = match setup.control.units {
         Some(LengthUnit::Inch) => Units::Inch,
         Some(LengthUnit::Millimetre) | None => Units::Millimetre,

@@ -1,6 +1,7 @@
 //! Edits that write lines and arcs in the place of a chain of lines: the first block of each piece is changed, the others are deleted.
 use crate::pieces::{Beside, Piece, WrittenArc};
 use crate::polyline::Chain;
+use crate::style::newline;
 use trunnion_dialect::Plane;
 use trunnion_geometry::arc::Turning;
 use trunnion_syntax::{Address, Block, BlockId, Program, TextEdit, TextRange, Value, Word};
@@ -15,7 +16,6 @@ pub(crate) struct Hand {
 
 impl Hand {
     pub(crate) fn of(program: &Program) -> Self {
-        let source = program.source();
         let two_digits = program
             .blocks()
             .flat_map(|block| block.words().collect::<Vec<_>>())
@@ -25,11 +25,7 @@ impl Hand {
             });
         Self {
             two_digits: two_digits.unwrap_or(false),
-            newline: if source.windows(2).any(|pair| pair == b"\r\n") {
-                "\r\n"
-            } else {
-                "\n"
-            },
+            newline: newline(program.source()),
         }
     }
 

@@ -16,6 +16,14 @@ const SHARE: f64 = 0.95;
 /// So often the deviation of pieces is halved to make them even.
 const EVENING: usize = 6;
 
+/// So often the length of a piece is guessed from its deviation before it is halved.
+const GUESSES: usize = 6;
+
+/// How long a piece may be, if one of this length deviates by this share of what is allowed: the deviation grows with the square of the length.
+fn as_far(length: f64, ratio: f64) -> f64 {
+    length / ratio.max(1e-6).sqrt()
+}
+
 /// A line that strays, and what its words depend on.
 pub(crate) struct Line {
     pub(crate) leg: Leg,
@@ -33,6 +41,8 @@ pub(crate) struct Writer<'a> {
     pub(crate) scheme: Scheme,
     pub(crate) styles: Styles,
     pub(crate) tolerance_mm: f64,
+    /// What ends a line of the program.
+    pub(crate) newline: &'static str,
 }
 
 /// The end of a piece: its words as text, and where they take the machine.
@@ -76,64 +86,95 @@ impl Writer<'_> {
 
     /// As few ends as the tolerance needs, at the smallest deviation that this number allows: so no piece is much shorter than the others.
     pub(crate) fn even_ends(&self, line: &Line) -> Result<Vec<End>, Change> {
-        let mut ends = self.ends(line, self.tolerance_mm)?;
+        let mut ends = self.ends(line, self.tolerance_mm, MOST_PIECES)?;
         let (mut low, mut high) = (0.0, self.tolerance_mm);
         for _ in 0..EVENING {
             let middle = 0.5 * (low + high);
-            match self.ends(line, middle) {
-                Ok(found) if found.len() == ends.len() => (ends, high) = (found, middle),
-                _ => low = middle,
+            match self.ends(line, middle, ends.len()) {
+                Ok(found) => (ends, high) = (found, middle),
+                Err(_) => low = middle,
             }
         }
         Ok(ends)
     }
 
     /// The ends of all pieces but the last, each as far as the tolerance allows, mm.
-    fn ends(&self, line: &Line, tolerance_mm: f64) -> Result<Vec<End>, Change> {
+    fn ends(&self, line: &Line, tolerance_mm: f64, most: usize) -> Result<Vec<End>, Change> {
         let unknown = || refused("a position is unknown");
         let (Some(start), Ok(end)) = (&line.leg.start, &line.leg.end) else {
             return Err(unknown());
         };
         let mut ends: Vec<End> = Vec::new();
         let (mut at, mut from) = (0.0, *start);
-        while !self.near(line, (&from, at), (end, 1.0), tolerance_mm) {
-            // the farthest share that still holds, to a thousandth of what is left
-            let (mut low, mut high) = (0.0, 1.0);
-            let mut best = None;
-            while high - low > 1e-3 {
-                let middle = 0.5 * (low + high);
-                let share = at + middle * (1.0 - at);
-                let candidate = self.end(line, [start, end], share)?;
-                if candidate.share > at
-                    && self.near(line, (&from, at), (&candidate.stance, candidate.share), tolerance_mm)
-                {
-                    low = middle;
-                    best = Some(candidate);
-                } else {
-                    high = middle;
-                }
+        let mut length = None;
+        loop {
+            let (fits, ratio) = self.near(line, (&from, at), (end, 1.0), tolerance_mm);
+            if fits {
+                return Ok(ends);
             }
-            let Some(candidate) = best else {
+            // pieces are about as long as the one before
+            let first = length.unwrap_or_else(|| as_far(1.0 - at, ratio));
+            let Some(candidate) = self.farthest(line, [start, end], (&from, at), first, tolerance_mm)? else {
                 return Err(Change::Possible(format!(
                     "no point keeps the tip within {} mm with the digits of the program (--tolerance-mm)",
                     self.tolerance_mm
                 )));
             };
+            length = Some(candidate.share - at);
             (at, from) = (candidate.share, candidate.stance);
             ends.push(candidate);
-            if ends.len() > MOST_PIECES {
+            if ends.len() > most {
                 return Err(Change::Possible(format!(
                     "it would take more than {MOST_PIECES} points (--tolerance-mm)"
                 )));
             }
         }
-        Ok(ends)
     }
 
-    /// Whether a piece from one share of the line to another keeps the tip near the segment, as `certify` will judge it.
-    fn near(&self, line: &Line, (from, was): (&Stance, f64), (to, is): (&Stance, f64), tolerance_mm: f64) -> bool {
+    /// The farthest end of a piece that begins at a share of the line, to a thousandth of what is left of it; `None`: none is near enough.
+    /// `next`: where to look first.
+    fn farthest(
+        &self,
+        line: &Line,
+        ends: [&Stance; 2],
+        (from, at): (&Stance, f64),
+        mut next: f64,
+        tolerance_mm: f64,
+    ) -> Result<Option<End>, Change> {
+        let left = 1.0 - at;
+        let step = 1e-3 * left;
+        let (mut low, mut high) = (0.0, left);
+        let mut best = None;
+        for look in 0.. {
+            next = if look < GUESSES { next } else { 0.5 * (low + high) };
+            next = next.clamp(low + 0.5 * step, high - 0.5 * step);
+            let candidate = self.end(line, ends, at + next)?;
+            let (fits, ratio) = self.near(line, (from, at), (&candidate.stance, candidate.share), tolerance_mm);
+            if fits && candidate.share > at {
+                (low, best) = (next, Some(candidate));
+            } else {
+                high = next;
+            }
+            if high - low <= step {
+                break;
+            }
+            next = as_far(next, ratio);
+        }
+        Ok(best)
+    }
+
+    /// Whether a piece from one share of the line to another keeps the tip near the segment, as `certify` will judge it; and its deviation as a
+    /// share of what is allowed.
+    fn near(
+        &self,
+        line: &Line,
+        (from, was): (&Stance, f64),
+        (to, is): (&Stance, f64),
+        tolerance_mm: f64,
+    ) -> (bool, f64) {
+        let never = (false, f64::INFINITY);
         let (Some(start), Ok(end)) = (&line.leg.start, &line.leg.end) else {
-            return false;
+            return never;
         };
         let off = |stance: &Stance, share: f64| (stance.tip - (start.tip + (end.tip - start.tip) * share)).norm();
         let ends = off(from, was).max(off(to, is));
@@ -144,8 +185,10 @@ impl Writer<'_> {
         }
         piece.start = Some(*from);
         piece.end = Ok(*to);
-        let deviation = tip_deviation(self.machine, &piece, room.max(0.0));
-        room > 0.0 && deviation.is_some_and(|found| found.bound_mm <= room)
+        match tip_deviation(self.machine, &piece, room.max(0.0)) {
+            Some(found) if room > 0.0 => (found.bound_mm <= room, found.sampled_mm / room),
+            _ => never,
+        }
     }
 
     /// The end of a piece at a share of the line, in the digits of the program.

@@ -2,6 +2,14 @@
 use core::ops::RangeInclusive;
 use trunnion_syntax::{Address, BlockId, Program, Value};
 
+/// What ends a line of the program: what ends its first one.
+pub(crate) fn newline(source: &[u8]) -> &'static str {
+    match source.iter().position(|byte| *byte == b'\n') {
+        Some(at) if source[..at].ends_with(b"\r") => "\r\n",
+        _ => "\n",
+    }
+}
+
 /// How the words of one letter are written in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NumberStyle {

@@ -51,6 +51,7 @@
 use super::Body;
 use crate::line_points::{Line, Writer, programmed, refused, undeclared_path};
 use crate::slots::{Scheme, Slots, insert_word, slots, styles};
+use crate::style::newline;
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
@@ -122,6 +123,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         scheme,
         styles: styles(program, scheme),
         tolerance_mm,
+        newline: newline(program.source()),
     };
     let mut places = Vec::new();
     let mut points = 0;
@@ -220,11 +222,7 @@ impl Writer<'_> {
 
     /// A new line with these words, after the line end of the program.
     fn add_line(&self, lines: &mut String, texts: &[Option<String>; 5]) {
-        lines.push_str(if self.program.source().contains(&b'\r') {
-            "\r\n"
-        } else {
-            "\n"
-        });
+        lines.push_str(self.newline);
         let words = texts.iter().enumerate();
         let words = words.filter_map(|(index, text)| Some((self.scheme.letter(index)?, text.as_ref()?)));
         let mut words: Vec<String> = words

@@ -57,6 +57,7 @@ use super::Body;
 use crate::excursion::{Excursion, Flip, Planner, Pose};
 use crate::line_points::{programmed, undeclared_path};
 use crate::slots::{Scheme, styles};
+use crate::style::newline;
 use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
@@ -222,11 +223,7 @@ fn summary(heights: &[f64]) -> String {
 
 /// The lines of an excursion, before the line of the cut.
 fn lines(program: &Program, scheme: Scheme, flip: &Flip, excursion: &Excursion) -> TextEdit {
-    let end = if program.source().contains(&b'\r') {
-        "\r\n"
-    } else {
-        "\n"
-    };
+    let end = newline(program.source());
     let view = program.block(flip.leg.motion.block);
     let mut feed = String::new();
     for word in view.words().filter(|word| word.address == Address::Letter(b'F')) {

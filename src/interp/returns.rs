@@ -2,13 +2,13 @@
 //! its macro language). Such numbers are part of what the caller does.
 use crate::iso::Iso;
 use crate::{Argument, Effect, Fault, FaultKind, Motion, Reach, Setup, Sink};
+use memchr::memmem;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, Block, BlockId, Program, Value};
 
 /// The first program that a run calls and does not find, if it could name a block number of its caller.
 pub fn may_return_to_numbers(program: &Program, dialect: &Dialect, setup: &Setup) -> Option<String> {
-    let may_call = || program.blocks().any(|block| calls(&block));
-    if !dialect.quirks.macro_b() || !may_call() {
+    if !dialect.quirks.macro_b() || !has_calls(program) {
         return None;
     }
     let mut found = Missing::default();
@@ -53,6 +53,26 @@ fn number_of(block: &Block<'_>) -> Option<String> {
     })
 }
 
+/// Whether a block of a program [`calls`]. Only blocks are read in which a letter M or G stands before digits of such a code: a proof asks this of each
+/// program that it compares.
+fn has_calls(program: &Program) -> bool {
+    let text = program.source();
+    let after_letter = |at: &usize| {
+        let number =
+            |byte: &&u8| byte.is_ascii_digit() || byte.is_ascii_whitespace() || matches!(byte, b'.' | b'+' | b'-');
+        let letter = text[..*at].iter().rev().find(|byte| !number(byte));
+        letter.is_some_and(|letter| matches!(letter.to_ascii_uppercase(), b'M' | b'G'))
+    };
+    let calls_at = |at: usize| {
+        let block = program.block_at(at as u32);
+        block.is_some_and(|block| calls(&program.block(block)))
+    };
+    let digits = [b"98", b"65", b"66"];
+    digits
+        .iter()
+        .any(|digits| memmem::find_iter(text, *digits).filter(after_letter).any(calls_at))
+}
+
 /// Whether a block has a code of a call: M98, M198, G65, G66, G66.1.
 fn calls(block: &Block<'_>) -> bool {
     block.words().any(|word| {
@@ -73,6 +93,24 @@ impl Sink for Missing {
     fn fault(&mut self, fault: Fault) {
         if let FaultKind::MissingSubprogram { name, .. } = fault.kind {
             self.0.get_or_insert(name);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What is not read would not have been a call.
+        #[test]
+        fn each_call_is_seen(parts in prop::collection::vec(
+            prop::sample::select(vec!["M", "m", "G", "N", "9", "98", "1", "0", "65", "66", ".", " ", "-", "\n", "(", ")", "X", "P", "%", "/", "\t", "#"]), 0..20,
+        )) {
+            let dialect = trunnion_dialect::builtin("fanuc-30i").expect("embedded");
+            let program = trunnion_syntax::parse(parts.concat().into_bytes(), dialect.lex);
+            prop_assert_eq!(has_calls(&program), program.blocks().any(|block| calls(&block)));
         }
     }
 }

@@ -14,6 +14,15 @@ use trunnion_syntax::{BlockId, LineIndex, Program, TextEdit, parse};
 /// So many places are left out one after the other because they cannot be proved; then all of them are refused. Each costs a proof.
 const MOST_PROOFS: usize = 32;
 
+/// Of a long program fewer places are left out: all proofs together read no more blocks than this, or are so many.
+const MOST_PROVED_BLOCKS: usize = 4_000_000;
+const LEAST_PROOFS: usize = 4;
+
+/// How many proofs of a program of so many blocks are tried.
+fn most_proofs(blocks: usize) -> usize {
+    (MOST_PROVED_BLOCKS / blocks.max(1)).clamp(LEAST_PROOFS, MOST_PROOFS)
+}
+
 /// What became of a place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum State {
@@ -198,6 +207,7 @@ pub fn attempt_at(
         summary: proposal.summary,
     };
     let proposed = changed(&places);
+    let most = most_proofs(program.block_count());
     let mut tries = 0;
     while let Some(edits) = edits(&places) {
         tries += 1;
@@ -214,7 +224,7 @@ pub fn attempt_at(
             Ok(proved) => return Attempt::of(program, places, Some(proved)),
             Err(failure) => {
                 let at = failure.at.map(|at| Edited::new(&edits).before(at));
-                refuse(program, &mut places, failure.reason, at.filter(|_| tries < MOST_PROOFS));
+                refuse(program, &mut places, failure.reason, at.filter(|_| tries < most));
             }
         }
     }

@@ -109,3 +109,8 @@ fn a_place_that_cannot_be_proved_is_left_out() {
     let after = attempt.proved.expect("proved").after;
     assert_eq!(String::from_utf8_lossy(&after), text.replace("C365", "C5"));
 }
+
+#[test]
+fn a_long_program_is_proved_less_often() {
+    assert_eq!([10, 125_000, 400_000, 9_000_000].map(most_proofs), [32, 32, 10, 4]);
+}

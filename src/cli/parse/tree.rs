@@ -6,7 +6,10 @@ use crate::cli::{
 };
 use serde::{Serialize, Serializer, ser::SerializeMap as _};
 use serde_json::{Value, json};
-use std::{borrow::Cow, io::Write};
+use std::{
+    borrow::Cow,
+    io::{BufWriter, Write},
+};
 use trunnion_syntax::{Address, AptArg, Block, Item, LineIndex, Program, TextRange, Value as Said, Word};
 
 /// Deeper parts are indented no further.
@@ -120,6 +123,8 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     let program = &loaded.program;
     let lines = LineIndex::new(program.source());
     let dialect = json!(loaded.resolved.dialect.name);
+    // a document is written in pieces of a few bytes
+    let out = &mut BufWriter::new(out);
     write!(
         out,
         "{{\"schema\":\"trunnion-tree/2\",\"dialect\":{dialect},\"blocks\":["
@@ -138,6 +143,7 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     write!(out, "\n],\"errors\":")?;
     errors_json(out, loaded)?;
     writeln!(out, "}}")?;
+    out.flush()?;
     Ok(())
 }
 

@@ -118,6 +118,8 @@ pub(crate) struct Log {
     passes: Passes,
     /// The current block ran before.
     pub(crate) again: bool,
+    /// The current block: most findings are in it.
+    pub(crate) near: BlockId,
 }
 
 impl Log {
@@ -128,7 +130,7 @@ impl Log {
             return;
         };
         let place = (diagnostic.rule, merge.key, diagnostic.status == Status::Unknown);
-        let block = program.block_at(diagnostic.range.start);
+        let block = program.block_near(diagnostic.range.start, self.near);
         let again = self.again;
         let same_block = |run: &Run| !again && block.is_some() && run.block == block;
         if let Some(run) = self.open.get_mut(&place)

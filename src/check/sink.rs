@@ -362,6 +362,7 @@ impl<'a> Reporter<'a> {
                     .number()
                     .map(|range| program.text(range).into_owned());
             }
+            self.log.near = block;
             self.log.add(program, diagnostic, merge, self.sequence);
         }
     }

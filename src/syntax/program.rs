@@ -122,6 +122,17 @@ impl Program {
         let behind = self.blocks.partition_point(|&first| self.tokens.start(first) <= offset);
         behind.checked_sub(1).map(|index| BlockId(index as u32))
     }
+    /// [`Self::block_at`], where the byte is likely to be in a known block: then nothing is searched.
+    pub fn block_near(&self, offset: u32, near: BlockId) -> Option<BlockId> {
+        let first = self.blocks.get(near.0 as usize);
+        let next = self.blocks.get(near.0 as usize + 1);
+        match (first, next) {
+            (Some(&first), Some(&next)) if self.tokens.start(first) <= offset && offset < self.tokens.start(next) => {
+                Some(near)
+            }
+            _ => self.block_at(offset),
+        }
+    }
     /// The text of a range, where it is UTF-8; else with replacement characters.
     pub fn text(&self, range: TextRange) -> Cow<'_, str> {
         String::from_utf8_lossy(self.bytes(range))

@@ -39,7 +39,11 @@ fn blocks(program: &Program) {
     for (index, block) in program.blocks().enumerate() {
         let range = block.range();
         assert_eq!(range.start, at, "block {index} starts where the one before ends");
-        assert_eq!(program.block_at(range.start), Some(BlockId(index as u32)));
+        let found = Some(BlockId(index as u32));
+        assert_eq!(program.block_at(range.start), found);
+        for near in [0, index.saturating_sub(1), index, index + 1, index + 2] {
+            assert_eq!(program.block_near(range.start, BlockId(near as u32)), found);
+        }
         let last = block.tokens().end - 1;
         at = program.tokens().range(last).end;
         assert_eq!(program.block_at(at - 1), Some(BlockId(index as u32)));

@@ -2,7 +2,7 @@
 use crate::canvas::{BLUE, Entry, GREY, Header, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::marks::Rules;
-use crate::record::{ByLine, Mark, Record, Sample};
+use crate::record::{AxisLetters, Block, Mark, Record, Sample};
 use crate::scale::range;
 use crate::unit::Unit;
 use trunnion_geometry::deg;
@@ -63,7 +63,7 @@ pub fn joints(
     }
     let rules = Rules::of(marks);
     let legend = legend(machine, record, &rules);
-    let lines = record.by_line();
+    let places = places(record, marks, &rules);
     sheet(header, &legend, |body| {
         let count = machine.own_axes().count();
         let (width, height) = body.dim_in_pixel();
@@ -115,8 +115,12 @@ pub fn joints(
             if let Some(limits) = limits {
                 panel.line(beyond(record, limits, spot).into_iter(), VERMILION, 3.0)?;
             }
-            let own = |mark: &Mark| mark.axes.hold(char::from(axis.letter));
-            draw_marks(&panel, (record, &lines), (marks, &own), &rules, spot)?;
+            // the rarest on top, each a little smaller
+            for (place, (marked, places)) in rules.drawn.iter().zip(&places).enumerate() {
+                let own = places.iter().filter(|(axes, _)| axes.hold(char::from(axis.letter)));
+                let spots = own.map(|(_, at)| spot(&record.samples[*at as usize]));
+                panel.symbols(spots, marked, 7.0 - place as f64, true)?;
+            }
         }
         Ok(())
     })
@@ -250,26 +254,25 @@ fn draw_limits(
     panel.note(&note)
 }
 
-fn draw_marks(
-    panel: &Panel<'_>,
-    (record, lines): (&Record, &ByLine<'_>),
-    (marks, own): (&[Mark], &dyn Fn(&Mark) -> bool),
-    rules: &Rules,
-    spot: impl Fn(&Sample) -> (f64, f64),
-) -> Result<(), PlotError> {
-    // the rarest on top, each a little smaller
-    for (place, marked) in rules.drawn.iter().enumerate() {
-        let marks = marks.iter().filter(|mark| mark.rule == marked.rule && own(mark));
-        let ends = marks.flat_map(|mark| lines.of(mark.line).filter_map(|block| record.of(block).last()));
-        panel.symbols(ends.map(&spot), marked, 7.0 - place as f64, true)?;
-    }
-    Ok(())
+/// For each rule that is drawn, the samples at the ends of its blocks, and the axes that each is about.
+fn places(record: &Record, marks: &[Mark], rules: &Rules) -> Vec<Vec<(AxisLetters, u32)>> {
+    let lines = record.by_line();
+    let of = |rule: &str| {
+        let marks = marks.iter().filter(|mark| mark.rule == rule);
+        let end = |block: &Block| block.samples.clone().next_back().map(|last| last as u32);
+        let ends = marks.flat_map(|mark| {
+            lines
+                .of(mark.line)
+                .filter_map(move |block| Some((mark.axes, end(block)?)))
+        });
+        ends.collect()
+    };
+    rules.drawn.iter().map(|marked| of(marked.rule)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::AxisLetters;
     use crate::texts::{header, record};
     use trunnion_geometry::Vec3;
     use trunnion_machine::builtin;

@@ -6,6 +6,7 @@ mod klartext;
 mod many;
 mod nesting;
 mod okuma;
+mod tools;
 
 /// A hostile program.
 pub(super) struct Input {
@@ -72,6 +73,8 @@ pub(super) fn all() -> Vec<Input> {
     all.extend(cycles::inputs());
     all.extend(klartext::inputs());
     all.extend(okuma::inputs());
+    // new ones at the end: the dialect that a program meets depends on its place, and a journal goes on where it was
+    all.extend(tools::inputs());
     all
 }
 

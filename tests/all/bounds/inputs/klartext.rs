@@ -30,11 +30,6 @@ pub(super) fn inputs() -> Vec<Input> {
         input("klartext-calls-one-many-times", |n| {
             cut(&format!("LBL 1\nL IX+1\nLBL 0\n{}", repeat("CALL LBL 1\n", n)))
         }),
-        input("klartext-tools", |n| {
-            cut(&lines(n / 3, |i| {
-                format!("TOOL DEF {i} L+{} R+5\nTOOL CALL {i} Z S1000\nL Z+50 R0 FMAX", i % 90)
-            }))
-        }),
         input("klartext-calls-what-is-missing", |n| {
             cut(&lines(n, |i| format!("CALL LBL {}\nCALL LBL \"A{i}\"", i + 1)))
         }),

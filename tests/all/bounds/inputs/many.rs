@@ -110,14 +110,6 @@ pub(super) fn inputs() -> Vec<Input> {
         Input::new("lengths-of-many-tools", |n| {
             cut(&lines(n / 3, |i| format!("T{i} M6\nG43 H{i}\nG1 Z{}.", i % 7)))
         }),
-        Input::new("offsets-of-many-tools", |n| {
-            cut(&lines(n / 2, |i| format!("G10 L10 P{i} R{}.\nG43 H{i} Z1.", i % 90)))
-        }),
-        Input::new("declared-tools", |n| {
-            let declared = lines(n / 2, |i| format!("(trunnion: tool {i} ball diameter 10 length 90)"));
-            let used = lines(n / 4, |i| format!("T{i} M6\nG43 H{i} Z1."));
-            cut(&format!("{declared}{used}"))
-        }),
         Input::new("conditions-of-one-line", |n| {
             cut(&format!("{}#5221=7.", repeat("IF[#1EQ1]THEN ", n)))
         }),

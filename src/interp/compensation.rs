@@ -103,7 +103,7 @@ fn link(pending: &PendingMotion, element: &Element, from: Point, link: Link) -> 
 
 impl Iso<'_> {
     /// Takes a motion of the program while compensation is busy.
-    pub(crate) fn compensate(&mut self, pending: PendingMotion, report: &mut Report<'_>) {
+    pub(crate) fn compensate(&mut self, mut pending: PendingMotion, report: &mut Report<'_>) {
         let motion = &pending.0;
         let now = pending.1.compensation;
         let plane = *self
@@ -133,12 +133,15 @@ impl Iso<'_> {
             (Stage::Start, false) => self.start(pending, element, report),
             (Stage::On, false) => self.follow(pending, element, report),
             (_, true) => self.cancel(pending, &element, report),
-            (Stage::Off | Stage::Lost, false) => self.memory.compensation.ready.push(pending),
+            (Stage::Off | Stage::Lost, false) => {
+                self.mark_lost(&mut pending);
+                self.memory.compensation.ready.push(pending);
+            }
         }
     }
 
     /// A motion that does not move in the plane, or whose path is unknown.
-    fn motion_out_of_plane(&mut self, pending: PendingMotion, report: &mut Report<'_>) {
+    fn motion_out_of_plane(&mut self, mut pending: PendingMotion, report: &mut Report<'_>) {
         let motion = &pending.0;
         let still = Element::rests(
             motion,
@@ -153,11 +156,22 @@ impl Iso<'_> {
         }
         if !still {
             self.lose("part of the path is unknown", report);
+            self.mark_lost(&mut pending);
         }
         self.memory.compensation.ready.push(pending);
     }
 
-    fn start(&mut self, pending: PendingMotion, element: Element, report: &mut Report<'_>) {
+    /// Of a motion that came before its compensation was lost: its path is not the programmed one, and not computed.
+    fn mark_lost(&self, (motion, state): &mut PendingMotion) {
+        if self.memory.compensation.stage == Stage::Lost && state.compensation != 0 {
+            state.beside = Beside::NotModelled;
+            let undeclared = state.undeclared();
+            motion.undeclared.beside = undeclared.beside;
+            motion.undeclared.by_radius = undeclared.by_radius;
+        }
+    }
+
+    fn start(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         self.memory.compensation.stage = Stage::On;
         if element.is_arc() {
             self.reject(
@@ -165,8 +179,9 @@ impl Iso<'_> {
                 "arc-start-or-cancel",
                 report,
             );
-            self.memory.compensation.ready.push(pending);
             self.lose("it starts with an arc", report);
+            self.mark_lost(&mut pending);
+            self.memory.compensation.ready.push(pending);
             return;
         }
         self.memory.compensation.held = Some(Box::new(Held {
@@ -192,7 +207,7 @@ impl Iso<'_> {
     }
 
     /// The next motion of the contour: the held one can be emitted.
-    fn follow(&mut self, pending: PendingMotion, element: Element, report: &mut Report<'_>) {
+    fn follow(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         let offset = self.side() * self.memory.compensation.radius;
         let Some(held) = self.memory.compensation.held.take() else {
             // after a start-up that was already emitted
@@ -252,6 +267,7 @@ impl Iso<'_> {
                 self.reject(text, alarm, report);
                 self.memory.compensation.held = Some(held);
                 self.lose("it has no path here", report);
+                self.mark_lost(&mut pending);
                 self.memory.compensation.ready.push(pending);
             }
         }
@@ -336,10 +352,15 @@ impl Iso<'_> {
         if matches!(self.memory.compensation.stage, Stage::Off | Stage::Lost) {
             return;
         }
+        let first = self.memory.compensation.ready.len();
         self.settle(report);
         self.memory.compensation.stage = Stage::Lost;
         self.core.state.beside = Beside::NotModelled;
         self.memory.compensation.plane = None;
+        // the corner after the last motion is not known
+        let mut last = self.memory.compensation.ready.split_off(first);
+        last.iter_mut().for_each(|pending| self.mark_lost(pending));
+        self.memory.compensation.ready.append(&mut last);
         let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }

@@ -247,7 +247,7 @@ impl<'m> Follower<'m> {
             *open = self.aim(motion, &(axis / length), start, into)?;
         }
         let known = into.1 | self.solved();
-        let tip = self.tip(motion, start);
+        let tip = self.tip(motion, start).filter(|tip| tip.sum().is_finite());
         let Some(tip) = tip.filter(|_| known == self.words.all()) else {
             return Err(self.unknown_tip(motion, tip.is_some(), known));
         };
@@ -309,7 +309,9 @@ impl<'m> Follower<'m> {
         let stays = motion.tilt.free == XYZ && self.knows_turns(motion);
         let swivels = motion.tilt.swivel == Swivel::AxesStay || stays;
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
-        let moved = motion.says_way & !motion.end.known;
+        // words that lead to no known position, or to one from an offset that is not known
+        let placed = motion.end.known & if has_tip_words(motion) { !XYZ } else { !0 };
+        let moved = placed | motion.says_way & !motion.end.known;
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
             let bit = 1 << joint;
             let is_lost = !swivels

@@ -56,6 +56,8 @@ pub(crate) struct Core<'d> {
     pub(crate) proper_end: bool,
     /// Rotary axes that a word with a direction has carried to a coordinate beyond what it said, bits as in [`Position::known`].
     pub(crate) carried: u16,
+    /// Rotary axes whose zero point is not known, bits as in [`Position::known`].
+    pub(crate) turned: u16,
     /// Axes that are always at 0.
     pub(crate) standing: crate::standing::Standing,
     /// What A and C of a lathe mean.
@@ -116,6 +118,7 @@ impl<'d> Core<'d> {
             feed_mode_unread: false,
             compensation_reported: false,
             carried: 0,
+            turned: 0,
             offsets_reported: Reported::default(),
             last_content: None,
             proper_end: false,
@@ -308,6 +311,8 @@ impl<'d> Core<'d> {
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if self.state.zero.is_lost() {
             self.hide(&mut motion);
+        } else if self.turned != 0 {
+            hide_axes(&mut motion, self.turned);
         }
         motion
     }
@@ -319,19 +324,16 @@ impl<'d> Core<'d> {
         } else {
             LINEAR
         };
-        // such a coordinate moves its axis to an unknown place
-        for axis in (0..9).filter(|axis| hidden & 1 << axis != 0) {
-            let to = motion.end.get(axis);
-            let moves = to.is_some() && to != motion.start.get(axis);
-            motion.says_way |= u16::from(moves) << axis;
-        }
-        motion.start.known &= !hidden;
-        motion.end.known &= !hidden;
+        hide_axes(motion, hidden | self.turned);
         if let MotionKind::Arc(arc) = &mut motion.kind {
             *arc = None;
         }
-        if let Orientation::Vector(..) = motion.orientation {
+        if let Orientation::Vector(before, vector) = motion.orientation {
             motion.orientation = Orientation::Words;
+            if before != Some(vector) {
+                // it turns the rotary axes to an unknown place
+                motion.kind = MotionKind::Unknown;
+            }
         }
     }
 
@@ -355,4 +357,16 @@ impl<'d> Core<'d> {
             });
         }
     }
+}
+
+/// Coordinates of some axes say nothing about the machine.
+fn hide_axes(motion: &mut Motion, hidden: u16) {
+    // such a coordinate moves its axis to an unknown place
+    for axis in (0..9).filter(|axis| hidden & 1 << axis != 0) {
+        let to = motion.end.get(axis);
+        let moves = to.is_some() && to != motion.start.get(axis);
+        motion.says_way |= u16::from(moves) << axis;
+    }
+    motion.start.known &= !hidden;
+    motion.end.known &= !hidden;
 }

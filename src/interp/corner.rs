@@ -21,7 +21,7 @@ struct Waiting {
     pending: PendingMotion,
     /// `R`, `C`, or `F`: a chamfer by the length of its face (CHF).
     letter: u8,
-    /// mm.
+    /// mm; no number where it is not known.
     size: f64,
     /// FRC or FRCM of its block: the feed of the corner alone, in the unit of F.
     feed: Option<f64>,
@@ -132,9 +132,11 @@ impl Iso<'_> {
             };
             (kind, number)
         };
-        let round = words.radius.number().map(|number| sized(b'R', number.value));
+        let of_radius = words.radius.number().map_or(f64::NAN, |number| number.value);
+        let round = words.radius.is_given().then(|| sized(b'R', of_radius));
         let cut = || words.centre.get(0).or(words.centre.get(2));
-        round.or_else(|| cut().map(|value| sized(b'C', value)))
+        let unread = (words.centre.unread & 0b101 != 0).then_some(f64::NAN);
+        round.or_else(|| cut().or(unread).map(|value| sized(b'C', value)))
     }
 
     /// Takes a motion of the block; what can be emitted is pushed to `on`.
@@ -210,7 +212,9 @@ impl Iso<'_> {
     ) {
         let mut before = waiting.pending;
         let axes = plane_axes(before.1.coordinates.plane());
-        let known = is_known(&before.0, axes) && is_known(&next.0, axes);
+        let nowhere =
+            [&before, &*next].map(|pending| matches!(pending.0.kind, MotionKind::Unknown | MotionKind::Arc(None)));
+        let known = is_known(&before.0, axes) && is_known(&next.0, axes) && nowhere == [false; 2];
         let tolerant = self.core.dialect.quirks.declares_names();
         if tolerant && known && (is_vertical(&before.0, axes) || is_vertical(&next.0, axes)) {
             // no corner is made where a motion leaves the plane (Programming Manual, Fundamentals, chamfer and rounding)
@@ -234,6 +238,7 @@ impl Iso<'_> {
             cut.by >= 0.0 && cut.by <= first.norm() + 1e-9 && cut.by <= second.norm() + 1e-9
         });
         let place = match fits {
+            _ if waiting.size.is_nan() => Some("of an unknown size"),
             Some(true)
                 if tolerant
                     && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
@@ -263,6 +268,7 @@ impl Iso<'_> {
             }
             for axis in &axes[..2] {
                 before.0.end.forget(*axis);
+                before.0.says_way |= 1 << *axis;
                 next.0.start.forget(*axis);
             }
         } else if let (Some(cut), Some(true)) = (&cut, fits) {

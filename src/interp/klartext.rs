@@ -61,6 +61,8 @@ pub(crate) struct Memory {
     shifted: u16,
     /// The shift of some axis is not known, until each of X, Y, Z is given anew.
     shift_unknown: bool,
+    /// Rotary axes whose zero is unknown: by a shift, by a preset.
+    turned: [u16; 2],
     /// CC: coordinates of the pole, and whether there was one.
     pole: [Option<f64>; 3],
     has_pole: bool,

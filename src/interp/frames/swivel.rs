@@ -186,12 +186,14 @@ impl<'d> Iso<'d> {
         let plain = !words.axes.any();
         let Some(posture) = posture.filter(|_| plain) else {
             self.unmodelled_code(found, words, block, report);
+            self.turns_to_nowhere(report);
             return;
         };
         // G254 is no plane onto which the tool turns
         let turned_table = self.memory.frames.dynamic.is_some();
         if self.memory.frames.tilt.is_none() || self.core.state.tool_axis.tcp() || turned_table {
             self.unmodelled_code(found, words, block, report);
+            self.turns_to_nowhere(report);
             return;
         }
         block.takes_coordinates = true;
@@ -219,11 +221,16 @@ impl<'d> Iso<'d> {
         if moves {
             let what = "CYCLE800: the path on which it retracts and turns back when it ends".to_owned();
             report.fault(found.range, FaultKind::NotModelled { what });
-            let mut motion = self.unknown_motion(&Words::default(), report);
-            self.core.forget_position();
-            motion.end = self.core.state.position;
-            self.memory.out.push(motion);
+            self.turns_to_nowhere(report);
         }
+    }
+
+    /// The axes turn, and where they end is not known.
+    fn turns_to_nowhere(&mut self, report: &mut Report<'_>) {
+        let mut motion = self.unknown_motion(&Words::default(), report);
+        self.core.forget_position();
+        motion.end = self.core.state.position;
+        self.memory.out.push(motion);
     }
 
     /// A swivelled plane ends inside which the program has set a frame: whether the frame stays is not taken from a source.

@@ -5,7 +5,7 @@
 use super::path_words::PathWords;
 use super::words::{Said, Words};
 use super::{Klartext, values::Value};
-use crate::core::{LINEAR, Report};
+use crate::core::{LINEAR, ROTARY, Report};
 use crate::frames::{Rotation, Scaling};
 use crate::{AxisLetter, Feed, MotionKind, Refusal, Undeclared};
 use trunnion_syntax::TextRange;
@@ -20,6 +20,8 @@ pub(crate) const SHAPE: u8 = 4;
 pub(crate) const TURNING: u8 = 8;
 /// A preset that is not known.
 pub(crate) const PRESET: u8 = 64;
+/// A length of the tool that is not known.
+pub(crate) const LENGTH: u8 = 128;
 /// A shift that belongs to a plane, or to the system outside of it: which one is not known.
 pub(crate) const INSIDE: u8 = 32;
 /// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.
@@ -33,6 +35,20 @@ impl Klartext<'_> {
         self.memory.shift_unknown |= reason & DATUM != 0;
         self.core.forget_linear();
         self.core.state.zero.lose(true);
+    }
+
+    /// A datum is unknown in all axes.
+    pub(super) fn lose_datum(&mut self) {
+        self.turned(0, ROTARY);
+        self.lose(DATUM);
+    }
+
+    /// Rotary axes whose zero is unknown by a shift (0) or by a preset (1).
+    fn turned(&mut self, by: usize, axes: u16) {
+        self.memory.turned[by] = axes;
+        let [shift, preset] = self.memory.turned;
+        self.core.state.position.known &= !(self.core.turned ^ (shift | preset));
+        self.core.turned = shift | preset;
     }
 
     /// The reason has ended.
@@ -117,11 +133,11 @@ impl Klartext<'_> {
         }
         if words.takes(b'#') {
             Self::not_modelled("cycle 7: a datum from a table", report);
-            return self.lose(DATUM);
+            return self.lose_datum();
         }
         let found = self.axes_of(words, report);
         if found.no_number {
-            return self.lose(DATUM);
+            return self.lose_datum();
         }
         if found.given == 0 {
             return;
@@ -133,7 +149,7 @@ impl Klartext<'_> {
     pub(super) fn shift_datum(&mut self, name: &str, found: &PathWords, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let mut local = self.memory.frames.local;
-        let mut unknown = false;
+        let mut unknown = 0;
         for (axis, shift) in local.iter_mut().enumerate() {
             let bit = 1 << axis;
             if found.given & bit == 0 {
@@ -143,19 +159,24 @@ impl Klartext<'_> {
             match found.values[axis] {
                 Some(value) if found.incremental & bit != 0 => *shift += value * scale,
                 Some(value) => *shift = value * scale,
-                None => unknown = true,
+                None => unknown |= bit,
             }
         }
         // where several shifts are possible the same value again is not the same shift
         let shifts = found.given & 7 != 0;
         let zero = local[..3] == [0.0; 3];
-        if unknown {
-            // the value was reported
+        let turned = self.memory.turned[0] & !(found.given & !found.incremental) | unknown & ROTARY;
+        self.turned(0, turned);
+        if unknown != 0 {
+            // the value was reported; the zero of a rotary axis with a value is known
+            self.memory.frames.local[3..6].copy_from_slice(&local[3..6]);
+            self.refresh_zero();
             return self.lose(DATUM);
         }
         if shifts && !zero && !self.memory.frames.shape.is_identity() {
             self.not_modelled_once(&format!("{name} in a turned, mirrored or scaled system"), report);
             self.memory.frames.local = local;
+            self.refresh_zero();
             let unknown = self.memory.shift_unknown;
             self.lose(DATUM);
             // the shift itself is known: taking it back ends it
@@ -167,6 +188,7 @@ impl Klartext<'_> {
             let what = "in a tilted plane, with a shift from before the plane: which of both it replaces";
             self.not_modelled_once(&format!("{name} {what}"), report);
             self.memory.frames.local = local;
+            self.refresh_zero();
             return self.lose(INSIDE);
         }
         self.memory.frames.local = local;
@@ -215,9 +237,11 @@ impl Klartext<'_> {
             .filter(|number| number.fract() == 0.0 && *number >= 0.0)
         else {
             Self::not_modelled("cycle 247: which preset", report);
+            self.turned(1, ROTARY);
             return self.lose(PRESET);
         };
         self.found(PRESET);
+        self.turned(1, 0);
         let name = format!("preset {number}");
         let declared = self.core.setup.work_offset(&name).map(|offset| offset.values);
         if declared.is_none() && self.core.offsets_reported.first(&name) {

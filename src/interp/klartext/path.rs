@@ -344,6 +344,12 @@ pub(super) fn unread(words: &PathWords) -> u16 {
 #[inline]
 fn in_work(motion: &Motion, tilt: Option<&Tilted>, is_lost: bool) -> Motion {
     match tilt {
+        Some(_) if is_lost && matches!(motion.orientation, Orientation::Vector(None, _)) => Motion {
+            // a turn onto a plane of a system that is not known
+            kind: MotionKind::Unknown,
+            orientation: Orientation::Words,
+            ..*motion
+        },
         Some(tilt) if !motion.machine_coordinates && !is_lost => tilt.motion_to_work(motion),
         _ => *motion,
     }

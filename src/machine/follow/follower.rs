@@ -310,13 +310,15 @@ impl<'m> Follower<'m> {
         let swivels = motion.tilt.swivel == Swivel::AxesStay || stays;
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
         // words that lead to no known position, or to one from an offset that is not known
+        let moved = motion.says_way & !motion.end.known;
         let placed = motion.end.known & if has_tip_words(motion) { !XYZ } else { !0 };
-        let moved = placed | motion.says_way & !motion.end.known;
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
             let bit = 1 << joint;
-            let is_lost = !swivels
-                && (self.words.names(moved, joint)
-                    || self.words.names(lost, joint) && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
+            let is_lost = self.words.names(moved, joint)
+                || !swivels
+                    && (self.words.names(placed, joint)
+                        || self.words.names(lost, joint)
+                            && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
             let solved = has_tip_words(motion) && self.solved() & bit != 0;
             if into.1 & bit == 0 && known & bit != 0 && !is_lost && !solved {
                 *value = self.state.known_joints.0[joint];

@@ -8,7 +8,8 @@ mod language;
 use language::{LANGUAGES, Language, Line, body};
 use proptest::prelude::*;
 use trunnion_interp::{
-    AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Setup, Sink, Tool, WorkOffset, run,
+    AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Orientation, Setup, Sink, Tool, WorkOffset,
+    run,
 };
 use trunnion_machine::{Follower, Machine, builtin};
 use trunnion_syntax::BlockId;
@@ -22,7 +23,9 @@ struct After {
     motion: Motion,
     /// Position of each joint, mm or rad, where it is known.
     joints: Vec<Option<f64>>,
-    /// The posture may be another one, or the path beside the contour is not computed: both are reported.
+    /// The machine finds the coordinates that the plane leaves free.
+    found: bool,
+    /// The posture may be another one (also where the machine file says `generic`: the start is taken to be 0 if it is not known), or the path beside the contour is not computed: both are reported.
     open: bool,
 }
 
@@ -37,6 +40,7 @@ struct Followed<'m> {
 impl Sink for Followed<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
+        let from_nowhere = leg.start.is_none();
         let (values, known) = leg.known_joints;
         let joints = self.follower.machine().axes.iter().enumerate();
         self.after.push(After {
@@ -44,7 +48,10 @@ impl Sink for Followed<'_> {
             joints: joints
                 .map(|(joint, _)| (known & 1 << joint != 0).then(|| values[joint]))
                 .collect(),
-            open: leg.open.is_some() || (state.compensation != 0 && state.beside != Beside::Computed),
+            found: motion.tilt.free != 0 && leg.end.is_ok(),
+            open: leg.open.is_some()
+                || from_nowhere && matches!(motion.orientation, Orientation::Vector(..))
+                || (state.compensation != 0 && state.beside != Beside::Computed),
         });
     }
 
@@ -76,7 +83,11 @@ fn follow<'m>(
     let dialect = trunnion_dialect::builtin(language.dialect).expect("built in");
     let mut setup = Setup::default();
     if offsets {
-        let y = if language.machines.contains(&"lathe-2axis") { 0.0 } else { 50.0 };
+        let y = if language.machines.contains(&"lathe-2axis") {
+            0.0
+        } else {
+            50.0
+        };
         let values = [100.0, y, -200.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let named = |name: &str| WorkOffset {
             name: name.into(),
@@ -138,7 +149,7 @@ fn named_axes(language: &Language, machine: &Machine, lines: &[Line], offsets: b
             let Some(letter) = AXIS_LETTERS.iter().position(|letter| *letter == axis.letter) else {
                 continue;
             };
-            let lost = axes & 1 << letter != 0 && after.motion.end.get(letter).is_none();
+            let lost = !after.found && axes & 1 << letter != 0 && after.motion.end.get(letter).is_none();
             prop_assert!(
                 !lost || after.joints[joint].is_none(),
                 "{} on {}: {} is taken to be known\n{text}{after:#?}",
@@ -180,6 +191,10 @@ fn same_with_values(language: &Language, machine: &Machine, text: &str, offsets:
                 break;
             }
             let (one, other) = (&open.after[one], &set.after[other]);
+            if one.motion.block.0 != block {
+                // nothing is said about the axes before the next motion
+                continue;
+            }
             for (joint, axis) in machine.axes.iter().enumerate() {
                 let (Some(a), Some(b)) = (one.joints[joint], other.joints[joint]) else {
                     continue;

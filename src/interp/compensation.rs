@@ -5,13 +5,14 @@
 //! motion of the contour ends beside its own end. Source: Fanuc Series 30i operator's manual, details of cutter compensation.
 mod corner;
 mod element;
+mod lost;
 mod nose;
 mod select;
 
 use crate::core::Report;
 use crate::frames::XYZ;
 use crate::iso::Iso;
-use crate::{Beside, FaultKind, ModalState, Motion, MotionKind, Refusal};
+use crate::{FaultKind, ModalState, Motion, MotionKind, Refusal};
 use corner::{Join, Link, Trouble, join};
 use element::{Element, Point};
 use trunnion_dialect::Plane;
@@ -159,16 +160,6 @@ impl Iso<'_> {
             self.mark_lost(&mut pending);
         }
         self.memory.compensation.ready.push(pending);
-    }
-
-    /// Of a motion that came before its compensation was lost: its path is not the programmed one, and not computed.
-    fn mark_lost(&self, (motion, state): &mut PendingMotion) {
-        if self.memory.compensation.stage == Stage::Lost && state.compensation != 0 {
-            state.beside = Beside::NotModelled;
-            let undeclared = state.undeclared();
-            motion.undeclared.beside = undeclared.beside;
-            motion.undeclared.by_radius = undeclared.by_radius;
-        }
     }
 
     fn start(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
@@ -345,24 +336,6 @@ impl Iso<'_> {
         }
         let ready = moved(&pending, element, from, element.end).filter(|_| !element.is_arc());
         self.memory.compensation.ready.push(ready.unwrap_or(pending));
-    }
-
-    /// Stops compensating until G40: motions are the programmed ones.
-    pub(crate) fn lose(&mut self, why: &str, report: &mut Report<'_>) {
-        if matches!(self.memory.compensation.stage, Stage::Off | Stage::Lost) {
-            return;
-        }
-        let first = self.memory.compensation.ready.len();
-        self.settle(report);
-        self.memory.compensation.stage = Stage::Lost;
-        self.core.state.beside = Beside::NotModelled;
-        self.memory.compensation.plane = None;
-        // the corner after the last motion is not known
-        let mut last = self.memory.compensation.ready.split_off(first);
-        last.iter_mut().for_each(|pending| self.mark_lost(pending));
-        self.memory.compensation.ready.append(&mut last);
-        let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
-        report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 
     /// Everything pending is emitted: the program ends.

@@ -15,6 +15,8 @@ use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// X, Y, Z, U, V, W in [`crate::AXIS_LETTERS`].
 pub(crate) const LINEAR: u16 = 0b1_1100_0111;
+/// X, Y, Z.
+const XYZ: u16 = 0b111;
 /// A, B, C.
 pub(crate) const ROTARY: u16 = 0b0_0011_1000;
 /// A norm may differ from 1 by this because of six written decimals.
@@ -325,6 +327,7 @@ impl<'d> Core<'d> {
             LINEAR
         };
         hide_axes(motion, hidden | self.turned);
+        self.moves_all(motion);
         if let MotionKind::Arc(arc) = &mut motion.kind {
             *arc = None;
         }
@@ -334,6 +337,14 @@ impl<'d> Core<'d> {
                 // it turns the rotary axes to an unknown place
                 motion.kind = MotionKind::Unknown;
             }
+        }
+    }
+
+    /// In a system that is not known, and may be turned, a word of one linear axis moves all of X, Y and Z.
+    pub(crate) fn moves_all(&self, motion: &mut Motion) {
+        let lost = self.state.zero.is_lost() || self.unknown.any();
+        if lost && !motion.machine_coordinates && motion.says_way & !motion.end.known & LINEAR != 0 {
+            motion.says_way |= XYZ & !motion.end.known;
         }
     }
 

@@ -95,7 +95,7 @@ impl Core<'_> {
         }
         let across = (given | unread) & (1 << X) != 0;
         let along = (given | unread) & (1 << Z) != 0;
-        if across == along || unread & !((1 << A) | (1 << C) | (1 << X) | (1 << Z)) != 0 {
+        if across == along {
             return;
         }
         // the value of a word where it is known

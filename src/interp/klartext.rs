@@ -54,7 +54,7 @@ pub(crate) struct Memory {
     /// Angle of cycle 10, deg.
     rotation: f64,
     /// Reasons why coordinates say nothing: bits of [`datum`].
-    lost: u8,
+    lost: u16,
     /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
     level_shift: bool,
     /// X Y Z that cycle 7 has given since then.

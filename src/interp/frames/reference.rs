@@ -230,6 +230,7 @@ impl Iso<'_> {
     pub(crate) fn has_moved(&mut self, axes: u16) {
         if let Some(motion) = self.memory.out.last_mut() {
             motion.says_way |= axes & !motion.end.known;
+            self.core.moves_all(motion);
         }
     }
 }

@@ -27,6 +27,7 @@ impl<'d> Iso<'d> {
             let what = "a tilted plane starts or ends under cutter compensation".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             self.core.forget_position();
+            self.forget_pending(report);
         }
         let mut position = self.core.state.position;
         if let Some(old) = self.memory.frames.tilt {

@@ -11,25 +11,31 @@ use crate::{AxisLetter, Feed, MotionKind, Refusal, Undeclared};
 use trunnion_syntax::TextRange;
 
 /// A datum shift that is not known.
-pub(crate) const DATUM: u8 = 1;
+pub(crate) const DATUM: u16 = 1;
 /// A working plane that is not known.
-pub(crate) const PLANE: u8 = 2;
-/// Mirror, rotation, scaling that are not known.
-pub(crate) const SHAPE: u8 = 4;
+pub(crate) const PLANE: u16 = 2;
+/// A cycle between definition and call that changes the system, and that nothing which is followed ends.
+const SHAPE: u16 = 4;
+/// A mirror image and a rotation together: their order is not known.
+const ORDER: u16 = 256;
+/// A rotation that is not known.
+const ROTATION: u16 = 512;
+/// A scaling that is not known.
+const SCALE: u16 = 1024;
 /// Turning: X is a diameter.
-pub(crate) const TURNING: u8 = 8;
+pub(crate) const TURNING: u16 = 8;
 /// A preset that is not known.
-pub(crate) const PRESET: u8 = 64;
+pub(crate) const PRESET: u16 = 64;
 /// A length of the tool that is not known.
-pub(crate) const LENGTH: u8 = 128;
+pub(crate) const LENGTH: u16 = 128;
 /// A shift that belongs to a plane, or to the system outside of it: which one is not known.
-pub(crate) const INSIDE: u8 = 32;
+pub(crate) const INSIDE: u16 = 32;
 /// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.
-pub(crate) const OTHER: u8 = 16;
+pub(crate) const OTHER: u16 = 16;
 
 impl Klartext<'_> {
     /// Coordinates say nothing from here on, for a reason.
-    pub(crate) fn lose(&mut self, reason: u8) {
+    pub(crate) fn lose(&mut self, reason: u16) {
         self.memory.lost |= reason;
         self.memory.shifted = 0;
         self.memory.shift_unknown |= reason & DATUM != 0;
@@ -52,7 +58,7 @@ impl Klartext<'_> {
     }
 
     /// The reason has ended.
-    pub(crate) fn found(&mut self, reason: u8) {
+    pub(crate) fn found(&mut self, reason: u16) {
         if self.memory.lost & reason != 0 {
             self.memory.lost &= !reason;
             self.core.forget_linear();
@@ -288,11 +294,11 @@ impl Klartext<'_> {
         }
         let mut shape = self.memory.frames.shape;
         shape.mirror = mirror;
+        self.reshape(shape);
         if mirror != [None; 3] && shape.rotation.is_some() {
             Self::not_modelled("cycle 8 together with cycle 10: their order", report);
-            return self.lose(SHAPE);
+            self.lose(ORDER);
         }
-        self.reshape(shape);
     }
 
     /// 10.1 ROT+35, IROT+5.
@@ -304,18 +310,25 @@ impl Klartext<'_> {
             return Self::rejected(Refusal::MissingWord, "cycle 10 needs ROT", report);
         };
         let added = if word.is("IROT") { self.memory.rotation } else { 0.0 };
-        let Some(angle) = self.said(word.value, report).map(|angle| angle + added) else {
-            return self.lose(SHAPE);
+        // what is added to an unknown angle is unknown
+        let from = !word.is("IROT") || self.memory.lost & ROTATION == 0;
+        let Some(angle) = self
+            .said(word.value, report)
+            .filter(|_| from)
+            .map(|angle| angle + added)
+        else {
+            return self.lose(ROTATION);
         };
+        self.found(ROTATION);
         let mut shape = self.memory.frames.shape;
-        if angle != 0.0 && shape.mirror != [None; 3] {
-            Self::not_modelled("cycle 10 together with cycle 8: their order", report);
-            return self.lose(SHAPE);
-        }
         self.memory.rotation = angle;
         let plane = self.core.state.coordinates.plane();
         shape.rotation = (angle != 0.0).then(|| Rotation::new(plane, [0.0, 0.0], angle));
         self.reshape(shape);
+        if angle != 0.0 && shape.mirror != [None; 3] {
+            Self::not_modelled("cycle 10 together with cycle 8: their order", report);
+            self.lose(ORDER);
+        }
     }
 
     /// 11.1 SCL 0.99.
@@ -329,7 +342,7 @@ impl Klartext<'_> {
             .filter(|factor| *factor > 0.0);
         let Some(factor) = factor else {
             Self::not_modelled("cycle 11 without a factor", report);
-            return self.lose(SHAPE);
+            return self.lose(SCALE);
         };
         // whether the axis of the tool is scaled too is a parameter of the machine
         if factor != 1.0 {
@@ -337,15 +350,16 @@ impl Klartext<'_> {
                 "cycle 11: a machine parameter decides whether the tool axis is scaled",
                 report,
             );
-            return self.lose(SHAPE);
+            return self.lose(SCALE);
         }
+        self.found(SCALE);
         let mut shape = self.memory.frames.shape;
         shape.scaling = None::<Scaling>;
         self.reshape(shape);
     }
 
     fn reshape(&mut self, shape: crate::frames::Shape) {
-        self.found(SHAPE);
+        self.found(ORDER);
         self.memory.frames.shape = shape;
         let position = self.core.state.position;
         self.memory.frames.refresh(&position);

@@ -197,6 +197,7 @@ impl Klartext<'_> {
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way |= words.incremental | unread(words) | ways.shortest;
         motion.says_way |= words.given & !motion.end.known;
+        self.core.moves_all(&mut motion);
         motion.ways = ways;
         self.emit(&motion, report);
     }

@@ -23,8 +23,8 @@ struct After {
     motion: Motion,
     /// Position of each joint, mm or rad, where it is known.
     joints: Vec<Option<f64>>,
-    /// The machine finds the coordinates that the plane leaves free.
-    found: bool,
+    /// Axes whose coordinates in the plane the program knows, while the machine knows where it is.
+    found: u16,
     /// The posture may be another one (also where the machine file says `generic`: the start is taken to be 0 if it is not known), or the path beside the contour is not computed: both are reported.
     open: bool,
 }
@@ -48,7 +48,11 @@ impl Sink for Followed<'_> {
             joints: joints
                 .map(|(joint, _)| (known & 1 << joint != 0).then(|| values[joint]))
                 .collect(),
-            found: motion.tilt.free != 0 && leg.end.is_ok(),
+            found: match &leg.end {
+                Ok(_) if motion.tilt.free != 0 => !0,
+                Ok(_) if !state.zero.is_lost() => state.position.known,
+                _ => 0,
+            },
             open: leg.open.is_some()
                 || from_nowhere && matches!(motion.orientation, Orientation::Vector(..))
                 || (state.compensation != 0 && state.beside != Beside::Computed),
@@ -67,7 +71,9 @@ impl Sink for Followed<'_> {
                 | FaultKind::CompensationLeft
         );
         if !goes_on {
-            self.ends = Some(self.ends.map_or(fault.block, |ends| ends.min(fault.block)));
+            // a corner is refused in the block after it
+            let block = BlockId(fault.block.0.saturating_sub(1));
+            self.ends = Some(self.ends.map_or(block, |ends| ends.min(block)));
         }
     }
 }
@@ -149,7 +155,7 @@ fn named_axes(language: &Language, machine: &Machine, lines: &[Line], offsets: b
             let Some(letter) = AXIS_LETTERS.iter().position(|letter| *letter == axis.letter) else {
                 continue;
             };
-            let lost = !after.found && axes & 1 << letter != 0 && after.motion.end.get(letter).is_none();
+            let lost = !after.found & axes & 1 << letter != 0 && after.motion.end.get(letter).is_none();
             prop_assert!(
                 !lost || after.joints[joint].is_none(),
                 "{} on {}: {} is taken to be known\n{text}{after:#?}",

@@ -181,6 +181,7 @@ impl Iso<'_> {
         });
         let place = match fits {
             _ if waiting.size.is_nan() => Some("of an unknown size"),
+            _ if before.0.zero != next.0.zero => Some("where the zero point changes between both blocks"),
             Some(true)
                 if tolerant
                     && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)

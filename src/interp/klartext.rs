@@ -23,6 +23,7 @@ mod plane;
 mod plane_shift;
 mod positioning;
 mod sentence;
+mod shape;
 mod tool;
 mod trans_datum;
 mod values;

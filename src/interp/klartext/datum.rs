@@ -6,8 +6,7 @@ use super::path_words::PathWords;
 use super::words::{Said, Words};
 use super::{Klartext, values::Value};
 use crate::core::{LINEAR, ROTARY, Report};
-use crate::frames::{Rotation, Scaling};
-use crate::{AxisLetter, Feed, MotionKind, Refusal, Undeclared};
+use crate::{Feed, MotionKind, Refusal, Undeclared};
 use trunnion_syntax::TextRange;
 
 /// A datum shift that is not known.
@@ -16,12 +15,6 @@ pub(crate) const DATUM: u16 = 1;
 pub(crate) const PLANE: u16 = 2;
 /// A cycle between definition and call that changes the system, and that nothing which is followed ends.
 const SHAPE: u16 = 4;
-/// A mirror image and a rotation together: their order is not known.
-const ORDER: u16 = 256;
-/// A rotation that is not known.
-const ROTATION: u16 = 512;
-/// A scaling that is not known.
-const SCALE: u16 = 1024;
 /// Turning: X is a diameter.
 pub(crate) const TURNING: u16 = 8;
 /// A preset that is not known.
@@ -277,93 +270,6 @@ impl Klartext<'_> {
             }
         }
         None
-    }
-
-    /// 8.1 X Y: mirrors the named axes; none: ends.
-    fn mirror(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let mut mirror = [None; 3];
-        for word in words.by_ref() {
-            if let [letter] = word.name()
-                && let Some(AxisLetter(axis @ 0..=2)) = AxisLetter::new(*letter)
-            {
-                mirror[usize::from(axis)] = Some(0.0);
-            }
-        }
-        let mut shape = self.memory.frames.shape;
-        shape.mirror = mirror;
-        self.reshape(shape);
-        if mirror != [None; 3] && shape.rotation.is_some() {
-            Self::not_modelled("cycle 8 together with cycle 10: their order", report);
-            self.lose(ORDER);
-        }
-    }
-
-    /// 10.1 ROT+35, IROT+5.
-    fn rotation(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let Some(word) = words.find(|word| word.is("ROT") || word.is("IROT")) else {
-            return Self::rejected(Refusal::MissingWord, "cycle 10 needs ROT", report);
-        };
-        let added = if word.is("IROT") { self.memory.rotation } else { 0.0 };
-        // what is added to an unknown angle is unknown
-        let from = !word.is("IROT") || self.memory.lost & ROTATION == 0;
-        let Some(angle) = self
-            .said(word.value, report)
-            .filter(|_| from)
-            .map(|angle| angle + added)
-        else {
-            return self.lose(ROTATION);
-        };
-        self.found(ROTATION);
-        let mut shape = self.memory.frames.shape;
-        self.memory.rotation = angle;
-        let plane = self.core.state.coordinates.plane();
-        shape.rotation = (angle != 0.0).then(|| Rotation::new(plane, [0.0, 0.0], angle));
-        self.reshape(shape);
-        if angle != 0.0 && shape.mirror != [None; 3] {
-            Self::not_modelled("cycle 10 together with cycle 8: their order", report);
-            self.lose(ORDER);
-        }
-    }
-
-    /// 11.1 SCL 0.99.
-    fn scaling(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let said = words.find(|word| word.is("SCL")).map(|word| word.value);
-        let factor = said
-            .and_then(|said| self.said(said, report))
-            .filter(|factor| *factor > 0.0);
-        let Some(factor) = factor else {
-            Self::not_modelled("cycle 11 without a factor", report);
-            return self.lose(SCALE);
-        };
-        // whether the axis of the tool is scaled too is a parameter of the machine
-        if factor != 1.0 {
-            Self::not_modelled(
-                "cycle 11: a machine parameter decides whether the tool axis is scaled",
-                report,
-            );
-            return self.lose(SCALE);
-        }
-        self.found(SCALE);
-        let mut shape = self.memory.frames.shape;
-        shape.scaling = None::<Scaling>;
-        self.reshape(shape);
-    }
-
-    fn reshape(&mut self, shape: crate::frames::Shape) {
-        self.found(ORDER);
-        self.memory.frames.shape = shape;
-        let position = self.core.state.position;
-        self.memory.frames.refresh(&position);
-        self.memory.pole = [None; 3];
     }
 
     /// 9.1 DWELL 5: the last number of the line, seconds.

@@ -41,10 +41,7 @@ impl Klartext<'_> {
         if found.incremental != 0 {
             return self.datum_is_unknown("TRANS DATUM AXIS with increments: what they count from", report);
         }
-        let shifted = |axis: &usize| {
-            let unknown = *axis < 3 && self.memory.shift_unknown || self.memory.turned[0] & 1 << *axis != 0;
-            unknown || self.memory.frames.local[*axis] != 0.0
-        };
+        let shifted = |axis: &usize| self.memory.frames.local[*axis] != 0.0 || *axis < 3 && self.memory.shift_unknown;
         let left_out = (0..9)
             .filter(|axis| found.given & 1 << axis == 0)
             .any(|axis| shifted(&axis));

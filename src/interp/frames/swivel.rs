@@ -16,6 +16,14 @@ impl<'d> Iso<'d> {
     pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
         match &self.memory.frames.tilt {
             Some(tilt) if !motion.machine_coordinates && !self.core.state.zero.is_lost() => tilt.motion_to_work(motion),
+            // a turn onto a plane of a system that is not known
+            Some(_) if self.core.state.zero.is_lost() && matches!(motion.orientation, Orientation::Vector(None, _)) => {
+                Motion {
+                    kind: MotionKind::Unknown,
+                    orientation: Orientation::Words,
+                    ..*motion
+                }
+            }
             _ => *motion,
         }
     }

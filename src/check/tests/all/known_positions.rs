@@ -4,6 +4,7 @@
 //! * A program with values that nobody has set, and the same program with these values set: what the first knows is what the second finds.
 //!
 //! `TRUNNION_SILENCE_CASES` sets the number of programs.
+mod found;
 mod language;
 use language::{LANGUAGES, Language, Line, body};
 use proptest::prelude::*;

@@ -32,7 +32,7 @@ pub(crate) struct Language {
     /// Two variables that have no value.
     pub(crate) variables: [&'static str; 2],
     /// The first lines, and how all axes come to a known position: `A` and `C` stand for the rotary axes of the machine.
-    head: &'static str,
+    pub(crate) head: &'static str,
     /// Codes in front of words of axes, with `|` between them; `?` is a value.
     moves: &'static str,
     /// Lines of their own, in the same form.

@@ -102,9 +102,9 @@ fn a_datum_from_a_table_may_shift_rotary_axes() {
         let text = format!("{}CYCL DEF 7.0 D\n{shift}L X+1 Y+1 Z+1 A+5 C+5 F100\n", language.head);
         let followed = super::follow(language, machine, &text, true, None);
         let last = followed.after.last().expect("a motion");
-        assert!(
-            last.joints.iter().all(|joint| joint.is_some() == known),
-            "{text}{last:?}"
-        );
+        for (joint, axis) in last.joints.iter().zip(&machine.axes) {
+            let rotary = b"AC".contains(&axis.letter);
+            assert!(!rotary || joint.is_some() == known, "{text}{last:?}");
+        }
     }
 }

@@ -17,7 +17,9 @@ impl Iso<'_> {
         self.memory.compensation.plane = None;
         // the corner after the last motion is not known
         let mut last = self.memory.compensation.ready.split_off(first);
-        last.iter_mut().for_each(|pending| self.mark_lost(pending));
+        for pending in &mut last {
+            self.mark_lost(pending);
+        }
         self.memory.compensation.ready.append(&mut last);
         let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
         report.fault(report.whole(), FaultKind::NotModelled { what });

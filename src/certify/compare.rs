@@ -357,19 +357,24 @@ pub(super) fn above(value: f64, limit: f64) -> bool {
 
 /// Distance of forward kinematics from the programmed pose at the end of a leg: mm, deg. `None` where no pose is known.
 pub(crate) fn forward_residual(machine: &Machine, at: Place, leg: &Leg) -> Result<Option<(f64, f64)>, Outcome> {
-    let Ok(stance) = &leg.end else { return Ok(None) };
-    let pose = forward(machine, &stance.joints, stance.tool_length);
     let zero = &leg.motion.zero;
+    let line = at.line;
+    let no_zero = || {
+        let text = format!("line {line}: the zero point is unknown, so the position of the machine is unknown");
+        Err(Outcome::unknown(text))
+    };
+    let lost = zero.iter().any(|value| !value.is_finite());
+    let Ok(stance) = &leg.end else {
+        return if lost { no_zero() } else { Ok(None) };
+    };
+    let pose = forward(machine, &stance.joints, stance.tool_length);
     let (mm, degrees) = (
         (pose.tip - Vec3::new(zero[0], zero[1], zero[2]) - stance.tip).norm(),
         deg(angle_between(&pose.axis, &stance.axis)),
     );
     if above(mm, FORWARD_TOLERANCE) || above(degrees, FORWARD_TOLERANCE) {
-        let line = at.line;
-        if zero.iter().any(|value| !value.is_finite()) {
-            return Err(Outcome::unknown(format!(
-                "line {line}: the zero point is unknown, so the position of the machine is unknown"
-            )));
+        if lost {
+            return no_zero();
         }
         return Err(Outcome::unknown(format!(
             "line {line}: forward kinematics misses the pose by {mm:e} mm, {degrees:e} deg"

@@ -5,13 +5,14 @@
 //! motion of the contour ends beside its own end. Source: Fanuc Series 30i operator's manual, details of cutter compensation.
 mod corner;
 mod element;
+mod lost;
 mod nose;
 mod select;
 
 use crate::core::Report;
 use crate::frames::XYZ;
 use crate::iso::Iso;
-use crate::{Beside, FaultKind, ModalState, Motion, MotionKind, Refusal};
+use crate::{FaultKind, ModalState, Motion, MotionKind, Refusal};
 use corner::{Join, Link, Trouble, join};
 use element::{Element, Point};
 use trunnion_dialect::Plane;
@@ -103,7 +104,7 @@ fn link(pending: &PendingMotion, element: &Element, from: Point, link: Link) -> 
 
 impl Iso<'_> {
     /// Takes a motion of the program while compensation is busy.
-    pub(crate) fn compensate(&mut self, pending: PendingMotion, report: &mut Report<'_>) {
+    pub(crate) fn compensate(&mut self, mut pending: PendingMotion, report: &mut Report<'_>) {
         let motion = &pending.0;
         let now = pending.1.compensation;
         let plane = *self
@@ -133,12 +134,15 @@ impl Iso<'_> {
             (Stage::Start, false) => self.start(pending, element, report),
             (Stage::On, false) => self.follow(pending, element, report),
             (_, true) => self.cancel(pending, &element, report),
-            (Stage::Off | Stage::Lost, false) => self.memory.compensation.ready.push(pending),
+            (Stage::Off | Stage::Lost, false) => {
+                self.mark_lost(&mut pending);
+                self.memory.compensation.ready.push(pending);
+            }
         }
     }
 
     /// A motion that does not move in the plane, or whose path is unknown.
-    fn motion_out_of_plane(&mut self, pending: PendingMotion, report: &mut Report<'_>) {
+    fn motion_out_of_plane(&mut self, mut pending: PendingMotion, report: &mut Report<'_>) {
         let motion = &pending.0;
         let still = Element::rests(
             motion,
@@ -153,11 +157,12 @@ impl Iso<'_> {
         }
         if !still {
             self.lose("part of the path is unknown", report);
+            self.mark_lost(&mut pending);
         }
         self.memory.compensation.ready.push(pending);
     }
 
-    fn start(&mut self, pending: PendingMotion, element: Element, report: &mut Report<'_>) {
+    fn start(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         self.memory.compensation.stage = Stage::On;
         if element.is_arc() {
             self.reject(
@@ -165,8 +170,9 @@ impl Iso<'_> {
                 "arc-start-or-cancel",
                 report,
             );
-            self.memory.compensation.ready.push(pending);
             self.lose("it starts with an arc", report);
+            self.mark_lost(&mut pending);
+            self.memory.compensation.ready.push(pending);
             return;
         }
         self.memory.compensation.held = Some(Box::new(Held {
@@ -192,7 +198,7 @@ impl Iso<'_> {
     }
 
     /// The next motion of the contour: the held one can be emitted.
-    fn follow(&mut self, pending: PendingMotion, element: Element, report: &mut Report<'_>) {
+    fn follow(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         let offset = self.side() * self.memory.compensation.radius;
         let Some(held) = self.memory.compensation.held.take() else {
             // after a start-up that was already emitted
@@ -252,6 +258,7 @@ impl Iso<'_> {
                 self.reject(text, alarm, report);
                 self.memory.compensation.held = Some(held);
                 self.lose("it has no path here", report);
+                self.mark_lost(&mut pending);
                 self.memory.compensation.ready.push(pending);
             }
         }
@@ -329,19 +336,6 @@ impl Iso<'_> {
         }
         let ready = moved(&pending, element, from, element.end).filter(|_| !element.is_arc());
         self.memory.compensation.ready.push(ready.unwrap_or(pending));
-    }
-
-    /// Stops compensating until G40: motions are the programmed ones.
-    pub(crate) fn lose(&mut self, why: &str, report: &mut Report<'_>) {
-        if matches!(self.memory.compensation.stage, Stage::Off | Stage::Lost) {
-            return;
-        }
-        self.settle(report);
-        self.memory.compensation.stage = Stage::Lost;
-        self.core.state.beside = Beside::NotModelled;
-        self.memory.compensation.plane = None;
-        let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
-        report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 
     /// Everything pending is emitted: the program ends.

@@ -15,6 +15,8 @@ use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// X, Y, Z, U, V, W in [`crate::AXIS_LETTERS`].
 pub(crate) const LINEAR: u16 = 0b1_1100_0111;
+/// X, Y, Z.
+const XYZ: u16 = 0b111;
 /// A, B, C.
 pub(crate) const ROTARY: u16 = 0b0_0011_1000;
 /// A norm may differ from 1 by this because of six written decimals.
@@ -56,6 +58,8 @@ pub(crate) struct Core<'d> {
     pub(crate) proper_end: bool,
     /// Rotary axes that a word with a direction has carried to a coordinate beyond what it said, bits as in [`Position::known`].
     pub(crate) carried: u16,
+    /// Rotary axes whose zero point is not known, bits as in [`Position::known`].
+    pub(crate) turned: u16,
     /// Axes that are always at 0.
     pub(crate) standing: crate::standing::Standing,
     /// What A and C of a lathe mean.
@@ -121,6 +125,7 @@ impl<'d> Core<'d> {
             feed_mode_unread: false,
             compensation_reported: false,
             carried: 0,
+            turned: 0,
             offsets_reported: Reported::default(),
             last_content: None,
             proper_end: false,
@@ -313,6 +318,8 @@ impl<'d> Core<'d> {
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if self.state.zero.is_lost() {
             self.hide(&mut motion);
+        } else if self.turned != 0 {
+            hide_axes(&mut motion, self.turned);
         }
         motion
     }
@@ -324,19 +331,25 @@ impl<'d> Core<'d> {
         } else {
             LINEAR
         };
-        // such a coordinate moves its axis to an unknown place
-        for axis in (0..9).filter(|axis| hidden & 1 << axis != 0) {
-            let to = motion.end.get(axis);
-            let moves = to.is_some() && to != motion.start.get(axis);
-            motion.says_way |= u16::from(moves) << axis;
-        }
-        motion.start.known &= !hidden;
-        motion.end.known &= !hidden;
+        hide_axes(motion, hidden | self.turned);
+        self.moves_all(motion);
         if let MotionKind::Arc(arc) = &mut motion.kind {
             *arc = None;
         }
-        if let Orientation::Vector(..) = motion.orientation {
+        if let Orientation::Vector(before, vector) = motion.orientation {
             motion.orientation = Orientation::Words;
+            if before != Some(vector) {
+                // it turns the rotary axes to an unknown place
+                motion.kind = MotionKind::Unknown;
+            }
+        }
+    }
+
+    /// In a system that is not known, and may be turned, a word of one linear axis moves all of X, Y and Z.
+    pub(crate) fn moves_all(&self, motion: &mut Motion) {
+        let lost = self.state.zero.is_lost() || self.unknown.any();
+        if lost && !motion.machine_coordinates && motion.says_way & !motion.end.known & LINEAR != 0 {
+            motion.says_way |= XYZ & !motion.end.known;
         }
     }
 
@@ -360,4 +373,16 @@ impl<'d> Core<'d> {
             });
         }
     }
+}
+
+/// Coordinates of some axes say nothing about the machine.
+fn hide_axes(motion: &mut Motion, hidden: u16) {
+    // such a coordinate moves its axis to an unknown place
+    for axis in (0..9).filter(|axis| hidden & 1 << axis != 0) {
+        let to = motion.end.get(axis);
+        let moves = to.is_some() && to != motion.start.get(axis);
+        motion.says_way |= u16::from(moves) << axis;
+    }
+    motion.start.known &= !hidden;
+    motion.end.known &= !hidden;
 }

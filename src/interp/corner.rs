@@ -1,19 +1,15 @@
 //! `,R` and `,C`, RND, CHR and CHF: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering
 //! and corner R; Sinumerik: chamfer and rounding).
+mod words;
 use crate::arc::plane_axes;
-use crate::codes::BlockCodes;
 use crate::compensation::PendingMotion;
 use crate::core::Report;
 use crate::iso::Iso;
-use crate::reader::Reader;
-use crate::values::number;
-use crate::words::{Number, WordValue, Words};
 use crate::{Argument, Effect, FaultKind, Feed, Motion, MotionKind, Position, Refusal};
-use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::{atan2, cos, tan};
-use trunnion_syntax::{Address, TextRange, Value, Word};
+use trunnion_syntax::{Address, Word};
 
 /// A corner that needs the motion after it.
 #[derive(Clone, Debug)]
@@ -21,7 +17,7 @@ struct Waiting {
     pending: PendingMotion,
     /// `R`, `C`, or `F`: a chamfer by the length of its face (CHF).
     letter: u8,
-    /// mm.
+    /// mm; no number where it is not known.
     size: f64,
     /// FRC or FRCM of its block: the feed of the corner alone, in the unit of F.
     feed: Option<f64>,
@@ -40,6 +36,11 @@ pub(crate) struct Corners {
 }
 
 impl Corners {
+    /// The motion that waits for the one after it.
+    pub(crate) fn pending(&mut self) -> Option<&mut PendingMotion> {
+        self.waiting.as_mut().map(|waiting| &mut waiting.pending)
+    }
+
     pub(crate) fn is_busy(&self) -> bool {
         self.word.is_some() || self.waiting.is_some()
     }
@@ -96,47 +97,7 @@ fn is_vertical(motion: &Motion, axes: [usize; 3]) -> bool {
         && way[axes[2]].abs() > 1e-9
 }
 
-impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
-    /// `,R5.` and `,C2.`, where the control has them.
-    pub(crate) fn corner(&mut self, name: &[u8], word: &Word) -> bool {
-        let letter = match name {
-            [b',', letter @ (b'R' | b'C' | b'r' | b'c')] => letter.to_ascii_uppercase(),
-            _ => return false,
-        };
-        let (true, Value::Number(decimal)) = (self.dialect.quirks.corner_words, word.value) else {
-            return false;
-        };
-        let WordValue::Number(number) = number(decimal, word.range) else {
-            return false;
-        };
-        self.words.has_values = true;
-        self.words.corner = Some((letter, number));
-        true
-    }
-}
-
 impl Iso<'_> {
-    /// R, I or K with a straight cut of a lathe along one axis: a rounded or chamfered corner (Fanuc Series 30i operator's manual, lathe
-    /// system, chamfering and corner R; with parameter 3405.4 CCR, C instead of I and K). The sign gives the direction of the next block, which
-    /// is known from that block.
-    pub(crate) fn turned_corner(&self, words: &Words) -> Option<(u8, Number)> {
-        let quirks = &self.core.dialect.quirks;
-        if !(quirks.diameter && quirks.corner_words) || self.core.state.motion != Some(Action::Linear) {
-            return None;
-        }
-        let sized = |kind: u8, value: f64| {
-            let number = Number {
-                value: value.abs(),
-                has_point: true,
-                range: TextRange::default(),
-            };
-            (kind, number)
-        };
-        let round = words.radius.number().map(|number| sized(b'R', number.value));
-        let cut = || words.centre.get(0).or(words.centre.get(2));
-        round.or_else(|| cut().map(|value| sized(b'C', value)))
-    }
-
     /// Takes a motion of the block; what can be emitted is pushed to `on`.
     pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<PendingMotion>, report: &mut Report<'_>) {
         let mut pending = (*motion, self.core.state.clone());
@@ -175,23 +136,6 @@ impl Iso<'_> {
         }
     }
 
-    /// CHF, CHR, RND of the block, or RNDM.
-    pub(crate) fn corner_word(&mut self, words: &Words, block: &BlockCodes) {
-        let rounding = self.memory.own.contour.rounding;
-        self.memory.corners.feed = self.memory.own.contour.corner_feed;
-        if rounding == 0.0 && !self.memory.own.path.any() || block.takes_coordinates {
-            return;
-        }
-        let unit = self.core.state.coordinates.unit_mm();
-        let own = self.memory.own.path.corner();
-        let modal = (rounding != 0.0 && words.axes.any()).then_some((b'R', rounding));
-        let word = own.map(|(letter, size)| (letter, size * unit)).or(modal);
-        self.memory.corners.word = word.filter(|(_, size)| *size != 0.0 && !words.forgets_all);
-        if let Some(feed) = self.memory.own.path.corner_feed() {
-            self.memory.corners.feed = Some(feed);
-        }
-    }
-
     fn no_corner(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
         let kind = FaultKind::Rejected {
             refusal: Refusal::Other,
@@ -210,7 +154,9 @@ impl Iso<'_> {
     ) {
         let mut before = waiting.pending;
         let axes = plane_axes(before.1.coordinates.plane());
-        let known = is_known(&before.0, axes) && is_known(&next.0, axes);
+        let nowhere =
+            [&before, &*next].map(|pending| matches!(pending.0.kind, MotionKind::Unknown | MotionKind::Arc(None)));
+        let known = is_known(&before.0, axes) && is_known(&next.0, axes) && nowhere == [false; 2];
         let tolerant = self.core.dialect.quirks.declares_names();
         if tolerant && known && (is_vertical(&before.0, axes) || is_vertical(&next.0, axes)) {
             // no corner is made where a motion leaves the plane (Programming Manual, Fundamentals, chamfer and rounding)
@@ -234,6 +180,8 @@ impl Iso<'_> {
             cut.by >= 0.0 && cut.by <= first.norm() + 1e-9 && cut.by <= second.norm() + 1e-9
         });
         let place = match fits {
+            _ if waiting.size.is_nan() => Some("of an unknown size"),
+            _ if before.0.zero != next.0.zero => Some("where the zero point changes between both blocks"),
             Some(true)
                 if tolerant
                     && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
@@ -263,6 +211,7 @@ impl Iso<'_> {
             }
             for axis in &axes[..2] {
                 before.0.end.forget(*axis);
+                before.0.says_way |= 1 << *axis;
                 next.0.start.forget(*axis);
             }
         } else if let (Some(cut), Some(true)) = (&cut, fits) {

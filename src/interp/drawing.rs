@@ -6,7 +6,7 @@
 use crate::Setup;
 use crate::codes::Found;
 use crate::core::Core;
-use crate::words::{Number, Words};
+use crate::words::{Number, Places, Words};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_syntax::{Address, Block, Program, TextRange, Value};
 
@@ -88,30 +88,43 @@ impl Core<'_> {
     /// Takes A and C of a straight cut out of the axes. `words` in units of the program, X as a radius.
     pub(crate) fn drawing_words(&self, codes: &[Found<'_>], words: &mut Words) {
         let Drawing { angle, chamfer, .. } = self.drawing;
-        let named = words.axes.given & ((1 << A) | (1 << C));
+        let Places { given, unread, .. } = words.axes;
+        let named = (given | unread) & ((1 << A) | (1 << C));
         if named == 0 || !(angle || chamfer) || !self.cuts_straight(codes) {
             return;
         }
-        let across = words.axes.given & (1 << X) != 0;
-        let along = words.axes.given & (1 << Z) != 0;
-        if across == along || words.axes.unread != 0 {
+        let across = (given | unread) & (1 << X) != 0;
+        let along = (given | unread) & (1 << Z) != 0;
+        if across == along {
             return;
         }
+        // the value of a word where it is known
+        let value = |axis: usize| {
+            if unread & (1 << axis) == 0 {
+                words.axes.values[axis]
+            } else {
+                f64::NAN
+            }
+        };
+        let [angle_deg, chamfer_size] = [A, C].map(value);
         if chamfer && named & (1 << C) != 0 {
             let number = Number {
-                value: words.axes.values[C].abs(),
+                value: chamfer_size.abs(),
                 has_point: true,
                 range: TextRange::default(),
             };
             words.corner = Some((b'C', number));
             words.axes.given &= !(1 << C);
+            words.axes.unread &= !(1 << C);
         }
         if angle && named & (1 << A) != 0 {
             words.axes.given &= !(1 << A);
-            let slope = trunnion_geometry::math::tan(trunnion_geometry::rad(words.axes.values[A]));
+            words.axes.unread &= !(1 << A);
+            let slope = trunnion_geometry::math::tan(trunnion_geometry::rad(angle_deg));
             let (from, to) = if across { (X, Z) } else { (Z, X) };
             let value = self
                 .way_of(words, from)
+                .filter(|_| unread & (1 << from) == 0)
                 .map(|way| if across { way / slope } else { way * slope });
             match value.filter(|way| way.is_finite() && way.abs() < 1e6) {
                 Some(way) => {

@@ -23,6 +23,7 @@ mod plane;
 mod plane_shift;
 mod positioning;
 mod sentence;
+mod shape;
 mod tool;
 mod trans_datum;
 mod values;
@@ -54,13 +55,15 @@ pub(crate) struct Memory {
     /// Angle of cycle 10, deg.
     rotation: f64,
     /// Reasons why coordinates say nothing: bits of [`datum`].
-    lost: u8,
+    lost: u16,
     /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
     level_shift: bool,
     /// X Y Z that cycle 7 has given since then.
     shifted: u16,
     /// The shift of some axis is not known, until each of X, Y, Z is given anew.
     shift_unknown: bool,
+    /// Rotary axes whose zero is unknown: by a shift, by a preset.
+    turned: [u16; 2],
     /// CC: coordinates of the pole, and whether there was one.
     pole: [Option<f64>; 3],
     has_pole: bool,

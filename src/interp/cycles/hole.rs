@@ -97,8 +97,9 @@ impl Iso<'_> {
                 ..Words::default()
             };
             self.place(&others, &mut place);
-            if place != before || place.known & places.given != places.given {
+            if place != before || places.unread != 0 || place.known & places.given != places.given {
                 self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+                self.has_moved(places.given | places.unread);
             }
             self.hole(&plan, report);
         }
@@ -214,6 +215,7 @@ impl Iso<'_> {
                 _ => plan.feed,
             };
             self.goes(kind, place, feed, report);
+            self.has_moved(1 << plan.axis);
         }
     }
 

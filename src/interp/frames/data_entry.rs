@@ -80,7 +80,7 @@ impl<'d> Iso<'d> {
                 self.memory.frames.entering_data = true;
                 self.unclear_entry(found, words, block, report);
             }
-            (Some(2), Some(number)) => {
+            (Some(2), Some(number)) if number > 6 => {
                 let alarm = self
                     .core
                     .dialect

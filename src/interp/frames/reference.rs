@@ -60,6 +60,7 @@ impl Iso<'_> {
                         self.rapid_to(point, report);
                     } else {
                         self.goes(MotionKind::Rapid, point, Feed::Rapid, report);
+                        self.has_moved(named);
                     }
                     self.memory.frames.intermediate = Some(self.core.state.position);
                 } else if self.core.dialect.quirks.return_moves_all {
@@ -223,5 +224,13 @@ impl Iso<'_> {
             .core
             .motion_in_frame(kind, [start, end], self.core.held_orientation(), feed, report);
         self.memory.out.push(motion);
+    }
+
+    /// The motion that was made last moves these axes, also where its end is not known.
+    pub(crate) fn has_moved(&mut self, axes: u16) {
+        if let Some(motion) = self.memory.out.last_mut() {
+            motion.says_way |= axes & !motion.end.known;
+            self.core.moves_all(motion);
+        }
     }
 }

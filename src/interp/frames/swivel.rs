@@ -16,6 +16,14 @@ impl<'d> Iso<'d> {
     pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
         match &self.memory.frames.tilt {
             Some(tilt) if !motion.machine_coordinates && !self.core.state.zero.is_lost() => tilt.motion_to_work(motion),
+            // a turn onto a plane of a system that is not known
+            Some(_) if self.core.state.zero.is_lost() && matches!(motion.orientation, Orientation::Vector(None, _)) => {
+                Motion {
+                    kind: MotionKind::Unknown,
+                    orientation: Orientation::Words,
+                    ..*motion
+                }
+            }
             _ => *motion,
         }
     }
@@ -27,6 +35,7 @@ impl<'d> Iso<'d> {
             let what = "a tilted plane starts or ends under cutter compensation".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             self.core.forget_position();
+            self.forget_pending(report);
         }
         let mut position = self.core.state.position;
         if let Some(old) = self.memory.frames.tilt {
@@ -186,12 +195,14 @@ impl<'d> Iso<'d> {
         let plain = !words.axes.any();
         let Some(posture) = posture.filter(|_| plain) else {
             self.unmodelled_code(found, words, block, report);
+            self.turns_to_nowhere(report);
             return;
         };
         // G254 is no plane onto which the tool turns
         let turned_table = self.memory.frames.dynamic.is_some();
         if self.memory.frames.tilt.is_none() || self.core.state.tool_axis.tcp() || turned_table {
             self.unmodelled_code(found, words, block, report);
+            self.turns_to_nowhere(report);
             return;
         }
         block.takes_coordinates = true;
@@ -219,11 +230,16 @@ impl<'d> Iso<'d> {
         if moves {
             let what = "CYCLE800: the path on which it retracts and turns back when it ends".to_owned();
             report.fault(found.range, FaultKind::NotModelled { what });
-            let mut motion = self.unknown_motion(&Words::default(), report);
-            self.core.forget_position();
-            motion.end = self.core.state.position;
-            self.memory.out.push(motion);
+            self.turns_to_nowhere(report);
         }
+    }
+
+    /// The axes turn, and where they end is not known.
+    fn turns_to_nowhere(&mut self, report: &mut Report<'_>) {
+        let mut motion = self.unknown_motion(&Words::default(), report);
+        self.core.forget_position();
+        motion.end = self.core.state.position;
+        self.memory.out.push(motion);
     }
 
     /// A swivelled plane ends inside which the program has set a frame: whether the frame stays is not taken from a source.

@@ -90,15 +90,15 @@ impl Tilted {
             motion.tilt.normal = Some(self.normal());
             self.leave_free(&mut motion, in_plane);
         } else {
-            // a coordinate that changes moves its axis, wherever that goes
-            let changes = |axis: &usize| {
-                in_plane
-                    .end
-                    .get(*axis)
-                    .is_some_and(|to| in_plane.start.get(*axis) != Some(to))
+            // a coordinate of the plane that changes, or whose end is not known, moves the axes along it, wherever they go
+            let changes = |axis: &usize| match in_plane.end.get(*axis) {
+                Some(to) => in_plane.start.get(*axis) != Some(to),
+                None => in_plane.says_way & 1 << *axis != 0,
             };
-            let changed = (0..3).filter(changes).fold(0, |all, axis| all | 1 << axis);
-            motion.says_way |= changed & !motion.end.known;
+            for axis in (0..3).filter(changes) {
+                let along = (0..3).filter(|own| self.turn[(*own, axis)] != 0.0);
+                motion.says_way |= along.fold(0, |all, own| all | 1 << own) & !motion.end.known;
+            }
         }
         motion
     }

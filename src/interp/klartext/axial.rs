@@ -8,7 +8,7 @@ use super::Klartext;
 use super::positioning::Positioning;
 use super::values::Value;
 use super::words::{Kind, Parameter};
-use crate::core::{ROTARY, Report};
+use crate::core::Report;
 use crate::frames::Tilted;
 use crate::{AXIS_LETTERS, Refusal, RotaryTurn};
 use trunnion_geometry::{Mat3, Vec3};
@@ -47,10 +47,7 @@ impl Klartext<'_> {
                 Self::not_modelled(format!("PLANE AXIAL: {why}"), report);
                 self.memory.angles_wait = None;
                 self.unknown_plane(report);
-                if positioning.swivel.is_some() {
-                    self.core.state.position.known &= !ROTARY;
-                    self.unknown_motion(report);
-                }
+                self.unknown_turn(positioning, report);
             }
         }
     }

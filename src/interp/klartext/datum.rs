@@ -5,29 +5,30 @@
 use super::path_words::PathWords;
 use super::words::{Said, Words};
 use super::{Klartext, values::Value};
-use crate::core::{LINEAR, Report};
-use crate::frames::{Rotation, Scaling};
-use crate::{AxisLetter, Feed, MotionKind, Refusal, Undeclared};
+use crate::core::{LINEAR, ROTARY, Report};
+use crate::{Feed, MotionKind, Refusal, Undeclared};
 use trunnion_syntax::TextRange;
 
 /// A datum shift that is not known.
-pub(crate) const DATUM: u8 = 1;
+pub(crate) const DATUM: u16 = 1;
 /// A working plane that is not known.
-pub(crate) const PLANE: u8 = 2;
-/// Mirror, rotation, scaling that are not known.
-pub(crate) const SHAPE: u8 = 4;
+pub(crate) const PLANE: u16 = 2;
+/// A cycle between definition and call that changes the system, and that nothing which is followed ends.
+const SHAPE: u16 = 4;
 /// Turning: X is a diameter.
-pub(crate) const TURNING: u8 = 8;
+pub(crate) const TURNING: u16 = 8;
 /// A preset that is not known.
-pub(crate) const PRESET: u8 = 64;
+pub(crate) const PRESET: u16 = 64;
+/// A length of the tool that is not known.
+pub(crate) const LENGTH: u16 = 128;
 /// A shift that belongs to a plane, or to the system outside of it: which one is not known.
-pub(crate) const INSIDE: u8 = 32;
+pub(crate) const INSIDE: u16 = 32;
 /// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.
-pub(crate) const OTHER: u8 = 16;
+pub(crate) const OTHER: u16 = 16;
 
 impl Klartext<'_> {
     /// Coordinates say nothing from here on, for a reason.
-    pub(crate) fn lose(&mut self, reason: u8) {
+    pub(crate) fn lose(&mut self, reason: u16) {
         self.memory.lost |= reason;
         self.memory.shifted = 0;
         self.memory.shift_unknown |= reason & DATUM != 0;
@@ -35,8 +36,22 @@ impl Klartext<'_> {
         self.core.state.zero.lose(true);
     }
 
+    /// A datum is unknown in all axes.
+    pub(super) fn lose_datum(&mut self) {
+        self.turned(0, ROTARY);
+        self.lose(DATUM);
+    }
+
+    /// Rotary axes whose zero is unknown by a shift (0) or by a preset (1).
+    fn turned(&mut self, by: usize, axes: u16) {
+        self.memory.turned[by] = axes;
+        let [shift, preset] = self.memory.turned;
+        self.core.state.position.known &= !(self.core.turned ^ (shift | preset));
+        self.core.turned = shift | preset;
+    }
+
     /// The reason has ended.
-    pub(crate) fn found(&mut self, reason: u8) {
+    pub(crate) fn found(&mut self, reason: u16) {
         if self.memory.lost & reason != 0 {
             self.memory.lost &= !reason;
             self.core.forget_linear();
@@ -117,11 +132,11 @@ impl Klartext<'_> {
         }
         if words.takes(b'#') {
             Self::not_modelled("cycle 7: a datum from a table", report);
-            return self.lose(DATUM);
+            return self.lose_datum();
         }
         let found = self.axes_of(words, report);
         if found.no_number {
-            return self.lose(DATUM);
+            return self.lose_datum();
         }
         if found.given == 0 {
             return;
@@ -133,7 +148,7 @@ impl Klartext<'_> {
     pub(super) fn shift_datum(&mut self, name: &str, found: &PathWords, report: &mut Report<'_>) {
         let unit = self.core.state.coordinates.unit_mm();
         let mut local = self.memory.frames.local;
-        let mut unknown = false;
+        let mut unknown = 0;
         for (axis, shift) in local.iter_mut().enumerate() {
             let bit = 1 << axis;
             if found.given & bit == 0 {
@@ -143,19 +158,24 @@ impl Klartext<'_> {
             match found.values[axis] {
                 Some(value) if found.incremental & bit != 0 => *shift += value * scale,
                 Some(value) => *shift = value * scale,
-                None => unknown = true,
+                None => unknown |= bit,
             }
         }
         // where several shifts are possible the same value again is not the same shift
         let shifts = found.given & 7 != 0;
         let zero = local[..3] == [0.0; 3];
-        if unknown {
-            // the value was reported
+        let turned = self.memory.turned[0] & !(found.given & !found.incremental) | unknown & ROTARY;
+        self.turned(0, turned);
+        if unknown != 0 {
+            // the value was reported; the zero of a rotary axis with a value is known
+            self.memory.frames.local[3..6].copy_from_slice(&local[3..6]);
+            self.refresh_zero();
             return self.lose(DATUM);
         }
         if shifts && !zero && !self.memory.frames.shape.is_identity() {
             self.not_modelled_once(&format!("{name} in a turned, mirrored or scaled system"), report);
             self.memory.frames.local = local;
+            self.refresh_zero();
             let unknown = self.memory.shift_unknown;
             self.lose(DATUM);
             // the shift itself is known: taking it back ends it
@@ -167,6 +187,7 @@ impl Klartext<'_> {
             let what = "in a tilted plane, with a shift from before the plane: which of both it replaces";
             self.not_modelled_once(&format!("{name} {what}"), report);
             self.memory.frames.local = local;
+            self.refresh_zero();
             return self.lose(INSIDE);
         }
         self.memory.frames.local = local;
@@ -215,9 +236,11 @@ impl Klartext<'_> {
             .filter(|number| number.fract() == 0.0 && *number >= 0.0)
         else {
             Self::not_modelled("cycle 247: which preset", report);
+            self.turned(1, ROTARY);
             return self.lose(PRESET);
         };
         self.found(PRESET);
+        self.turned(1, 0);
         let name = format!("preset {number}");
         let declared = self.core.setup.work_offset(&name).map(|offset| offset.values);
         if declared.is_none() && self.core.offsets_reported.first(&name) {
@@ -247,85 +270,6 @@ impl Klartext<'_> {
             }
         }
         None
-    }
-
-    /// 8.1 X Y: mirrors the named axes; none: ends.
-    fn mirror(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let mut mirror = [None; 3];
-        for word in words.by_ref() {
-            if let [letter] = word.name()
-                && let Some(AxisLetter(axis @ 0..=2)) = AxisLetter::new(*letter)
-            {
-                mirror[usize::from(axis)] = Some(0.0);
-            }
-        }
-        let mut shape = self.memory.frames.shape;
-        shape.mirror = mirror;
-        if mirror != [None; 3] && shape.rotation.is_some() {
-            Self::not_modelled("cycle 8 together with cycle 10: their order", report);
-            return self.lose(SHAPE);
-        }
-        self.reshape(shape);
-    }
-
-    /// 10.1 ROT+35, IROT+5.
-    fn rotation(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let Some(word) = words.find(|word| word.is("ROT") || word.is("IROT")) else {
-            return Self::rejected(Refusal::MissingWord, "cycle 10 needs ROT", report);
-        };
-        let added = if word.is("IROT") { self.memory.rotation } else { 0.0 };
-        let Some(angle) = self.said(word.value, report).map(|angle| angle + added) else {
-            return self.lose(SHAPE);
-        };
-        let mut shape = self.memory.frames.shape;
-        if angle != 0.0 && shape.mirror != [None; 3] {
-            Self::not_modelled("cycle 10 together with cycle 8: their order", report);
-            return self.lose(SHAPE);
-        }
-        self.memory.rotation = angle;
-        let plane = self.core.state.coordinates.plane();
-        shape.rotation = (angle != 0.0).then(|| Rotation::new(plane, [0.0, 0.0], angle));
-        self.reshape(shape);
-    }
-
-    /// 11.1 SCL 0.99.
-    fn scaling(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let said = words.find(|word| word.is("SCL")).map(|word| word.value);
-        let factor = said
-            .and_then(|said| self.said(said, report))
-            .filter(|factor| *factor > 0.0);
-        let Some(factor) = factor else {
-            Self::not_modelled("cycle 11 without a factor", report);
-            return self.lose(SHAPE);
-        };
-        // whether the axis of the tool is scaled too is a parameter of the machine
-        if factor != 1.0 {
-            Self::not_modelled(
-                "cycle 11: a machine parameter decides whether the tool axis is scaled",
-                report,
-            );
-            return self.lose(SHAPE);
-        }
-        let mut shape = self.memory.frames.shape;
-        shape.scaling = None::<Scaling>;
-        self.reshape(shape);
-    }
-
-    fn reshape(&mut self, shape: crate::frames::Shape) {
-        self.found(SHAPE);
-        self.memory.frames.shape = shape;
-        let position = self.core.state.position;
-        self.memory.frames.refresh(&position);
-        self.memory.pole = [None; 3];
     }
 
     /// 9.1 DWELL 5: the last number of the line, seconds.

@@ -54,6 +54,7 @@ impl Klartext<'_> {
         let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         motion.in_machine_coordinates(words.given);
         motion.says_way = words.incremental | unread(words) | ways.shortest;
+        motion.says_way |= words.given & !motion.end.known;
         motion.ways = ways;
         self.memory.heading = None;
         self.out.push(motion);
@@ -71,6 +72,7 @@ impl Klartext<'_> {
         if self.core.state.tool_axis.tcp() || self.core.state.zero.is_lost() || self.memory.frames.tilt.is_some() {
             position.known &= !LINEAR;
         }
+        position.known &= !self.core.turned;
     }
 
     /// M140 MB: back along the tool axis.

@@ -197,6 +197,7 @@ impl Klartext<'_> {
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way |= words.incremental | unread(words) | ways.shortest;
         motion.says_way |= words.given & !motion.end.known;
+        self.core.moves_all(&mut motion);
         motion.ways = ways;
         self.emit(&motion, report);
     }
@@ -344,6 +345,12 @@ pub(super) fn unread(words: &PathWords) -> u16 {
 #[inline]
 fn in_work(motion: &Motion, tilt: Option<&Tilted>, is_lost: bool) -> Motion {
     match tilt {
+        Some(_) if is_lost && matches!(motion.orientation, Orientation::Vector(None, _)) => Motion {
+            // a turn onto a plane of a system that is not known
+            kind: MotionKind::Unknown,
+            orientation: Orientation::Words,
+            ..*motion
+        },
         Some(tilt) if !motion.machine_coordinates && !is_lost => tilt.motion_to_work(motion),
         _ => *motion,
     }

@@ -52,7 +52,8 @@ impl Klartext<'_> {
         let Some(turn) = turn else {
             Self::not_modelled(format!("PLANE {name}: its values, or the form itself"), report);
             self.memory.angles_wait = None;
-            return self.unknown_plane(report);
+            self.unknown_plane(report);
+            return self.unknown_turn(positioning, report);
         };
         self.set_plane(turn, Some(positioning), report);
         if positioning.turns_table && positioning.swivel.is_some() && turn[(2, 2)] == 1.0 {
@@ -84,6 +85,14 @@ impl Klartext<'_> {
     pub(super) fn unknown_plane(&mut self, report: &mut Report<'_>) {
         self.tilt_to(None, report);
         self.lose(PLANE);
+    }
+
+    /// MOVE and TURN onto a plane that is not known turn the rotary axes to positions that are not known.
+    pub(super) fn unknown_turn(&mut self, positioning: Positioning, report: &mut Report<'_>) {
+        if positioning.swivel.is_some() {
+            self.core.state.position.known &= !ROTARY;
+            self.unknown_motion(report);
+        }
     }
 
     fn reset_plane(&mut self, positioning: Positioning, report: &mut Report<'_>) {
@@ -140,7 +149,11 @@ impl Klartext<'_> {
         self.found(PLANE);
         if !self.memory.frames.shape.is_identity() {
             Self::not_modelled("a tilted plane in a turned, mirrored or scaled system", report);
-            return self.lose(PLANE);
+            self.lose(PLANE);
+            if let Some(positioning) = positioning {
+                self.unknown_turn(positioning, report);
+            }
+            return;
         }
         // zero angles are a plane too: they do not reset, and the plane follows the part on an axis that stays turned
         self.tilt_to(Some(Tilted::turned(turn)), report);

@@ -1,5 +1,6 @@
 //! TOOL CALL and TOOL DEF.
 use super::Klartext;
+use super::datum::LENGTH;
 use super::words::{Said, Words};
 use crate::core::Report;
 use crate::tools::Chosen;
@@ -195,6 +196,7 @@ impl Klartext<'_> {
         self.core.merge_tool();
         self.memory.tool_length = None;
         if number == Some(0) {
+            self.found(LENGTH);
             self.core.state.length.set(None, LengthOf::Nothing);
             return;
         }
@@ -215,6 +217,10 @@ impl Klartext<'_> {
             (Some(known), Some(delta)) => length.set_declared(Some(known + delta), of),
             (None, Some(delta)) => length.set_undeclared(delta, of),
             (_, None) => length.set_declared(None, of),
+        }
+        match delta {
+            Some(_) => self.found(LENGTH),
+            None => self.lose(LENGTH),
         }
     }
 

@@ -3,7 +3,6 @@
 //!
 //! Whether an axis that AXIS leaves out keeps its shift, and what an increment counts from, is not taken from a source.
 use super::Klartext;
-use super::datum::DATUM;
 use super::path_words::PathWords;
 use super::words::Words;
 use crate::Refusal;
@@ -32,12 +31,12 @@ impl Klartext<'_> {
     fn trans_datum_axis(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let mut found = self.path_words(words, report);
         if found.no_number {
-            return self.lose(DATUM);
+            return self.lose_datum();
         }
         if !found.moves() {
             let message = "TRANS DATUM AXIS needs the shift of an axis";
             Self::rejected(Refusal::MissingWord, message, report);
-            return self.lose(DATUM);
+            return self.lose_datum();
         }
         if found.incremental != 0 {
             return self.datum_is_unknown("TRANS DATUM AXIS with increments: what they count from", report);
@@ -61,6 +60,6 @@ impl Klartext<'_> {
     fn datum_is_unknown(&mut self, what: &str, report: &mut Report<'_>) {
         self.memory.unfollowed = true;
         Self::not_modelled(what, report);
-        self.lose(DATUM);
+        self.lose_datum();
     }
 }

@@ -247,7 +247,7 @@ impl<'m> Follower<'m> {
             *open = self.aim(motion, &(axis / length), start, into)?;
         }
         let known = into.1 | self.solved();
-        let tip = self.tip(motion, start);
+        let tip = self.tip(motion, start).filter(|tip| tip.sum().is_finite());
         let Some(tip) = tip.filter(|_| known == self.words.all()) else {
             return Err(self.unknown_tip(motion, tip.is_some(), known));
         };
@@ -309,12 +309,16 @@ impl<'m> Follower<'m> {
         let stays = motion.tilt.free == XYZ && self.knows_turns(motion);
         let swivels = motion.tilt.swivel == Swivel::AxesStay || stays;
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
+        // words that lead to no known position, or to one from an offset that is not known
         let moved = motion.says_way & !motion.end.known;
+        let placed = motion.end.known & if has_tip_words(motion) { !XYZ } else { !0 };
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
             let bit = 1 << joint;
-            let is_lost = !swivels
-                && (self.words.names(moved, joint)
-                    || self.words.names(lost, joint) && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
+            let is_lost = self.words.names(moved, joint)
+                || !swivels
+                    && (self.words.names(placed, joint)
+                        || self.words.names(lost, joint)
+                            && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
             let solved = has_tip_words(motion) && self.solved() & bit != 0;
             if into.1 & bit == 0 && known & bit != 0 && !is_lost && !solved {
                 *value = self.state.known_joints.0[joint];

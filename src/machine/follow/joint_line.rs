@@ -1,6 +1,7 @@
 //! The short path for the most frequent motion: a line in words of the joints, from one known stance to the next.
 use crate::follow::choice::cheapest_in_posture;
 use crate::follow::line_cache::LineCache;
+use crate::follow::words::Words;
 use crate::kinematics::pole;
 use crate::path::length::way;
 use crate::{Follower, Leg, Sine};
@@ -69,6 +70,7 @@ impl Follower<'_> {
             && tilt.normal.is_none()
             && tilt.swivel == Swivel::No
             && tilt.posture == Posture::ByRule
+            && Words::has_offsets(motion)
             && self.goes_on(motion)
     }
 

@@ -95,6 +95,12 @@ impl Words {
         position.known & self.letters == self.letters
     }
 
+    /// Whether the work offset and the tool length of a motion are numbers.
+    #[inline]
+    pub(crate) fn has_offsets(motion: &Motion) -> bool {
+        motion.zero.iter().sum::<f64>().is_finite() && motion.tool_length_mm.is_finite()
+    }
+
     /// Bit mask of all joints.
     pub(crate) fn all(&self) -> u16 {
         ((1_u32 << self.count) - 1) as u16
@@ -155,7 +161,8 @@ impl Words {
             let word = position.values[letter] * scale;
             let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
             *slot = word + zero + self.per_length[joint] * length;
-            known |= 1 << joint;
+            // an offset or a length of no known value is not a number
+            known |= u16::from(slot.is_finite()) << joint;
         }
         (joints, known)
     }

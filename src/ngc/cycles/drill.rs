@@ -35,10 +35,11 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
             .replacen("{}", axes.plane, 1);
         return Err(Error::with(&problems::R_BELOW, work.block.range_of(b'R'), text));
     }
-    let clear = if work.engine.state.retract == RetractMode::OldZ && old > r {
-        old
-    } else {
-        r
+    let clear = match work.engine.state.retract {
+        // of a level that is not known the higher one is not known
+        RetractMode::OldZ if old.is_nan() || r.is_nan() => f64::NAN,
+        RetractMode::OldZ if old > r => old,
+        _ => r,
     };
     let mut hole = Hole {
         places: axes.places,
@@ -53,6 +54,8 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
         level = r;
     } else if level <= r {
         level = clear;
+    } else if r.is_nan() {
+        level = f64::NAN;
     }
     let exact = work.engine.state.motion_mode == MotionMode::ExactPath;
     if !exact {

@@ -193,7 +193,7 @@ fn after_an_unknown_record_nothing_is_known() {
         let source = format!("FEDRAT/1\nGOTO/1,2,3\n{record}\nGODLTA/1,1,1\nGOTO/4,5,6,0,0,1\n");
         assert_eq!(
             lines("apt", &source),
-            ["L X1 Y2 Z3 F1 tcp <0 0 1>", "U - tcp", "L - F1 tcp"],
+            ["L X1 Y2 Z3 F1 tcp <0 0 1>", "U - tcp", "U - F1 tcp"],
             "{record}"
         );
         // the record, what it may be, and the GODLTA after it

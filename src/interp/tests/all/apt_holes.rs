@@ -167,7 +167,7 @@ fn a_system_turns_points_and_the_tool() {
     }
     // what the shift is, no source says
     let shifted = "FEDRAT/9\nCSYS/-1,0,0,144,0,-1,0,745,0,0,1,0\nGOTO/100,300,5\n";
-    assert_eq!(lines("apt", shifted), ["L - F9 tcp"]);
+    assert_eq!(lines("apt", shifted), ["U - F9 tcp"]);
     assert!(faults("apt", shifted)[0].contains("CSYS with a shift"));
     // under TRNTYP/WORLD the records are in the part, and the system only turns a tool without a vector
     let world = "TRNTYP/WORLD,0,0,0\nCSYS/0,0,1.,0,1.,0,0,7,0,1.,0,0\n";

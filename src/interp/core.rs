@@ -115,7 +115,7 @@ impl<'d> Core<'d> {
             state,
             chain: ChainId::MAIN,
             called_at: None,
-            tools: Tools::default(),
+            tools: Tools::new(setup),
             unknown: Unknown::default(),
             effects: Effects::default(),
             losses: 0,
@@ -186,9 +186,7 @@ impl<'d> Core<'d> {
 
     /// To be called whenever the tool in use or what is declared about it changes.
     pub(crate) fn merge_tool(&mut self) {
-        self.state
-            .tool
-            .declare(self.tools.data(self.state.tool.number(), &self.setup));
+        self.state.tool.declare(self.tools.data(self.state.tool.number()));
     }
 
     /// The program's own declarations of tools apply to the whole program, wherever they are.

@@ -161,11 +161,7 @@ impl<'d> Iso<'d> {
                     return self.set_length(Some(length), of);
                 }
                 wear = self.tool_offset(number).map_or(0.0, |offset| offset.length_wear);
-                (
-                    self.core.tools.data(Some(number), &self.core.setup),
-                    format!("H{number}"),
-                    of,
-                )
+                (self.core.tools.data(Some(number)), format!("H{number}"), of)
             }
             _ => (None, "H".to_owned(), LengthOf::Other),
         };
@@ -208,12 +204,7 @@ impl<'d> Iso<'d> {
     /// The length of an offset number where the program has written any part of it.
     fn written_length(&self, number: u32) -> Option<f64> {
         let offset = self.tool_offset(number)?;
-        let declared = || {
-            self.core
-                .tools
-                .data(Some(number), &self.core.setup)
-                .and_then(|tool| tool.length_mm)
-        };
+        let declared = || self.core.tools.data(Some(number)).and_then(|tool| tool.length_mm);
         Some(offset.length.or_else(declared)? + offset.length_wear)
     }
 

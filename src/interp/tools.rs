@@ -30,6 +30,8 @@ pub(crate) struct Tools {
     cutter: Option<Tool>,
     /// APT: a motion was made with it.
     cutter_used: bool,
+    /// Tools of the setup; of a number that stands there twice the last.
+    of_setup: Arc<BTreeMap<u32, Tool>>,
     /// Tools that the program's comments declare.
     declared: BTreeMap<u32, Tool>,
     /// Tools that the program's blocks define (TOOL DEF of Klartext).
@@ -55,11 +57,15 @@ fn lay(over: Option<&Tool>, under: Tool) -> Tool {
     }
 }
 
-fn numbered(tools: &[Tool], number: u32) -> Option<&Tool> {
-    tools.iter().rev().find(|tool| tool.number == number)
-}
-
 impl Tools {
+    /// With what a setup declares.
+    pub(crate) fn new(setup: &Setup) -> Self {
+        let of_setup = setup.tools.iter().map(|tool| (tool.number, *tool)).collect();
+        Self {
+            of_setup: Arc::new(of_setup),
+            ..Self::default()
+        }
+    }
     /// T has selected a tool.
     pub(crate) fn prepare(&mut self, chosen: Chosen) {
         self.prepared = chosen;
@@ -132,7 +138,7 @@ impl Tools {
     /// What is declared about the tool of a number, or the one in use, merged; `None` when nothing is declared and its number is unknown. In
     /// order of precedence: what blocks of the program define, number 0 of the setup (the tool in use whatever its number), APT CUTTER, the
     /// program's comments, the setup. A program that names no tool uses the only one that its comments declare.
-    pub(crate) fn data(&self, number: Option<u32>, setup: &Setup) -> Option<Tool> {
+    pub(crate) fn data(&self, number: Option<u32>) -> Option<Tool> {
         let declared = &self.declared;
         let only = || match declared.first_key_value() {
             Some((only, _)) if declared.len() == 1 && *only != 0 => Some(*only),
@@ -140,7 +146,7 @@ impl Tools {
         };
         let unnamed = self.in_spindle == Chosen::Nothing;
         let number = number.or_else(|| unnamed.then(only).flatten());
-        let any = numbered(&setup.tools, 0);
+        let any = self.of_setup.get(&0);
         let any_declared = declared.get(&0);
         if number.is_none() && any.is_none() && any_declared.is_none() && self.cutter.is_none() {
             return None;
@@ -153,7 +159,7 @@ impl Tools {
             holder_mm: None,
         };
         let named = number.filter(|&number| number != 0);
-        let merged = lay(named.and_then(|number| numbered(&setup.tools, number)), empty);
+        let merged = lay(named.and_then(|number| self.of_setup.get(&number)), empty);
         let merged = lay(named.and_then(|number| declared.get(&number)), merged);
         let merged = lay(any_declared, merged);
         let merged = lay(self.cutter.as_ref(), merged);
@@ -297,12 +303,12 @@ mod tests {
             tools: vec![tool(3, 80.0)],
             ..Setup::default()
         };
-        let tools = Tools::default();
-        assert_eq!(tools.data(Some(4), &setup).and_then(|tool| tool.length_mm), None);
-        assert_eq!(tools.data(Some(3), &setup).and_then(|tool| tool.length_mm), Some(80.0));
+        let length = |setup: &Setup, number| Tools::new(setup).data(number).and_then(|tool| tool.length_mm);
+        assert_eq!(length(&setup, Some(4)), None);
+        assert_eq!(length(&setup, Some(3)), Some(80.0));
         setup.tools.push(tool(0, 120.0));
-        assert_eq!(tools.data(Some(3), &setup).and_then(|tool| tool.length_mm), Some(120.0));
-        assert_eq!(tools.data(None, &Setup::default()), None);
+        assert_eq!(length(&setup, Some(3)), Some(120.0));
+        assert_eq!(Tools::default().data(None), None);
     }
 
     #[test]
@@ -310,12 +316,9 @@ mod tests {
         let mut tools = Tools::default();
         tools.shape_by_cutter(Some(tool(0, 1.0)));
         tools.end_cutter();
-        assert!(
-            tools.data(None, &Setup::default()).is_some(),
-            "it is for the tool that is loaded next"
-        );
+        assert!(tools.data(None).is_some(), "it is for the tool that is loaded next");
         tools.use_cutter();
         tools.end_cutter();
-        assert_eq!(tools.data(None, &Setup::default()), None);
+        assert_eq!(tools.data(None), None);
     }
 }

@@ -1,6 +1,6 @@
 //! What nobody declares, and what two programs still have in common.
 use crate::{Input, Steps, offset_name};
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 use trunnion_interp::{FaultKind, ModalState, Motion, Setup, Tool, UNNAMED_ZERO, WorkOffset};
 use trunnion_syntax::Format;
 
@@ -107,6 +107,9 @@ pub fn with_zeros(setup: &Setup, unset: &[FaultKind]) -> Setup {
 
 fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64) -> Setup {
     let mut setup = setup.clone();
+    // places of the tools by number: a program may use as many as it has lines
+    let places = setup.tools.iter().enumerate().rev();
+    let mut places: HashMap<u32, usize> = places.map(|(at, tool)| (tool.number, at)).collect();
     for kind in unset {
         match kind {
             FaultKind::WorkOffsetUnset { name } if setup.work_offset(name).is_none() => {
@@ -126,16 +129,19 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
                 let digits: String = tool.chars().filter(char::is_ascii_digit).collect();
                 let Ok(number) = digits.parse::<u32>() else { continue };
                 let length = Some(next());
-                match setup.tools.iter_mut().find(|known| known.number == number) {
-                    Some(known) => known.length_mm = known.length_mm.or(length),
-                    None => setup.tools.push(Tool {
-                        number,
-                        shape: None,
-                        diameter_mm: None,
-                        length_mm: length,
-                        holder_mm: None,
-                    }),
+                if let Some(&at) = places.get(&number) {
+                    let known = &mut setup.tools[at];
+                    known.length_mm = known.length_mm.or(length);
+                    continue;
                 }
+                places.insert(number, setup.tools.len());
+                setup.tools.push(Tool {
+                    number,
+                    shape: None,
+                    diameter_mm: None,
+                    length_mm: length,
+                    holder_mm: None,
+                });
             }
             _ => {}
         }

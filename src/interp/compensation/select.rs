@@ -129,7 +129,7 @@ impl<'d> Iso<'d> {
         let declared = || {
             self.core
                 .tools
-                .data(Some(number), &self.core.setup)
+                .data(Some(number))
                 .and_then(|tool| tool.diameter_mm)
                 .map(|diameter| 0.5 * diameter)
         };

@@ -183,11 +183,7 @@ impl<'d> Iso<'d> {
     /// The program writes what L10 to L13 name of a tool offset, mm.
     pub(crate) fn store_tool(&mut self, l: u32, number: u32, value: f64, incremental: bool) {
         let add = |old: f64| if incremental { old + value } else { value };
-        let declared = self
-            .core
-            .tools
-            .data(Some(number), &self.core.setup)
-            .and_then(|tool| tool.length_mm);
+        let declared = self.core.tools.data(Some(number)).and_then(|tool| tool.length_mm);
         let unclear = self.core.dialect.quirks.cutter_offset_ambiguous;
         let offset = self.memory.frames.tool_offsets.entry(number).or_default();
         match l {

@@ -60,7 +60,7 @@ impl Klartext<'_> {
 
     /// The control uses what the program defines; where the settings say otherwise, one of both is wrong.
     fn compare_with_settings(&self, tool: &Tool, report: &mut Report<'_>) {
-        let Some(known) = self.core.tools.data(Some(tool.number), &self.core.setup) else {
+        let Some(known) = self.core.tools.data(Some(tool.number)) else {
             return;
         };
         let pairs = [

@@ -21,7 +21,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             let number = number.and_then(|number| u32::try_from(number).ok());
             let named = number.filter(|number| *number != 0);
             let data = match named {
-                Some(_) => self.core.tools.data(named, &self.core.setup),
+                Some(_) => self.core.tools.data(named),
                 None => self.core.state.tool.data(),
             };
             data.and_then(|tool| tool.length_mm).is_none()

@@ -5,7 +5,7 @@ use crate::cli::{
     load::Loaded,
 };
 use std::collections::{BTreeMap, VecDeque};
-use trunnion_check::{Diagnostic, Report, Status, ValueKey};
+use trunnion_check::{Diagnostic, Report, RuleLevel, Status, ValueKey};
 use trunnion_interp::{ModalState, MotionKind, Setup};
 use trunnion_machine::{AxisKind, BlockPath, Leg, Machine};
 use trunnion_planner::{Listener, Timed, time};
@@ -123,7 +123,14 @@ const SHOWN: [&str; 12] = [
 
 /// The blocks that a check finds, one mark per block and rule.
 pub(crate) fn marks(loaded: &Loaded, lines: Option<(u32, u32)>) -> Vec<Mark> {
-    let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());
+    let mut settings = loaded.resolved.settings();
+    // what is not drawn is not looked for
+    let others = trunnion_check::rules().iter().map(|rule| rule.name);
+    let others = others.filter(|name| !SHOWN.contains(name));
+    settings
+        .rules
+        .extend(others.map(|name| (name.to_owned(), RuleLevel::Allow)));
+    let report = trunnion_check::check(&loaded.program, &settings);
     marks_of(&report, loaded, lines)
 }
 

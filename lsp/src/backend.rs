@@ -216,7 +216,7 @@ impl LanguageServer for Backend {
     async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
         let (at, declaration) = (params.text_document_position, params.context.include_declaration);
         let work = move |snapshot: &Snapshot| navigate::references(snapshot, at.position, declaration);
-        self.show(&at.text_document.uri, Need::Parsed, work).await
+        self.ask(&at.text_document.uri, Need::Parsed, work).await
     }
 
     async fn document_highlight(&self, params: DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>> {

@@ -94,28 +94,37 @@ pub(crate) fn called_file(snapshot: &Snapshot, name: &str) -> Option<Url> {
         .map(|other| other.uri.clone())
 }
 
+/// The most places of one thing in an answer: as a message each takes 2 kB of memory.
+const MOST_PLACES: usize = 50_000;
+
+/// Refuses an answer of too many places.
+fn not_too_many(count: usize, what: &str, name: &str) -> Result<()> {
+    if count > MOST_PLACES {
+        let text = format!("not {what}: more than {MOST_PLACES} places name `{name}`; search for it in the text");
+        return Err(refused(text));
+    }
+    Ok(())
+}
+
 /// Every place of the thing at a position.
-pub(crate) fn references(snapshot: &Snapshot, position: Position, declaration: bool) -> Option<Vec<Location>> {
-    let of = at(snapshot, position)?;
+pub(crate) fn references(snapshot: &Snapshot, position: Position, declaration: bool) -> Result<Option<Vec<Location>>> {
+    let (Some(of), Some(source)) = (at(snapshot, position), snapshot.source()) else {
+        return Ok(None);
+    };
     let wanted = |one: &&Occurrence| declaration || one.role != Role::Definition;
-    let names = snapshot.source()?.names();
-    let mut found: Vec<Location> = names
-        .same(&of)
-        .filter(wanted)
-        .map(|one| snapshot.location(one.range))
-        .collect();
+    let own = source.names().same(&of).filter(wanted);
+    let own = own.map(|one| snapshot.location(one.range));
+    let mut found: Vec<Location> = own.take(MOST_PLACES + 1).collect();
     for other in users(snapshot, &of) {
         if let Some(source) = other.source() {
-            found.extend(
-                source
-                    .names()
-                    .same(&of)
-                    .filter(wanted)
-                    .map(|one| snapshot.elsewhere(&other, one.range)),
-            );
+            let theirs = source.names().same(&of).filter(wanted);
+            let theirs = theirs.map(|one| snapshot.elsewhere(&other, one.range));
+            found.extend(theirs.take(MOST_PLACES + 1));
         }
+        not_too_many(found.len(), "listed", &of.name)?;
     }
-    Some(found)
+    not_too_many(found.len(), "listed", &of.name)?;
+    Ok(Some(found))
 }
 
 /// The places of the thing in this document, read or written.
@@ -129,7 +138,18 @@ pub(crate) fn highlights(snapshot: &Snapshot, position: Position) -> Option<Vec<
             DocumentHighlightKind::WRITE
         }),
     };
-    Some(snapshot.source()?.names().same(&of).map(one).collect())
+    let mut found: Vec<DocumentHighlight> = snapshot
+        .source()?
+        .names()
+        .same(&of)
+        .map(one)
+        .take(MOST_PLACES + 1)
+        .collect();
+    // so many are no help, and a part of them would look like all
+    if found.len() > MOST_PLACES {
+        found.clear();
+    }
+    Some(found)
 }
 
 /// What would be renamed.
@@ -187,6 +207,8 @@ pub(crate) fn renamed(snapshot: &Snapshot, position: Position, new: &str) -> Res
         new,
     )
     .map_err(failed)?;
+    let mut count = edits.len();
+    not_too_many(count, "renamed", &of.name)?;
     changes.insert(snapshot.parsed.uri.clone(), snapshot.edits(edits));
     for other in others {
         let Some(theirs) = other.source() else { continue };
@@ -200,6 +222,8 @@ pub(crate) fn renamed(snapshot: &Snapshot, position: Position, new: &str) -> Res
             new,
         )
         .map_err(failed)?;
+        count += edits.len();
+        not_too_many(count, "renamed", &of.name)?;
         let edits = edits
             .into_iter()
             .map(|edit| TextEdit::new(other.range(edit.range, snapshot.encoding), edit.new_text));

@@ -169,6 +169,40 @@ fn a_rename_changes_every_place() {
     }
 }
 
+/// Each place takes 2 kB of a message: half a million took 1.8 GB.
+#[test]
+fn references_of_too_many_places_are_refused() {
+    let of = |count: usize| format!("O1\nIF[#1EQ1]GOTO20\n{}N20 M30\n", "GOTO20\n".repeat(count - 2));
+    for (count, refused) in [(50_000, false), (50_001, true)] {
+        let (uri, text) = ("untitled:/a.nc", of(count));
+        let mut client = Client::start(&json!({ "dialect": "fanuc-30i" }));
+        client.open(uri, &text);
+        let at = json!({ "textDocument": { "uri": uri }, "position": position(&text, text.find("GOTO20").expect("a jump") + 5) });
+        let mut asked = at.clone();
+        asked["context"] = json!({ "includeDeclaration": true });
+        let listed = client.request("textDocument/references", asked);
+        let highlighted = client.request("textDocument/documentHighlight", at.clone());
+        let mut renamed = at;
+        renamed["newName"] = json!("30");
+        let renamed = client.request("textDocument/rename", renamed);
+        if refused {
+            for (answer, what) in [(&listed, "not listed"), (&renamed, "not renamed")] {
+                let why = answer["error"]["message"].as_str().expect("a refusal");
+                assert!(
+                    why.starts_with(what) && why.contains("more than 50000 places name `20`"),
+                    "{why}"
+                );
+            }
+            assert_eq!(list(&highlighted).len(), 0);
+        } else {
+            assert_eq!((list(&listed).len(), list(&highlighted).len()), (count, count));
+            let edits = renamed["result"]["changes"][uri].as_array().expect("edits");
+            assert_eq!(edits.len(), count);
+        }
+        client.finish();
+    }
+}
+
 #[test]
 fn a_rename_is_refused_where_it_is_not_certain() {
     for (uri, text, needle, plus, new, why) in [

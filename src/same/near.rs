@@ -134,27 +134,95 @@ fn shift(a: &Motion, b: &Motion) -> Vec3 {
     (zero(b) - zero(a)).map(|value| if value.is_nan() { 0.0 } else { value })
 }
 
-/// No point of one arc is farther from the point of the other at the same share, mm. Between samples a share h apart the distance of two
-/// curves exceeds that at the samples by at most (Q1 + Q2) h^2 / 8, where Q = r sweep^2 bounds the second derivative of an arc.
+/// No point of one arc is farther from the point of the other at the same share, mm.
+///
+/// Between samples a share h apart the distance of two curves exceeds that at the samples by at most Q h^2 / 8, where Q bounds the second derivative
+/// of their difference. An arc is c + rho(t) U(t) + n h t, where U turns by s t and rho goes from r0 to r1: its second derivative is
+/// -s^2 rho U + 2 s (r1 - r0) n x U.
 pub fn arcs_apart(a: &Arc, b: &Arc, before: &Motion, after: &Motion) -> f64 {
-    let shift = shift(before, after);
+    apart(a, b, shift(before, after))
+}
+
+/// The same of arcs whose zero points are a shift apart, mm.
+fn apart(a: &Arc, b: &Arc, shift: Vec3) -> f64 {
+    if a == b && shift == Vec3::zeros() {
+        return 0.0;
+    }
+    let spread = |arc: &Arc| (arc.radius_end - arc.radius_start).abs();
+    let radius = |arc: &Arc| arc.radius_start.max(arc.radius_end);
+    let bend = |arc: &Arc| radius(arc) * arc.sweep * arc.sweep + 2.0 * spread(arc) * arc.sweep.abs();
+    // two arcs of nearly one shape bend nearly alike: the difference of the second derivatives, factor by factor
+    let alike = a.normal.cross(&b.normal).norm() <= 1e-9 && a.normal.dot(&b.normal) > 0.0;
+    let bend = if alike {
+        let arm = |arc: &Arc| (arc.start - arc.centre) / arc.radius_start;
+        let sweep = a.sweep.abs().max(b.sweep.abs());
+        let turn = (a.sweep - b.sweep).abs();
+        // of the two arms, once they have turned about their own normals
+        let arms = (arm(a) - arm(b)).norm() + turn + (a.normal - b.normal).norm() * (1.0 + sweep);
+        let [start, end] = [a.radius_start - b.radius_start, a.radius_end - b.radius_end].map(f64::abs);
+        let (most, slope) = (radius(a).max(radius(b)), spread(a).max(spread(b)));
+        let inwards =
+            most * (a.sweep * a.sweep - b.sweep * b.sweep).abs() + sweep * sweep * (start.max(end) + most * arms);
+        let along = 2.0 * (turn * slope + sweep * (start + end) + sweep * slope * arms);
+        (inwards + along + 1e-12).min(bend(a) + bend(b))
+    } else {
+        bend(a) + bend(b)
+    };
+    let between = bend / (8.0 * f64::from(SAMPLES) * f64::from(SAMPLES));
+    // each arc stays within its radius and its height of its centre: of many turns the samples say no more than that
+    let reach = |arc: &Arc| radius(arc) + arc.height().abs();
+    let most = (b.centre + shift - a.centre).norm() + reach(a) + reach(b);
+    if between >= most {
+        return most;
+    }
     let sampled = (0..=SAMPLES)
         .map(|step| f64::from(step) / f64::from(SAMPLES))
         .map(|share| (b.point_at(share) + shift - a.point_at(share)).norm())
         .fold(0.0, f64::max);
-    let bend = |arc: &Arc| {
-        let spread = (arc.radius_end - arc.radius_start).abs();
-        arc.radius_start.max(arc.radius_end) * arc.sweep * arc.sweep + 2.0 * spread * arc.sweep.abs()
-    };
-    // two arcs of nearly one shape bend nearly alike: what differs is bounded by the differences of centre, radius and sweep
-    let centre = (b.centre + shift - a.centre).norm() + (a.radius_start - b.radius_start).abs();
-    let alike = a.normal.cross(&b.normal).norm() <= 1e-9 && a.normal.dot(&b.normal) > 0.0;
-    let bend = if alike {
-        let turn = (a.sweep - b.sweep).abs();
-        let most = a.sweep.abs().max(b.sweep.abs());
-        bend(a) * (2.0 * turn / most.max(1e-12) + turn) + most * most * 2.0 * centre + 1e-12
-    } else {
-        bend(a) + bend(b)
-    };
-    sampled + bend / (8.0 * f64::from(SAMPLES) * f64::from(SAMPLES))
+    most.min(sampled + between)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trunnion_geometry::arc::Turning;
+
+    /// No point of two arcs is farther apart than their bound, however many turns they have.
+    #[test]
+    fn arcs_are_no_farther_apart_than_their_bound() {
+        let mut state = 11_u64;
+        let mut random = |most: f64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            most * ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+        };
+        let mut turns = [0, 0];
+        for round in 0..3000 {
+            let near = [0.0, 1e-4, 0.1, 30.0][round % 4];
+            let point =
+                |random: &mut dyn FnMut(f64) -> f64, most: f64| Vec3::new(random(most), random(most), random(most));
+            let ends = [(); 3].map(|()| point(&mut random, 20.0));
+            let others = ends.map(|end| end + point(&mut random, near));
+            let extra = [0, 1, 40, 5000][round / 4 % 4];
+            let arc = |[start, end, centre]: [Vec3; 3], extra| {
+                Arc::from_centre(start, end, centre, Vec3::z(), Turning::Clockwise, extra)
+            };
+            let (Some(a), Some(b)) = (arc(ends, extra), arc(others, extra + (round % 3) as u32)) else {
+                continue;
+            };
+            let shift = if round % 5 == 0 {
+                point(&mut random, near)
+            } else {
+                Vec3::zeros()
+            };
+            let bound = apart(&a, &b, shift);
+            let shares = (0..=3000).map(|step| f64::from(step) / 3000.0);
+            let seen = shares
+                .map(|share| (b.point_at(share) + shift - a.point_at(share)).norm())
+                .fold(0.0, f64::max);
+            assert!(seen <= bound + 1e-9, "{seen} mm, bound {bound} mm of {a:?} and {b:?}");
+            turns[usize::from(extra > 1)] += 1;
+            assert!(near > 0.0 || shift != Vec3::zeros() || a != b || bound == 0.0);
+        }
+        assert!(turns.iter().all(|count| *count > 1000), "{turns:?}");
+    }
 }

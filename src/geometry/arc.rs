@@ -244,24 +244,40 @@ impl Along {
         for piece in 1..=PIECES {
             let high = (at(piece), self.rate(at(piece)));
             if low.1 * high.1 <= 0.0 {
-                visit(self.bisect(low, high.0));
+                visit(self.zero(low, high));
             }
             low = high;
         }
     }
 
-    /// The zero between `low` (share, derivative) and `high`.
-    fn bisect(&self, low: (f64, f64), high: f64) -> f64 {
-        let (mut low, mut high, positive) = (low.0, high, low.1 > 0.0);
+    /// The zero of the derivative between two shares, each with the derivative there (false position with halved values: Dowell and Jarratt, 1971). Near
+    /// a zero the coordinate hardly changes, so a few steps are as good as all.
+    fn zero(&self, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
+        let mut at = 0.5 * (low.0 + high.0);
+        let mut side = 0;
         for _ in 0..48 {
-            let middle = 0.5 * (low + high);
-            if (self.rate(middle) > 0.0) == positive {
-                low = middle;
+            let before = at;
+            let between = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            at = if between >= low.0 && between <= high.0 {
+                between
             } else {
-                high = middle;
+                0.5 * (low.0 + high.0)
+            };
+            let rate = self.rate(at);
+            if rate == 0.0 || (at - before).abs() <= f64::EPSILON * at.abs() {
+                break;
+            }
+            if (rate > 0.0) == (low.1 > 0.0) {
+                low = (at, rate);
+                high.1 *= if side == 1 { 0.5 } else { 1.0 };
+                side = 1;
+            } else {
+                high = (at, rate);
+                low.1 *= if side == -1 { 0.5 } else { 1.0 };
+                side = -1;
             }
         }
-        0.5 * (low + high)
+        at
     }
 }
 

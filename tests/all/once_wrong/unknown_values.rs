@@ -9,7 +9,7 @@ pub(super) const UNKNOWN_VALUES: &[Item] = &[
             "",
             "G21 G90 G54 G17 G94\nG10 L20 P1 X0 Y0 Z0\nG0 X5000 Y5 Z5\nS100 M3\nG1 X-5000 F100\nM2\n",
         ],
-        &["2 unknown not-modelled"],
+        &["2 unknown not-modelled", "5 unknown position-unknown"],
         [2, 2],
     ),
     (

@@ -253,7 +253,7 @@ impl Along {
     /// The zero of the derivative between two shares, each with the derivative there (false position with halved values: Dowell and Jarratt, 1971). Near
     /// a zero the coordinate hardly changes, so a few steps are as good as all.
     fn zero(&self, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
-        let mut at = 0.5 * (low.0 + high.0);
+        let mut at = f64::NAN;
         let mut side = 0;
         for _ in 0..48 {
             let before = at;

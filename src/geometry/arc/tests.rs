@@ -90,6 +90,23 @@ fn nothing_panics_on_odd_numbers() {
     }
 }
 
+/// The first guess may be the middle: that is no sign that the steps have ended.
+#[test]
+fn a_zero_is_found_where_both_ends_are_as_far_from_it() {
+    use crate::math::cos;
+    let along = super::Along {
+        cosine: 0.0,
+        sine: 1.0,
+        drift: -0.5 * (cos(1.0) + cos(2.0)),
+        slope: 0.0,
+        radius: 1.0,
+        sweep: 1.0,
+    };
+    let [low, high] = [1.0, 2.0].map(|t| (t, along.rate(t)));
+    assert!((low.1 + high.1).abs() < 1e-15 && along.rate(1.5).abs() > 1e-3);
+    assert!(along.rate(along.zero(low, high)).abs() < 1e-12);
+}
+
 proptest! {
     #[test]
     fn length_and_extent_agree_with_sampling(

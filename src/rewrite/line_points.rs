@@ -150,7 +150,8 @@ impl Writer<'_> {
             next = next.clamp(low + 0.5 * step, high - 0.5 * step);
             let candidate = self.end(line, ends, at + next)?;
             let (fits, ratio) = self.near(line, (from, at), (&candidate.stance, candidate.share), tolerance_mm);
-            if fits && candidate.share > at {
+            // a share that is rounded to the digits of the program may be the end of the line, or beyond it
+            if fits && candidate.share > at && candidate.share < 1.0 {
                 (low, best) = (next, Some(candidate));
             } else {
                 high = next;

@@ -27,6 +27,7 @@ impl<W: Write> Patient<W> {
         self.failed.take().map_or(Ok(()), Err)
     }
 
+    #[inline]
     fn keep(&mut self, write: impl FnOnce(&mut BufWriter<W>) -> io::Result<()>) {
         if self.failed.is_none()
             && let Err(error) = write(&mut self.inner)
@@ -40,6 +41,12 @@ impl<W: Write> Write for Patient<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.keep(|inner| inner.write_all(bytes));
         Ok(bytes.len())
+    }
+    // a document is written in pieces of a few bytes
+    #[inline]
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.keep(|inner| inner.write_all(bytes));
+        Ok(())
     }
     fn flush(&mut self) -> io::Result<()> {
         self.keep(BufWriter::flush);

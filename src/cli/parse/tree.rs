@@ -6,10 +6,7 @@ use crate::cli::{
 };
 use serde::{Serialize, Serializer, ser::SerializeMap as _};
 use serde_json::{Value, json};
-use std::{
-    borrow::Cow,
-    io::{BufWriter, Write},
-};
+use std::{borrow::Cow, io::Write};
 use trunnion_syntax::{Address, AptArg, Block, Item, LineIndex, Program, TextRange, Value as Said, Word};
 
 /// Deeper parts are indented no further.
@@ -123,8 +120,6 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     let program = &loaded.program;
     let lines = LineIndex::new(program.source());
     let dialect = json!(loaded.resolved.dialect.name);
-    // a document is written in pieces of a few bytes
-    let out = &mut BufWriter::new(out);
     write!(
         out,
         "{{\"schema\":\"trunnion-tree/2\",\"dialect\":{dialect},\"blocks\":["
@@ -143,7 +138,6 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     write!(out, "\n],\"errors\":")?;
     errors_json(out, loaded)?;
     writeln!(out, "}}")?;
-    out.flush()?;
     Ok(())
 }
 

@@ -25,6 +25,8 @@ pub struct BlockInfo {
     pub rows: Vec<Row>,
     /// Whether it runs: false after the end of the program and where every path skips it. Then the states are those at the end.
     pub runs: bool,
+    /// What it cost: blocks that ran again, and entries of lists that were copied.
+    pub cost: u64,
     /// The values of variables before and after it.
     pub variables: Variables,
 }
@@ -192,6 +194,7 @@ impl Session {
             }
         }
         let before = interpreter.clone();
+        let copied = before.copied() as u64;
         walk.wanted = Some(wanted);
         let reached = first.is_some_and(|at| at - from <= MOST_AGAIN);
         let runs = reached && interpreter.advance(program, &mut walk) == Some(wanted);
@@ -207,6 +210,7 @@ impl Session {
             after: after.state().clone(),
             rows: walk.rows,
             runs,
+            cost: wanted_at.saturating_sub(from).min(MOST_AGAIN) + 3 * copied,
             variables: Variables(Box::new([before, after])),
         }
     }

@@ -6,8 +6,12 @@ use trunnion_formula::{Cursor, Formula, Grammar, Name, ValueError, value};
 use trunnion_interp::{FeedMode, ModalState};
 use trunnion_syntax::{Address, Block, BlockId, Program, TextRange, Value};
 
-/// At most so many blocks are run again for the hints of one range.
+/// So many blocks are described for the hints of one range, no more.
 const MOST_DESCRIBED: usize = 400;
+
+/// No more are once these have cost so much: blocks that ran again, and entries of lists that were copied. Where programs declare hundreds of
+/// thousands of tools or variables one block costs as much as hundreds do elsewhere.
+const MOST_COST: u64 = 5_000_000;
 
 /// What a hint says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,17 +50,21 @@ pub fn hints(
     };
     let mut starts = Vec::new();
     operations(outline, &mut starts);
+    starts.sort_unstable();
     let mut found = Vec::new();
-    let mut described = 0;
+    let (mut described, mut cost) = (0, 0);
     for id in (first.0..=last.0).map(BlockId) {
         let block = program.block(id);
         let computed = wanted(HintKind::Value) && has_expression(&block);
-        let begins = wanted(HintKind::Modal) && starts.contains(&block.range().start);
-        if !(computed || begins) || described == MOST_DESCRIBED || !session.reaches(id) {
+        let begins = wanted(HintKind::Modal) && starts.binary_search(&block.range().start).is_ok();
+        if !(computed || begins) || !session.reaches(id) {
             continue;
         }
-        described += 1;
+        if described == MOST_DESCRIBED || cost > MOST_COST {
+            break;
+        }
         let info = session.describe(program, settings, id);
+        (described, cost) = (described + 1, cost + info.cost);
         if !info.runs {
             continue;
         }

@@ -67,7 +67,15 @@ pub(crate) struct Compensation {
     pub(crate) ready: Vec<PendingMotion>,
 }
 
+/// A motion that waits is as large as so many entries of other lists.
+const WAITS: usize = 16;
+
 impl Compensation {
+    /// How many entries of lists that grow with the program a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        WAITS * (self.between.len() + self.ready.len())
+    }
+
     /// Whether motions must pass through here.
     pub(crate) fn is_busy(&self) -> bool {
         self.held.is_some() || matches!(self.stage, Stage::Start | Stage::On)

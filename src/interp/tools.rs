@@ -33,7 +33,7 @@ pub(crate) struct Tools {
     /// Tools of the setup; of a number that stands there twice the last.
     of_setup: Arc<BTreeMap<u32, Tool>>,
     /// Tools that the program's comments declare.
-    declared: BTreeMap<u32, Tool>,
+    declared: Arc<BTreeMap<u32, Tool>>,
     /// Tools that the program's blocks define (TOOL DEF of Klartext).
     defined: BTreeMap<u32, Tool>,
     directives_read: bool,
@@ -116,7 +116,7 @@ impl Tools {
             crate::Directive::Tool(tool) => Some((tool.number, tool)),
             _ => None,
         });
-        self.declared = tools.collect();
+        self.declared = Arc::new(tools.collect());
         true
     }
     /// Tools that the program's comments declare, by number.
@@ -129,7 +129,7 @@ impl Tools {
     }
     /// How many entries a clone copies.
     pub(crate) fn copied(&self) -> usize {
-        self.declared.len() + self.defined.len() + self.lengths_reported.copied()
+        self.defined.len() + self.lengths_reported.copied()
     }
     /// Whether this is the first time that a length is found missing.
     pub(crate) fn first_report_of_length(&mut self, tool: &str) -> bool {
@@ -139,7 +139,7 @@ impl Tools {
     /// order of precedence: what blocks of the program define, number 0 of the setup (the tool in use whatever its number), APT CUTTER, the
     /// program's comments, the setup. A program that names no tool uses the only one that its comments declare.
     pub(crate) fn data(&self, number: Option<u32>) -> Option<Tool> {
-        let declared = &self.declared;
+        let declared = self.declared.as_ref();
         let only = || match declared.first_key_value() {
             Some((only, _)) if declared.len() == 1 && *only != 0 => Some(*only),
             _ => None,

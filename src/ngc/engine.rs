@@ -110,9 +110,10 @@ impl Engine {
     pub fn is_defining(&self) -> bool {
         self.flow.is_defining()
     }
-    /// How many names, labels and chains of calls a check-point copies.
+    /// How many names, labels, chains of calls, calls that wait, control points and tools a check-point copies.
     pub fn copied(&self) -> usize {
-        self.flow.copied()
+        let kept = self.queue.count() + self.spline.points().len() + self.state.tools.count();
+        self.flow.copied() + self.store.copied() + kept
     }
     /// How many files the run has opened, the main program among them.
     pub fn file_count(&self) -> usize {

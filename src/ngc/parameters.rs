@@ -111,6 +111,11 @@ impl Store {
             && self.returned == other.returned
             && self.aside.len() == other.aside.len()
     }
+    /// How many names and saved numbers a copy copies: the numbered parameters do not grow with the program.
+    pub(crate) fn copied(&self) -> usize {
+        let aside: usize = self.aside.iter().map(|saved| saved.names.count()).sum();
+        self.globals.count() + self.locals.count() + aside + self.numbers_aside.len()
+    }
     /// The value of a parameter; 0 where there is none.
     pub(crate) fn number(&self, index: usize) -> f64 {
         self.numbers.get(index).copied().unwrap_or(0.0)

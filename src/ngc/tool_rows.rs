@@ -29,6 +29,11 @@ impl ToolRows {
         self.rows.get(row)
     }
 
+    /// How many rows there are.
+    pub(crate) fn count(&self) -> usize {
+        self.rows.len()
+    }
+
     /// What is in the spindle.
     pub fn spindle(&self) -> Option<&ToolEntry> {
         self.rows.first()

@@ -303,7 +303,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet
     let waits = |seen: &Seen| seen.waits || seen.is_code_alone(program);
     let mut open: Option<Chain> = None;
     let mut stops = false;
-    let mut at = 0;
+    let (mut at, mut moving) = (0, 0);
     let mut close = |open: &mut Option<Chain>, next: Option<&Seen>| {
         if let Some(mut chain) = open.take().filter(|chain| chain.lines.len() >= least) {
             chain.next_line = next.filter(|next| next.is_line()).map(|next| next.block);
@@ -315,7 +315,12 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet
         while seen.get(at + motions).is_some_and(|seen| seen.block == block.id()) {
             motions += 1;
         }
-        let next = seen[at + motions..].iter().find(|seen| !waits(seen));
+        // the next motion that does not wait, looked for once
+        moving = moving.max(at + motions);
+        while seen.get(moving).is_some_and(&waits) {
+            moving += 1;
+        }
+        let next = seen.get(moving);
         let text = text_of(&block, numbers_count || named.contains(&block.id()));
         if text.refuses().is_some()
             && let Some(on) = exact_stop(&block)

@@ -16,8 +16,11 @@ pub struct Near {
     pub deg: f64,
 }
 
-/// Two arcs are compared at this many points; between them a bound holds.
-const SAMPLES: u32 = 256;
+/// Two arcs are compared at so many points at least and at most; between them a bound holds.
+const SAMPLES: [f64; 2] = [16.0, 256.0];
+
+/// So many points are taken, up to the most, that the bound between them adds no more than this, mm: less than a message shows.
+const ADDS: f64 = 1e-7;
 
 impl Judge for Near {
     fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
@@ -168,15 +171,16 @@ fn apart(a: &Arc, b: &Arc, shift: Vec3) -> f64 {
     } else {
         bend(a) + bend(b)
     };
-    let between = bend / (8.0 * f64::from(SAMPLES) * f64::from(SAMPLES));
+    let samples = (bend / (8.0 * ADDS)).sqrt().ceil().clamp(SAMPLES[0], SAMPLES[1]);
+    let between = bend / (8.0 * samples * samples);
     // each arc stays within its radius and its height of its centre: of many turns the samples say no more than that
     let reach = |arc: &Arc| radius(arc) + arc.height().abs();
     let most = (b.centre + shift - a.centre).norm() + reach(a) + reach(b);
     if between >= most {
         return most;
     }
-    let sampled = (0..=SAMPLES)
-        .map(|step| f64::from(step) / f64::from(SAMPLES))
+    let sampled = (0..=samples as u32)
+        .map(|step| f64::from(step) / samples)
         .map(|share| (b.point_at(share) + shift - a.point_at(share)).norm())
         .fold(0.0, f64::max);
     most.min(sampled + between)

@@ -54,7 +54,9 @@ impl<'d> Engine<'d> for Iso<'d> {
         Some(block)
     }
     fn copied(&self) -> usize {
-        self.flow.copied() + self.memory.own.copied() + self.memory.frames.copied()
+        let memory = &self.memory;
+        let waits = memory.compensation.copied() + memory.contours_reported.len();
+        self.flow.copied() + memory.own.copied() + memory.frames.copied() + waits
     }
     fn returns_to_r(&self) -> bool {
         self.memory.cycle.to_r

@@ -91,6 +91,10 @@ impl Queue {
     pub(crate) fn is_empty(&self) -> bool {
         self.held.is_empty()
     }
+    /// How many calls wait.
+    pub(crate) fn count(&self) -> usize {
+        self.held.len()
+    }
     /// The centre is here, nothing is held.
     pub(super) fn start(&mut self, at: Point) {
         self.held.clear();

@@ -54,6 +54,10 @@ impl Names {
         let listed = self.few.iter().map(|(name, value)| (name, *value));
         listed.chain(self.rest.iter().map(|(name, value)| (name, *value)))
     }
+    /// How many names there are.
+    pub(super) fn count(&self) -> usize {
+        self.few.len() + self.rest.len()
+    }
     /// Forgets all names.
     pub(super) fn clear(&mut self) {
         self.few.clear();

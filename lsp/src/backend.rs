@@ -20,7 +20,7 @@ use crate::{
 };
 use std::sync::{
     Arc,
-    atomic::{AtomicBool, Ordering},
+    atomic::{AtomicBool, AtomicUsize, Ordering},
 };
 use tokio::sync::{mpsc, oneshot};
 use tower_lsp::{
@@ -49,6 +49,8 @@ pub(crate) struct Backend {
     inbox: mpsc::UnboundedSender<Event>,
     shutdown: Arc<AtomicBool>,
     coloured: Coloured,
+    /// How many regions the client folds.
+    folds: AtomicUsize,
 }
 
 impl Backend {
@@ -64,6 +66,7 @@ impl Backend {
             inbox,
             shutdown,
             coloured,
+            folds: AtomicUsize::new(structure::MOST_FOLDS),
         }
     }
 
@@ -107,6 +110,11 @@ impl LanguageServer for Backend {
         } else {
             Encoding::Utf16
         };
+        let text_document = params.capabilities.text_document.as_ref();
+        let folding = text_document.and_then(|document| document.folding_range.as_ref());
+        if let Some(limit) = folding.and_then(|folding| folding.range_limit) {
+            self.folds.fetch_min(limit as usize, Ordering::Relaxed);
+        }
         self.post(Event::Initialize(Box::new(params)));
         Ok(InitializeResult {
             capabilities: capabilities(encoding),
@@ -252,7 +260,8 @@ impl LanguageServer for Backend {
     }
 
     async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
-        let work = |snapshot: &Snapshot| Some(structure::folding(snapshot));
+        let most = self.folds.load(Ordering::Relaxed);
+        let work = move |snapshot: &Snapshot| Some(structure::folding(snapshot, most));
         self.show(&params.text_document.uri, Need::Parsed, work).await
     }
 

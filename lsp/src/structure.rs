@@ -84,8 +84,11 @@ fn fits(text: &str, query: &str) -> bool {
         .all(|wanted| letters.any(|letter| letter == wanted))
 }
 
-/// What can be folded.
-pub(crate) fn folding(snapshot: &Snapshot) -> Vec<FoldingRange> {
+/// So many regions are folded where the client states no limit: editors keep a few thousand.
+pub(crate) const MOST_FOLDS: usize = 20_000;
+
+/// What can be folded: the longest `most` regions.
+pub(crate) fn folding(snapshot: &Snapshot, most: usize) -> Vec<FoldingRange> {
     let Some(source) = snapshot.source() else {
         return Vec::new();
     };
@@ -98,10 +101,18 @@ pub(crate) fn folding(snapshot: &Snapshot) -> Vec<FoldingRange> {
             ..FoldingRange::default()
         })
     };
-    folds(&source.program, source.resolved.dialect, source.names())
-        .into_iter()
-        .filter_map(one)
-        .collect()
+    let found = folds(&source.program, source.resolved.dialect, source.names());
+    longest(found, most).into_iter().filter_map(one).collect()
+}
+
+/// The longest regions, in the order of the text.
+fn longest(mut found: Vec<trunnion_ide::Fold>, most: usize) -> Vec<trunnion_ide::Fold> {
+    if found.len() > most {
+        found.sort_by_key(|fold| core::cmp::Reverse(fold.range.end - fold.range.start));
+        found.truncate(most);
+        found.sort_unstable();
+    }
+    found
 }
 
 /// What "expand selection" takes at each position.

@@ -6,6 +6,9 @@ use trunnion_interp::{Motion, MotionKind};
 use trunnion_machine::Stance;
 use trunnion_same::{Judge, Near, Verdict};
 
+/// The bound of two arcs exceeds their distance by no more than this, mm: less than a certificate shows.
+const SHOWN_MM: f64 = 1e-7;
+
 impl Pair<'_> {
     /// Where the position of the machine is unknown in both programs, the programmed coordinates are compared: both begin at the same place.
     pub(super) fn by_words(&self) -> Result<Compared, Outcome> {
@@ -56,7 +59,7 @@ impl Pair<'_> {
         if !still || a.tcp != b.tcp {
             return Err(self.unknown("the distance between two different arcs is not modelled while rotary axes move"));
         }
-        let off = trunnion_same::arcs_apart(from, to, a, b);
+        let off = trunnion_same::arcs_apart(from, to, [a, b], SHOWN_MM);
         Ok(Apart {
             sampled_mm: off,
             bound_mm: off,

@@ -67,6 +67,9 @@ pub(crate) struct Compensation {
     pub(crate) ready: Vec<PendingMotion>,
 }
 
+/// So many motions without a path in the plane wait for the next corner: controls read a few blocks ahead.
+const MOST_BETWEEN: usize = 10_000;
+
 /// A motion that waits is as large as so many entries of other lists.
 const WAITS: usize = 16;
 
@@ -159,11 +162,15 @@ impl Iso<'_> {
                 .plane
                 .unwrap_or(self.core.state.coordinates.plane()),
         );
-        if still && self.memory.compensation.held.is_some() {
+        let waits = still && self.memory.compensation.held.is_some();
+        if waits && self.memory.compensation.between.len() < MOST_BETWEEN {
             self.memory.compensation.between.push(pending);
             return;
         }
-        if !still {
+        if waits {
+            self.lose("more than 10 000 motions out of the plane wait for a corner", report);
+            self.mark_lost(&mut pending);
+        } else if !still {
             self.lose("part of the path is unknown", report);
             self.mark_lost(&mut pending);
         }

@@ -10,6 +10,7 @@
 #![expect(clippy::print_stdout, reason = "the long form prints a table")]
 mod beside;
 pub(crate) mod commands;
+mod copied;
 mod inputs;
 mod journal;
 pub(crate) mod measure;

@@ -28,15 +28,21 @@ impl Client {
     }
 
     pub(crate) fn start_with(options: &Value, encodings: &Value) -> Self {
-        Self::start_as(options, encodings, &Value::Null)
+        let capabilities = json!({ "general": { "positionEncodings": encodings } });
+        Self::start_as(options, &capabilities, &Value::Null)
+    }
+
+    /// With what the client can do.
+    pub(crate) fn start_able(capabilities: &Value) -> Self {
+        Self::start_as(&json!({}), capabilities, &Value::Null)
     }
 
     /// With a folder.
     pub(crate) fn start_in(options: &Value, root: &str) -> Self {
-        Self::start_as(options, &json!(["utf-16"]), &json!(root))
+        Self::start_as(options, &json!({}), &json!(root))
     }
 
-    fn start_as(options: &Value, encodings: &Value, root: &Value) -> Self {
+    fn start_as(options: &Value, capabilities: &Value, root: &Value) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
             .arg("lsp")
             .stdin(Stdio::piped())
@@ -64,7 +70,6 @@ impl Client {
             published: Vec::new(),
             last_status: None,
         };
-        let capabilities = json!({ "general": { "positionEncodings": encodings } });
         let params = json!({ "processId": null, "rootUri": root, "capabilities": capabilities,
                              "initializationOptions": options });
         let answer = client.request("initialize", params);

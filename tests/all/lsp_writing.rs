@@ -79,6 +79,23 @@ fn bodies_tools_and_programs_fold() {
     client.finish();
 }
 
+/// A client that keeps few regions gets the longest of them, in the order of the text.
+#[test]
+fn the_longest_regions_fold() {
+    let mut client = Client::start_able(&json!({ "textDocument": { "foldingRange": { "rangeLimit": 2 } } }));
+    client.open("untitled:/a.nc", MACRO);
+    let answer = client.request(
+        "textDocument/foldingRange",
+        json!({ "textDocument": document("untitled:/a.nc") }),
+    );
+    let found: Vec<_> = list(&answer)
+        .iter()
+        .map(|fold| [&fold["startLine"], &fold["endLine"]].map(Value::as_u64))
+        .collect();
+    assert_eq!(found, [[Some(3), Some(11)], [Some(12), Some(16)]]);
+    client.finish();
+}
+
 #[test]
 fn a_selection_grows_from_the_value_to_the_program() {
     let mut client = opened("untitled:/a.nc", MACRO);

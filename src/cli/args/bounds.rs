@@ -15,15 +15,21 @@ impl TextBounds {
         megabytes: 64,
         lines: 1_200_000,
     };
-    /// What compares programs or machines runs two texts, twice where they differ, and a page needs four runs.
+    /// What compares programs or machines runs two texts, twice where they differ.
     const COMPARES: Self = Self {
         megabytes: 32,
         lines: 400_000,
     };
-    /// What changes programs runs the old and the new text, some of it several times, and compares each step: a line takes many times as long as in `check`.
-    const CHANGES: Self = Self {
+    /// Layout reads both texts and compares what they say.
+    const LAYS_OUT: Self = Self {
         megabytes: 16,
         lines: 400_000,
+    };
+    /// What changes programs runs the old and the new text, some of it several times, and compares each step: a line takes many times as long as in `check`. A
+    /// page needs four runs, and pictures.
+    const CHANGES: Self = Self {
+        megabytes: 16,
+        lines: 300_000,
     };
 }
 
@@ -31,8 +37,9 @@ impl Global {
     /// Sets the bounds of the command where none are given.
     pub(crate) fn bound_text(&mut self, command: &Command) {
         let most = match command {
-            Command::Fmt(_) | Command::Fix(_) | Command::Edit(_) => TextBounds::CHANGES,
-            Command::Certify(_) | Command::Diff(_) | Command::Machine(_) | Command::Report(_) => TextBounds::COMPARES,
+            Command::Fmt(_) => TextBounds::LAYS_OUT,
+            Command::Fix(_) | Command::Edit(_) | Command::Report(_) => TextBounds::CHANGES,
+            Command::Certify(_) | Command::Diff(_) | Command::Machine(_) => TextBounds::COMPARES,
             _ => TextBounds::DEFAULT,
         };
         self.max_file_mb.get_or_insert(most.megabytes);

@@ -8,7 +8,7 @@ use std::path::Path;
 pub(crate) struct Command {
     /// Its name in the table.
     pub(crate) name: &'static str,
-    /// The arguments; `FILE` is the program, `HALF` and `SHORTER` are its beginning, as much as commands read that compare or change
+    /// The arguments; `FILE` is the program, `HALF`, `SHORTER` and `SHORTEST` are its beginning, as much as commands read that compare or change
     /// programs, and `OTHER` is a copy of `HALF` in which every second line has another number.
     arguments: &'static [&'static str],
     /// Standard output is one JSON document up to this exit status.
@@ -37,7 +37,7 @@ const fn json_command(group: &'static str, name: &'static str, arguments: &'stat
 pub(crate) const COMMANDS: &[Command] = &[
     command("check", "check", &["check", "--format", "pretty", "FILE"]),
     json_command("check", "check-json", &["check", "--format", "json", "FILE"]),
-    command("check", "report", &["report", "HALF", "-o", "-"]),
+    command("check", "report", &["report", "SHORTEST", "-o", "-"]),
     command("trace", "trace", &["trace", "FILE"]),
     json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
     command("trace", "canon", &["canon", "FILE"]),
@@ -70,18 +70,18 @@ pub(crate) const COMMANDS: &[Command] = &[
         "convert-klartext",
         &["convert", "FILE", "--to", "heidenhain-klartext"],
     ),
-    command("fix", "edit-unit", &["edit", "SHORTER", "--unit", "inch"]),
-    command("fix", "edit-rotate", &["edit", "SHORTER", "--rotate", "Z=30"]),
-    command("fix", "fix", &["fix", "SHORTER"]),
+    command("fix", "edit-unit", &["edit", "SHORTEST", "--unit", "inch"]),
+    command("fix", "edit-rotate", &["edit", "SHORTEST", "--rotate", "Z=30"]),
+    command("fix", "fix", &["fix", "SHORTEST"]),
     command(
         "fix",
         "fix-adapt-feed",
-        &["fix", "SHORTER", "--rewrite", "adapt-feed", "--feed", "5000"],
+        &["fix", "SHORTEST", "--rewrite", "adapt-feed", "--feed", "5000"],
     ),
     json_command(
         "fix",
         "fix-all",
-        &["fix", "SHORTER", "--rewrite", "all", "--format", "json"],
+        &["fix", "SHORTEST", "--rewrite", "all", "--format", "json"],
     ),
     command("plot", "plot-joints", &["plot", "FILE", "--kind", "joints"]),
     command("plot", "plot-path", &["plot", "FILE", "--kind", "path"]),
@@ -123,8 +123,11 @@ pub(crate) const COMMANDS: &[Command] = &[
 /// Bytes and lines of the longer beginning of a program: what `diff` reads by default.
 const HALF: (usize, usize) = (32_000_000, 400_000);
 
-/// Those of the shorter beginning: what `fmt` reads by default.
+/// Those of a shorter beginning: what `fmt` reads by default.
 const SHORTER: (usize, usize) = (16_000_000, 400_000);
+
+/// Those of the shortest: what `fix`, `edit` and `report` read by default.
+const SHORTEST: (usize, usize) = (16_000_000, 300_000);
 
 /// Files that commands need beside the program.
 pub(crate) fn write_helpers(folder: &Path) {
@@ -150,9 +153,14 @@ fn half(file: &str) -> String {
     format!("half-{file}")
 }
 
-/// The name of the shorter beginning.
+/// The name of a shorter beginning.
 fn shorter(file: &str) -> String {
     format!("shorter-{file}")
+}
+
+/// The name of the shortest.
+fn shortest(file: &str) -> String {
+    format!("shortest-{file}")
 }
 
 /// Writes a program and what commands read beside it: its beginnings, as much as `diff` and `fmt` read by default, and the changed copy.
@@ -164,11 +172,12 @@ pub(crate) fn write_program(folder: &Path, file: &str, program: &[u8]) {
     write(&half(file), half_of_it);
     write(&other(file), &changed(half_of_it));
     write(&shorter(file), beginning(SHORTER));
+    write(&shortest(file), beginning(SHORTEST));
 }
 
 /// Removes them, and the path that the server wrote.
 pub(crate) fn remove_program(folder: &Path, file: &str) {
-    for name in [file.to_owned(), half(file), other(file), shorter(file)] {
+    for name in [file.to_owned(), half(file), other(file), shorter(file), shortest(file)] {
         std::fs::remove_file(folder.join(name)).expect("removed");
     }
     let _ = std::fs::remove_file(folder.join(scene(file)));
@@ -193,18 +202,20 @@ impl Command {
         words.fold(whole, |most, word| match *word {
             "HALF" => HALF,
             "SHORTER" => SHORTER,
+            "SHORTEST" => SHORTEST,
             _ => most,
         })
     }
 
     /// The arguments for a program, in a dialect or in the one that it seems to be written in.
     pub(crate) fn arguments(&self, file: &str, dialect: Option<&str>) -> Vec<String> {
-        let (half, other, shorter) = (half(file), other(file), shorter(file));
+        let (half, other, shorter, shortest) = (half(file), other(file), shorter(file), shortest(file));
         let own = self.arguments.iter().map(|word| match *word {
             "FILE" => file,
             "HALF" => half.as_str(),
             "OTHER" => other.as_str(),
             "SHORTER" => shorter.as_str(),
+            "SHORTEST" => shortest.as_str(),
             word => word,
         });
         let dialect = dialect.filter(|_| self.name != "lsp");

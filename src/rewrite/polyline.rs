@@ -311,10 +311,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet
         }
     };
     for block in program.blocks() {
-        let mut motions = 0;
-        while seen.get(at + motions).is_some_and(|seen| seen.block == block.id()) {
-            motions += 1;
-        }
+        let motions = seen[at..].iter().take_while(|seen| seen.block == block.id()).count();
         // the next motion that does not wait, looked for once
         moving = moving.max(at + motions);
         while seen.get(moving).is_some_and(&waits) {

@@ -172,7 +172,10 @@ fn apart(a: &Arc, b: &Arc, shift: Vec3, adds: f64) -> f64 {
     } else {
         bend(a) + bend(b)
     };
-    let samples = (bend / (8.0 * adds)).sqrt().ceil().max(SAMPLES[0]).min(SAMPLES[1]);
+    let samples = (bend / (8.0 * adds.max(f64::MIN_POSITIVE)))
+        .sqrt()
+        .ceil()
+        .clamp(SAMPLES[0], SAMPLES[1]);
     let between = bend / (8.0 * samples * samples);
     // each arc stays within its radius and its height of its centre: of many turns the samples say no more than that
     let reach = |arc: &Arc| radius(arc) + arc.height().abs();

@@ -17,7 +17,13 @@ impl Own {
         let scope = &self.scope;
         let declared = scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len();
         let values = self.parameters.len() + self.others.len() + self.texts.len() + self.before_loss.len();
-        let task = self.task.outer.iter().map(|names| names.len()).sum::<usize>() + self.task.written.len();
+        let task = self
+            .task
+            .outer
+            .iter()
+            .map(std::collections::BTreeSet::len)
+            .sum::<usize>()
+            + self.task.written.len();
         let names = self.missing.len() + self.declared.len() + self.system.len() + task;
         declared + values + self.counted_to.len() + self.headed.len() + names
     }

@@ -21,7 +21,7 @@ pub(crate) struct Lines {
 }
 
 /// Bytes of a line between two marks, up to a character more.
-const STEP: usize = 1024;
+const STEP: usize = 128;
 
 impl Lines {
     /// Of a text, which is UTF-8.

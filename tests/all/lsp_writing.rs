@@ -92,7 +92,8 @@ fn the_longest_regions_fold() {
         .iter()
         .map(|fold| [&fold["startLine"], &fold["endLine"]].map(Value::as_u64))
         .collect();
-    assert_eq!(found, [[Some(3), Some(11)], [Some(12), Some(16)]]);
+    // the program, and its first tool; the second tool and the loop are shorter
+    assert_eq!(found, [[Some(0), Some(16)], [Some(3), Some(11)]]);
     client.finish();
 }
 

@@ -30,6 +30,8 @@ pub(crate) struct State {
     pub(crate) rotary: [f64; 2],
     /// Whether they are the present positions of the rotary axes.
     pub(crate) rotary_known: bool,
+    /// Rotary joints that have been moved to an unknown position and not named since, as a mask.
+    pub(crate) rotary_lost: u16,
     /// Sign of the last stance that had one, 0 when there was none.
     pub(crate) sign: i8,
     /// Rotary joints that a turn onto a tilted plane has set and no word has named since, as a mask.
@@ -62,6 +64,7 @@ impl<'m> Follower<'m> {
             known_joints: ([0.0; MAX_AXES], 0),
             rotary: [0.0; 2],
             rotary_known: false,
+            rotary_lost: 0,
             sign: 0,
             aimed: 0,
             named: 0,
@@ -93,18 +96,22 @@ impl<'m> Follower<'m> {
     /// [`Self::follow`] for any motion.
     pub(crate) fn general(&mut self, motion: &Motion) -> Leg {
         self.lines = None;
-        let given = self.state.stance.is_none() && self.begin(motion);
-        self.step(motion, given)
+        let given = self.state.stance.is_none().then(|| self.begin(motion)).flatten();
+        let mut leg = self.step(motion, given.is_some());
+        if let Some(begun) = given {
+            leg.open = leg.open.or(begun.open);
+        }
+        leg
     }
 
     /// Takes the stance that the program states without a motion (APT FROM): tip and tool vector where the motion starts. The posture
-    /// is chosen as at a first motion. `false` where there is no such stance.
-    fn begin(&mut self, motion: &Motion) -> bool {
+    /// is chosen as at a first motion. `None` where there is no such stance.
+    fn begin(&mut self, motion: &Motion) -> Option<Leg> {
         let Orientation::Vector(Some(axis), _) = motion.orientation else {
-            return false;
+            return None;
         };
         if motion.start.xyz().is_none() || matches!(motion.kind, MotionKind::Dwell(_) | MotionKind::Unknown) {
-            return false;
+            return None;
         }
         let before = self.state;
         let way = Motion {
@@ -117,8 +124,9 @@ impl<'m> Follower<'m> {
         let known = self.step(&way, false);
         if known.end.is_err() {
             self.state = before;
+            return None;
         }
-        known.end.is_ok()
+        Some(known)
     }
 
     #[inline]
@@ -175,7 +183,9 @@ impl<'m> Follower<'m> {
 
     #[inline]
     fn remember(&mut self, leg: &Leg) {
+        let lost = if leg.end.is_ok() { 0 } else { self.lost_turns(leg) };
         let state = &mut self.state;
+        state.rotary_lost = lost;
         state.stance = leg.end.as_ref().ok().copied();
         state.known_joints = leg.known_joints;
         if !matches!(leg.motion.tilt.swivel, Swivel::No | Swivel::PointToPoint) {

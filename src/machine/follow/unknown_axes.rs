@@ -1,6 +1,6 @@
 //! Which axes are unknown to a follower.
-use crate::{Follower, NoStance};
-use trunnion_interp::Motion;
+use crate::{Follower, Leg, NoStance};
+use trunnion_interp::{Motion, MotionKind};
 
 impl Follower<'_> {
     /// The joints outside the mask are unknown.
@@ -21,6 +21,21 @@ impl Follower<'_> {
             );
         }
         NoStance::PositionUnknown(letters + &self.letters(!known))
+    }
+
+    /// Rotary joints that are at an unknown position after a motion, and no longer where the machine was switched on: it was known before, or
+    /// the motion has words that move it, or is itself unknown.
+    pub(crate) fn lost_turns(&self, leg: &Leg) -> u16 {
+        let state = &self.state;
+        let (before, known) = (state.known_joints.1, leg.known_joints.1);
+        let moved = leg.motion.says_way & !leg.motion.end.known;
+        let rotary = self.machine.constants.rotary().iter().map(|rotary| rotary.joint);
+        rotary.fold(0, |mask, joint| {
+            let bit = 1 << joint;
+            let moves = leg.motion.kind == MotionKind::Unknown || self.words.names(moved, joint);
+            let is_lost = known & bit == 0 && (moves || (before | state.rotary_lost) & bit != 0);
+            mask | if is_lost { bit } else { 0 }
+        })
     }
 
     fn letters(&self, joints: u16) -> String {

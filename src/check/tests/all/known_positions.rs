@@ -9,8 +9,7 @@ mod language;
 use language::{LANGUAGES, Language, Line, body};
 use proptest::prelude::*;
 use trunnion_interp::{
-    AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Orientation, Setup, Sink, Tool, WorkOffset,
-    run,
+    AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Setup, Sink, Tool, WorkOffset, run,
 };
 use trunnion_machine::{Follower, Machine, builtin};
 use trunnion_syntax::BlockId;
@@ -26,7 +25,7 @@ struct After {
     joints: Vec<Option<f64>>,
     /// Axes whose coordinates in the plane the program knows, while the machine knows where it is.
     found: u16,
-    /// The posture may be another one (also where the machine file says `generic`: the start is taken to be 0 if it is not known), or the path beside the contour is not computed: both are reported.
+    /// The posture may be another one, or the path beside the contour is not computed: both are reported.
     open: bool,
 }
 
@@ -41,7 +40,6 @@ struct Followed<'m> {
 impl Sink for Followed<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
-        let from_nowhere = leg.start.is_none();
         let (values, known) = leg.known_joints;
         let joints = self.follower.machine().axes.iter().enumerate();
         self.after.push(After {
@@ -54,9 +52,7 @@ impl Sink for Followed<'_> {
                 Ok(_) if !state.zero.is_lost() => state.position.known,
                 _ => 0,
             },
-            open: leg.open.is_some()
-                || from_nowhere && matches!(motion.orientation, Orientation::Vector(..))
-                || (state.compensation != 0 && state.beside != Beside::Computed),
+            open: leg.open.is_some() || (state.compensation != 0 && state.beside != Beside::Computed),
         });
     }
 

@@ -108,3 +108,29 @@ fn a_datum_from_a_table_may_shift_rotary_axes() {
         }
     }
 }
+
+/// The length of a tool acts along the axis of TOOL CALL: where that is not the axis of the spindle, the axes are at unknown positions until a
+/// TOOL CALL names it.
+#[test]
+fn a_tool_axis_that_is_not_that_of_the_spindle() {
+    let language = LANGUAGES
+        .iter()
+        .find(|language| language.dialect == "heidenhain-klartext")
+        .expect("listed");
+    let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
+    for (calls, known) in [
+        ("TOOL CALL 1 Z S1000\n", true),
+        ("TOOL CALL 1 Y S1000\n", false),
+        ("TOOL CALL 1 X S1000\n", false),
+        ("TOOL CALL 1 Y S1000\nTOOL CALL S2000\n", false),
+        ("TOOL CALL 1 Y S1000\nTOOL CALL 1 Z S1000\n", true),
+    ] {
+        let text = format!("{}{calls}L X+1 Y+2 Z+3 A+5 C+5 F100\n", language.head);
+        let followed = super::follow(language, machine, &text, true, None);
+        let last = followed.after.last().expect("a motion");
+        for (joint, axis) in last.joints.iter().zip(&machine.axes) {
+            let rotary = b"AC".contains(&axis.letter);
+            assert_eq!(joint.is_some(), known || rotary, "{text}{last:?}");
+        }
+    }
+}

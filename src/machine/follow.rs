@@ -13,6 +13,7 @@ pub(crate) mod requests;
 pub(crate) mod rotary_way;
 pub(crate) mod row;
 pub(crate) mod stance;
+pub(crate) mod state;
 pub(crate) mod tool_vector;
 pub(crate) mod unknown_axes;
 pub(crate) mod words;

@@ -173,11 +173,17 @@ impl Klartext<'_> {
         let start = self.core.state.position;
         self.note_heading(&kind, &from, &end);
         let ways = self.rotary_ways(words, [&from, &end], report);
-        let (mut end, kind) = if self.memory.frames.active {
+        let (mut end, mut kind) = if self.memory.frames.active {
             (self.memory.frames.arrive(end), self.memory.frames.kind_to_work(kind))
         } else {
             (end, kind)
         };
+        // spatial angles turn the rotary axes that the machine has, whichever letters they have
+        let spatial = self.memory.spatial && words.given & ROTARY != 0;
+        if spatial {
+            kind = MotionKind::Unknown;
+            end.known &= !ROTARY;
+        }
         self.core.state.position = end;
         let orientation = self.tool_orientation(words, report);
         if let Orientation::Vector(..) = orientation {
@@ -197,6 +203,9 @@ impl Klartext<'_> {
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way |= words.incremental | unread(words) | ways.shortest;
         motion.says_way |= words.given & !motion.end.known;
+        if spatial {
+            motion.says_way &= !ROTARY;
+        }
         self.core.moves_all(&mut motion);
         motion.ways = ways;
         self.emit(&motion, report);

@@ -114,6 +114,7 @@ impl Follower<'_> {
         state.rotary = rotary;
         state.rotary_known = true;
         state.rotary_lost = 0;
+        state.led = false;
         if end.branch != 0 {
             state.sign = end.branch;
         }

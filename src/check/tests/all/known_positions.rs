@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use trunnion_interp::{
     AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Setup, Sink, Tool, WorkOffset, run,
 };
-use trunnion_machine::{Follower, Machine, builtin};
+use trunnion_machine::{Follower, Machine, NoStance, builtin};
 use trunnion_syntax::BlockId;
 
 /// Values of the two variables of a program.
@@ -21,6 +21,8 @@ const VALUES: [[f64; 2]; 3] = [[0.0, 0.0], [7.5, -3.5], [-30.0, 90.0]];
 #[derive(Debug)]
 struct After {
     motion: Motion,
+    /// Why there is no stance.
+    end: Result<(), NoStance>,
     /// Position of each joint, mm or rad, where it is known.
     joints: Vec<Option<f64>>,
     /// Axes whose coordinates in the plane the program knows, while the machine knows where it is.
@@ -44,6 +46,7 @@ impl Sink for Followed<'_> {
         let joints = self.follower.machine().axes.iter().enumerate();
         self.after.push(After {
             motion: *motion,
+            end: leg.end.clone().map(drop),
             joints: joints
                 .map(|(joint, _)| (known & 1 << joint != 0).then(|| values[joint]))
                 .collect(),

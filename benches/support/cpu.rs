@@ -1,9 +1,11 @@
 //! Processor time: on a machine that does other work beside, it is what a program took and not what it waited.
-use std::{fs, hint::black_box, path::Path, process::Command, sync::OnceLock, time::Instant};
+use std::{fs, hint::black_box, path::Path, process::Command, sync::OnceLock, thread, time::Instant};
 
 /// Processor seconds that this thread has used; where the system does not tell (other than Linux), seconds that have passed.
 fn seconds() -> f64 {
     static BEGUN: OnceLock<Instant> = OnceLock::new();
+    // Linux adds to the number at a tick (4 ms) and when a thread gives way: without this, times are multiples of 4 ms
+    thread::yield_now();
     let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(
@@ -12,17 +14,19 @@ fn seconds() -> f64 {
     )
 }
 
+/// The time of one run.
+pub(crate) fn once<T>(work: impl FnOnce() -> T) -> f64 {
+    let begun = seconds();
+    let made = black_box(work());
+    let took = seconds() - begun;
+    drop(made);
+    took
+}
+
 /// The least time of some runs.
+#[allow(dead_code, reason = "one of the benchmarks takes turns instead")]
 pub(crate) fn best<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
-    (0..runs)
-        .map(|_| {
-            let begun = seconds();
-            let made = black_box(work());
-            let took = seconds() - begun;
-            drop(made);
-            took
-        })
-        .fold(f64::INFINITY, f64::min)
+    (0..runs).map(|_| once(&mut work)).fold(f64::INFINITY, f64::min)
 }
 
 /// The least of the times that pass while some runs continue, seconds: what other work takes beside counts, too.

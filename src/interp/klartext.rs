@@ -215,9 +215,10 @@ impl<'d> Klartext<'d> {
     }
 
     fn put_out(&mut self, sink: &mut impl Sink) {
-        for motion in self.out.drain(..) {
-            sink.motion(&motion, &self.core.state);
+        for motion in &self.out {
+            sink.motion(motion, &self.core.state);
         }
+        self.out.clear();
     }
 
     /// Runs one block; what it requests of the flow.

@@ -81,6 +81,8 @@ pub(crate) struct Own {
     texts: BTreeMap<Box<str>, Box<str>>,
     /// The values that were known before they were lost.
     before_loss: BTreeMap<Box<str>, f64>,
+    /// What may have given variables other values: they have been lost since.
+    lost: Option<&'static str>,
     /// Written in the current block: when the control writes is not documented, so they are not read in the same block.
     pub(crate) fresh: Vec<Box<str>>,
     /// Grows with everything that may change the outcome of a decision.
@@ -148,6 +150,7 @@ impl Own {
     /// All variables have unknown values.
     pub(crate) fn lose(&mut self) {
         self.changes += 1;
+        self.lost = Some("jumps or calls before it are not followed");
         self.contour.euler = false;
         let known = self.known();
         if !known.is_empty() {
@@ -215,6 +218,8 @@ impl Own {
                 let Some(number) = index.and_then(whole) else {
                     // it may be any of them
                     self.parameters.clear();
+                    self.lost
+                        .get_or_insert("a value before it goes to R[] with an unknown index");
                     return;
                 };
                 Some(number)

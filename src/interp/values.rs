@@ -54,7 +54,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 if let Some(number) = self.own_number(word.value_range) {
                     return WordValue::Number(number);
                 }
-                self.not_modelled(word.value_range);
+                let what = self.why_no_number(word.value_range);
+                let what = what.unwrap_or_else(|| self.text(word.value_range));
+                (self.report)(word.value_range, FaultKind::NotModelled { what });
                 WordValue::Unread
             }
         }

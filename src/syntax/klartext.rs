@@ -3,7 +3,7 @@
 //! A block is a line with a number in front, which may be absent, and the lines that `~` at its end adds. `;` opens a comment, `*` after the
 //! number a heading; both reach to the end of the line, before a `~`. Numbers have a decimal point or a comma. Sources: HEIDENHAIN TNC 640
 //! user's manuals 34059x; programs of several shops.
-use crate::builder::Builder;
+use crate::builder::{Builder, HELD};
 use crate::error::SyntaxErrorKind;
 use crate::iso::on_line;
 use crate::lines::character;
@@ -15,18 +15,50 @@ use std::borrow::Cow;
 /// Lexes `source`, whose first byte is at offset 0 of the file if `at_start`, into `out`.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
     let mut at = 0;
+    let mut cut = Cut { out, count: 0 };
     if at_start && source.starts_with(b"\xEF\xBB\xBF") {
-        out.push(TokenKind::Blank, 0);
+        cut.push(TokenKind::Blank, 0);
         at = 3;
     }
     while at < source.len() {
-        at = line(source, options, at, out);
+        at = line(source, at, &mut cut);
     }
+    cut.release();
     out.finish(source, options, source.len() as u32);
 }
 
+/// The tokens that are cut and not in the table yet.
+struct Cut<'o> {
+    out: &'o mut Builder,
+    /// So many are held.
+    count: usize,
+}
+
+impl Cut<'_> {
+    #[inline]
+    fn push(&mut self, kind: TokenKind, start: usize) {
+        if self.count == HELD {
+            self.release();
+        }
+        self.out.hold(self.count, kind, start as u32);
+        self.count += 1;
+    }
+
+    fn release(&mut self) {
+        self.out.release(self.count);
+        self.count = 0;
+    }
+
+    /// The block ends after the last token.
+    #[inline]
+    fn end_block(&mut self) {
+        self.out.blocks.push(self.out.first);
+        self.out.first = (self.out.table.len() + self.count) as u32;
+    }
+}
+
 /// One block, its line end included; returns where the next one starts.
-fn line(source: &[u8], options: LexOptions, mut at: usize, out: &mut Builder) -> usize {
+fn line(source: &[u8], mut at: usize, cut: &mut Cut<'_>) -> usize {
     // nothing but blanks, the mark of a skipped block and the number so far
     let mut opens = true;
     let mut before = TokenKind::Blank;
@@ -34,10 +66,9 @@ fn line(source: &[u8], options: LexOptions, mut at: usize, out: &mut Builder) ->
         let byte = source[at];
         let (kind, end) = match byte {
             b'\n' | b'\r' => {
-                out.push(TokenKind::Newline, at as u32);
-                let end = behind_newline(source, at);
-                out.end_block(source, options, end as u32);
-                return end;
+                cut.push(TokenKind::Newline, at);
+                cut.end_block();
+                return behind_newline(source, at);
             }
             b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F => (
                 TokenKind::Blank,
@@ -49,8 +80,8 @@ fn line(source: &[u8], options: LexOptions, mut at: usize, out: &mut Builder) ->
             ),
             b';' => (TokenKind::Comment, comment_end(source, at, opens)),
             b'*' if opens => (TokenKind::Comment, comment_end(source, at, false)),
-            b'~' => continuation(source, at, out),
-            b'"' => text(source, at, out),
+            b'~' => continuation(source, at, cut.out),
+            b'"' => text(source, at, cut.out),
             b'A'..=b'Z' | b'a'..=b'z' | b'_' | 0x80.. => (
                 TokenKind::Name,
                 run(
@@ -71,7 +102,7 @@ fn line(source: &[u8], options: LexOptions, mut at: usize, out: &mut Builder) ->
         };
         opens &= kind == TokenKind::Blank
             || opens && (kind == TokenKind::Slash || kind == TokenKind::Number && before != TokenKind::Number);
-        out.push(kind, at as u32);
+        cut.push(kind, at);
         before = kind;
         at = end;
     }
@@ -213,13 +244,16 @@ impl<'p> Sentence<'p> {
     pub fn text(&self) -> Cow<'p, [u8]> {
         let table = &self.program.tokens;
         let (first, end) = self.tokens;
-        let inside = |id: &TokenId| matches!(table.kind(*id), TokenKind::Comment | TokenKind::Continuation);
-        if !(first..end).any(|id| inside(&id)) {
+        let inside = |kind: TokenKind| matches!(kind, TokenKind::Comment | TokenKind::Continuation);
+        if !table.kinds[first as usize..end as usize]
+            .iter()
+            .any(|kind| inside(*kind))
+        {
             return Cow::Borrowed(self.program.bytes(self.range));
         }
         let mut joined = Vec::with_capacity((self.range.end - self.range.start) as usize);
         for id in first..end {
-            if inside(&id) {
+            if inside(table.kind(id)) {
                 joined.push(b' ');
             } else {
                 joined.extend_from_slice(self.program.bytes(table.range(id)));

@@ -35,6 +35,15 @@ impl Decimal {
         }
     }
 
+    /// [`Self::parse`] and [`Self::to_f64`] in one: the usual number stays in registers.
+    #[inline]
+    pub fn parse_f64(bytes: &[u8]) -> Option<f64> {
+        match Self::parse_short(bytes) {
+            Some(number) => Some(number.to_f64()),
+            None => Self::parse_rare(bytes).map(Self::to_f64),
+        }
+    }
+
     /// Reads a number of at most 18 digits without exponent; `None` for any other.
     #[inline]
     pub(crate) fn parse_short(bytes: &[u8]) -> Option<Self> {

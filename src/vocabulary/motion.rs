@@ -14,8 +14,12 @@ impl AxisLetter {
     /// From a letter, either case; `None` when it names no axis.
     #[inline]
     pub fn new(letter: u8) -> Option<Self> {
-        let upper = letter.to_ascii_uppercase();
-        AXIS_LETTERS.iter().position(|&l| l == upper).map(|i| Self(i as u8))
+        match letter.to_ascii_uppercase() {
+            upper @ b'X'..=b'Z' => Some(Self(upper - b'X')),
+            upper @ b'A'..=b'C' => Some(Self(3 + upper - b'A')),
+            upper @ b'U'..=b'W' => Some(Self(6 + upper - b'U')),
+            _ => None,
+        }
     }
     /// The letter, upper case.
     pub fn letter(self) -> u8 {
@@ -352,5 +356,18 @@ impl Motion {
     /// Engaged, until stock is known: a feed motion with the spindle on.
     pub fn is_engaged(&self) -> bool {
         self.is_feed() && self.spindle_on == Some(true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AXIS_LETTERS, AxisLetter};
+
+    #[test]
+    fn letters_of_axes_are_found_in_either_case() {
+        for byte in 0..=u8::MAX {
+            let place = AXIS_LETTERS.iter().position(|letter| byte.eq_ignore_ascii_case(letter));
+            assert_eq!(AxisLetter::new(byte).map(|axis| usize::from(axis.0)), place, "{byte}");
+        }
     }
 }

@@ -203,6 +203,26 @@ mod tests {
         );
     }
 
+    /// Trunnion's own rule takes the rotary axes at 0 before the first motion, but not where the program has moved them to an unknown position.
+    #[test]
+    fn a_lost_position_leaves_the_next_posture_open() {
+        let vector = "N30 G0 X10 Y0 Z50 A3=0.1 B3=-0.3 C3=0.95\n";
+        for (lines, open) in [
+            ("N10 TRAORI\n", false),
+            ("N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\n", false),
+            ("N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C=R1\n", true),
+            ("N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN25 G0 A=R1\n", true),
+            ("N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C=R1\nN25 G0 C5\n", false),
+        ] {
+            let text = format!("{lines}{vector}N40 M30\n");
+            let report = Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text)
+                .check()
+                .unwrap();
+            let found = report.diagnostics.iter().filter(|d| d.rule == "ambiguous-posture");
+            assert_eq!(found.count(), usize::from(open), "{text}{report:?}");
+        }
+    }
+
     #[test]
     fn on_a_great_circle_clear_of_the_pole_nothing_is_open() {
         assert_drawn(

@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode sinumerik-840d
 //! N10 G0 X=R1+2
-//! ;        ^^^^ not-modelled: not modelled: R1+2
+//! ;        ^^^^ not-modelled: not modelled: R1: the program does not set its value
 //! ```
 //!
 //! # Use instead

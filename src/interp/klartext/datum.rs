@@ -21,6 +21,8 @@ pub(crate) const TURNING: u16 = 8;
 pub(crate) const PRESET: u16 = 64;
 /// A length of the tool that is not known.
 pub(crate) const LENGTH: u16 = 128;
+/// A direction of the tool that the machine does not have at home.
+pub(crate) const TOOL_AXIS: u16 = 256;
 /// A shift that belongs to a plane, or to the system outside of it: which one is not known.
 pub(crate) const INSIDE: u16 = 32;
 /// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.

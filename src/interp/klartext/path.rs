@@ -173,11 +173,17 @@ impl Klartext<'_> {
         let start = self.core.state.position;
         self.note_heading(&kind, &from, &end);
         let ways = self.rotary_ways(words, [&from, &end], report);
-        let (mut end, kind) = if self.memory.frames.active {
+        let (mut end, mut kind) = if self.memory.frames.active {
             (self.memory.frames.arrive(end), self.memory.frames.kind_to_work(kind))
         } else {
             (end, kind)
         };
+        // spatial angles turn the rotary axes that the machine has, whichever letters they have
+        let spatial = self.memory.spatial && words.given & ROTARY != 0;
+        if spatial {
+            kind = MotionKind::Unknown;
+            end.known &= !ROTARY;
+        }
         self.core.state.position = end;
         let orientation = self.tool_orientation(words, report);
         if let Orientation::Vector(..) = orientation {
@@ -197,6 +203,9 @@ impl Klartext<'_> {
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way |= words.incremental | unread(words) | ways.shortest;
         motion.says_way |= words.given & !motion.end.known;
+        if spatial {
+            motion.says_way &= !ROTARY;
+        }
         self.core.moves_all(&mut motion);
         motion.ways = ways;
         self.emit(&motion, report);
@@ -290,15 +299,17 @@ impl Klartext<'_> {
             };
             self.join(made, report);
         } else {
-            let is_lost = self.core.state.zero.is_lost();
-            self.out
-                .push(in_work(motion, self.memory.frames.tilt.as_ref(), is_lost));
+            self.out.push(*motion);
+            if let (Some(tilt), Some(made)) = (&self.memory.frames.tilt, self.out.last_mut()) {
+                *made = in_work(motion, tilt, self.core.state.zero.is_lost());
+            }
         }
     }
 
     pub(crate) fn finish_motion(&mut self, made: &Made) {
         let is_lost = self.core.state.zero.is_lost();
-        self.out.push(in_work(&made.motion, made.tilt.as_ref(), is_lost));
+        let in_work = |tilt| in_work(&made.motion, tilt, is_lost);
+        self.out.push(made.tilt.as_ref().map_or(made.motion, in_work));
     }
 
     /// A motion of which nothing is known.
@@ -341,17 +352,16 @@ pub(super) fn unread(words: &PathWords) -> u16 {
         & words.given
 }
 
-/// The motion in the workpiece frame.
-#[inline]
-fn in_work(motion: &Motion, tilt: Option<&Tilted>, is_lost: bool) -> Motion {
-    match tilt {
-        Some(_) if is_lost && matches!(motion.orientation, Orientation::Vector(None, _)) => Motion {
-            // a turn onto a plane of a system that is not known
+/// A motion in a tilted plane, in the workpiece frame.
+fn in_work(motion: &Motion, tilt: &Tilted, is_lost: bool) -> Motion {
+    match motion.orientation {
+        // a turn onto a plane of a system that is not known
+        Orientation::Vector(None, _) if is_lost => Motion {
             kind: MotionKind::Unknown,
             orientation: Orientation::Words,
             ..*motion
         },
-        Some(tilt) if !motion.machine_coordinates && !is_lost => tilt.motion_to_work(motion),
-        _ => *motion,
+        _ if motion.machine_coordinates || is_lost => *motion,
+        _ => tilt.motion_to_work(motion),
     }
 }

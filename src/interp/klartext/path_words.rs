@@ -80,7 +80,16 @@ impl PathWords {
 
 impl Klartext<'_> {
     /// The value of a word; a parameter without one is reported.
+    #[inline]
     pub(crate) fn said(&mut self, said: Said<'_>, report: &mut Report<'_>) -> Value {
+        // the usual one stays in registers
+        if let Said::Number(value) = said {
+            return Some(value);
+        }
+        self.said_otherwise(said, report)
+    }
+
+    fn said_otherwise(&mut self, said: Said<'_>, report: &mut Report<'_>) -> Value {
         match said {
             Said::Number(value) => Some(value),
             Said::Parameter(_, parameter) => {
@@ -112,7 +121,8 @@ impl Klartext<'_> {
         let mut found = PathWords::default();
         // F behind M103, M128 and M140 is theirs
         let mut own_feed = false;
-        while let Some(word) = words.next() {
+        let mut word = Word::NONE;
+        while words.read(&mut word) {
             own_feed = self.path_word(&word, words, &mut found, own_feed, report);
         }
         found
@@ -138,8 +148,8 @@ impl Klartext<'_> {
     ) -> bool {
         match word.name() {
             [letter] | [b'I', letter]
-                if AxisLetter::new(*letter).is_some()
-                    && word.value == Said::Nothing
+                if word.value == Said::Nothing
+                    && AxisLetter::new(*letter).is_some()
                     && (words.takes_word("NAN") || words.takes_word("INF")) =>
             {
                 self.no_number(found, report);

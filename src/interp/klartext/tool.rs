@@ -1,7 +1,8 @@
 //! TOOL CALL and TOOL DEF.
 use super::Klartext;
-use super::datum::LENGTH;
+use super::datum::{LENGTH, TOOL_AXIS};
 use super::words::{Said, Words};
+use crate::arc::plane_axes;
 use crate::core::Report;
 use crate::tools::Chosen;
 use crate::{FaultKind, LengthOf, Refusal, TcpMistake, Tool, ToolLength};
@@ -135,6 +136,7 @@ impl Klartext<'_> {
             Some(plane) => {
                 self.core.state.coordinates.set_plane(plane);
                 self.memory.has_tool_axis = true;
+                self.compare_tool_axis(plane, report);
             }
             None if chosen.is_some() && !self.memory.has_tool_axis => {
                 self.not_modelled_once("TOOL CALL without the tool axis: that of the previous program", report);
@@ -153,6 +155,22 @@ impl Klartext<'_> {
         } else if let Some(delta) = delta {
             self.change_length(delta);
         }
+    }
+
+    /// The tool axis is the direction in which the control takes the length of the tool. Where the spindle of the machine does not point along it, an
+    /// angle head may be in it, or the axis is wrong.
+    fn compare_tool_axis(&mut self, plane: Plane, report: &mut Report<'_>) {
+        let axis = plane_axes(plane)[2];
+        let along = self.core.setup.length_along();
+        if !self.core.setup.control.axes_declared || along[axis] != 0.0 {
+            return self.found(TOOL_AXIS);
+        }
+        let what = format!(
+            "TOOL CALL with tool axis {}: the spindle of the machine does not point along it",
+            char::from(crate::AXIS_LETTERS[axis])
+        );
+        self.not_modelled_once(&what, report);
+        self.lose(TOOL_AXIS);
     }
 
     /// TOOL CALL DL+0,1: the same tool, measured otherwise. The machine stays where it is, so the tip is somewhere else along the tool.

@@ -64,6 +64,14 @@ pub(crate) struct Word<'t> {
 }
 
 impl Word<'_> {
+    /// What [`Words::read`] fills.
+    pub(crate) const NONE: Self = Self {
+        name: [0; LONGEST],
+        length: 0,
+        value: Said::Nothing,
+        start: 0,
+        end: 0,
+    };
     /// Upper case; of a longer name its beginning.
     pub(crate) fn name(&self) -> &[u8] {
         &self.name[..self.length]
@@ -97,13 +105,13 @@ pub fn sentence_words(text: &[u8]) -> impl Iterator<Item = SentenceWord> + '_ {
 }
 
 /// A number that is written with a comma.
-fn with_point(written: &[u8]) -> Option<Decimal> {
+fn with_point(written: &[u8]) -> Option<f64> {
     let mut buffer = [0u8; LONGEST_NUMBER];
     let number = buffer.get_mut(..written.len())?;
     for (to, from) in number.iter_mut().zip(written) {
         *to = if *from == b',' { b'.' } else { *from };
     }
-    Decimal::parse(number)
+    Decimal::parse_f64(number)
 }
 
 /// The words of a text, in order.
@@ -157,6 +165,7 @@ impl<'t> Words<'t> {
     }
 
     /// An unsigned or signed number or parameter at this very place.
+    #[inline]
     pub(crate) fn value(&mut self) -> Said<'t> {
         let start = self.at;
         let sign = match self.peek() {
@@ -178,24 +187,24 @@ impl<'t> Words<'t> {
     /// A number at `start`, where a sign may be, and digits are at this place.
     fn number(&mut self, start: usize) -> Said<'t> {
         let mut point = None;
-        while let Some(byte @ (b'0'..=b'9' | b'.' | b',')) = self.peek() {
+        let mut end = self.at;
+        while let Some(&byte @ (b'0'..=b'9' | b'.' | b',')) = self.text.get(end) {
+            end += 1;
             if !byte.is_ascii_digit() && point.replace(byte).is_some() {
                 // a second point, or a comma that separates
-                self.at += 1;
-                while self.peek().is_some_and(|byte| byte.is_ascii_digit()) {
-                    self.at += 1;
-                }
+                let digits = self.text[end..].iter().take_while(|byte| byte.is_ascii_digit());
+                self.at = end + digits.count();
                 return Said::Bad;
             }
-            self.at += 1;
         }
-        let written = &self.text[start..self.at];
+        self.at = end;
+        let written = &self.text[start..end];
         let number = if point == Some(b',') {
             with_point(written)
         } else {
-            Decimal::parse(written)
+            Decimal::parse_f64(written)
         };
-        number.map_or(Said::Bad, |number| Said::Number(number.to_f64()))
+        number.map_or(Said::Bad, Said::Number)
     }
 
     /// `Q5`, `QL5`, `QR5`, `QS5` at this very place.
@@ -227,16 +236,21 @@ impl<'t> Iterator for Words<'t> {
     type Item = Word<'t>;
 
     fn next(&mut self) -> Option<Word<'t>> {
+        let mut word = Word::NONE;
+        self.read(&mut word).then_some(word)
+    }
+}
+
+impl<'t> Words<'t> {
+    /// Reads the next word in place, which a loop over words is quicker with; `false` where there is none.
+    pub(crate) fn read(&mut self, word: &mut Word<'t>) -> bool {
         self.blanks();
         let start = self.at;
-        let mut word = Word {
-            name: [0; LONGEST],
-            length: 0,
-            value: Said::Nothing,
-            start,
-            end: start,
-        };
-        match self.peek()? {
+        word.length = 0;
+        word.value = Said::Nothing;
+        word.start = start;
+        let Some(first) = self.peek() else { return false };
+        match first {
             b'"' => {
                 let rest = &self.text[start + 1..];
                 let length = rest.iter().position(|byte| *byte == b'"').unwrap_or(rest.len());
@@ -247,7 +261,7 @@ impl<'t> Iterator for Words<'t> {
                 word.value = self.value();
                 self.at = self.at.max(start + 1);
             }
-            byte if byte.is_ascii_alphabetic() || byte == b'_' || byte >= 0x80 => self.named(&mut word),
+            byte if byte.is_ascii_alphabetic() || byte == b'_' || byte >= 0x80 => self.named(word),
             byte => {
                 word.name[0] = byte;
                 word.length = 1;
@@ -255,33 +269,33 @@ impl<'t> Iterator for Words<'t> {
             }
         }
         word.end = self.at;
-        Some(word)
+        true
     }
-}
 
-impl<'t> Words<'t> {
+    #[inline]
     fn named(&mut self, word: &mut Word<'t>) {
         let whole = self.at;
         if let Some(found) = self.parameter() {
             word.value = Said::Parameter(false, found);
             return;
         }
-        self.at = whole;
-        while let Some(byte) = self
-            .peek()
-            .filter(|byte| byte.is_ascii_alphabetic() || *byte == b'_' || *byte >= 0x80)
-        {
+        let mut at = whole;
+        while let Some(&byte @ (b'A'..=b'Z' | b'a'..=b'z' | b'_' | 0x80..)) = self.text.get(at) {
             // `FQ50`, `XQL3`: the value begins
-            if matches!(byte, b'Q' | b'q') && word.length > 0 && self.parameter().is_some() {
-                self.at = whole + word.length.min(LONGEST);
-                break;
+            if matches!(byte, b'Q' | b'q') && word.length > 0 {
+                self.at = at;
+                if self.parameter().is_some() {
+                    at = whole + word.length;
+                    break;
+                }
             }
             if let Some(place) = word.name.get_mut(word.length) {
                 *place = byte.to_ascii_uppercase();
                 word.length += 1;
             }
-            self.at += 1;
+            at += 1;
         }
+        self.at = at;
         // `DR2+0,1`
         if word.name() == b"DR" && self.peek() == Some(b'2') && matches!(self.text.get(self.at + 1), Some(b'+' | b'-'))
         {

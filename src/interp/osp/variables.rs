@@ -68,14 +68,16 @@ pub(crate) fn is_common(name: &str) -> bool {
 }
 
 /// Why the value of a name is not known.
-pub(crate) fn why_unknown(name: &str) -> String {
-    let shown = name.trim_end_matches('[').to_ascii_uppercase();
-    match class(&name.trim_end_matches('[').to_ascii_lowercase()) {
+pub(crate) fn why_unknown(own: &Own, name: &str) -> String {
+    let stem = name.trim_end_matches('[').to_ascii_lowercase();
+    let shown = stem.to_ascii_uppercase();
+    match class(&stem) {
         _ if name == "empty" => "EMPTY: followed only as the whole of one comparison with one variable".to_owned(),
         Class::Control => format!("{shown}: a variable of the control"),
         Class::None => format!("{shown}: no variable of this name is known"),
         _ if name.ends_with('[') => format!("{shown}[]: no source states what it gives"),
-        Class::Common => format!("{shown}: its value is unknown here"),
+        Class::Common => format!("{shown}: {}", own.why_valueless(&stem)),
+        Class::Local if own.is_declared(&stem) => format!("{shown}: its value is unknown here"),
         Class::Local => format!("{shown}: not written before"),
     }
 }

@@ -29,6 +29,29 @@ impl Own {
     }
 }
 
+/// Longest text of an assignment that a reason repeats, bytes.
+const LONGEST_SOURCE: usize = 60;
+
+impl Own {
+    /// Why a variable that is not local has no known value, its name in lower case.
+    pub(crate) fn why_valueless(&self, name: &str) -> String {
+        if self.is_fresh(name) {
+            return "written in the same block".to_owned();
+        }
+        if let Some(lost) = self.lost {
+            return lost.to_owned();
+        }
+        // R[1] may be written R[2-1]
+        let by_index = || self.texts.keys().any(|written| written.starts_with("r["));
+        match self.texts.get(name) {
+            None if by_index() => "its value is unknown here".to_owned(),
+            Some(text) if text.len() <= LONGEST_SOURCE => format!("from {text}"),
+            Some(text) => format!("from {}...", &text[..text.floor_char_boundary(LONGEST_SOURCE)]),
+            None => "the program does not set its value".to_owned(),
+        }
+    }
+}
+
 impl View<'_> {
     fn give(&self, value: Option<f64>, why: impl FnOnce() -> String) -> f64 {
         value.unwrap_or_else(|| {
@@ -47,12 +70,7 @@ impl trunnion_formula::Variables for View<'_> {
         let name = format!("r{index}");
         let fresh = self.own.is_fresh(&name);
         let value = self.own.parameters.get(&index).copied().filter(|_| !fresh);
-        let reason = if fresh {
-            "written in the same block"
-        } else {
-            "its value is unknown here"
-        };
-        Ok(self.give(value, || format!("R{index}: {reason}")))
+        Ok(self.give(value, || format!("R{index}: {}", self.own.why_valueless(&name))))
     }
     fn named(&self, name: &str) -> Result<f64, ValueError> {
         if let Some(element) = prepared::element(self.elements, name) {
@@ -68,7 +86,7 @@ impl trunnion_formula::Variables for View<'_> {
             self.own.read(name)
         };
         Ok(self.give(value, || match name.as_bytes() {
-            _ if self.own.is_task && !self.own.is_fresh(name) => crate::osp::why_unknown(name),
+            _ if self.own.is_task && !self.own.is_fresh(name) => crate::osp::why_unknown(self.own, name),
             [b'$', ..] => format!("{}: a variable of the control", shown()),
             [.., b'['] => format!("{}[]: array elements are not followed", shown()),
             [.., b'('] => format!("{}(): the function is not modelled", shown()),
@@ -83,7 +101,7 @@ impl trunnion_formula::Variables for View<'_> {
         let value = self.own.element(name, index).filter(|_| one);
         Ok(self.give(value, || {
             if self.own.is_task {
-                return crate::osp::why_unknown(name);
+                return crate::osp::why_unknown(self.own, name);
             }
             format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
         }))

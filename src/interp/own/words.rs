@@ -111,20 +111,36 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         })
     }
 
+    /// Why an expression has no known value; `None` where it is not one that can be read.
+    pub(crate) fn why_no_number(&self, range: TextRange) -> Option<String> {
+        let own = self.own.as_ref()?;
+        let text = self.text(range);
+        let inside = place_inside(&text).map_or(text.as_str(), |(_, inside)| inside);
+        let (_, why, end) = own.evaluate(inside.as_bytes(), 0).ok()?;
+        let whole = inside.get(end..).is_some_and(|rest| rest.trim().is_empty());
+        why.filter(|_| whole)
+    }
+
     /// `IC(R1+2)`.
     pub(crate) fn own_place(&self, word: &Word) -> Option<(WordValue, Reading)> {
         let Value::Expression(_) = word.value else { return None };
         let own = self.own.as_ref()?;
         let text = self.text(word.value_range);
-        let (name, inside) = text.split_once('(')?;
-        let known = |(known, _): &&(&[u8], Reading)| name.trim().as_bytes().eq_ignore_ascii_case(known);
-        let (_, reading) = READINGS.iter().find(known)?;
-        let value = own.value(inside.strip_suffix(')')?)?;
+        let (reading, inside) = place_inside(&text)?;
+        let value = own.value(inside)?;
         let number = Number {
             value,
             has_point: true,
             range: word.range,
         };
-        Some((WordValue::Number(number), *reading))
+        Some((WordValue::Number(number), reading))
     }
+}
+
+/// The reading and the expression of `IC(R1+2)`.
+fn place_inside(text: &str) -> Option<(Reading, &str)> {
+    let (name, inside) = text.split_once('(')?;
+    let known = |(known, _): &&(&[u8], Reading)| name.trim().as_bytes().eq_ignore_ascii_case(known);
+    let (_, reading) = READINGS.iter().find(known)?;
+    Some((*reading, inside.strip_suffix(')')?))
 }

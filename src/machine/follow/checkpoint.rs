@@ -1,5 +1,5 @@
 //! What a follower remembers, without its machine: an owned check-point.
-use crate::follow::follower::State;
+use crate::follow::state::State;
 use crate::{Follower, Machine};
 
 /// What a [`Follower`] remembers between two motions.

@@ -2,9 +2,11 @@
 //! [`crate::follow::posture_rule`]; where the documentation leaves it open, which other posture it may take.
 //!
 //! At the pole the first rotary axis stays where it is. Windings are chosen inside the limits (and the ranges set in the control);
-//! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are assumed at zero.
+//! an endless axis takes the winding nearest the previous value. Before the first motion of the rotary axes they are assumed at zero; where
+//! the program has lost them, the choice is open.
 use crate::follow::allowed_windings::{Outside, excess, legal, no_winding, searched};
 use crate::follow::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
+use crate::follow::reference::{Before, Reference};
 use crate::follow::requests::Requested;
 use crate::kinematics::windings::windings_in;
 use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, POLE_TOLERANCE, Side, Solution, orientations};
@@ -15,23 +17,6 @@ use trunnion_interp::Posture;
 
 /// Postures that differ by less than this in every rotary axis are not reported as a choice, rad: 5 deg (docs/kinematics.md#which-posture-a-control-takes).
 const DIFFERENT: f64 = 5.0 * PI / 180.0;
-
-/// What a choice starts from.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Before {
-    /// Rotary joints, workpiece side first, rad; zeros if unknown.
-    pub(crate) q: [f64; 2],
-    /// Whether they are known.
-    pub(crate) known: bool,
-    /// Sign of the posture; 0 at the pole or where it is unknown.
-    pub(crate) sign: i8,
-    /// Angle to the pole, rad.
-    pub(crate) pole_angle: f64,
-    /// The tool axis follows a great circle that does not touch the pole: the posture cannot change along it.
-    pub(crate) continuous: bool,
-    /// What the program requests.
-    pub(crate) wish: Posture,
-}
 
 /// A chosen posture.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +84,10 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     });
     let chosen = &found.items[taken];
     if open.is_none() && asked.unsaid {
-        open = chosen.other_winding(machine, before);
+        open = chosen.other_winding(machine, before, OpenCause::WordsNotDeclared);
+    }
+    if open.is_none() && before.reference == Reference::Lost {
+        open = chosen.other_winding(machine, before, OpenCause::StartUnknown);
     }
     let rule = machine.control.branch.rule;
     if open.is_none() && rule != Some(PostureRule::Generic) {
@@ -116,7 +104,7 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
 
 /// At the pole the first rotary axis stays where it is. If that position is unknown, it may be half a turn off as well.
 fn stays_unknown(machine: &Machine, q: [f64; 2], before: &Before) -> Option<Open> {
-    if before.known || machine.control.branch.rule == Some(PostureRule::Generic) {
+    if !before.lacks_start(machine.control.branch.rule) {
         return None;
     }
     let joint = machine.constants.rotary().first()?.joint;
@@ -175,7 +163,7 @@ fn refusal(machine: &Machine, q: &[f64; 2]) -> NoStance {
 
 impl Item {
     /// The same posture on another turn of an axis.
-    fn other_winding(&self, machine: &Machine, before: &Before) -> Option<Open> {
+    fn other_winding(&self, machine: &Machine, before: &Before, cause: OpenCause) -> Option<Open> {
         let taken = self.candidate.q;
         machine
             .constants
@@ -188,16 +176,12 @@ impl Item {
                 let value = *all.iter().find(|value| (*value - taken[index]).abs() > DIFFERENT)?;
                 let mut other = taken;
                 other[index] = value;
-                Some(Open {
-                    cause: OpenCause::WordsNotDeclared,
-                    taken,
-                    other,
-                })
+                Some(Open { cause, taken, other })
             })
     }
 
     fn open_turn(&self, before: &Before) -> Option<Open> {
-        let axis = self.half_turn.filter(|_| before.known)?;
+        let axis = self.half_turn.filter(|_| before.is_known())?;
         let mut other = self.candidate.q;
         other[axis] = 2.0 * before.q[axis] - other[axis];
         Some(Open {
@@ -241,7 +225,7 @@ impl Found {
     /// not say which of the two it ignores.
     fn rule_conflict(&self, taken: usize, before: &Before) -> Option<Open> {
         let (chosen, other) = (self.items.get(taken)?, self.items.get(1 - taken.min(1))?);
-        let stays = before.continuous && before.known && before.sign != 0 && other.branch == before.sign;
+        let stays = before.continuous && before.is_known() && before.sign != 0 && other.branch == before.sign;
         (self.count > 1 && stays && chosen.branch != before.sign).then_some(Open {
             cause: OpenCause::GreatCircle,
             taken: chosen.candidate.q,
@@ -265,11 +249,11 @@ impl Found {
         let Some(rule) = branch.rule else {
             let same = self.items.iter().position(|item| item.branch == before.sign);
             return match same {
-                Some(index) if before.continuous && before.known && before.sign != 0 => (index, None),
+                Some(index) if before.continuous && before.is_known() && before.sign != 0 => (index, None),
                 _ => (generic(), Some(OpenCause::RuleNotDeclared)),
             };
         };
-        if rule != PostureRule::Generic && !before.known {
+        if before.lacks_start(Some(rule)) {
             return (generic(), Some(OpenCause::StartUnknown));
         }
         if !branch.order.is_empty() {

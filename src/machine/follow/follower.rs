@@ -1,11 +1,12 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
 use crate::follow::choice::cheapest_in_posture;
 use crate::follow::line_cache::LineCache;
+use crate::follow::state::State;
 use crate::follow::words::{Words, XYZ, zero_point};
 use crate::kinematics::held_axes::settle_held;
 use crate::kinematics::inverse::inverse_turned;
 use crate::kinematics::pole;
-use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Sine, Stance};
+use crate::{Joints, Leg, Machine, NoStance, Open, Sine, Stance};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::angle_between;
@@ -20,27 +21,6 @@ const PIECE: f64 = 2.0 * core::f64::consts::PI / 180.0;
 const MOST_PIECES: f64 = 24.0;
 /// A motion with no more pieces takes little more work than one that does not turn: 8 deg.
 const FREE_PIECES: u64 = 4;
-
-/// What a follower remembers between two motions.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct State {
-    pub(crate) stance: Option<Stance>,
-    pub(crate) known_joints: (Joints, u16),
-    /// Last known rotary joints, rad; zeros before the first: the reference of the posture choice.
-    pub(crate) rotary: [f64; 2],
-    /// Whether they are the present positions of the rotary axes.
-    pub(crate) rotary_known: bool,
-    /// Sign of the last stance that had one, 0 when there was none.
-    pub(crate) sign: i8,
-    /// Rotary joints that a turn onto a tilted plane has set and no word has named since, as a mask.
-    pub(crate) aimed: u16,
-    /// Letters with a known end in the last motion.
-    pub(crate) named: u16,
-    /// Whether the last motion's X Y Z were tip coordinates.
-    pub(crate) tip_words: bool,
-    /// Pieces that the long turns of the run have taken.
-    pub(crate) turned: u64,
-}
 
 /// Follows motions; cloning it makes a check-point.
 #[derive(Clone)]
@@ -57,18 +37,7 @@ pub struct Follower<'m> {
 impl<'m> Follower<'m> {
     /// At an unknown position.
     pub fn new(machine: &'m Machine) -> Self {
-        let state = State {
-            stance: None,
-            known_joints: ([0.0; MAX_AXES], 0),
-            rotary: [0.0; 2],
-            rotary_known: false,
-            sign: 0,
-            aimed: 0,
-            named: 0,
-            tip_words: false,
-            turned: 0,
-        };
-        Self::at(machine, &state)
+        Self::at(machine, &State::UNKNOWN)
     }
     /// Continues from a remembered state.
     pub(crate) fn at(machine: &'m Machine, state: &State) -> Self {
@@ -93,18 +62,22 @@ impl<'m> Follower<'m> {
     /// [`Self::follow`] for any motion.
     pub(crate) fn general(&mut self, motion: &Motion) -> Leg {
         self.lines = None;
-        let given = self.state.stance.is_none() && self.begin(motion);
-        self.step(motion, given)
+        let given = self.state.stance.is_none().then(|| self.begin(motion)).flatten();
+        let mut leg = self.step(motion, given.is_some());
+        if let Some(begun) = given {
+            leg.open = leg.open.or(begun.open);
+        }
+        leg
     }
 
     /// Takes the stance that the program states without a motion (APT FROM): tip and tool vector where the motion starts. The posture
-    /// is chosen as at a first motion. `false` where there is no such stance.
-    fn begin(&mut self, motion: &Motion) -> bool {
+    /// is chosen as at a first motion. `None` where there is no such stance.
+    fn begin(&mut self, motion: &Motion) -> Option<Leg> {
         let Orientation::Vector(Some(axis), _) = motion.orientation else {
-            return false;
+            return None;
         };
         if motion.start.xyz().is_none() || matches!(motion.kind, MotionKind::Dwell(_) | MotionKind::Unknown) {
-            return false;
+            return None;
         }
         let before = self.state;
         let way = Motion {
@@ -117,8 +90,9 @@ impl<'m> Follower<'m> {
         let known = self.step(&way, false);
         if known.end.is_err() {
             self.state = before;
+            return None;
         }
-        known.end.is_ok()
+        Some(known)
     }
 
     #[inline]
@@ -175,7 +149,12 @@ impl<'m> Follower<'m> {
 
     #[inline]
     fn remember(&mut self, leg: &Leg) {
+        let lost = if leg.end.is_ok() { 0 } else { self.lost_turns(leg) };
         let state = &mut self.state;
+        state.rotary_lost = lost;
+        let by_vector =
+            matches!(leg.motion.orientation, Orientation::Vector(..)) && leg.motion.tilt.swivel == Swivel::No;
+        state.led = by_vector || state.led && leg.end.is_err();
         state.stance = leg.end.as_ref().ok().copied();
         state.known_joints = leg.known_joints;
         if !matches!(leg.motion.tilt.swivel, Swivel::No | Swivel::PointToPoint) {
@@ -311,6 +290,7 @@ impl<'m> Follower<'m> {
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
         // words that lead to no known position, or to one from an offset that is not known
         let moved = motion.says_way & !motion.end.known;
+        let turns_away = self.turns_away(motion);
         let placed = motion.end.known & if has_tip_words(motion) { !XYZ } else { !0 };
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
             let bit = 1 << joint;
@@ -319,8 +299,9 @@ impl<'m> Follower<'m> {
                     && (self.words.names(placed, joint)
                         || self.words.names(lost, joint)
                             && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
-            let solved = has_tip_words(motion) && self.solved() & bit != 0;
-            if into.1 & bit == 0 && known & bit != 0 && !is_lost && !solved {
+            let is_solved = has_tip_words(motion) && self.solved() & bit != 0;
+            let is_given = is_solved || turns_away && self.is_rotary(joint);
+            if into.1 & bit == 0 && known & bit != 0 && !is_lost && !is_given {
                 *value = self.state.known_joints.0[joint];
                 into.1 |= bit;
             }

@@ -113,6 +113,8 @@ impl Follower<'_> {
         state.known_joints = leg.known_joints;
         state.rotary = rotary;
         state.rotary_known = true;
+        state.rotary_lost = 0;
+        state.led = false;
         if end.branch != 0 {
             state.sign = end.branch;
         }

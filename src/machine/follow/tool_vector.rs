@@ -1,5 +1,6 @@
 //! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane and positions in it.
-use crate::follow::choice::{Before, choose};
+use crate::follow::choice::choose;
+use crate::follow::reference::{Before, Reference};
 use crate::follow::words::{XYZ, zero_point};
 use crate::kinematics::pole;
 use crate::path::joint_path::on_great_circle;
@@ -25,7 +26,11 @@ impl Follower<'_> {
         });
         let before = Before {
             q: self.state.rotary,
-            known: self.state.rotary_known,
+            reference: match (self.state.rotary_known, self.state.rotary_lost) {
+                (true, _) => Reference::Known,
+                (false, 0) => Reference::Assumed,
+                (false, _) => Reference::Lost,
+            },
             sign: self.state.sign,
             pole_angle: start.map_or(FRAC_PI_2, |start| start.pole_angle),
             continuous,

@@ -1,6 +1,9 @@
 //! Which axes are unknown to a follower.
-use crate::{Follower, NoStance};
-use trunnion_interp::Motion;
+use crate::{Follower, Leg, NoStance};
+use trunnion_interp::{Motion, MotionKind, Orientation, Swivel};
+
+/// A, B and C of [`trunnion_interp::Position`].
+const ROTARY_LETTERS: u16 = 0b11_1000;
 
 impl Follower<'_> {
     /// The joints outside the mask are unknown.
@@ -21,6 +24,34 @@ impl Follower<'_> {
             );
         }
         NoStance::PositionUnknown(letters + &self.letters(!known))
+    }
+
+    /// Rotary joints that are at an unknown position after a motion, and no longer where the machine was switched on: it was known before, or
+    /// the motion has words that move it, or is itself unknown.
+    pub(crate) fn lost_turns(&self, leg: &Leg) -> u16 {
+        let state = &self.state;
+        let (before, known) = (state.known_joints.1, leg.known_joints.1);
+        let moved = leg.motion.says_way & !leg.motion.end.known;
+        let rotary = self.machine.constants.rotary().iter().map(|rotary| rotary.joint);
+        rotary.fold(0, |mask, joint| {
+            let bit = 1 << joint;
+            let moves = leg.motion.kind == MotionKind::Unknown || self.words.names(moved, joint);
+            let is_lost = known & bit == 0 && (moves || (before | state.rotary_lost) & bit != 0);
+            mask | if is_lost { bit } else { 0 }
+        })
+    }
+
+    /// Whether the tool turns to an unknown direction: a vector led it before, and this guided motion has neither a vector nor a rotary coordinate. Its
+    /// own vector is not known, or the program has lost its position.
+    pub(crate) fn turns_away(&self, motion: &Motion) -> bool {
+        let names_turns = (motion.end.known | motion.says_way) & ROTARY_LETTERS != 0;
+        let plain = matches!(motion.orientation, Orientation::Words) && motion.tilt.swivel == Swivel::No;
+        self.state.led && plain && motion.tcp && !names_turns
+    }
+
+    pub(crate) fn is_rotary(&self, joint: usize) -> bool {
+        let mut rotary = self.machine.constants.rotary().iter();
+        rotary.any(|rotary| rotary.joint == joint)
     }
 
     fn letters(&self, joints: u16) -> String {

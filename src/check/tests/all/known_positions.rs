@@ -9,10 +9,9 @@ mod language;
 use language::{LANGUAGES, Language, Line, body};
 use proptest::prelude::*;
 use trunnion_interp::{
-    AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Orientation, Setup, Sink, Tool, WorkOffset,
-    run,
+    AXIS_LETTERS, Beside, Fault, FaultKind, ModalState, Motion, MotionKind, Setup, Sink, Tool, WorkOffset, run,
 };
-use trunnion_machine::{Follower, Machine, builtin};
+use trunnion_machine::{Follower, Machine, NoStance, builtin};
 use trunnion_syntax::BlockId;
 
 /// Values of the two variables of a program.
@@ -22,11 +21,13 @@ const VALUES: [[f64; 2]; 3] = [[0.0, 0.0], [7.5, -3.5], [-30.0, 90.0]];
 #[derive(Debug)]
 struct After {
     motion: Motion,
+    /// Why there is no stance.
+    end: Result<(), NoStance>,
     /// Position of each joint, mm or rad, where it is known.
     joints: Vec<Option<f64>>,
     /// Axes whose coordinates in the plane the program knows, while the machine knows where it is.
     found: u16,
-    /// The posture may be another one (also where the machine file says `generic`: the start is taken to be 0 if it is not known), or the path beside the contour is not computed: both are reported.
+    /// The posture may be another one, or the path beside the contour is not computed: both are reported.
     open: bool,
 }
 
@@ -41,11 +42,11 @@ struct Followed<'m> {
 impl Sink for Followed<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
-        let from_nowhere = leg.start.is_none();
         let (values, known) = leg.known_joints;
         let joints = self.follower.machine().axes.iter().enumerate();
         self.after.push(After {
             motion: *motion,
+            end: leg.end.clone().map(drop),
             joints: joints
                 .map(|(joint, _)| (known & 1 << joint != 0).then(|| values[joint]))
                 .collect(),
@@ -54,9 +55,7 @@ impl Sink for Followed<'_> {
                 Ok(_) if !state.zero.is_lost() => state.position.known,
                 _ => 0,
             },
-            open: leg.open.is_some()
-                || from_nowhere && matches!(motion.orientation, Orientation::Vector(..))
-                || (state.compensation != 0 && state.beside != Beside::Computed),
+            open: leg.open.is_some() || (state.compensation != 0 && state.beside != Beside::Computed),
         });
     }
 

@@ -79,7 +79,7 @@ fn missing_feed() {
     assert_eq!(faults("iso-6983", "G0 X1\nG4 P1\n"), [""; 0]);
     assert_eq!(
         faults("sinumerik-840d", "G1 X1 F=R1\n"),
-        [r#"1: R1: NotModelled { what: "R1" }"#],
+        [r#"1: R1: NotModelled { what: "R1: the program does not set its value" }"#],
         "said once, not twice"
     );
 }

@@ -126,10 +126,30 @@ fn modin_calls_after_each_block_that_moves() {
     );
 }
 
+/// A word whose value is not known says which variable it lacks, and why.
+#[test]
+fn an_unknown_value_has_a_reason() {
+    for (blocks, wanted) in [
+        ("X=V5\n", "V5: the program does not set its value"),
+        ("Z=VC3+1 F100\n", "VC3: the program does not set its value"),
+        ("V7=V5+1\nX=2*V7\n", "V7: from V5+1"),
+        ("V7=V5+1\nV7=3\nX=V7+VZOFX\n", "VZOFX: a variable of the control"),
+        ("X=VZOFX[1]\n", "VZOFX: a variable of the control"),
+        ("X=LOC1\n", "LOC1: not written before"),
+        ("LOC1=V5\nX=LOC1\n", "LOC1: its value is unknown here"),
+        ("V1=4 X=V1\n", "V1: written in the same block"),
+        ("CALL ONOT\nX=V5\n", "V5: jumps or calls before it are not followed"),
+    ] {
+        let found = told(blocks);
+        let wanted = format!("what: \"{wanted}\"");
+        assert!(found.iter().any(|fault| fault.contains(&wanted)), "{blocks}{found:?}");
+    }
+}
+
 #[test]
 fn what_is_not_decided_ends_the_run_by_name() {
     for (blocks, wanted) in [
-        ("IF [V7 EQ 1] NA\nNA X1\n", "V7: its value is unknown here"),
+        ("IF [V7 EQ 1] NA\nNA X1\n", "V7: the program does not set its value"),
         ("IF [VZOFX[1] EQ 1] NA\nNA X1\n", "VZOFX: a variable of the control"),
         ("IF AB NA\nNA X1\n", "whether AB has a value"),
         (

@@ -187,7 +187,7 @@ fn arguments_come_in_by_value_and_go_out_by_reference() {
     );
     // the caller's variables are its own: DEPTH is not one of them
     let (_, said) = run("CUT(5)\nG0 X=DEPTH\nM30\n");
-    assert_eq!(said, ["2 `DEPTH` not modelled: DEPTH"]);
+    assert_eq!(said, ["2 `DEPTH` not modelled: DEPTH: not declared in this program"]);
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn what_a_call_leaves_open_is_said() {
         run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nX=R1\nM30\n").1,
         [
             "3 `NOSUCH` not modelled: NOSUCH: no code of the control, and no program of that name was found",
-            "5 `R1` not modelled: R1"
+            "5 `R1` not modelled: R1: jumps or calls before it are not followed"
         ]
     );
     assert_eq!(run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nM30\n").0, ["R X1 Y1", "R X2"]);
@@ -225,7 +225,7 @@ fn a_subprogram_with_a_number_takes_arguments() {
 #[test]
 fn the_parameters_of_a_subprogram_that_runs_alone_are_declared() {
     let source = "PROC FOO(REAL WERT, INT N)\nWERT=5\nG0 X=WERT\nY=N\nM17\n";
-    assert_eq!(said(source), ["4 `N` not modelled: N"]);
+    assert_eq!(said(source), ["4 `N` not modelled: N: its value is unknown here"]);
     assert_eq!(lines(SINUMERIK, source), ["R X5", "R X5"]);
 }
 

@@ -202,7 +202,7 @@ fn what_depends_on_the_unknown_is_not_decided() {
     for (source, what) in [
         (
             "IF R5>1 GOTOF LA\nX2\nLA: M30\n",
-            "2 `R5>1` not decided: R5: its value is unknown here",
+            "2 `R5>1` not decided: R5: the program does not set its value",
         ),
         (
             "IF $AA_IM[X]>1\nX2\nENDIF\nM30\n",

@@ -16,7 +16,7 @@ fn from(machine: &Machine, q: [f64; 2]) -> Before {
     let axis = crate::tool_axis_at(machine, q);
     Before {
         q,
-        known: true,
+        reference: Reference::Known,
         sign: if s > 1e-9 {
             1
         } else if s < -1e-9 {
@@ -97,7 +97,7 @@ fn the_pole_keeps_an_axis_where_it_was_only_if_that_is_known() {
         let machine = machine(C_TABLE, A_TABLE, control);
         let mut before = from(&machine, [0.0, 0.0]);
         assert_eq!(choose(&machine, &Vec3::z(), &before).expect("reachable").open, None);
-        before.known = false;
+        before.reference = Reference::Assumed;
         let open = choose(&machine, &Vec3::z(), &before).expect("reachable").open;
         assert_eq!(
             open.map(|open| open.cause),

@@ -4,7 +4,7 @@ use super::same_with_values;
 use proptest::prelude::*;
 
 /// Dialect, and the lines after the head of its programs.
-const FOUND: [(&str, &str); 22] = [
+const FOUND: [(&str, &str); 25] = [
     // a zero point of no known value
     ("linuxcnc", "G52 X#5161\nX5.\n"),
     // the level to which a cycle returns
@@ -59,6 +59,19 @@ const FOUND: [(&str, &str); 22] = [
         "heidenhain-klartext",
         "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+Q1\nCYCL DEF 10.1 IROT+5\nL X+5 F100\n",
     ),
+    // a vector after one that was known, and a plain motion behind it
+    (
+        "sinumerik-840d",
+        "TRAORI\nG1 X1 A3=0.1 B3=0 C3=1\nX2 A3=R1 B3=0 C3=1\nX3\n",
+    ),
+    (
+        "heidenhain-klartext",
+        "M128\nLN X+1 Y+2 Z+3 NX+0 NY+0 NZ+1 TX+0 TY+0.1 TZ+0.99 F100\nLN X+1 Y+2 Z+3 NX+0 NY+0 NZ+1 TX+0 TY+Q1 TZ+0.99\nL X+3\n",
+    ),
+    (
+        "fanuc-30i",
+        "G43.5 H1\nX1. Y0. Z0. I0.1 J0. K1.\nX2. I#500 J0. K1.\nX3.\n",
+    ),
     // the next hole of a cycle
     ("fanuc-30i", "G43.4 H1\nG81 R2. X#500 Z-3.5\nX#500\n"),
 ];
@@ -105,6 +118,58 @@ fn a_datum_from_a_table_may_shift_rotary_axes() {
         for (joint, axis) in last.joints.iter().zip(&machine.axes) {
             let rotary = b"AC".contains(&axis.letter);
             assert!(!rotary || joint.is_some() == known, "{text}{last:?}");
+        }
+    }
+}
+
+/// The words of FUNCTION TCPM AXIS SPAT are angles of the tool: they turn the rotary axes that the machine has, and a letter that it has not is no
+/// mistake.
+#[test]
+fn spatial_angles_leave_no_rotary_axis_where_it_was() {
+    let language = LANGUAGES
+        .iter()
+        .find(|language| language.dialect == "heidenhain-klartext")
+        .expect("listed");
+    let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
+    let spatial = "FUNCTION TCPM F TCP AXIS SPAT PATHCTRL VECTOR\n";
+    for word in ["A+5", "B+5", "IB+5", "C+5", "A+0 B+0 C+0"] {
+        for after in ["", "L X+2 Y+2 Z+3 F100\n", "FUNCTION RESET TCPM\nL X+2 Y+2 Z+3 F100\n"] {
+            let text = format!("{}{spatial}L X+1 Y+2 Z+3 {word} F100\n{after}", language.head);
+            let followed = super::follow(language, machine, &text, true, None);
+            let last = followed.after.last().expect("a motion");
+            for (joint, axis) in last.joints.iter().zip(&machine.axes) {
+                assert!(!b"AC".contains(&axis.letter) || joint.is_none(), "{text}{last:?}");
+            }
+            assert!(
+                !matches!(last.end, Err(trunnion_machine::NoStance::NoSuchAxis(_))),
+                "{text}"
+            );
+        }
+    }
+}
+
+/// The length of a tool acts along the axis of TOOL CALL: where that is not the axis of the spindle, the axes are at unknown positions until a
+/// TOOL CALL names it.
+#[test]
+fn a_tool_axis_that_is_not_that_of_the_spindle() {
+    let language = LANGUAGES
+        .iter()
+        .find(|language| language.dialect == "heidenhain-klartext")
+        .expect("listed");
+    let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
+    for (calls, known) in [
+        ("TOOL CALL 1 Z S1000\n", true),
+        ("TOOL CALL 1 Y S1000\n", false),
+        ("TOOL CALL 1 X S1000\n", false),
+        ("TOOL CALL 1 Y S1000\nTOOL CALL S2000\n", false),
+        ("TOOL CALL 1 Y S1000\nTOOL CALL 1 Z S1000\n", true),
+    ] {
+        let text = format!("{}{calls}L X+1 Y+2 Z+3 A+5 C+5 F100\n", language.head);
+        let followed = super::follow(language, machine, &text, true, None);
+        let last = followed.after.last().expect("a motion");
+        for (joint, axis) in last.joints.iter().zip(&machine.axes) {
+            let rotary = b"AC".contains(&axis.letter);
+            assert_eq!(joint.is_some(), known || rotary, "{text}{last:?}");
         }
     }
 }

@@ -230,7 +230,8 @@ fn identifiers(
         } else if let Some(definitions) = variables.get(&(part, text.clone())) {
             let next = (id + 1..ids.end).find(|&next| tokens.range(next).start >= whole.end);
             let next = next.and_then(|next| significant(program, next, ids.end));
-            let role = if definitions.contains(&whole) {
+            // they are in the order of the text
+            let role = if definitions.binary_search(&whole).is_ok() {
                 Role::Definition
             } else if next.is_some_and(|next| tokens.kind(next) == TokenKind::Equals) {
                 Role::Write

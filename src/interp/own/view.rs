@@ -1,5 +1,5 @@
 //! The variables of a program as formulas read them.
-use super::{Own, prepared};
+use super::{Own, Scope, prepared};
 use std::cell::RefCell;
 use trunnion_formula::ValueError;
 
@@ -18,6 +18,13 @@ impl Own {
         let declared = scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len();
         let values = self.parameters.len() + self.others.len() + self.texts.len() + self.before_loss.len();
         declared + values + self.counted_to.len() + self.missing.len()
+    }
+}
+
+impl Scope {
+    /// The value of a variable, as a caller reads it back.
+    pub(crate) fn value(&self, name: &str) -> Option<f64> {
+        self.values.get(name).copied()
     }
 }
 

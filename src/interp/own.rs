@@ -359,13 +359,6 @@ impl Own {
     }
 }
 
-impl Scope {
-    /// The value of a variable, as a caller reads it back.
-    pub(crate) fn value(&self, name: &str) -> Option<f64> {
-        self.values.get(name).copied()
-    }
-}
-
 /// The parts between commas outside of brackets and strings.
 pub(crate) fn arguments(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();

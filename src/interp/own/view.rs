@@ -1,5 +1,5 @@
 //! The variables of a program as formulas read them.
-use super::{Own, prepared};
+use super::{Own, Scope, prepared};
 use std::cell::RefCell;
 use trunnion_formula::ValueError;
 
@@ -26,6 +26,13 @@ impl Own {
             + self.task.written.len();
         let names = self.missing.len() + self.declared.len() + self.system.len() + task;
         declared + values + self.counted_to.len() + self.headed.len() + names
+    }
+}
+
+impl Scope {
+    /// The value of a variable, as a caller reads it back.
+    pub(crate) fn value(&self, name: &str) -> Option<f64> {
+        self.values.get(name).copied()
     }
 }
 

@@ -10,7 +10,7 @@ use tower_lsp::lsp_types::{
     CodeAction, CodeActionDisabled, CodeActionKind, CodeActionOrCommand, CodeActionParams, Diagnostic, NumberOrString,
     Range, TextEdit, WorkspaceEdit,
 };
-use trunnion_rewrite::{Options, Place, Proved, Rewrite, State, Straight, attempt, attempt_at, rewrite};
+use trunnion_rewrite::{Known, Options, Place, Proved, Rewrite, State, attempt, attempt_at, rewrite};
 use trunnion_syntax::{BlockId, TextRange};
 
 /// The quick fixes for the findings that touch the asked range.
@@ -195,7 +195,7 @@ fn actions(analysed: &Analysed, rewrite: &Rewrite, asked: (u32, u32), encoding: 
         && !changed().all(|place| touches(place.first, place.last))
     {
         let asked = |place: &Place| touches(place.first, place.last);
-        let here = attempt_at(rewrite, program, &settings, &options, asked, &Straight::default());
+        let here = attempt_at(rewrite, program, &settings, &options, asked, &Known::default());
         if let Some(here) = &here.proved {
             list.push(offer(here, format!("{}: here only (proved)", rewrite.name)));
         }

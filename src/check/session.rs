@@ -237,4 +237,7 @@ impl Sink for Walk<'_> {
     }
 
     fn fault(&mut self, _fault: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }

@@ -18,7 +18,7 @@ use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
 use trunnion_certify::{Chain, ChainStep};
 use trunnion_rewrite::{
-    Attempt, Options, Place, ProgrammedPoint, Rewrite, Straight, attempt_at, gains, rewrite, rewrites,
+    Attempt, Known, Options, Place, ProgrammedPoint, Rewrite, attempt_at, gains, rewrite, rewrites,
 };
 use trunnion_syntax::{LineIndex, parse};
 
@@ -228,7 +228,7 @@ fn apply_all(
     let mut program = loaded.program.clone();
     let bar = progress(global, chosen.len());
     let mut only_in_g_code = Vec::new();
-    let mut straight = Straight::default();
+    let mut known = Known::default();
     for rewrite in chosen {
         bar.set_message(rewrite.name);
         global.progress.begin();
@@ -243,7 +243,7 @@ fn apply_all(
                 .lines
                 .is_none_or(|(first, last)| line(ends.0) <= last && first <= line(ends.1))
         };
-        let attempt = attempt_at(rewrite, &program, &settings, options, touches, &straight);
+        let attempt = attempt_at(rewrite, &program, &settings, options, touches, &known);
         match rewrite.only_in_g_code(&program) {
             Some(writes) => only_in_g_code.push(format!("{} ({writes})", rewrite.name)),
             None => bar.suspend(|| say(global.quiet, &loaded.name, rewrite.name, &attempt)),
@@ -257,7 +257,7 @@ fn apply_all(
             }
             outcome.after.clone_from(&proved.after);
             program = after;
-            straight = Straight::default();
+            known = Known::default();
         }
         outcome.steps.push(Step {
             rewrite: rewrite.name,

@@ -49,4 +49,7 @@ impl Sink for Timer<'_> {
     }
 
     fn fault(&mut self, _fault: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }

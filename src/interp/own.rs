@@ -16,7 +16,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::FormulaErrorKind;
 use trunnion_syntax::{Call, TextRange};
-use view::View;
+use view::{View, Why};
 
 /// The type of a variable in DEF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Sort {
 /// The variables that a program declares. Names are in lower case.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scope {
-    pub(crate) sorts: BTreeMap<Box<str>, Sort>,
+    pub(crate) sorts: HashMap<Box<str>, Sort>,
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
     /// Variables of the type FRAME; `None`: what they hold is not known.
@@ -299,7 +299,7 @@ impl Own {
     }
     /// The same for an index, `deep` brackets inside others.
     fn value_in(&self, text: &str, deep: u32) -> Option<f64> {
-        let (value, _, end) = self.evaluate_in(text.as_bytes(), 0, deep).ok()?;
+        let (value, _, end) = self.evaluate_in(text.as_bytes(), 0, (deep, Why::NotRead)).ok()?;
         let whole = text.get(end..).is_some_and(|rest| rest.trim().is_empty());
         value.filter(|value| whole && value.is_finite())
     }
@@ -309,13 +309,13 @@ impl Own {
         text: &[u8],
         from: usize,
     ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
-        self.evaluate_in(text, from, 0)
+        self.evaluate_in(text, from, (0, Why::Read))
     }
     fn evaluate_in(
         &self,
         text: &[u8],
         from: usize,
-        deep: u32,
+        (deep, why): (u32, Why),
     ) -> Result<(Option<f64>, Option<String>, usize), FormulaErrorKind> {
         let range = TextRange::new(from as u32, text.len() as u32);
         let prepared = self.prepared(text, from, deep);
@@ -329,12 +329,16 @@ impl Own {
         let view = View {
             own: self,
             elements: prepared.as_ref().map_or(&[][..], |(_, elements)| elements),
+            why,
             unknown: RefCell::default(),
         };
         let end = end as usize;
         let value = formula.eval(&view).map_err(|error| error.kind)?;
         if !value.is_nan() {
             return Ok((Some(value), None, end));
+        }
+        if why == Why::NotRead {
+            return Ok((None, None, end));
         }
         let shown = || {
             let text = String::from_utf8_lossy(&text[from..end]);

@@ -159,7 +159,7 @@ impl Engine {
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.
     pub fn text_of(&self, file: FileId, line: u32) -> String {
         let source = self.files.get(file.0 as usize);
-        let range = source.and_then(|source| source.line(line));
+        let range = self.line_range(file, line);
         let bytes = source
             .zip(range)
             .map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);
@@ -167,7 +167,7 @@ impl Engine {
     }
     /// The codes and words of a line that has just run; `None` where it is not a block (an O line, a comment).
     pub fn block_at(&self, at: At) -> Option<&Block> {
-        let line = self.files.get(at.file.0 as usize)?.line(at.line)?;
+        let line = self.line_range(at.file, at.line)?;
         let block = self.block.as_deref()?;
         (line.start <= block.range.start && block.range.end <= line.end).then_some(block)
     }

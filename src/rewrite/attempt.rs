@@ -1,7 +1,7 @@
 //! An attempt: what a rewrite proposes is proved and compared with the program before; what cannot be proved at one place is left out there.
 use crate::edited::Edited;
 use crate::no_worse::{cured_errors, no_worse_report, no_worse_turns};
-use crate::{Change, Options, Place, Refusal, Rewrite};
+use crate::{Change, Known, Options, Place, Refusal, Rewrite};
 use core::cell::OnceCell;
 use core::fmt::Write;
 use trunnion_certify::{Certificate, Claim, Outcome, certify};
@@ -163,32 +163,25 @@ impl From<String> for Failure {
 
 /// Proposes at all places and proves; see [`attempt_at`].
 pub fn attempt(rewrite: &Rewrite, program: &Program, settings: &Settings<'_>, options: &Options) -> Attempt {
-    attempt_at(rewrite, program, settings, options, |_| true, &Straight::default())
+    attempt_at(rewrite, program, settings, options, |_| true, &Known::default())
 }
-
-/// Whether a program runs each block once and in order, found when it is first asked for: for several attempts at one program under the same settings.
-#[derive(Debug, Default)]
-pub struct Straight(OnceCell<Result<(), String>>);
 
 /// Proposes, and proves what is proposed at the places that are `wanted`. A place where the proof fails is refused, and the rest is
 /// proved again. Refused too: a change after which a rotary axis turns farther or in larger steps, a rule that the rewrite does not
 /// claim to fix reports more errors or leaves more undecided, or the verdict on the program is worse. (Findings that it fixes may spread: less in one block,
-/// a little more in the next.) `straight`: of this program.
+/// a little more in the next.) `known`: of this program.
 pub fn attempt_at(
     rewrite: &Rewrite,
     program: &Program,
     settings: &Settings<'_>,
     options: &Options,
     wanted: impl Fn(&Place) -> bool,
-    straight: &Straight,
+    known: &Known,
 ) -> Attempt {
-    if let Err(reason) = straight
-        .0
-        .get_or_init(|| crate::survey::runs_straight(program, settings))
-    {
+    if let Err(reason) = known.runs_straight(program, settings) {
         return Attempt::whole(program, Change::Refused(reason.clone()));
     }
-    let proposal = match rewrite.propose(program, settings, options) {
+    let proposal = match rewrite.propose(program, settings, options, known) {
         Ok(Some(proposal)) => proposal,
         Ok(None) => return Attempt::default(),
         Err(Refusal::Whole(change)) => return Attempt::whole(program, change),

@@ -149,6 +149,9 @@ impl Sink for Tally<'_> {
         }
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 /// Figures of the whole program, then of each of its places.

@@ -11,6 +11,7 @@ mod edited;
 mod excursion;
 mod fewest;
 mod gains;
+mod known;
 mod lanes;
 mod line_points;
 mod named_blocks;
@@ -36,7 +37,8 @@ mod taut_string;
 mod unwrap;
 mod whole_circle;
 
-pub use attempt::{Attempt, Judged, Proved, State, Straight, attempt, attempt_at};
+pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};
+pub use known::Known;
 pub use propose::{Change, Options, Place, ProgrammedPoint, Proposal, Proposed, Refusal, Rewrite};
 pub use rewrites::{rewrite, rewrites};

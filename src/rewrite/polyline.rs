@@ -65,7 +65,8 @@ fn left_alone(reasons: &Reasons) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("; "))
 }
 
-/// What a rewrite of chains sees of a program.
+/// The chains of a program.
+#[derive(Debug)]
 pub(crate) struct Chains {
     /// In the order of the text.
     pub chains: Vec<Chain>,
@@ -74,9 +75,26 @@ pub(crate) struct Chains {
 }
 
 impl Chains {
+    /// Those of so many lines and more.
+    pub(crate) fn of_at_least(&self, lines: usize) -> LongChains<'_> {
+        LongChains {
+            chains: self.chains.iter().filter(|chain| chain.lines.len() >= lines).collect(),
+            reasons: &self.reasons,
+        }
+    }
+}
+
+/// The chains that are long enough for a rewrite.
+pub(crate) struct LongChains<'a> {
+    /// In the order of the text.
+    pub chains: Vec<&'a Chain>,
+    reasons: &'a Reasons,
+}
+
+impl LongChains<'_> {
     /// What a rewrite of chains proposes for these places, or why there is nothing; the summary gets why other lines were left alone.
     pub(crate) fn proposal(&self, places: Vec<Place>, mut summary: String, options: &Options) -> Proposed {
-        let reasons = left_alone(&self.reasons);
+        let reasons = left_alone(self.reasons);
         if places.is_empty() {
             return match reasons {
                 Some(why) if self.chains.is_empty() => Err(format!("there are no lines to put together: {why}").into()),
@@ -146,6 +164,9 @@ impl Sink for Collector {
         self.last = Some(*motion);
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 /// Why a line that stands for a piece of a curve is left alone.
@@ -287,8 +308,8 @@ fn count_reason(reasons: &mut Reasons, why: &'static str) {
     }
 }
 
-/// The chains of a program of at least so many lines; `named`: blocks that keep their words, because a jump may lead there.
-pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet<BlockId>, least: usize) -> Chains {
+/// The chains of a program; `named`: blocks that keep their words, because a jump may lead there.
+pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet<BlockId>) -> Chains {
     let mut collector = Collector {
         all: Vec::new(),
         last: None,
@@ -305,7 +326,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet
     let mut stops = false;
     let (mut at, mut moving) = (0, 0);
     let mut close = |open: &mut Option<Chain>, next: Option<&Seen>| {
-        if let Some(mut chain) = open.take().filter(|chain| chain.lines.len() >= least) {
+        if let Some(mut chain) = open.take() {
             chain.next_line = next.filter(|next| next.is_line()).map(|next| next.block);
             found.chains.push(chain);
         }

@@ -1,4 +1,5 @@
 //! Rewrites and their proposals.
+use crate::Known;
 use trunnion_certify::Claim;
 use trunnion_certify::RefitSource;
 use trunnion_certify::postures::PostureCost;
@@ -168,21 +169,21 @@ pub struct Rewrite {
     /// What it reads and writes, in G code alone; `None`: it works on the blocks of any format.
     pub(crate) writes: Option<&'static str>,
     /// Proposes.
-    pub(crate) proposes: fn(&Program, &Settings<'_>, &Options) -> Proposed,
+    pub(crate) proposes: fn(&Program, &Settings<'_>, &Options, &Known) -> Proposed,
 }
 
 impl Rewrite {
-    /// Proposes.
+    /// Proposes. `known`: of this program.
     ///
     /// # Errors
     /// Why it proposes nothing.
-    pub fn propose(&self, program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+    pub fn propose(&self, program: &Program, settings: &Settings<'_>, options: &Options, known: &Known) -> Proposed {
         if let Some(writes) = self.only_in_g_code(program) {
             return Err(
                 format!("it reads and writes {writes}, and only in G code: nothing is written in Klartext").into(),
             );
         }
-        (self.proposes)(program, settings, options)
+        (self.proposes)(program, settings, options, known)
     }
 
     /// What it reads and writes, where it does so in G code only and the program is Klartext.

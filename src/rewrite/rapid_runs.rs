@@ -79,6 +79,9 @@ impl Sink for Collector<'_, '_> {
         self.open = true;
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 impl Collector<'_, '_> {

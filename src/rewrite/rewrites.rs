@@ -13,7 +13,7 @@ mod smooth_pole;
 mod switch_angles;
 mod unwind_rotary;
 
-use crate::{Options, Proposed, Rewrite};
+use crate::{Known, Options, Proposed, Rewrite};
 use trunnion_check::{Settings, header};
 use trunnion_syntax::Program;
 
@@ -25,7 +25,7 @@ pub(crate) struct Body {
     /// What it reads and writes, in G code alone; `None`: it works on the blocks of any format.
     pub(crate) writes: Option<&'static str>,
     /// Proposes; see [`Rewrite::propose`].
-    pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Proposed,
+    pub(crate) propose: fn(&Program, &Settings<'_>, &Options, &Known) -> Proposed,
 }
 
 /// The rewrites of the files named: name from the file's name, documentation from the file's header. The `mod` lines stay

@@ -127,6 +127,9 @@ impl Sink for Collector<'_> {
         });
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 /// Runs the program on the machine.
@@ -171,6 +174,9 @@ impl Sink for Programmed {
         });
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 /// Runs the program without a machine.
@@ -189,6 +195,9 @@ impl Sink for Calls {
         self.0 |= motion.chain != ChainId::MAIN;
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 /// Whether the program runs linearly, each block once and in the order of the text; else why an edit of one block is not the

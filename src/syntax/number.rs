@@ -20,6 +20,9 @@ const POWERS: [f64; 23] = [
     1e21, 1e22,
 ];
 
+/// An `i64` never has more digits.
+const MOST_DIGITS: usize = 19;
+
 /// Up to this mantissa every integer is a double.
 const EXACT: u64 = 1 << 53;
 
@@ -105,6 +108,10 @@ impl Decimal {
             return None;
         }
         let read = |fraction: &[u8]| {
+            let digits = whole.iter().chain(fraction);
+            if digits.skip_while(|&&byte| byte == b'0').count() > MOST_DIGITS {
+                return None;
+            }
             let mut value = 0i64;
             for &byte in whole.iter().chain(fraction) {
                 let digit = i64::from(byte.checked_sub(b'0').filter(|&d| d < 10)?);

@@ -13,6 +13,10 @@ pub trait Sink {
     }
     /// A fault.
     fn fault(&mut self, fault: Fault);
+    /// Whether faults are read. Where they are not, a run may leave them out: the text of each costs more than the rest of its block.
+    fn reads_faults(&self) -> bool {
+        true
+    }
     /// What the program does apart from its motions, in order; only if requested. Motions may be held back by cutter
     /// compensation and come later: [`Motion::effects`] says which effects come before them.
     fn effect(&mut self, effect: Placed) {

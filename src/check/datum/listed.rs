@@ -43,4 +43,7 @@ impl Sink for Listed {
     }
 
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }

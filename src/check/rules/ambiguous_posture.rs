@@ -223,6 +223,23 @@ mod tests {
         }
     }
 
+    /// C turns without end: TU lets it take the nearest turn, and that is known only where C stands at a known turn.
+    #[test]
+    fn the_nearest_turn_to_a_lost_position_is_open() {
+        for (before, open) in [("C0", false), ("C=R1", true)] {
+            let text =
+                format!("N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 {before}\nN30 PTP\nN40 G0 X10 A20 C30 TU=0\nN50 M30\n");
+            let report = Fixture::parse(
+                "gcode sinumerik-840d mikron-ucp710+control.posture_words={turn={A=3,C=4}}",
+                &text,
+            )
+            .check()
+            .unwrap();
+            let found = report.diagnostics.iter().filter(|d| d.rule == "ambiguous-posture");
+            assert_eq!(found.count(), usize::from(open), "{text}{report:?}");
+        }
+    }
+
     #[test]
     fn on_a_great_circle_clear_of_the_pole_nothing_is_open() {
         assert_drawn(

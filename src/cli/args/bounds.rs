@@ -15,8 +15,8 @@ impl TextBounds {
         megabytes: 64,
         lines: 1_200_000,
     };
-    /// What compares programs or machines runs two texts, twice where they differ.
-    const COMPARES: Self = Self {
+    /// What compares programs or machines runs two texts, twice where they differ; a picture and statistics run one text up to four times.
+    const RUNS_OFTEN: Self = Self {
         megabytes: 32,
         lines: 400_000,
     };
@@ -25,8 +25,8 @@ impl TextBounds {
         megabytes: 16,
         lines: 400_000,
     };
-    /// What changes programs runs the old and the new text, some of it several times, and compares each step: a line takes many times as long as in `check`. A
-    /// page needs four runs, and pictures.
+    /// What changes programs runs the old and the new text, each up to a dozen times, and compares each step. A page needs four runs, and
+    /// pictures.
     const CHANGES: Self = Self {
         megabytes: 16,
         lines: 300_000,
@@ -39,7 +39,9 @@ impl Global {
         let most = match command {
             Command::Fmt(_) => TextBounds::LAYS_OUT,
             Command::Fix(_) | Command::Edit(_) | Command::Report(_) => TextBounds::CHANGES,
-            Command::Certify(_) | Command::Diff(_) | Command::Machine(_) => TextBounds::COMPARES,
+            Command::Certify(_) | Command::Diff(_) | Command::Machine(_) | Command::Plot(_) | Command::Stats(_) => {
+                TextBounds::RUNS_OFTEN
+            }
             _ => TextBounds::DEFAULT,
         };
         self.max_file_mb.get_or_insert(most.megabytes);

@@ -397,4 +397,7 @@ impl Listener for Times<'_> {
     }
 
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }

@@ -42,6 +42,9 @@ impl Sink for Calls {
         }
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 impl Calls {

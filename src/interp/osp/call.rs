@@ -2,7 +2,7 @@
 use crate::flow::Calling;
 use crate::iso::Iso;
 use crate::own::{Own, Scope, Sort};
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 /// What a call hands over.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub(crate) struct With {
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     scope: Scope,
-    written: BTreeSet<Box<str>>,
+    written: HashSet<Box<str>>,
     arguments: Vec<(Box<str>, Option<f64>)>,
     in_modal: bool,
 }

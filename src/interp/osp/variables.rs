@@ -3,7 +3,7 @@
 //! letter belong to the control.
 use crate::flow::Calling;
 use crate::own::{Own, Sort};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// The last common variable that every control has (NC-PB/gEdit, syntax-okuma.md, 3.6).
 const COMMON: u32 = 200;
@@ -16,7 +16,7 @@ pub(crate) struct Task {
     /// Local variables of the callers: whether a subprogram sees them is not stated.
     pub(crate) outer: Vec<BTreeSet<Box<str>>>,
     /// Local variables that the subprogram that runs has written.
-    pub(crate) written: BTreeSet<Box<str>>,
+    pub(crate) written: HashSet<Box<str>>,
     /// The call of MODIN, and how many calls were open there.
     pub(crate) modal: Option<(Calling, usize)>,
     /// The subprogram of MODIN runs.

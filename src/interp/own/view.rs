@@ -1,13 +1,22 @@
 //! The variables of a program as formulas read them.
 use super::{Own, Scope, prepared};
+use core::ops::Bound;
 use std::cell::RefCell;
 use trunnion_formula::ValueError;
+
+/// Whether the reason why a value is unknown is read: writing it costs more than the value.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Why {
+    Read,
+    NotRead,
+}
 
 /// The source of variables for formulas, and the first name whose value was not known.
 pub(super) struct View<'a> {
     pub(super) own: &'a Own,
     /// Values of names with indices that are read before the formula.
     pub(super) elements: &'a [prepared::Element],
+    pub(super) why: Why,
     pub(super) unknown: RefCell<Option<String>>,
 }
 
@@ -49,7 +58,10 @@ impl Own {
             return lost.to_owned();
         }
         // R[1] may be written R[2-1]
-        let by_index = || self.texts.keys().any(|written| written.starts_with("r["));
+        let by_index = || {
+            let mut from = self.texts.range::<str, _>((Bound::Included("r["), Bound::Unbounded));
+            from.next().is_some_and(|(written, _)| written.starts_with("r["))
+        };
         match self.texts.get(name) {
             None if by_index() => "its value is unknown here".to_owned(),
             Some(text) if text.len() <= LONGEST_SOURCE => format!("from {text}"),
@@ -62,8 +74,9 @@ impl Own {
 impl View<'_> {
     fn give(&self, value: Option<f64>, why: impl FnOnce() -> String) -> f64 {
         value.unwrap_or_else(|| {
-            let mut unknown = self.unknown.borrow_mut();
-            unknown.get_or_insert_with(why);
+            if self.why == Why::Read {
+                self.unknown.borrow_mut().get_or_insert_with(why);
+            }
             f64::NAN
         })
     }

@@ -17,7 +17,7 @@ impl super::Own {
                 .scope
                 .values
                 .get(name.as_str())
-                .or(self.others.get(name.as_str()))
+                .or_else(|| self.others.get(name.as_str()))
                 .copied(),
         }
     }

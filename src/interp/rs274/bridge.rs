@@ -304,6 +304,10 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 
     fn error(&mut self, error: &Error, at: At) {
         self.calls.lost |= error.problem.class == trunnion_ngc::Class::NotModelled && !error.is_of_unset();
+        if !self.sink.reads_faults() && error.problem.class != trunnion_ngc::Class::ProgramEnd {
+            self.calls.has_other_effects = true;
+            return;
+        }
         let kind = fault_of(error);
         if kind == FaultKind::MissingProgramEnd {
             self.missing_end();

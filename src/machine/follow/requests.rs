@@ -155,7 +155,13 @@ impl Follower<'_> {
                 .iter()
                 .find(|(letter, _)| *letter == axis.letter);
             into.0[rotary.joint] = match bit {
-                Some(_) if !within_a_turn(axis) => value + TAU * ((before[index] - value) / TAU).round(),
+                Some(_) if !within_a_turn(axis) => {
+                    let nearest = value + TAU * ((before[index] - value) / TAU).round();
+                    if self.state.rotary_lost & (1 << rotary.joint) != 0 {
+                        *open = open.or(Some(turn_lost(index, before, (nearest, axis))));
+                    }
+                    nearest
+                }
                 Some((_, bit)) if mask & (1 << bit) != 0 => negative,
                 Some(_) => positive,
                 None => {
@@ -175,6 +181,24 @@ impl Follower<'_> {
                 }
             };
         }
+    }
+}
+
+/// The turn of an axis of several turns is the nearest to where it stands, and that is lost: a turn beside it is as possible.
+fn turn_lost(index: usize, before: [f64; 2], (nearest, axis): (f64, &Axis)) -> Open {
+    let beside = match axis.limits {
+        Limits::Range(_, high) if nearest + TAU > high => nearest - TAU,
+        Limits::Range(..) | Limits::Unbounded => nearest + TAU,
+    };
+    let at = |value: f64| {
+        let mut both = before;
+        both[index] = value;
+        both
+    };
+    Open {
+        cause: OpenCause::StartUnknown,
+        taken: at(nearest),
+        other: at(beside),
     }
 }
 

@@ -161,6 +161,8 @@ pub(crate) struct Flow {
     here: Place,
     /// The line that ran last.
     at: At,
+    /// The line that ran last, with its first byte.
+    ran: Place,
     started: bool,
     ended: bool,
     /// The line that ended the main program.
@@ -228,6 +230,7 @@ impl Flow {
         Self {
             here: Place::default(),
             at: At::default(),
+            ran: Place::default(),
             started: false,
             ended: false,
             end: None,

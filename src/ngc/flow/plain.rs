@@ -28,6 +28,7 @@ impl Engine {
             line: here.line(),
             chain: self.flow.chain,
         };
+        self.flow.ran = here;
         self.flow.here = here.further(1, next);
         let result = self.run_plain(&mut block, sink);
         if let Err(error) = &result {

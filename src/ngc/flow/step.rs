@@ -6,8 +6,9 @@ use super::{Compiled, Halt, Kind, Refused, Seeking, Why, problems};
 use crate::exec::{self, After};
 use crate::parameters::Values;
 use crate::read;
-use crate::{At, ChainId, Engine, Error, Frame, Sink, Step, comment};
+use crate::{At, ChainId, Engine, Error, FileId, Frame, Sink, Step, comment};
 use trunnion_formula::Formula;
+use trunnion_syntax::TextRange;
 
 impl Engine {
     /// Runs the next line in the control's order. After [`Step::Refused`] the next step continues as if the refused line had not
@@ -64,6 +65,7 @@ impl Engine {
             line: place.line(),
             chain: self.flow.chain,
         };
+        self.flow.ran = place;
         self.flow.here = compiled.next;
     }
     /// Runs to the end, to what cannot be decided, or to the bounds. With `stop`, it stops at the first refused line as the control does.
@@ -79,6 +81,15 @@ impl Engine {
     /// The line the last step ran.
     pub fn at(&self) -> At {
         self.flow.at()
+    }
+    /// Bytes of a line (from 0) of a file; the one that ran last is at hand.
+    pub(crate) fn line_range(&self, file: FileId, line: u32) -> Option<TextRange> {
+        let source = self.files.get(file.0 as usize)?;
+        let ran = self.flow.ran;
+        if (ran.file(), ran.line()) == (file, line) {
+            return Some(source.line_at(ran.offset));
+        }
+        source.line(line)
     }
     /// The calls of a chain, outermost first; empty for the main program.
     pub fn chain(&self, id: ChainId) -> Vec<Frame> {

@@ -24,7 +24,7 @@ fn every_c(program: &Program, number: fn(f64) -> f64) -> Proposal {
     }
 }
 
-fn refusal(propose: fn(&Program, &Settings<'_>, &Options) -> Proposed) -> String {
+fn refusal(propose: fn(&Program, &Settings<'_>, &Options, &Known) -> Proposed) -> String {
     let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("built in").clone();
     let c = machine.joint(b'C').expect("C");
     machine.axes[c].limits = Limits::Range(-2.0, 20.0);
@@ -49,9 +49,9 @@ fn refusal(propose: fn(&Program, &Settings<'_>, &Options) -> Proposed) -> String
 /// What is proved may still be worse: more turning, or an axis outside its travel.
 #[test]
 fn a_proved_rewrite_that_makes_things_worse_is_refused() {
-    let more = refusal(|program, _, _| Ok(Some(every_c(program, |c| if c == 5.0 { 365.0 } else { c }))));
+    let more = refusal(|program, _, _, _| Ok(Some(every_c(program, |c| if c == 5.0 { 365.0 } else { c }))));
     assert!(more.contains("of C would grow"), "{more}");
-    let outside = refusal(|program, _, _| Ok(Some(every_c(program, |c| c - 720.0))));
+    let outside = refusal(|program, _, _, _| Ok(Some(every_c(program, |c| c - 720.0))));
     assert!(
         outside.contains("it would cause an error") && outside.contains("axis-limit"),
         "{outside}"
@@ -75,7 +75,7 @@ fn a_place_that_cannot_be_proved_is_left_out() {
         docs: "",
         cures: &[],
         writes: None,
-        proposes: |program, _, _| {
+        proposes: |program, _, _, _| {
             let mut proposal = every_c(program, |c| {
                 if c == 365.0 {
                     5.0

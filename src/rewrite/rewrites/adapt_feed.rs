@@ -53,7 +53,7 @@
 use super::Body;
 use crate::pitch::Pitches;
 use crate::style::{NumberStyle, blank_before_f, end_of_words};
-use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
+use crate::{Change, Known, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
 use trunnion_dialect::{Action, RotaryFeed};
@@ -162,9 +162,12 @@ impl Sink for Collector<'_> {
         self.pitches.take(&placed);
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and feeds depend on its axes (--machine)".into());
     };

@@ -44,10 +44,8 @@
 use super::Body;
 use crate::chain_words::{Hand, lean};
 use crate::divide::divide;
-use crate::named_blocks::named_blocks;
 use crate::pieces::Limits;
-use crate::polyline::chains;
-use crate::{Options, Place, Proposal, Proposed};
+use crate::{Known, Options, Place, Proposal, Proposed};
 use trunnion_certify::{Claim, RefitSource};
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
@@ -63,7 +61,7 @@ pub(super) const REWRITE: Body = Body {
 /// Points are on a line exactly if they are no farther from it than this share of the largest coordinate.
 const EXACT: f64 = 1e-9;
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, known: &Known) -> Proposed {
     if !program.options().format.has_words() {
         return Err("APT: only G code has words that repeat".into());
     }
@@ -75,10 +73,9 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         )
         .into());
     }
-    let named = named_blocks(program, settings)?;
     let hand = Hand::of(program);
     let (mut places, mut was, mut is, mut bytes) = (Vec::new(), 0, 0, 0);
-    for chain in chains(program, settings, &named, 1).chains {
+    for chain in &known.chains(program, settings)?.chains {
         let points = chain.points();
         let largest = points.iter().map(Vec3::amax).fold(1.0, f64::max);
         let limits = Limits {
@@ -93,7 +90,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         let divided = divide(&points, &limits);
         was += chain.lines.len();
         is += divided.pieces.len();
-        let edits = lean(program, &hand, &chain, &divided.pieces);
+        let edits = lean(program, &hand, chain, &divided.pieces);
         if !edits.is_empty() {
             let saved = edits
                 .iter()

@@ -53,11 +53,10 @@
 use super::Body;
 use crate::chain_words::{Hand, write};
 use crate::divide::divide;
-use crate::named_blocks::named_blocks;
 use crate::pieces::Limits;
-use crate::polyline::{Chain, chains};
+use crate::polyline::Chain;
 use crate::style::{NumberStyle, of_letters};
-use crate::{Options, Place, Proposed};
+use crate::{Known, Options, Place, Proposed};
 use trunnion_check::Settings;
 use trunnion_dialect::Plane;
 use trunnion_syntax::Program;
@@ -68,12 +67,11 @@ pub(super) const REWRITE: Body = Body {
     propose,
 };
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, known: &Known) -> Proposed {
     if !program.options().format.has_words() {
         return Err("APT: arcs are not written there".into());
     }
-    let named = named_blocks(program, settings)?;
-    let found = chains(program, settings, &named, 2);
+    let found = known.chains(program, settings)?.of_at_least(2);
     let (hand, (ends, styles)) = (Hand::of(program), styles(program));
     let (mut places, mut was, mut is, mut unrounded, mut arcs) = (Vec::new(), 0, 0, 0, 0);
     // chains that follow each other directly are one place: the first may end with an arc, and then the next begins with G1
@@ -82,7 +80,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         .chunk_by(|a, b| a.next_line == b.lines.first().map(|line| line.block))
     {
         let mut written = Vec::new();
-        for chain in group {
+        for &chain in group {
             let planes = planes(settings, chain);
             let limits = Limits {
                 tolerance_mm: options.tolerance_mm,

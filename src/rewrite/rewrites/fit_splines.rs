@@ -58,12 +58,10 @@
 //! Advanced (04.00), 5-163 to 5-167, for POLY; docs/kinematics.md#curves-through-points.
 use super::Body;
 use crate::chain_words::Hand;
-use crate::named_blocks::named_blocks;
-use crate::polyline::chains;
 use crate::spline::{Form, LEAST, Spline, Terms, splines};
 use crate::spline_words::Pen;
 use crate::style::{NumberStyle, of_letters};
-use crate::{Options, Place, Proposed, Refusal};
+use crate::{Known, Options, Place, Proposed, Refusal};
 use trunnion_check::Settings;
 use trunnion_dialect::{Action, Plane};
 use trunnion_syntax::Program;
@@ -101,10 +99,9 @@ fn form(settings: &Settings<'_>) -> Result<(Form, f64), Refusal> {
     Err(format!("{}: {why}; fit-arcs writes arcs where it has them", dialect.title).into())
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, known: &Known) -> Proposed {
     let (form, control_mm) = form(settings)?;
-    let named = named_blocks(program, settings)?;
-    let found = chains(program, settings, &named, LEAST);
+    let found = known.chains(program, settings)?.of_at_least(LEAST);
     let style = of_letters(program, b'X'..=b'Z').unwrap_or(NumberStyle::USUAL);
     let hand = Hand::of(program);
     let pen = Pen {
@@ -120,7 +117,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Pro
         .chunk_by(|a, b| a.next_line == b.lines.first().map(|line| line.block))
     {
         let mut written: Vec<(_, Vec<Spline>)> = Vec::new();
-        for chain in group {
+        for &chain in group {
             let terms = Terms {
                 tolerance_mm: options.tolerance_mm,
                 source: options.source,

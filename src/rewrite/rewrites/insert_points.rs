@@ -52,7 +52,7 @@ use super::Body;
 use crate::line_points::{Line, Writer, programmed, refused, undeclared_path};
 use crate::slots::{Scheme, Slots, insert_word, slots, styles};
 use crate::style::newline;
-use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
+use crate::{Change, Known, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
 use trunnion_interp::{Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, run};
@@ -95,9 +95,12 @@ impl Sink for Collector<'_> {
         });
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and the path of the tip depends on it (--machine)".into());
     };

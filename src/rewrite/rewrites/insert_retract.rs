@@ -58,7 +58,7 @@ use crate::excursion::{Excursion, Flip, Planner, Pose};
 use crate::line_points::{programmed, undeclared_path};
 use crate::slots::{Scheme, styles};
 use crate::style::newline;
-use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
+use crate::{Change, Known, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::{Assume, Settings};
 use trunnion_interp::{AxisLetter, Fault, Feed, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, run};
@@ -102,6 +102,9 @@ impl Sink for Collector<'_> {
         }
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 impl Collector<'_> {
@@ -134,7 +137,7 @@ impl Collector<'_> {
     }
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and postures depend on the machine (--machine)".into());
     };

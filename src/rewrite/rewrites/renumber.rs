@@ -38,7 +38,7 @@
 //! # Sources
 //! src/layout/renumber.rs, which `trunnion fmt --renumber` uses too.
 use super::Body;
-use crate::{Options, Place, Proposal, Proposed};
+use crate::{Known, Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_layout::{Numbers, Renumbered};
@@ -53,7 +53,7 @@ pub(super) const REWRITE: Body = Body {
 /// First number and step: room for blocks that are added by hand.
 const NUMBERS: Numbers = Numbers { start: 10, step: 10 };
 
-fn propose(program: &Program, settings: &Settings<'_>, _: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, _: &Options, _: &Known) -> Proposed {
     let line = |offset: u32| LineIndex::new(program.source()).line_column(program.source(), offset).0;
     match trunnion_layout::renumber(program, settings.dialect, &settings.setup, NUMBERS) {
         Renumbered::NoNumbers => Ok(None),

@@ -55,7 +55,7 @@ use super::Body;
 use crate::rapid_route::{Grid, Measure, Planner, Stay, Way};
 use crate::rapid_runs::{Rapid, rapid_runs};
 use crate::style::NumberStyle;
-use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
+use crate::{Change, Known, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_certify::postures::PostureCost;
 use trunnion_check::Settings;
@@ -74,7 +74,7 @@ const LEAST_DIGITS: [usize; 2] = [3, 4];
 /// Ends of a run are equal within this, mm: numbers are computed, not measured.
 const SAME_MM: f64 = 1e-6;
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err(Refusal::missing(
             "no machine is named, and obstacles belong to a machine (--machine)",

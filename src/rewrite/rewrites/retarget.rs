@@ -42,7 +42,7 @@
 //! # Sources
 //! docs/decisions/0180-retarget-is-the-last-rewrite.md; docs/certificates.md.
 use super::Body;
-use crate::{Options, Proposed, Refusal};
+use crate::{Known, Options, Proposed, Refusal};
 use trunnion_check::Settings;
 use trunnion_syntax::Program;
 
@@ -53,7 +53,7 @@ pub(super) const REWRITE: Body = Body {
 };
 
 /// It has no edits: the caller that knows the target asks the converter.
-fn propose(_: &Program, _: &Settings<'_>, _: &Options) -> Proposed {
+fn propose(_: &Program, _: &Settings<'_>, _: &Options, _: &Known) -> Proposed {
     Err(Refusal::missing(
         "retarget needs a target: name the control with --to DIALECT, or the machine with --to-machine NAME",
     ))

@@ -78,7 +78,7 @@ use crate::smooth::obstacles::{obstacle, refused, unknown_position};
 use crate::smooth::plan::{Plan, plan};
 use crate::smooth::window::{Smoothed, steepest, write};
 use crate::survey::{Point, Tip, survey};
-use crate::{Change, Options, Place, Proposal, Proposed, Refusal};
+use crate::{Change, Known, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::{deg, rad};
@@ -122,7 +122,7 @@ struct Task<'a> {
     styles: Vec<(Scheme, Styles)>,
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and poles depend on the machine (--machine)".into());
     };

@@ -53,7 +53,7 @@
 use super::Body;
 use crate::posed_words::{Move, PosedWords};
 use crate::shortest_path::{Cheapest, cheapest};
-use crate::{Options, Place, Proposal, Proposed, Refusal};
+use crate::{Known, Options, Place, Proposal, Proposed, Refusal};
 use core::fmt::Write;
 use trunnion_certify::Claim;
 use trunnion_certify::postures::{Graph, PostureCost, Station, Stations, changes_of_posture};
@@ -127,9 +127,12 @@ impl Sink for Collector<'_> {
         });
     }
     fn fault(&mut self, _: Fault) {}
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and postures depend on the machine (--machine)".into());
     };

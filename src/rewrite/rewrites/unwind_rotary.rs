@@ -40,7 +40,7 @@ use super::Body;
 use crate::style::add_whole;
 use crate::survey::{ProgrammedMotion, programmed};
 use crate::unwrap::{long_way_steps, unwrap};
-use crate::{Options, Place, Proposal, Proposed};
+use crate::{Known, Options, Place, Proposal, Proposed};
 use trunnion_certify::Claim;
 use trunnion_check::Settings;
 use trunnion_geometry::deg;
@@ -60,7 +60,7 @@ pub(super) const REWRITE: Body = Body {
     propose,
 };
 
-fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Proposed {
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
     let Some(machine) = settings.machine else {
         return Err("no machine is named, and the limits of rotary axes depend on the machine (--machine)".into());
     };

@@ -83,17 +83,17 @@ pub(crate) const COMMANDS: &[Command] = &[
         "fix-all",
         &["fix", "SHORTEST", "--rewrite", "all", "--format", "json"],
     ),
-    command("plot", "plot-joints", &["plot", "FILE", "--kind", "joints"]),
-    command("plot", "plot-path", &["plot", "FILE", "--kind", "path"]),
-    command("plot", "plot-deviation", &["plot", "FILE", "--kind", "deviation"]),
-    command("plot", "plot-feed", &["plot", "FILE", "--kind", "feed"]),
-    command("plot", "plot-axis-plane", &["plot", "FILE", "--kind", "axis-plane"]),
-    command("plot", "plot-route", &["plot", "FILE", "--kind", "route"]),
+    command("plot", "plot-joints", &["plot", "HALF", "--kind", "joints"]),
+    command("plot", "plot-path", &["plot", "HALF", "--kind", "path"]),
+    command("plot", "plot-deviation", &["plot", "HALF", "--kind", "deviation"]),
+    command("plot", "plot-feed", &["plot", "HALF", "--kind", "feed"]),
+    command("plot", "plot-axis-plane", &["plot", "HALF", "--kind", "axis-plane"]),
+    command("plot", "plot-route", &["plot", "HALF", "--kind", "route"]),
     command(
         "plot",
         "plot-servo",
         &[
-            "plot", "FILE", "--kind", "servo", "--at", "9", "--kv", "50", "--acc", "2000",
+            "plot", "HALF", "--kind", "servo", "--at", "9", "--kv", "50", "--acc", "2000",
         ],
     ),
     json_command(
@@ -113,14 +113,14 @@ pub(crate) const COMMANDS: &[Command] = &[
         "machine-compare",
         &["machine", "compare", "mikron-ucp710", "other-machine.toml", "HALF"],
     ),
-    json_command("stats", "stats", &["stats", "--format", "json", "FILE"]),
-    json_command("stats", "stats-time", &["stats", "--time", "--format", "json", "FILE"]),
+    json_command("stats", "stats", &["stats", "--format", "json", "HALF"]),
+    json_command("stats", "stats-time", &["stats", "--time", "--format", "json", "HALF"]),
     command("parse", "parse-tokens", &["parse", "--tokens", "FILE"]),
     json_command("parse", "parse", &["parse", "FILE", "--format", "json"]),
     command("lsp", "lsp", &["lsp"]),
 ];
 
-/// Bytes and lines of the longer beginning of a program: what `diff` reads by default.
+/// Bytes and lines of the longer beginning of a program: what `diff`, `plot` and `stats` read by default.
 const HALF: (usize, usize) = (32_000_000, 400_000);
 
 /// Those of a shorter beginning: what `fmt` reads by default.

@@ -64,5 +64,6 @@ mod tilted;
 mod tools;
 mod trans_datum;
 mod unknown_by_name;
+mod unread_faults;
 mod words;
 mod words_of_controls;

@@ -270,29 +270,6 @@ impl Walk<'_> {
         Near { mm, deg: 1e-9 }.pair(before, after)
     }
 
-    /// A motion in machine coordinates, and a dwell: the axes that move go to the same place in both programs.
-    fn not_moved(&mut self, was: &Motion, is: &Motion) -> Result<(), Verdict> {
-        if !is_motion(was) {
-            return Ok(());
-        }
-        for axis in 0..3 {
-            if !(goes(was, axis) || goes(is, axis)) {
-                continue;
-            }
-            if (was.end.known ^ is.end.known) & (1 << axis) != 0 {
-                let what = format!("the end of {} is known in only one of the programs", letter(axis));
-                return Err(Verdict::Unknown(place(was, is, what)));
-            }
-            let known = was.end.known & (1 << axis) != 0;
-            if known && (was.end.values[axis] - is.end.values[axis]).abs() > self.change.end_mm {
-                let what = format!("{} ends at another place in machine coordinates", letter(axis));
-                return Err(Verdict::Differs(place(was, is, what)));
-            }
-            self.stands[axis] = Stands::Open;
-        }
-        Ok(())
-    }
-
     /// Feeds, apart from their rounding.
     fn feeds(&mut self, was: &Motion, is: &Motion) -> Result<(), Verdict> {
         if !was.is_feed() {

@@ -1,9 +1,11 @@
-//! Motions of blocks that a change leaves alone, where it moves a part of a program.
+//! Motions that a change leaves alone: of other blocks than the chosen ones, and in machine coordinates.
 use super::{Stands, Walk, goes, letter, place, rest};
 use crate::Claim;
+use crate::change::is_motion;
 use crate::compare::held;
 use crate::item::Step;
 use crate::verdict::Verdict;
+use trunnion_interp::Motion;
 
 impl Walk<'_> {
     /// A motion of a block that the change leaves alone goes where it went. A rapid may begin where the change has put the tool, and an axis that
@@ -39,5 +41,28 @@ impl Walk<'_> {
         }
         rest(was, is)?;
         self.near(&before, after)
+    }
+
+    /// A motion in machine coordinates, and a dwell: the axes that move go to the same place in both programs.
+    pub(super) fn not_moved(&mut self, was: &Motion, is: &Motion) -> Result<(), Verdict> {
+        if !is_motion(was) {
+            return Ok(());
+        }
+        for axis in 0..3 {
+            if !(goes(was, axis) || goes(is, axis)) {
+                continue;
+            }
+            if (was.end.known ^ is.end.known) & (1 << axis) != 0 {
+                let what = format!("the end of {} is known in only one of the programs", letter(axis));
+                return Err(Verdict::Unknown(place(was, is, what)));
+            }
+            let known = was.end.known & (1 << axis) != 0;
+            if known && (was.end.values[axis] - is.end.values[axis]).abs() > self.change.end_mm {
+                let what = format!("{} ends at another place in machine coordinates", letter(axis));
+                return Err(Verdict::Differs(place(was, is, what)));
+            }
+            self.stands[axis] = Stands::Open;
+        }
+        Ok(())
     }
 }

@@ -149,7 +149,7 @@ await test('the backplot follows, and its machine moves with the slider', async 
   await frame.locator('#machine').check();
   const first = await until('machine', async () => {
     const found = await frame.evaluate(coloured);
-    return found.count > 2 * lines + 300 ? found : `${found.count} pixels after ${lines}`;
+    return found.count > 1.5 * lines + 100 ? found : `${found.count} pixels after ${lines}`;
   });
   const picture = () => frame.evaluate(() => document.getElementById('view').toDataURL());
   await frame.locator('#time').focus();

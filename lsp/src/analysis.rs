@@ -23,7 +23,7 @@ pub(crate) struct Parsed {
     pub(crate) starts: Lines,
     /// The program with its settings; or why the settings cannot be used.
     pub(crate) outcome: Result<Source, LoadError>,
-    /// It is a settings or machine file, and no program.
+    /// It is a TOML file, and no program.
     pub(crate) toml: Option<TomlFile>,
 }
 
@@ -94,7 +94,7 @@ impl Analysed {
     }
 }
 
-/// Whether a document is a settings or machine file.
+/// Which TOML file a document is; `None`: a program.
 pub(crate) fn toml_file(uri: &Url, text: &str) -> Option<TomlFile> {
     let name = uri.path_segments()?.next_back()?;
     if name == "trunnion.toml" {
@@ -104,12 +104,9 @@ pub(crate) fn toml_file(uri: &Url, text: &str) -> Option<TomlFile> {
         text.lines()
             .any(|line| line.starts_with("schema") && line.contains("\"ncmachine/"))
     };
-    (name
-        .to_ascii_lowercase()
-        .rsplit_once('.')
-        .is_some_and(|(_, ending)| ending == "toml")
-        && machine())
-    .then_some(TomlFile::Machine)
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending);
+    let toml = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    toml.then(|| if machine() { TomlFile::Machine } else { TomlFile::Other })
 }
 
 /// The settings of a document with this text.

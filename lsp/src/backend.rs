@@ -15,6 +15,7 @@ use crate::{
     hover, navigate, outbox,
     owner::Owner,
     position::Encoding,
+    rewrites::{self, RewriteAnswer, RewriteParams},
     snapshot::{Need, Snapshot},
     structure, to_proto, writing,
 };
@@ -91,6 +92,13 @@ impl Backend {
     pub(crate) async fn edit(&self, params: EditParams) -> Result<EditAnswer> {
         let uri = params.text_document.uri.clone();
         self.ask(&uri, Need::Parsed, move |snapshot| edits::answer(snapshot, &params))
+            .await
+    }
+
+    /// `trunnion/rewrite`.
+    pub(crate) async fn rewrite(&self, params: RewriteParams) -> Result<RewriteAnswer> {
+        let uri = params.text_document.uri.clone();
+        self.ask(&uri, Need::Parsed, move |snapshot| rewrites::answer(snapshot, &params))
             .await
     }
 }
@@ -176,7 +184,7 @@ impl LanguageServer for Backend {
         let work = move |snapshot: &Snapshot| {
             let encoding = snapshot.encoding;
             if let Some(analysed) = &snapshot.analysed {
-                return code_action::code_actions(analysed, &params, encoding);
+                return code_action::code_actions(analysed, &params, encoding, snapshot.shown.commands);
             }
             let found = to_proto::of_toml(&snapshot.parsed, encoding);
             Some(code_action::of_settings(&snapshot.parsed, &found, encoding))

@@ -1,5 +1,6 @@
 //! What the server can do.
-use crate::position::Encoding;
+use crate::{position::Encoding, rewrites};
+use serde_json::json;
 use tower_lsp::lsp_types::{
     CallHierarchyServerCapability, CodeActionKind, CodeActionOptions, CodeActionProviderCapability, CodeLensOptions,
     CompletionOptions, DiagnosticOptions, DiagnosticServerCapabilities, DocumentLinkOptions,
@@ -79,6 +80,7 @@ pub(crate) fn capabilities(encoding: Encoding) -> ServerCapabilities {
             code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::REFACTOR_REWRITE]),
             ..CodeActionOptions::default()
         })),
+        experimental: Some(json!({ "rewrites": rewrites::list() })),
         ..ServerCapabilities::default()
     }
 }

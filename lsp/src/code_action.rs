@@ -3,15 +3,16 @@ use crate::{
     analysis::{Analysed, Parsed},
     edits,
     position::{Encoding, offset, range},
+    rewrites::Offer,
     to_proto,
 };
 use std::collections::{BTreeSet, HashMap};
 use tower_lsp::lsp_types::{
-    CodeAction, CodeActionDisabled, CodeActionKind, CodeActionOrCommand, CodeActionParams, Diagnostic, NumberOrString,
-    Range, TextEdit, WorkspaceEdit,
+    CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, Diagnostic, NumberOrString, Range, TextEdit,
+    WorkspaceEdit,
 };
-use trunnion_rewrite::{Known, Options, Place, Proved, Rewrite, State, attempt, attempt_at, rewrite};
-use trunnion_syntax::{BlockId, TextRange};
+use trunnion_rewrite::rewrite;
+use trunnion_syntax::TextRange;
 
 /// The quick fixes for the findings that touch the asked range.
 #[expect(clippy::unnecessary_wraps, reason = "the shape of the protocol's answer")]
@@ -19,6 +20,7 @@ pub(crate) fn code_actions(
     analysed: &Analysed,
     params: &CodeActionParams,
     encoding: Encoding,
+    commands: bool,
 ) -> Option<Vec<CodeActionOrCommand>> {
     if analysed.parsed.outcome.is_err() {
         let found = to_proto::diagnostics(analysed, encoding);
@@ -27,31 +29,22 @@ pub(crate) fn code_actions(
     let Some((_, session)) = analysed.judged() else {
         return Some(Vec::new());
     };
+    let only = params.context.only.as_ref();
+    let wanted = only.is_none_or(|kinds| kinds.contains(&CodeActionKind::QUICKFIX));
+    let byte = |position| offset(&analysed.parsed.text, &analysed.parsed.starts, position, encoding) as u32;
+    let (start, end) = (byte(params.range.start), byte(params.range.end));
+    let mut offer = Offer::new(analysed, encoding, (start, end), commands);
     let mut whole = Vec::new();
     if edits::wanted(&params.context) {
-        whole = edits::actions(&analysed.parsed, encoding);
+        whole = edits::actions(&analysed.parsed, encoding, TextRange::new(start, end.max(start)));
+    }
+    if only.is_some() && edits::wanted(&params.context) {
+        whole.extend(offer.all());
     }
     let whole = whole.into_iter().map(CodeActionOrCommand::CodeAction);
-    let wanted = params
-        .context
-        .only
-        .as_ref()
-        .is_none_or(|kinds| kinds.contains(&CodeActionKind::QUICKFIX));
     if !wanted {
         return Some(whole.collect());
     }
-    let start = offset(
-        &analysed.parsed.text,
-        &analysed.parsed.starts,
-        params.range.start,
-        encoding,
-    ) as u32;
-    let end = offset(
-        &analysed.parsed.text,
-        &analysed.parsed.starts,
-        params.range.end,
-        encoding,
-    ) as u32;
     let touched: Vec<_> = session
         .report
         .diagnostics
@@ -60,10 +53,8 @@ pub(crate) fn code_actions(
         .collect();
     let names: BTreeSet<&'static str> = touched.iter().flat_map(|d| d.fixes.iter().copied()).collect();
     let likely = touched.iter().filter_map(|d| likely(analysed, d, encoding));
-    let actions = names
-        .into_iter()
-        .filter_map(rewrite)
-        .flat_map(|r| actions(analysed, r, (start, end), encoding));
+    let named = names.into_iter().filter_map(rewrite);
+    let actions: Vec<_> = named.flat_map(|one| offer.fixes(one)).collect();
     let fixes = likely.chain(actions).map(CodeActionOrCommand::CodeAction);
     Some(fixes.chain(whole).collect())
 }
@@ -144,71 +135,4 @@ fn name_at(parsed: &Parsed, problem: &Diagnostic, wrong: &str, encoding: Encodin
     }
     let bytes = TextRange::new(at as u32, (at + wrong.len()) as u32);
     Some(range(&parsed.text, &parsed.starts, bytes, encoding))
-}
-
-/// The rewrite for the whole program, and for the places that touch the asked range alone where it changes others too; or why it is refused.
-fn actions(analysed: &Analysed, rewrite: &Rewrite, asked: (u32, u32), encoding: Encoding) -> Vec<CodeAction> {
-    let Some((source, _)) = analysed.judged() else {
-        return Vec::new();
-    };
-    let program = &source.program;
-    let settings = source.resolved.settings();
-    let options = Options::of(&source.resolved.fix);
-    let whole = attempt(rewrite, program, &settings, &options);
-    let base = CodeAction {
-        title: rewrite.name.into(),
-        kind: Some(CodeActionKind::QUICKFIX),
-        diagnostics: Some(cured(analysed, rewrite, encoding)),
-        ..CodeAction::default()
-    };
-    let offer = |proved: &Proved, title: String| {
-        let edits = proved.edits.iter().map(|edit| {
-            TextEdit::new(
-                range(&analysed.parsed.text, &analysed.parsed.starts, edit.range, encoding),
-                edit.new_text.clone(),
-            )
-        });
-        CodeAction {
-            title,
-            edit: Some(WorkspaceEdit::new(HashMap::from([(
-                analysed.parsed.uri.clone(),
-                edits.collect(),
-            )]))),
-            is_preferred: Some(true),
-            ..base.clone()
-        }
-    };
-    let Some(proved) = &whole.proved else {
-        let refused = whole.reasons().map(|reason| CodeAction {
-            title: format!("{}: not offered: {reason}", rewrite.name),
-            disabled: Some(CodeActionDisabled { reason }),
-            ..base.clone()
-        });
-        return refused.into_iter().collect();
-    };
-    let touches = |first: BlockId, last: BlockId| {
-        program.block(first).range().start <= asked.1 && asked.0 <= program.block(last).range().end
-    };
-    let changed = || whole.places.iter().filter(|place| place.state == State::Proved);
-    let mut list = Vec::new();
-    if changed().any(|place| touches(place.first, place.last))
-        && !changed().all(|place| touches(place.first, place.last))
-    {
-        let asked = |place: &Place| touches(place.first, place.last);
-        let here = attempt_at(rewrite, program, &settings, &options, asked, &Known::default());
-        if let Some(here) = &here.proved {
-            list.push(offer(here, format!("{}: here only (proved)", rewrite.name)));
-        }
-    }
-    list.push(offer(proved, format!("{}: {} (proved)", rewrite.name, proved.summary)));
-    list
-}
-
-/// The findings of the document that the rewrite fixes.
-fn cured(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Vec<Diagnostic> {
-    let cures = |d: &Diagnostic| matches!(&d.code, Some(NumberOrString::String(code)) if rewrite.cures.contains(&code.as_str()));
-    to_proto::diagnostics(analysed, encoding)
-        .into_iter()
-        .filter(cures)
-        .collect()
 }

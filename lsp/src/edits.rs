@@ -10,12 +10,13 @@ use std::collections::HashMap;
 use tower_lsp::{
     jsonrpc::{Error, ErrorCode, Result},
     lsp_types::{
-        CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionTriggerKind,
+        CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionTriggerKind, Range,
         TextDocumentIdentifier, TextEdit, WorkspaceEdit,
     },
 };
-use trunnion_convert::{Edit, Edited, Positions, Refused, Shape, edit};
+use trunnion_convert::{Edit, Edited, Part, Positions, Refused, Shape, edit_part};
 use trunnion_interp::LengthUnit;
+use trunnion_syntax::{Program, TextRange};
 
 /// `trunnion/edit`: the program and what is asked for.
 #[derive(Deserialize)]
@@ -23,6 +24,8 @@ use trunnion_interp::LengthUnit;
 pub(crate) struct EditParams {
     pub(crate) text_document: TextDocumentIdentifier,
     edit: Asked,
+    /// The lines that are edited; without it, all.
+    range: Option<Range>,
 }
 
 /// An edit as clients name it. Lengths in the unit of the program, angles in degrees.
@@ -85,23 +88,45 @@ pub(crate) struct EditAnswer {
     notes: Vec<String>,
 }
 
-fn made(source: &Source, asked: Edit) -> core::result::Result<Edited, Refused> {
+fn made(source: &Source, asked: Edit, part: Option<Part>) -> core::result::Result<Edited, Refused> {
     let resolved = &source.resolved;
-    edit(&source.program, resolved.dialect, &resolved.setup, asked, None)
+    edit_part(&source.program, resolved.dialect, &resolved.setup, asked, None, part)
+}
+
+/// The blocks that bytes touch. A range that ends where a line begins ends with the line before, as editors select whole lines.
+fn part_of(program: &Program, bytes: TextRange) -> Option<Part> {
+    let last = if bytes.end > bytes.start {
+        bytes.end - 1
+    } else {
+        bytes.end
+    };
+    Some(Part {
+        first: program.block_at(bytes.start)?,
+        last: program.block_at(last)?,
+    })
+}
+
+pub(crate) const NO_PROGRAM: &str = "this is no program, or its settings cannot be used";
+
+/// A refusal.
+pub(crate) fn failed(why: String) -> Error {
+    let mut error = Error::invalid_params(why);
+    // LSP 3.17: RequestFailed
+    error.code = ErrorCode::ServerError(-32803);
+    error
 }
 
 /// Makes an edit; a refusal is an error with its reason.
 pub(crate) fn answer(snapshot: &Snapshot, params: &EditParams) -> Result<EditAnswer> {
-    let failed = |why: String| {
-        let mut error = Error::invalid_params(why);
-        // LSP 3.17: RequestFailed
-        error.code = ErrorCode::ServerError(-32803);
-        error
+    let source = snapshot.source().ok_or_else(|| failed(NO_PROGRAM.to_owned()))?;
+    let part = match params.range {
+        None => None,
+        Some(range) => Some(
+            part_of(&source.program, snapshot.bytes(range))
+                .ok_or_else(|| failed("there is no block in these lines".to_owned()))?,
+        ),
     };
-    let source = snapshot
-        .source()
-        .ok_or_else(|| failed("this is no program, or its settings cannot be used".to_owned()))?;
-    let edited = made(source, params.edit.edit()).map_err(|refused| {
+    let edited = made(source, params.edit.edit(), part).map_err(|refused| {
         let place = refused
             .place
             .map_or_else(String::new, |(line, _)| format!("line {line}: "));
@@ -126,25 +151,33 @@ pub(crate) fn wanted(context: &CodeActionContext) -> bool {
     }
 }
 
-/// The edits without numbers, each for the whole program; or why they are refused. What there is nothing to do for is left out.
-pub(crate) fn actions(parsed: &Parsed, encoding: Encoding) -> Vec<CodeAction> {
+/// The edits without numbers, each for the whole program, or for the blocks that are chosen where there are several; or why they are refused.
+/// What there is nothing to do for is left out.
+pub(crate) fn actions(parsed: &Parsed, encoding: Encoding, asked: TextRange) -> Vec<CodeAction> {
     let Ok(source) = &parsed.outcome else { return Vec::new() };
-    let all = [
-        ("write in inch", Edit::Unit(LengthUnit::Inch)),
-        ("write in mm", Edit::Unit(LengthUnit::Millimetre)),
-        ("write absolute positions (G90)", Edit::Positions(Positions::Absolute)),
-        (
-            "write incremental positions (G91)",
-            Edit::Positions(Positions::Incremental),
-        ),
+    let part = part_of(&source.program, asked).filter(|part| part.first < part.last);
+    let [absolute, incremental] = [Positions::Absolute, Positions::Incremental].map(Edit::Positions);
+    let mut all = vec![
+        ("write in inch", Edit::Unit(LengthUnit::Inch), None),
+        ("write in mm", Edit::Unit(LengthUnit::Millimetre), None),
+        ("write absolute positions (G90)", absolute, None),
+        ("write incremental positions (G91)", incremental, None),
     ];
-    let one = |(title, asked): (&str, Edit)| {
+    if part.is_some() {
+        all.push(("write absolute positions (G90) in the chosen lines", absolute, part));
+        all.push((
+            "write incremental positions (G91) in the chosen lines",
+            incremental,
+            part,
+        ));
+    }
+    let one = |(title, asked, part): (&str, Edit, Option<Part>)| {
         let base = CodeAction {
             title: title.to_owned(),
             kind: Some(CodeActionKind::REFACTOR_REWRITE),
             ..CodeAction::default()
         };
-        match made(source, asked) {
+        match made(source, asked, part) {
             Ok(edited) => {
                 let edits = edited.edits.into_iter().map(|edit| {
                     TextEdit::new(range(&parsed.text, &parsed.starts, edit.range, encoding), edit.new_text)

@@ -24,6 +24,7 @@ mod outbox;
 mod owner;
 mod part;
 mod position;
+mod rewrites;
 mod settings;
 mod snapshot;
 mod status;
@@ -59,6 +60,7 @@ pub fn serve() -> i32 {
         let (service, socket) = LspService::build(|client| Backend::start(client, Arc::clone(&seen)))
             .custom_method("trunnion/backplot", Backend::backplot)
             .custom_method("trunnion/edit", Backend::edit)
+            .custom_method("trunnion/rewrite", Backend::rewrite)
             .finish();
         let service = Outer::new(service, Arc::clone(&seen));
         let (messages, input) = tokio::io::duplex(1 << 16);

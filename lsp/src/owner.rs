@@ -89,7 +89,11 @@ impl Owner {
             Event::Close { uri } => self.close(&uri),
             Event::Configure(value) => {
                 self.folder.overrides = settings::overrides(&value);
-                self.shown = settings::shown(&value);
+                let commands = self.shown.commands;
+                self.shown = settings::Shown {
+                    commands,
+                    ..settings::shown(&value)
+                };
                 self.read_all();
             }
             Event::FilesChanged => self.read_all(),

@@ -12,6 +12,8 @@ pub(crate) struct Shown {
     pub(crate) modal: bool,
     /// The time of an operation above it: `trunnion.codeLens`.
     pub(crate) lens: bool,
+    /// The client has the commands of the VS Code extension: `commands`.
+    pub(crate) commands: bool,
     /// Findings are sent without being asked for: not with `trunnion.diagnosticMode` `pull`.
     pub(crate) push: bool,
 }
@@ -22,6 +24,7 @@ impl Default for Shown {
             values: true,
             modal: true,
             lens: true,
+            commands: false,
             push: true,
         }
     }
@@ -46,7 +49,7 @@ pub(crate) fn overrides(value: &Value) -> Overrides {
     }
 }
 
-/// Reads `{ "hints": { "values": .., "modal": .. }, "codeLens": .., "diagnosticMode": .. }`; what is missing is on.
+/// Reads `{ "hints": { "values": .., "modal": .. }, "codeLens": .., "diagnosticMode": .., "commands": .. }`; what is missing is on, but for the commands.
 pub(crate) fn shown(value: &Value) -> Shown {
     let own = own(value);
     let on = |value: Option<&Value>| value.and_then(Value::as_bool).unwrap_or(true);
@@ -55,6 +58,7 @@ pub(crate) fn shown(value: &Value) -> Shown {
         values: hint("values"),
         modal: hint("modal"),
         lens: on(own.get("codeLens")),
+        commands: own.get("commands").and_then(Value::as_bool).unwrap_or(false),
         push: own.get("diagnosticMode").and_then(Value::as_str) != Some("pull"),
     }
 }

@@ -189,19 +189,24 @@ pub(crate) fn lenses(snapshot: &Snapshot) -> Vec<CodeLens> {
         .filter_map(|node| source.program.block_at(node.range.start))
         .collect();
     let times = operation_times(&source.program, &source.resolved.settings(), &starts);
-    let one = |(node, time): (&&Node, Option<f64>)| CodeLens {
-        range: snapshot.range(node.selection),
-        command: Some(Command {
-            title: format!("{}: {}", node.name, duration(time, source.resolved.machine.is_some())),
-            command: "trunnion.showOperation".to_owned(),
-            arguments: Some(vec![
-                json!(snapshot.parsed.uri),
-                json!(snapshot.range(node.selection).start.line),
-            ]),
-        }),
-        data: None,
+    let lens = |node: &Node, title: String, command: &str| {
+        let range = snapshot.range(node.selection);
+        let arguments = vec![json!(snapshot.parsed.uri), json!(range.start.line)];
+        CodeLens {
+            range,
+            command: Some(Command::new(title, command.to_owned(), Some(arguments))),
+            data: None,
+        }
     };
-    operations.iter().zip(times).map(one).collect()
+    let mut lenses = Vec::new();
+    for (node, time) in operations.into_iter().zip(times) {
+        let time = duration(time, source.resolved.machine.is_some());
+        lenses.push(lens(node, format!("{}: {time}", node.name), "trunnion.showOperation"));
+        if snapshot.shown.commands {
+            lenses.push(lens(node, "show in backplot".to_owned(), "trunnion.showInBackplot"));
+        }
+    }
+    lenses
 }
 
 fn collect<'n>(nodes: &'n [Node], found: &mut Vec<&'n Node>) {

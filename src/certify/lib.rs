@@ -37,5 +37,5 @@ pub use changed::{Unproved, certify_change};
 pub use claim::{Claim, RefitSource};
 pub use digest::same_machine;
 pub use recheck::{certify, certify_across, certify_with_libraries, recheck};
-pub use trunnion_same::{Apart, Change};
+pub use trunnion_same::{Apart, Change, Part};
 pub use verdict::{Gap, Outcome, Witness};

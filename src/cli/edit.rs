@@ -8,8 +8,9 @@ use super::{
 };
 use clap::ValueEnum;
 use std::path::PathBuf;
-use trunnion_convert::{Edit, Positions, Shape, edit};
+use trunnion_convert::{Edit, Part, Positions, Shape, edit_part};
 use trunnion_interp::LengthUnit;
+use trunnion_syntax::{LineIndex, Program};
 
 /// `edit`
 #[derive(clap::Args)]
@@ -18,6 +19,9 @@ pub(crate) struct EditProgram {
     file: PathBuf,
     #[command(flatten)]
     asked: Asked,
+    /// Edit these lines alone, counted from 1; all others do what they did. Not with --unit.
+    #[arg(long, value_name = "FIRST-LAST", value_parser = lines)]
+    lines: Option<(u32, u32)>,
     /// Digits after the point of lengths that are rounded. Default: 3 in mm and 4 in inch; for --scale and --rotate as many as the program writes.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=9))]
     decimals: Option<u8>,
@@ -112,6 +116,34 @@ fn turn(text: &str) -> Result<(usize, f64), String> {
     Ok((axis(letter)?, number(value)?))
 }
 
+/// `20-40`, or `20`.
+fn lines(text: &str) -> Result<(u32, u32), String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    let line = |text: &str| text.trim().parse::<u32>().ok().filter(|line| *line > 0);
+    match (line(first), line(last)) {
+        (Some(first), Some(last)) if first <= last => Ok((first, last)),
+        _ => Err(format!("`{text}` is not a row of lines: write 20-40")),
+    }
+}
+
+/// The blocks of these lines.
+fn part(program: &Program, (first, last): (u32, u32)) -> Result<Part, Failure> {
+    let index = LineIndex::new(program.source());
+    let line = |at: u32| index.line_column(program.source(), at).0;
+    let within = program.blocks().filter(|block| {
+        let range = block.range();
+        line(range.start) <= last && line(range.end.saturating_sub(1).max(range.start)) >= first
+    });
+    let mut blocks = within.map(|block| block.id());
+    let start = blocks.next();
+    start
+        .map(|start| Part {
+            first: start,
+            last: blocks.last().unwrap_or(start),
+        })
+        .ok_or_else(|| Failure::new(format!("--lines {first}-{last}: the program has no such lines")))
+}
+
 impl Asked {
     fn edit(&self) -> Edit {
         let unit = |unit| match unit {
@@ -168,8 +200,16 @@ pub(super) fn run(global: &Global, command: &EditProgram) -> Result<Done, Failur
     let resolved = &loaded.resolved;
     let decimals = command.decimals.map(usize::from);
     let asked = command.asked.edit();
+    let part = command.lines.map(|lines| part(&loaded.program, lines)).transpose()?;
     let edited = match waiting::during(global, "editing", &command.file, || {
-        edit(&loaded.program, resolved.dialect, &resolved.setup, asked, decimals)
+        edit_part(
+            &loaded.program,
+            resolved.dialect,
+            &resolved.setup,
+            asked,
+            decimals,
+            part,
+        )
     }) {
         Ok(edited) => edited,
         Err(refused) if refused.is_nothing => {

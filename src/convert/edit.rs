@@ -14,7 +14,7 @@ mod unit;
 
 use crate::convert::wording;
 use crate::refuse::Refused;
-use trunnion_certify::{Apart, Change, Unproved, certify_change};
+use trunnion_certify::{Apart, Change, Part, Unproved, certify_change};
 use trunnion_dialect::Dialect;
 use trunnion_interp::{LengthUnit, Setup};
 use trunnion_syntax::{Format, Program, TextEdit, apply_edits, parse};
@@ -103,6 +103,21 @@ pub fn edit(
     edit: Edit,
     decimals: Option<usize>,
 ) -> Result<Edited, Refused> {
+    edit_part(program, dialect, setup, edit, decimals, None)
+}
+
+/// The same for some blocks; all others do what they did.
+///
+/// # Errors
+/// Why it is refused, with the place.
+pub fn edit_part(
+    program: &Program,
+    dialect: &Dialect,
+    setup: &Setup,
+    edit: Edit,
+    decimals: Option<usize>,
+    part: Option<Part>,
+) -> Result<Edited, Refused> {
     match dialect.lex.format {
         Format::Iso | Format::Osp | Format::Klartext => {}
         Format::Apt => return Err(Refused::new("edits are for G code: change CL data in the CAM system")),
@@ -111,15 +126,23 @@ pub fn edit(
         let message = "this text is not understood; `trunnion check` explains it";
         return Err(Refused::range(program, error.range, message));
     }
+    if part.is_some() && (dialect.lex.format == Format::Klartext || matches!(edit, Edit::Unit(_))) {
+        let message = if matches!(edit, Edit::Unit(_)) {
+            "a program is written in one unit from its beginning to its end: write all of it in the other unit"
+        } else {
+            "a part of a Klartext program is not edited: edit all of it, or shift the datum (TRANS DATUM)"
+        };
+        return Err(Refused::new(message));
+    }
     let proposal = match edit {
         _ if dialect.lex.format == Format::Klartext => klartext::propose(program, dialect, setup, edit, decimals),
         Edit::Unit(unit) => unit::propose(program, dialect, setup, unit, decimals),
-        Edit::Positions(positions) => positions::propose(program, dialect, setup, positions),
-        Edit::Shape(shape) => shape::propose(program, dialect, setup, shape, decimals),
+        Edit::Positions(positions) => positions::propose(program, dialect, setup, positions, part),
+        Edit::Shape(shape) => shape::propose(program, dialect, setup, shape, decimals, part),
     };
     match (proposal, edit) {
         (Ok(proposal), _) => prove(program, dialect, setup, proposal),
-        (Err(nothing), Edit::Shape(shape)) if nothing.is_nothing => {
+        (Err(nothing), Edit::Shape(shape)) if nothing.is_nothing && part.is_none() => {
             stays(program, dialect, setup, shape)?;
             Err(nothing)
         }

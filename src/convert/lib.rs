@@ -35,9 +35,9 @@ mod travel;
 
 pub use cl::{ClFeed, ClPoint, ClTool, cl_text};
 pub use convert::{Converted, Source, convert};
-pub use edit::{Edit, Edited, Positions, Shape, edit};
+pub use edit::{Edit, Edited, Positions, Shape, edit, edit_part};
 pub use options::{Options, OrientationWords, Target, Units};
 pub use post::{BUILTIN_POSTS, Post, PostError, builtin_post, builtin_post_source, load_post};
 pub use refuse::Refused;
 pub use travel::Beyond;
-pub use trunnion_certify::{Apart, Change};
+pub use trunnion_certify::{Apart, Change, Part};

@@ -10,6 +10,8 @@ pub enum TomlFile {
     Settings,
     /// A machine file.
     Machine,
+    /// Something else, of which nothing is said.
+    Other,
 }
 
 impl TomlFile {
@@ -23,13 +25,15 @@ impl TomlFile {
             Self::Machine => trunnion_machine::load("machine", text)
                 .err()
                 .map(|error| (error.message, error.span)),
+            Self::Other => None,
         }
     }
 
-    fn keys(self) -> KeyFile {
+    fn keys(self) -> Option<KeyFile> {
         match self {
-            Self::Settings => KeyFile::Settings,
-            Self::Machine => KeyFile::Machine,
+            Self::Settings => Some(KeyFile::Settings),
+            Self::Machine => Some(KeyFile::Machine),
+            Self::Other => None,
         }
     }
 }
@@ -86,7 +90,7 @@ pub fn toml_completions(file: TomlFile, text: &str, at: usize) -> (Vec<(String, 
             place.table
         }
     };
-    let table = file.keys().at(&table);
+    let table = file.keys().and_then(|keys| keys.at(&table));
     let keys = table.into_iter().flat_map(Key::keys);
     let found = keys.filter(|(key, _)| key.starts_with(typed));
     (
@@ -110,7 +114,7 @@ pub fn toml_at(file: TomlFile, text: &str, at: usize) -> Option<(String, Range<u
         return None;
     }
     let name = &text[from..to];
-    let key = file.keys().at(&place.table)?.key(name)?;
+    let key = file.keys()?.at(&place.table)?.key(name)?;
     let docs = docs(name, key);
     (!docs.is_empty()).then(|| (format!("**{name}** {docs}"), from..to))
 }
@@ -137,7 +141,7 @@ mod tests {
         }
         for file in [TomlFile::Settings, TomlFile::Machine] {
             let mut found = Vec::new();
-            all(file.keys().root(), &mut Vec::new(), &mut found);
+            all(file.keys().expect("a schema").root(), &mut Vec::new(), &mut found);
             assert!(found.len() > 60, "{file:?}: {}", found.len());
             for (path, said) in found {
                 assert!(said.len() > 1, "{file:?} {path:?} has no description");
@@ -146,7 +150,7 @@ mod tests {
                     [] => format!("|{name} = 1"),
                     [table, inner @ ..] => {
                         let open = inner.iter().fold(String::new(), |open, name| open + name + " = { ");
-                        format!("{}\n{open}|{name} = 1", file.keys().title(&[table]))
+                        format!("{}\n{open}|{name} = 1", file.keys().expect("a schema").title(&[table]))
                     }
                 };
                 let shown = hover(file, &text).unwrap_or_else(|| panic!("{text}"));

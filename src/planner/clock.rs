@@ -15,6 +15,10 @@ pub trait Listener {
     fn fault(&mut self, fault: Fault) {
         let _ = fault;
     }
+    /// Whether faults are read; see [`Sink::reads_faults`].
+    fn reads_faults(&self) -> bool {
+        true
+    }
 }
 
 /// Runs a program on a machine and tells the time of each motion. The effects of the program are watched: path control, tool changes, M codes.
@@ -67,6 +71,9 @@ impl<L: Listener> Sink for Clock<'_, '_, L> {
     }
     fn fault(&mut self, fault: Fault) {
         self.listener.fault(fault);
+    }
+    fn reads_faults(&self) -> bool {
+        self.listener.reads_faults()
     }
     fn effect(&mut self, placed: Placed) {
         if let Effect::Set { key, to } = &placed.effect

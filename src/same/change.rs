@@ -5,7 +5,23 @@ use crate::process::Process;
 use trunnion_dialect::Plane;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, MotionKind, Orientation};
-use trunnion_syntax::Address;
+use trunnion_syntax::{Address, BlockId};
+
+/// Blocks of the program before, from the first to the last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The first block.
+    pub first: BlockId,
+    /// The last block, which is one of them.
+    pub last: BlockId,
+}
+
+impl Part {
+    /// Whether a block is one of them.
+    pub fn has(&self, block: BlockId) -> bool {
+        (self.first..=self.last).contains(&block)
+    }
+}
 
 /// What the program after does with the motions of the program before, and how near it must come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +38,8 @@ pub struct Change {
     pub arc_mm: f64,
     /// By which part feeds may differ.
     pub feed_share: f64,
+    /// Only the motions of these blocks are moved; all others go where they went. `None`: all are moved.
+    pub part: Option<Part>,
 }
 
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -36,6 +54,7 @@ impl Change {
             end_mm,
             arc_mm,
             feed_share,
+            part: None,
         }
     }
 
@@ -50,6 +69,11 @@ impl Change {
 
     pub(crate) fn is_nothing(&self) -> bool {
         self.is_shift() && self.shift == [0.0; 3]
+    }
+
+    /// Whether a block is one that is moved.
+    pub(crate) fn moves(&self, block: BlockId) -> bool {
+        self.part.is_none_or(|part| part.has(block))
     }
 
     pub(crate) fn direction(&self, vector: &Vec3) -> Vec3 {

@@ -1,5 +1,7 @@
 //! Two programs of which the second makes the motions of the first elsewhere: shifted, turned, mirrored, scaled, or written in another unit or with
 //! other words. Each motion of the first is moved exactly, and then both are compared as any two programs are.
+mod left_alone;
+
 use crate::Claim;
 use crate::change::{Change, in_machine_coordinates, is_motion, names_rotary};
 use crate::compare::{held, next};
@@ -75,7 +77,8 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
                 walk.pair(&was, &is, &claim)?;
             }
             (Some(mut was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => {
-                if let Item::Happens { process, .. } = &mut was
+                if let Item::Happens { process, block, .. } = &mut was
+                    && change.moves(*block)
                     && change.mirrors(before.state().coordinates.plane())
                 {
                     *process = Process::on_other_side(process);
@@ -146,6 +149,9 @@ impl Walk<'_> {
         }
         if was.tilt != Tilt::default() || is.tilt != Tilt::default() {
             return unknown("a tilted working plane is active: its coordinates are not moved");
+        }
+        if !self.change.moves(was.block) {
+            return self.left_alone(before, after, claim);
         }
         self.rotary(was, is)?;
         self.new_zero(before);
@@ -245,11 +251,6 @@ impl Walk<'_> {
 
     /// Arcs, rotary axes, tool vectors and zero points, as two programs are compared.
     fn inside(&self, before: &Step, after: &Step) -> Result<(), Verdict> {
-        let mm = if self.drills || matches!(before.motion.kind, MotionKind::Arc(_)) {
-            self.change.arc_mm
-        } else {
-            self.change.end_mm
-        };
         // where an axis is not moved with the part, its end was compared before
         let mut before = before.clone();
         for axis in 0..3 {
@@ -257,30 +258,16 @@ impl Walk<'_> {
                 before.motion.end.values[axis] = after.motion.end.values[axis];
             }
         }
-        Near { mm, deg: 1e-9 }.pair(&before, after)
+        self.near(&before, after)
     }
 
-    /// A motion in machine coordinates, and a dwell: the axes that move go to the same place in both programs.
-    fn not_moved(&mut self, was: &Motion, is: &Motion) -> Result<(), Verdict> {
-        if !is_motion(was) {
-            return Ok(());
-        }
-        for axis in 0..3 {
-            if !(goes(was, axis) || goes(is, axis)) {
-                continue;
-            }
-            if (was.end.known ^ is.end.known) & (1 << axis) != 0 {
-                let what = format!("the end of {} is known in only one of the programs", letter(axis));
-                return Err(Verdict::Unknown(place(was, is, what)));
-            }
-            let known = was.end.known & (1 << axis) != 0;
-            if known && (was.end.values[axis] - is.end.values[axis]).abs() > self.change.end_mm {
-                let what = format!("{} ends at another place in machine coordinates", letter(axis));
-                return Err(Verdict::Differs(place(was, is, what)));
-            }
-            self.stands[axis] = Stands::Open;
-        }
-        Ok(())
+    fn near(&self, before: &Step, after: &Step) -> Result<(), Verdict> {
+        let mm = if self.drills || matches!(before.motion.kind, MotionKind::Arc(_)) {
+            self.change.arc_mm
+        } else {
+            self.change.end_mm
+        };
+        Near { mm, deg: 1e-9 }.pair(before, after)
     }
 
     /// Feeds, apart from their rounding.

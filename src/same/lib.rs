@@ -38,7 +38,7 @@ mod undeclared;
 mod unit;
 mod verdict;
 
-pub use change::Change;
+pub use change::{Change, Part};
 pub use changed::{Apart, compare_changed};
 pub use claim::Claim;
 pub use compare::compare;

@@ -42,7 +42,8 @@ impl Client {
         Self::start_as(options, &json!({}), &json!(root))
     }
 
-    fn start_as(options: &Value, capabilities: &Value, root: &Value) -> Self {
+    /// A server that nothing was said to yet.
+    pub(crate) fn bare() -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
             .arg("lsp")
             .stdin(Stdio::piped())
@@ -60,7 +61,7 @@ impl Client {
             }
         });
         let input = child.stdin.take();
-        let mut client = Self {
+        Self {
             child,
             input,
             messages,
@@ -69,7 +70,11 @@ impl Client {
             errors: VecDeque::new(),
             published: Vec::new(),
             last_status: None,
-        };
+        }
+    }
+
+    fn start_as(options: &Value, capabilities: &Value, root: &Value) -> Self {
+        let mut client = Self::bare();
         let params = json!({ "processId": null, "rootUri": root, "capabilities": capabilities,
                              "initializationOptions": options });
         let answer = client.request("initialize", params);
@@ -81,7 +86,12 @@ impl Client {
         client
     }
 
-    fn send(&mut self, message: &Value) {
+    /// Numbers of requests go on from here.
+    pub(crate) fn continue_at(&mut self, number: i64) {
+        self.next = self.next.max(number);
+    }
+
+    pub(crate) fn send(&mut self, message: &Value) {
         let body = message.to_string();
         self.send_bytes(format!("Content-Length: {}\r\n\r\n{body}", body.len()).as_bytes());
     }
@@ -318,7 +328,7 @@ pub(crate) fn position(text: &str, byte: usize) -> Value {
     json!({ "line": line, "character": before[start..].encode_utf16().count() })
 }
 
-fn byte(text: &str, position: &Value) -> usize {
+pub(crate) fn byte(text: &str, position: &Value) -> usize {
     let line = position["line"].as_u64().expect("a number") as usize;
     let character = position["character"].as_u64().expect("a number") as usize;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();

@@ -21,6 +21,8 @@ mod lsp_features;
 mod lsp_fixes;
 mod lsp_large;
 mod lsp_malformed;
+mod lsp_rewrites;
+mod lsp_sessions;
 mod lsp_writing;
 mod mutated_formats;
 mod mutated_programs;

@@ -22,4 +22,4 @@ rm -rf server && mkdir server
 cp "$program" server/trunnion
 strip server/trunnion 2>/dev/null || true # smaller; where there is no strip it is only larger
 chmod 755 server/trunnion
-npx --no-install vsce package --target "$target" --no-dependencies --allow-missing-repository --out "$out"
+npx --no-install vsce package --target "$target" --no-dependencies --allow-missing-repository --no-rewrite-relative-links --out "$out"

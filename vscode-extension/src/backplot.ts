@@ -17,10 +17,12 @@ export class Backplot implements vscode.Disposable {
   private panel: vscode.WebviewPanel | undefined;
   private document: vscode.TextDocument | undefined;
   private drawn: string | undefined;
+  /** What is drawn over a program: another text. `version`: of the program, where it is a change of that. */
+  private over: { document: vscode.TextDocument; version: number | undefined; title: string; text: string } | undefined;
   private turn = 0;
   private files = 0;
-  /** For tests: how many points the page drew last, and the line that was picked last. */
-  readonly seen = { vertices: 0, picked: 0 };
+  /** For tests: how many points the page drew last, of the program and over it, and the line that was picked last. */
+  readonly seen = { vertices: 0, compared: 0, picked: 0 };
 
   constructor(
     private readonly context: vscode.ExtensionContext,
@@ -51,7 +53,24 @@ export class Backplot implements vscode.Disposable {
     const picked = await vscode.window.showOpenDialog({ title: 'Draw this program over the one that is shown' });
     if (!picked?.[0] || !this.document) return;
     const text = Buffer.from(await vscode.workspace.fs.readFile(picked[0])).toString('utf8');
-    await this.fetch('other', picked[0].path.split('/').pop() ?? '', { most: FINE, text });
+    this.over = { document: this.document, version: undefined, title: picked[0].path.split('/').pop() ?? '', text };
+    await this.draw();
+  }
+
+  /** Draws a changed text over the program, until the program itself changes: before and after. */
+  async overlay(document: vscode.TextDocument, title: string, text: string): Promise<void> {
+    this.panel ??= this.make();
+    this.panel.reveal(vscode.ViewColumn.Beside, true);
+    this.over = { document, version: document.version, title, text };
+    this.document = document;
+    this.panel.title = `Backplot: ${name(document)}`;
+    await this.draw();
+  }
+
+  /** Opens the backplot at a line. */
+  async openAt(line: number): Promise<void> {
+    await this.open();
+    this.post({ type: 'line', line });
   }
 
   /** After each analysis: the path of the newest text. */
@@ -78,6 +97,10 @@ export class Backplot implements vscode.Disposable {
     if (turn !== this.turn || !coarse) return;
     this.drawn = document.uri.toString();
     if (coarse.vertices < coarse.whole) await this.fetch('path', document.uri.toString(), { most: FINE });
+    const { over } = this;
+    if (over?.document === document && (over.version === undefined || over.version === document.version)) {
+      await this.fetch('other', over.title, { most: FINE, text: over.text });
+    } else this.over = undefined;
     const editor = vscode.window.visibleTextEditors.find((visible) => visible.document === document);
     if (editor) this.follow(editor);
   }
@@ -119,6 +142,10 @@ export class Backplot implements vscode.Disposable {
         return this.draw();
       case 'drawn':
         this.seen.vertices = message.vertices;
+        this.seen.compared = 0;
+        return;
+      case 'compared':
+        this.seen.compared = message.vertices;
         return;
       case 'pick': {
         this.seen.picked = message.line;
@@ -154,6 +181,7 @@ export class Backplot implements vscode.Disposable {
     panel.onDidDispose(() => {
       this.panel = undefined;
       this.drawn = undefined;
+      this.over = undefined;
     });
     return panel;
   }

@@ -1,7 +1,9 @@
-// Edits of the whole program: unit, positions, and a path that is shifted, scaled, mirrored or turned. The server proves each one; a refusal is
+// Edits of the whole program, or of the chosen lines: unit, positions, and a path that is shifted, scaled, mirrored or turned. The server proves each one; a refusal is
 // shown with its reason.
 import * as vscode from 'vscode';
-import type { LanguageClient, TextEdit } from 'vscode-languageclient/node';
+import type { LanguageClient, Range, TextEdit } from 'vscode-languageclient/node';
+import type { Backplot } from './backplot';
+import { apply, review } from './review';
 
 /** An edit as the server reads it (`trunnion/edit`). */
 export type Edit =
@@ -99,19 +101,36 @@ const CHOICES: Choice[] = [
   { label: 'Write incremental positions', ask: async () => ({ kind: 'positions', positions: 'incremental' }) },
 ];
 
-/** Asks for an edit and its numbers, has the server prove it, and applies it. `asked`: an edit that is known already. */
-export async function editProgram(client: LanguageClient | undefined, asked?: Edit): Promise<boolean> {
-  const document = vscode.window.activeTextEditor?.document;
-  if (client === undefined || document === undefined) {
+/** The lines of the selection, if it has several and the user wants those alone; undefined: the question was left. */
+async function askLines(editor: vscode.TextEditor): Promise<vscode.Range | 'all' | undefined> {
+  const { start, end } = editor.selection;
+  const last = end.line > start.line && end.character === 0 ? end.line - 1 : end.line;
+  if (last === start.line) return 'all';
+  const lines = new vscode.Range(start.line, 0, last, editor.document.lineAt(last).text.length);
+  const choices = [
+    { label: `Lines ${start.line + 1} to ${last + 1}`, detail: 'Choose them from a rapid before the first cut to the last block before a rapid.', lines },
+    { label: 'The whole program', lines: 'all' as const },
+  ];
+  return (await vscode.window.showQuickPick(choices, { placeHolder: 'What to edit' }))?.lines;
+}
+
+/** Asks for an edit and its numbers, has the server prove it, and shows it. `asked`: an edit that is known already, which is applied at once. */
+export async function editProgram(client: LanguageClient | undefined, backplot: Backplot, asked?: Edit, range?: Range): Promise<boolean> {
+  const editor = vscode.window.activeTextEditor;
+  const document = editor?.document;
+  if (client === undefined || editor === undefined || document === undefined) {
     void vscode.window.showErrorMessage('Trunnion: open a program first.');
     return false;
   }
-  const edit = asked ?? (await (await vscode.window.showQuickPick(CHOICES, { placeHolder: 'Edit the whole program, proved' }))?.ask());
-  if (edit === undefined) {
+  const lines = asked === undefined ? await askLines(editor) : 'all';
+  const choice = asked === undefined && lines !== undefined ? await vscode.window.showQuickPick(CHOICES, { placeHolder: 'Edit the program, proved' }) : undefined;
+  const edit = asked ?? (await choice?.ask());
+  if (edit === undefined || lines === undefined) {
     return false;
   }
   const version = document.version;
-  const params = { textDocument: { uri: client.code2ProtocolConverter.asUri(document.uri) }, edit };
+  const chosen = range ?? (lines === 'all' ? undefined : client.code2ProtocolConverter.asRange(lines));
+  const params = { textDocument: { uri: client.code2ProtocolConverter.asUri(document.uri) }, edit, ...(chosen ? { range: chosen } : {}) };
   let answer: Answer;
   try {
     answer = await client.sendRequest<Answer>('trunnion/edit', params);
@@ -119,15 +138,11 @@ export async function editProgram(client: LanguageClient | undefined, asked?: Ed
     void vscode.window.showErrorMessage(`Trunnion: not edited: ${error instanceof Error ? error.message : String(error)}`);
     return false;
   }
-  if (document.version !== version) {
-    void vscode.window.showErrorMessage('Trunnion: not edited: the program was changed meanwhile.');
-    return false;
+  const title = `${choice?.label ?? edit.kind}${chosen ? ` of lines ${chosen.start.line + 1} to ${chosen.end.line + 1}` : ''}`;
+  const proved = { title, ...answer };
+  if (asked === undefined) {
+    return review(client, document, proved, backplot);
   }
-  const changes = new vscode.WorkspaceEdit();
-  changes.set(document.uri, await client.protocol2CodeConverter.asTextEdits(answer.edits));
-  const applied = await vscode.workspace.applyEdit(changes);
-  if (applied) {
-    void vscode.window.showInformationMessage(`Trunnion: ${[answer.summary, ...answer.notes].join('. ')}`);
-  }
-  return applied;
+  const edits = await client.protocol2CodeConverter.asTextEdits(answer.edits);
+  return apply(document, edits, document.version === version, proved);
 }

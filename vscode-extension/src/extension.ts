@@ -1,10 +1,13 @@
 // Starts `trunnion lsp` for G-code and APT programs, and shows what it says about machine and dialect.
 import * as vscode from 'vscode';
-import { LanguageClient, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
+import { LanguageClient, type Range, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
 import { Backplot } from './backplot';
 import { chooseDialect, chooseMachine } from './choose';
 import { type Edit, editProgram } from './edits';
+import { largeFiles } from './large';
 import { LANGUAGES } from './languages';
+import { proofPages } from './review';
+import { rewriteProgram } from './rewrites';
 import { findProgram, firstFolder } from './server';
 import { type Status, StatusItem } from './status';
 import { checkTask, taskProvider } from './tasks';
@@ -47,12 +50,19 @@ export async function activate(context: vscode.ExtensionContext): Promise<Api> {
     vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
     vscode.commands.registerCommand('trunnion.showBackplot', () => backplot.open()),
     vscode.commands.registerCommand('trunnion.compareBackplot', () => backplot.compare()),
-    vscode.commands.registerCommand('trunnion.editProgram', (edit?: Edit) => editProgram(client, edit)),
+    vscode.commands.registerCommand('trunnion.editProgram', (edit?: Edit, range?: Range) => editProgram(client, backplot, edit, range)),
+    vscode.commands.registerCommand('trunnion.rewriteProgram', (name?: string, range?: Range | null) => rewriteProgram(client, backplot, name, range)),
     // what a lens does: it shows the block with which the operation begins
     vscode.commands.registerCommand('trunnion.showOperation', async (uri: string, line: number) => {
       const start = new vscode.Position(line, 0);
       await vscode.window.showTextDocument(vscode.Uri.parse(uri), { selection: new vscode.Range(start, start) });
     }),
+    vscode.commands.registerCommand('trunnion.showInBackplot', async (uri: string, line: number) => {
+      await vscode.window.showTextDocument(vscode.Uri.parse(uri));
+      await backplot.openAt(line + 1);
+    }),
+    largeFiles(context),
+    proofPages(),
     vscode.commands.registerCommand('trunnion.checkFile', withProgram(checkActiveFile)),
     vscode.tasks.registerTaskProvider('trunnion', taskProvider(() => {
       const found = findProgram(context);
@@ -92,7 +102,8 @@ async function start({ context, status, output, configs, backplot }: Surrounding
     {
       documentSelector: [
         ...LANGUAGES.flatMap((language) => ['file', 'untitled'].map((scheme) => ({ language, scheme }))),
-        { scheme: 'file', pattern: '**/trunnion.toml' },
+        // settings and machine files; the server says nothing of others
+        { scheme: 'file', pattern: '**/*.toml' },
       ],
       initializationOptions: {
         machine: settings.get('machine'),
@@ -100,9 +111,18 @@ async function start({ context, status, output, configs, backplot }: Surrounding
         tool: settings.get('tool'),
         hints: settings.get('hints'),
         codeLens: settings.get('codeLens'),
+        commands: true,
       },
       // the server sends the findings of each version by itself; asked for too, each would be shown twice
-      middleware: { provideDiagnostics: () => undefined },
+      middleware: {
+        provideDiagnostics: () => undefined,
+        // of a long text the server colours what is shown alone; an empty answer would be taken for all colours, and nothing more be asked for
+        provideDocumentSemanticTokens: async (document, token, next) => {
+          const tokens = await next(document, token);
+          if (!tokens) throw new vscode.CancellationError();
+          return tokens;
+        },
+      },
       synchronize: { configurationSection: 'trunnion', fileEvents: configs },
       outputChannel: output,
       revealOutputChannelOn: RevealOutputChannelOn.Never,

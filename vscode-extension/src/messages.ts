@@ -44,4 +44,4 @@ export type ToPage =
   | { type: 'problem'; text: string };
 
 /** From the page. */
-export type FromPage = { type: 'ready' } | { type: 'pick'; line: number } | { type: 'drawn'; vertices: number };
+export type FromPage = { type: 'ready' } | { type: 'pick'; line: number } | { type: 'drawn' | 'compared'; vertices: number };

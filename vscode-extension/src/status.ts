@@ -28,9 +28,10 @@ export class StatusItem implements vscode.Disposable {
   private readonly item = vscode.window.createStatusBarItem('trunnion.status', vscode.StatusBarAlignment.Right, 90);
   private readonly latest = new Map<string, Status>();
   private problem: string | undefined;
+  private last: vscode.TextDocument | undefined;
 
   constructor() {
-    this.item.name = 'Trunnion: machine, dialect, verdict, coverage';
+    this.item.name = 'Trunnion: machine, dialect, verdict, coverage, time';
     this.item.command = 'trunnion.chooseMachine';
   }
 
@@ -52,8 +53,8 @@ export class StatusItem implements vscode.Disposable {
   }
 
   show(): void {
-    const document = vscode.window.activeTextEditor?.document;
-    if (!document || !isProgram(document)) {
+    const document = this.inFront();
+    if (!document) {
       this.item.hide();
       return;
     }
@@ -62,7 +63,7 @@ export class StatusItem implements vscode.Disposable {
     const machine = status ? status.machine : settings.get<string>('machine', '');
     const dialect = status ? status.dialect : settings.get<string>('dialect', '');
     const icon = this.problem !== undefined ? '$(warning)' : status ? ICONS[status.verdict] : '$(circle-outline)';
-    const parts = [machine || 'no machine', dialect, status?.verdict, status && coverage(status)];
+    const parts = [machine || 'no machine', dialect, status?.verdict, status && coverage(status), status?.cycle_time_s && time(status.cycle_time_s)];
     this.item.text = `${icon} ${parts.filter(Boolean).join(' · ')}`;
     this.item.tooltip = this.problem ?? tooltip(status);
     this.item.show();
@@ -70,6 +71,13 @@ export class StatusItem implements vscode.Disposable {
 
   dispose(): void {
     this.item.dispose();
+  }
+
+  /** The program in front; where no text is, as while the backplot has the focus, the last one, as long as it is on the screen. */
+  private inFront(): vscode.TextDocument | undefined {
+    const { activeTextEditor, visibleTextEditors } = vscode.window;
+    if (activeTextEditor) this.last = isProgram(activeTextEditor.document) ? activeTextEditor.document : undefined;
+    return visibleTextEditors.some(({ document }) => document === this.last) ? this.last : undefined;
   }
 }
 

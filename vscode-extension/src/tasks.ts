@@ -2,17 +2,21 @@
 import * as vscode from 'vscode';
 import { firstFolder } from './server';
 
-/** A task that checks `path` with machine, dialect and tool of the settings. */
-export function checkTask(program: string, path: string, name: string, form: 'short' | 'pretty'): vscode.Task {
+/** Machine, dialect and tool of the settings, as options. */
+export function checkArguments(): string[] {
   const settings = vscode.workspace.getConfiguration('trunnion');
-  const given = ['machine', 'dialect', 'tool'].flatMap((key) => {
+  return ['machine', 'dialect', 'tool'].flatMap((key) => {
     const value = settings.get<string>(key, '');
     return value ? [`--${key}`, value] : [];
   });
+}
+
+/** A task that checks `path` with machine, dialect and tool of the settings. */
+export function checkTask(program: string, path: string, name: string, form: 'short' | 'pretty'): vscode.Task {
   const folder = firstFolder();
   // the problem list shall be whole; a person at the terminal first sees the worst
   const rest = form === 'short' ? ['--limit', '0', path] : [path];
-  const execution = new vscode.ProcessExecution(program, ['check', '--format', form, ...given, ...rest], folder ? { cwd: folder } : {});
+  const execution = new vscode.ProcessExecution(program, ['check', '--format', form, ...checkArguments(), ...rest], folder ? { cwd: folder } : {});
   const matcher = form === 'short' ? ['$trunnion'] : [];
   const scope = folder ? vscode.TaskScope.Workspace : vscode.TaskScope.Global;
   const task = new vscode.Task({ type: 'trunnion', path }, scope, name, 'trunnion', execution, matcher);

@@ -35,6 +35,18 @@ test('Neovim takes the same files for programs', () => {
   for (const { id } of contributes.languages) assert.ok(server.includes(`'${id}'`), `${id} is not in lsp/trunnion.lua`);
 });
 
+test('Zed takes the same files for programs', () => {
+  const extension = readFileSync(here('../integrations/zed/extension.toml'), 'utf8');
+  for (const { id, extensions, firstLine } of contributes.languages) {
+    const config = readFileSync(here(`../integrations/zed/languages/${id}/config.toml`), 'utf8');
+    const suffixes = /path_suffixes = \[([^\]]*)\]/.exec(config)[1].match(/"[^"]+"/g).map((suffix) => `.${suffix.slice(1, -1)}`);
+    assert.deepEqual(suffixes.sort(), extensions.filter((one) => one !== '.h').sort(), id);
+    assert.ok(config.includes(`first_line_pattern = '${firstLine}'`), id);
+    const name = /^name = (".*")$/m.exec(config)[1];
+    assert.ok(extension.includes(`${name} = "${id}"`) && new RegExp(`languages = \\[.*${name}`).test(extension), id);
+  }
+});
+
 test('the configurations in docs/editors.md name the same files', () => {
   const text = readFileSync(here('../docs/editors.md'), 'utf8');
   const [emacs] = /```elisp[^]*?```/.exec(text);
@@ -127,4 +139,14 @@ test('APT words, numbers with signs and exponents', () => {
 
 test('the licences are those of the project', () => {
   for (const name of ['LICENSE-MIT', 'LICENSE-APACHE']) assert.equal(readFileSync(here(name), 'utf8'), readFileSync(here(`../${name}`), 'utf8'), name);
+});
+
+test('pictures of the README are there and packed', () => {
+  const pictures = [...readFileSync(here('README.md'), 'utf8').matchAll(/!\[[^\]]+\]\(([^)]+)\)/g)].map(([, picture]) => picture);
+  assert.equal(pictures.length, 3);
+  const packed = readFileSync(here('.vscodeignore'), 'utf8');
+  for (const picture of pictures) {
+    assert.ok(existsSync(here(picture)), picture);
+    assert.ok(packed.includes(`!${picture.replace(/[^/]+$/, '*')}`), picture);
+  }
 });

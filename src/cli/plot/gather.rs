@@ -103,6 +103,9 @@ impl Listener for Planned<'_> {
             self.feeds.entry(line).or_default().push_back(plan);
         }
     }
+    fn reads_faults(&self) -> bool {
+        false
+    }
 }
 
 /// Rules about the machine's motion: those that a picture of joints or of the tool axis can show.

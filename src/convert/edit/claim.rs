@@ -55,7 +55,10 @@ pub(super) fn change(shape: Shape, decimals: usize, unit_mm: f64) -> Change {
 impl Work<'_> {
     /// What is to be proved.
     pub(super) fn change(&self, unit_mm: f64) -> Change {
-        change(self.shape, self.decimals, unit_mm)
+        Change {
+            part: self.part,
+            ..change(self.shape, self.decimals, unit_mm)
+        }
     }
 
     pub(super) fn notes(&self) -> Vec<String> {
@@ -78,6 +81,12 @@ impl Work<'_> {
                 }
             }
             Shape::Shift(_) | Shape::Rotate(..) => {}
+        }
+        if self.part.is_some() {
+            notes.push(
+                "only the chosen lines are moved: the rapids that lead into them and out of them take another way"
+                    .to_owned(),
+            );
         }
         notes
     }

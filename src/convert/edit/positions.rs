@@ -5,7 +5,7 @@
 use super::edits::{Edits, decimals_of, number_of, rounded, written};
 use super::kinds::{Kind, Said, has_lengths};
 use super::survey::{Here, survey};
-use super::{Change, Positions, Proposal};
+use super::{Change, Part, Positions, Proposal};
 use crate::refuse::Refused;
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{ImplicitDecimals, Setup};
@@ -19,6 +19,7 @@ pub(super) fn propose(
     dialect: &Dialect,
     setup: &Setup,
     wanted: Positions,
+    part: Option<Part>,
 ) -> Result<Proposal, Refused> {
     let code = |action: Action| dialect.codes().iter().any(|code| code.action == action);
     if !code(Action::Absolute) || !code(Action::Incremental) {
@@ -31,6 +32,7 @@ pub(super) fn propose(
         dialect,
         setup,
         wanted,
+        part,
         edits: Edits::default(),
         incremental: None,
         known: 0,
@@ -47,10 +49,9 @@ pub(super) fn propose(
         };
         return Err(Refused::nothing(format!("what may be {name} is so already")));
     }
-    if let Some(block) = program
-        .blocks()
-        .find(|block| !ran.has(block.id()) && has_lengths(block, dialect))
-    {
+    if let Some(block) = program.blocks().find(|block| {
+        part.is_none_or(|part| part.has(block.id())) && !ran.has(block.id()) && has_lengths(block, dialect)
+    }) {
         let message = "this block never runs, so where it starts is not known";
         return Err(Refused::at(program, block.id(), message));
     }
@@ -67,6 +68,8 @@ struct Work<'a> {
     dialect: &'a Dialect,
     setup: &'a Setup,
     wanted: Positions,
+    /// The blocks that are written otherwise; all others keep their words.
+    part: Option<Part>,
     edits: Edits,
     /// What the program after has in effect.
     incremental: Option<bool>,
@@ -152,7 +155,7 @@ impl Work<'_> {
         if !words.is_empty() && !stays && mode != here.is.coordinates.incremental() {
             self.rewrite(said, &words, mode)?;
         }
-        self.kept |= stays && !words.is_empty();
+        self.kept |= stays && !words.is_empty() && self.part.is_none_or(|part| part.has(here.block.id()));
         self.learn(said, &words, mode);
         Ok(())
     }
@@ -161,7 +164,8 @@ impl Work<'_> {
     fn stays(&self, said: &Said<'_, '_>, words: &[(Word, Kind)]) -> Result<bool, Refused> {
         let here = said.here;
         let is_step = here.is.coordinates.incremental();
-        if is_step == (self.wanted == Positions::Incremental) {
+        let outside = self.part.is_some_and(|part| !part.has(here.block.id()));
+        if outside || is_step == (self.wanted == Positions::Incremental) {
             return Ok(true);
         }
         let special = |action: Action| {

@@ -3,7 +3,7 @@ use super::edits::{Edits, Track, decimals_of, number_of, rounded, written};
 use super::kinds::{Kind, Said, has_lengths};
 use super::survey::survey;
 use super::turn::Turn;
-use super::{Proposal, Shape, claim};
+use super::{Part, Proposal, Shape, claim};
 use crate::refuse::Refused;
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Plane};
 use trunnion_interp::{ImplicitDecimals, Setup};
@@ -18,6 +18,7 @@ pub(super) fn propose(
     setup: &Setup,
     shape: Shape,
     decimals: Option<usize>,
+    part: Option<Part>,
 ) -> Result<Proposal, Refused> {
     claim::possible(dialect, shape)?;
     let mut work = Work {
@@ -25,6 +26,7 @@ pub(super) fn propose(
         dialect,
         setup,
         shape,
+        part,
         least: decimals,
         decimals: 0,
         edits: Edits::default(),
@@ -35,16 +37,23 @@ pub(super) fn propose(
         taps: false,
     };
     work.decimals = work.digits();
-    let ran = survey(program, dialect, setup, |here| work.block(&Said::read(here, dialect)))?;
+    let within = |block| part.is_none_or(|part| part.has(block));
+    let ran = survey(program, dialect, setup, |here| {
+        if within(here.block.id()) {
+            work.block(&Said::read(here, dialect))
+        } else {
+            Ok(())
+        }
+    })?;
     if let Some(block) = program
         .blocks()
-        .find(|block| !ran.has(block.id()) && has_lengths(block, dialect))
+        .find(|block| within(block.id()) && !ran.has(block.id()) && has_lengths(block, dialect))
     {
         let message = "this block never runs, so where its words lead is not known";
         return Err(Refused::at(program, block.id(), message));
     }
     let Some(unit_mm) = work.unit_mm else {
-        return Err(Refused::nothing("the program has no coordinates"));
+        return Err(Refused::nothing("there are no coordinates"));
     };
     let change = work.change(unit_mm);
     let notes = work.notes();
@@ -60,6 +69,8 @@ pub(super) struct Work<'a> {
     dialect: &'a Dialect,
     setup: &'a Setup,
     pub(super) shape: Shape,
+    /// The blocks that are moved; all others stay.
+    pub(super) part: Option<Part>,
     least: Option<usize>,
     pub(super) decimals: usize,
     pub(super) edits: Edits,

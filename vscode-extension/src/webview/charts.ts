@@ -34,14 +34,16 @@ function surface(canvas: HTMLCanvasElement): { pen: CanvasRenderingContext2D; wi
 }
 
 /** i and j of the tool axis in the cuts: the pole of a machine with an upright first axis is the middle. */
-export function axisPlane(canvas: HTMLCanvasElement, path: Path, at: number, colours: Ink): void {
+export function axisPlane(canvas: HTMLCanvasElement, path: Path, at: number, colours: Ink, other?: Path): void {
   const drawing = surface(canvas);
   if (!drawing) return;
   const { pen, width, height } = drawing;
   let most = 0.02;
-  for (let k = 0; k < path.count; k += 1) if (kindOf(path, k) !== RAPID) most = Math.max(most, Math.hypot(path.axis[3 * k]!, path.axis[3 * k + 1]!));
+  for (const one of [path, ...(other ? [other] : [])]) {
+    for (let k = 0; k < one.count; k += 1) if (kindOf(one, k) !== RAPID) most = Math.max(most, Math.hypot(one.axis[3 * k]!, one.axis[3 * k + 1]!));
+  }
   const scale = (0.5 * Math.min(width, height) - 16) / most;
-  const place = (k: number): [number, number] => [width / 2 + path.axis[3 * k]! * scale, height / 2 - path.axis[3 * k + 1]! * scale];
+  const place = (k: number, of = path): [number, number] => [width / 2 + of.axis[3 * k]! * scale, height / 2 - of.axis[3 * k + 1]! * scale];
   pen.strokeStyle = colours.faint;
   pen.fillStyle = colours.foreground;
   for (const share of [0.5, 1]) {
@@ -57,25 +59,60 @@ export function axisPlane(canvas: HTMLCanvasElement, path: Path, at: number, col
   pen.moveTo(width / 2, height / 2 - 5);
   pen.lineTo(width / 2, height / 2 + 5);
   pen.stroke();
+  const draw = (of: Path) => {
+    pen.beginPath();
+    for (let k = 0; k < of.count; k += 1) {
+      const [x, y] = place(k, of);
+      if (k === 0 || kindOf(of, k) === START || kindOf(of, k) === RAPID) pen.moveTo(x, y);
+      else pen.lineTo(x, y);
+    }
+    pen.stroke();
+  };
+  if (other) dashed(pen, colours, () => draw(other));
   pen.strokeStyle = colours.line;
-  pen.beginPath();
-  for (let k = 0; k < path.count; k += 1) {
-    const [x, y] = place(k);
-    if (k === 0 || kindOf(path, k) === START || kindOf(path, k) === RAPID) pen.moveTo(x, y);
-    else pen.lineTo(x, y);
-  }
-  pen.stroke();
+  draw(path);
   dot(pen, ...place(at), colours.mark);
   pen.fillStyle = colours.foreground;
   pen.fillText('tool axis (i, j)', 6, 13);
 }
 
+/** What another program does, in the colour of text. */
+function dashed(pen: CanvasRenderingContext2D, colours: Ink, draw: () => void): void {
+  pen.strokeStyle = colours.foreground;
+  pen.setLineDash([3, 3]);
+  draw();
+  pen.setLineDash([]);
+}
+
+/** How far the tip has gone at each vertex, as a share of the whole way. */
+function way(path: Path): Float64Array {
+  const gone = new Float64Array(path.count);
+  for (let k = 1; k < path.count; k += 1) {
+    const step = kindOf(path, k) === START ? 0 : Math.hypot(...[0, 1, 2].map((c) => path.tip[3 * k + c]! - path.tip[3 * k - 3 + c]!));
+    gone[k] = gone[k - 1]! + step;
+  }
+  const whole = gone[path.count - 1] || 1;
+  return gone.map((length) => length / whole);
+}
+
+/** For each vertex of another path, the vertex of this one (with a fraction) where the tip has gone as far. */
+export function beside(other: Path, path: Path): Float64Array {
+  const [theirs, own] = [way(other), way(path)];
+  let next = 0;
+  return theirs.map((gone) => {
+    while (next < own.length - 1 && own[next + 1]! <= gone) next += 1;
+    const step = next < own.length - 1 ? own[next + 1]! - own[next]! : 0;
+    return next + (step > 0 ? Math.min(1, Math.max(0, (gone - own[next]!) / step)) : 0);
+  });
+}
+
 /** Each joint over the vertices, with its limits. */
-export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, at: number, colours: Ink, unit: Unit): void {
+export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, at: number, colours: Ink, unit: Unit, other?: Path): void {
   const drawing = surface(canvas);
   if (!drawing || path.axes === 0) return;
   const { pen, width, height } = drawing;
   const tall = height / path.axes;
+  const compared = other?.axes === path.axes && other.count > 0 ? { path: other, place: beside(other, path) } : undefined;
   machine.axes.forEach((axis, index) => {
     const value = (k: number) => path.joints[k * path.axes + index]!;
     let [low, high] = [Infinity, -Infinity];
@@ -83,6 +120,11 @@ export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, 
       const v = value(k);
       if (v < low) low = v;
       if (v > high) high = v;
+    }
+    const theirs = (k: number) => compared!.path.joints[k * path.axes + index]!;
+    for (let k = 0; k < (compared?.path.count ?? 0); k += 1) {
+      if (theirs(k) < low) low = theirs(k);
+      if (theirs(k) > high) high = theirs(k);
     }
     if (low > high) return;
     // limits are drawn where the joint comes near them
@@ -100,6 +142,12 @@ export function joints(canvas: HTMLCanvasElement, path: Path, machine: Machine, 
       pen.stroke();
     }
     pen.setLineDash([]);
+    if (compared) dashed(pen, colours, () => {
+      pen.beginPath();
+      const every = Math.max(1, Math.floor(compared.path.count / width));
+      for (let k = 0; k < compared.path.count; k += every) if (Number.isFinite(theirs(k))) pen.lineTo(x(compared.place[k]!), y(theirs(k)));
+      pen.stroke();
+    });
     pen.strokeStyle = colours.line;
     pen.beginPath();
     // more vertices than pixels: lowest and highest of each pixel

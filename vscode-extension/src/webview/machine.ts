@@ -84,7 +84,7 @@ export class MachineModel {
 
   dispose(): void {
     this.group.traverse((object) => {
-      if (object instanceof three.Mesh || object instanceof three.Sprite) {
+      if (object instanceof three.Mesh || object instanceof three.Sprite || object instanceof three.LineSegments) {
         object.geometry.dispose();
         const material = object.material as three.SpriteMaterial;
         material.map?.dispose();
@@ -291,6 +291,8 @@ export class MachineModel {
     const mesh = new three.Mesh(shape, material);
     mesh.quaternion.setFromUnitVectors(from, to.clone().normalize());
     mesh.position.copy(at);
+    // edges in the colour of text: bodies stand out on any background
+    mesh.add(new three.LineSegments(new three.EdgesGeometry(shape, 40), new three.LineBasicMaterial({ color: this.ink })));
     body.group.add(mesh);
   }
 

@@ -15,6 +15,8 @@ const play = get<HTMLButtonElement>('play');
 const view = new View(get<HTMLCanvasElement>('view'));
 
 let shown: { path: Path; summary: Summary; title: string } | undefined;
+/** What is drawn over it. */
+let over: { path: Path; title: string } | undefined;
 let at = 0;
 let running: number | undefined;
 
@@ -42,7 +44,16 @@ function explain(meaning: Legend): void {
       row.append(swatch, text);
       return row;
     }),
+    ...(over ? [otherRow(over.title)] : []),
   );
+}
+
+/** The dashed line of the other program. */
+function otherRow(title: string): HTMLElement {
+  const row = document.createElement('span');
+  row.id = 'other';
+  row.append(Object.assign(document.createElement('i'), { className: 'dashed' }), title);
+  return row;
 }
 
 /** Puts everything on a vertex; `share`: of the way to the next one, for what moves. */
@@ -63,8 +74,8 @@ function go(vertex: number, share = 0): void {
   readout.textContent = parts.join('   ');
   slider.setAttribute('aria-valuetext', readout.textContent);
   const style = ink(getComputedStyle(document.documentElement));
-  axisPlane(get<HTMLCanvasElement>('plane'), path, at, style);
-  if (summary.machine) joints(get<HTMLCanvasElement>('joints'), path, summary.machine, at, style, unit);
+  axisPlane(get<HTMLCanvasElement>('plane'), path, at, style, over?.path);
+  if (summary.machine) joints(get<HTMLCanvasElement>('joints'), path, summary.machine, at, style, unit, over?.path);
 }
 
 const clock = (seconds: number): string => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')} min`;
@@ -90,7 +101,8 @@ function show(title: string, summary: Summary, bytes: ArrayBuffer): void {
 
 function remarks(summary: Summary): string[] {
   const said: string[] = [];
-  if (summary.unknown > 0) said.push(`${summary.unknown} motions are not drawn: their path is not known.`);
+  if (summary.unknown === 1) said.push('One motion is not drawn: its path is not known.');
+  if (summary.unknown > 1) said.push(`${summary.unknown} motions are not drawn: their path is not known.`);
   if (summary.givenUp) said.push(`${summary.givenUp}.`);
   if (summary.leftOutMm === null) said.push('Parts of the path are left out: there are too many separate pieces.');
   else if (summary.leftOutMm > 0) said.push(`${summary.vertices} of ${summary.whole} points are drawn; the others lie within ${short(unitOf(summary).of(summary.leftOutMm))} ${unitOf(summary).name}.`);
@@ -146,12 +158,16 @@ function halt(): void {
 window.addEventListener('message', ({ data }: MessageEvent<ToPage>) => {
   switch (data.type) {
     case 'path':
+      over = undefined;
       view.compare(undefined);
       return show(data.title, data.summary, data.bytes);
     case 'other':
       if (shown) {
-        view.compare(read(data.bytes));
-        warn(`Purple: ${data.title}.`);
+        over = { path: read(data.bytes), title: data.title };
+        view.compare(over.path);
+        paint();
+        go(at);
+        code.postMessage({ type: 'compared', vertices: over.path.count });
       }
       return;
     case 'line': {

@@ -22,7 +22,7 @@ export class View {
   private readonly controls: OrbitControls;
   private readonly feeds = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ vertexColors: true }));
   private readonly rapids = new three.LineSegments(new three.BufferGeometry(), new three.LineDashedMaterial({ color: 0x8a8a8a, dashSize: 2, gapSize: 1.5 }));
-  private readonly other = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0xcc79a7 }));
+  private readonly other = new three.LineSegments(new three.BufferGeometry(), new three.LineDashedMaterial({ depthWrite: false }));
   private readonly normals = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial({ color: 0x999933, transparent: true, opacity: 0.8 }));
   private readonly chosen = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 4, depthTest: false }));
   private readonly tool = new three.Group();
@@ -51,6 +51,8 @@ export class View {
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.draw());
     this.chosen.renderOrder = 2;
+    // where both go the same way, the program is seen
+    this.other.renderOrder = -1;
     for (const lines of [this.rapids, this.feeds, this.other, this.normals, this.chosen]) {
       lines.frustumCulled = false;
       this.part.add(lines);
@@ -66,6 +68,7 @@ export class View {
     this.renderer.setClearColor(new three.Color(background));
     this.foreground = new three.Color(foreground);
     this.chosen.material.color = this.foreground;
+    (this.other.material as three.LineDashedMaterial).color = this.foreground;
     this.rebuild();
     this.draw();
   }
@@ -102,6 +105,9 @@ export class View {
       fill(this.other, other, undefined, (kind) => kind !== RAPID);
       const [from, to] = [other.origin, this.path.origin];
       this.other.position.set(from[0] - to[0], from[1] - to[1], from[2] - to[2]);
+      const dashes = this.other.material as three.LineDashedMaterial;
+      dashes.dashSize = dashes.gapSize = this.size / 120;
+      this.other.computeLineDistances();
     }
     this.other.visible = other !== undefined;
     this.draw();

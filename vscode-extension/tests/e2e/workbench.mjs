@@ -1,64 +1,12 @@
 // What a person sees: strategy 2 opens, `C52.595` has a squiggle under it, the status bar names machine and dialect.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { launch, open, remote, work } from './browser.mjs';
+import { open, remote, work } from './browser.mjs';
+import { coloured, look, shots, squigglesUnder } from './look.mjs';
 
-const shots = process.env.SHOTS;
 const settings = `${work}/.vscode/settings.json`;
 const set = (values) => writeFileSync(settings, JSON.stringify(values));
-const browser = await launch();
-const page = await browser.newPage({ viewport: { width: 1400, height: 900 } });
-let passed = 0;
-let failed = 0;
-
-async function test(name, body) {
-  try {
-    await body();
-    passed += 1;
-    console.log(`ok - workbench: ${name}`);
-  } catch (error) {
-    failed += 1;
-    console.log(`not ok - workbench: ${name}\n${error.stack}`);
-    await page.screenshot({ path: `${shots}/failed-${name.replace(/\W+/g, '-')}.png` }).catch(() => undefined);
-  }
-}
-
-/** Repeats until the answer is truthy; the last answer goes into the error. */
-async function until(what, ask, milliseconds = 60_000) {
-  const end = Date.now() + milliseconds;
-  let last;
-  while (Date.now() < end) {
-    last = await ask().catch((error) => error.message);
-    if (last && typeof last !== 'string') return last;
-    await page.waitForTimeout(200);
-  }
-  throw new Error(`no ${what} after ${milliseconds / 1000} s; last: ${JSON.stringify(last)}`);
-}
-
-/** In the page: `text` as it is drawn, and every squiggle that lies under it (same line, same columns, within 1.5 px). */
-function squigglesUnder(text) {
-  const lines = [...document.querySelectorAll('.monaco-editor .view-line')];
-  const line = lines.find((node) => node.textContent.includes(text));
-  if (!line) return 'the text is not on the screen';
-  const walker = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
-  const places = [];
-  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
-    for (let i = 0; i < node.data.length; i += 1) places.push([node, i]);
-  }
-  const start = line.textContent.indexOf(text);
-  const range = document.createRange();
-  range.setStart(...places[start]);
-  const [last, offset] = places[start + text.length - 1];
-  range.setEnd(last, offset + 1);
-  const box = range.getBoundingClientRect();
-  const under = [...document.querySelectorAll('.monaco-editor .view-overlays .cdr[class*="squiggly-"]')].filter((node) => {
-    const place = node.getBoundingClientRect();
-    const middle = (place.top + place.bottom) / 2;
-    return Math.abs(place.left - box.left) < 1.5 && Math.abs(place.right - box.right) < 1.5 && middle > box.top - 2 && middle < box.bottom + 4;
-  });
-  const middle = { x: (box.left + box.right) / 2, y: (box.top + box.bottom) / 2 };
-  return under.length > 0 ? { classes: under.map((node) => node.className), middle } : `no squiggle at ${JSON.stringify(box)}`;
-}
+const { page, test, until, backplotPage, finish } = await look('workbench');
 
 await open(page, [['openFile', remote(`${work}/strategy-2.mpf`)]]);
 
@@ -116,31 +64,6 @@ await test('a click on the status bar offers the machines, the choice is used', 
   assert.match(readFileSync(`${work}/trunnion.toml`, 'utf8'), /^machine = "ferrari-bc"$/m);
   assert.equal(JSON.parse(readFileSync(settings, 'utf8'))['trunnion.machine'], undefined);
 });
-
-/** The page of the backplot, among the frames in frames of a webview. */
-async function backplotPage() {
-  for (const frame of page.frames()) {
-    if (await frame.evaluate(() => document.getElementById('readout') !== null).catch(() => false)) return frame;
-  }
-  return undefined;
-}
-
-/** In the page: how many pixels of the drawing have a colour, and where their middle one is. */
-function coloured() {
-  const canvas = document.getElementById('view');
-  const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
-  const pen = copy.getContext('2d');
-  pen.drawImage(canvas, 0, 0);
-  const { data } = pen.getImageData(0, 0, copy.width, copy.height);
-  const found = [];
-  for (let at = 0; at < data.length; at += 4) {
-    const [r, g, b] = [data[at], data[at + 1], data[at + 2]];
-    if (Math.max(r, g, b) - Math.min(r, g, b) > 90) found.push(at / 4);
-  }
-  const middle = found[Math.floor(found.length / 2)] ?? 0;
-  const box = canvas.getBoundingClientRect();
-  return { count: found.length, x: ((middle % copy.width) * box.width) / copy.width, y: (Math.floor(middle / copy.width) * box.height) / copy.height };
-}
 
 await test('the backplot draws the path, follows the cursor, and a click on it goes to the line', async () => {
   set({ 'trunnion.machine': 'mikron-ucp710' });
@@ -216,6 +139,4 @@ await test('a program that is not there is named in a message, and a good settin
   await until('squiggle under C52.595', () => page.evaluate(squigglesUnder, 'C52.595'));
 });
 
-await browser.close();
-console.log(`workbench: ${passed} passed, ${failed} failed`);
-process.exit(failed === 0 ? 0 : 1);
+await finish();

@@ -1,12 +1,12 @@
 // The page of the backplot in Chromium: what is drawn, and that all of it is reached by keys and seen in high contrast.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { build } from 'esbuild';
-import { open, pixels, settled, show } from './page.mjs';
+import { open, over, pixels, settled, show } from './page.mjs';
 import { path } from './server.mjs';
 
 const here = (name) => new URL(`../../${name}`, import.meta.url).pathname;
@@ -102,6 +102,74 @@ test('part and spindle meet where the axes say, on every kind of machine', { ski
       assert.ok(tip.distanceTo(head) < 0.1, `${machine}: ${tip.distanceTo(head)} mm behind ${at}`);
     }
     assert.ok(compared > 40, `${machine}: ${compared}`);
+  }
+});
+
+test('before and after are seen in space, in the plane of the tool axis and over the axes', { skip }, async () => {
+  const file = join(folder, 'flip.mpf');
+  const text = readFileSync(here('tests/e2e/programs/strategy-2.mpf'), 'utf8');
+  writeFileSync(file, text);
+  const before = await path(trunnion, file, join(folder, 'path.bin'), { machine: 'mikron-ucp710' });
+  // the block at the pole keeps its posture, and the next one lies 0.5 mm beside it
+  writeFileSync(file, text.replace('A0.081 C52.595', 'A0.081 C4.822').replace('X-28.38873', 'X-28.88873'));
+  const after = await path(trunnion, file, join(folder, 'path.bin'), { machine: 'mikron-ucp710' });
+  for (const theme of ['light', 'high contrast']) {
+    const { browser, page, said, errors } = await open(theme);
+    try {
+      await show(page, 'flip', before);
+      const drawn = async () => ({ space: await pixels(page), ...(await page.evaluate(() => Object.fromEntries(['plane', 'joints'].map((id) => [id, document.getElementById(id).toDataURL()])))) });
+      await seek(page, 0);
+      const alone = await drawn();
+      await over(page, 'after smooth-pole', after);
+      assert.match(await page.locator('#legend').textContent(), /after smooth-pole/);
+      const both = await drawn();
+      assert.ok(differ(alone.space, both.space) > 40, `${theme}: ${differ(alone.space, both.space)} pixels`);
+      assert.ok(alone.plane !== both.plane, 'the plane of the tool axis');
+      assert.ok(alone.joints !== both.joints, 'the axes');
+      if (process.env.TRUNNION_SHOTS) await page.screenshot({ path: join(process.env.TRUNNION_SHOTS, `before-after-${theme.replace(' ', '-')}.png`) });
+      assert.deepEqual(said.at(-1), { type: 'compared', vertices: after.summary.vertices });
+      // a new text of the program ends the comparison
+      await show(page, 'flip', before);
+      assert.doesNotMatch(await page.locator('#legend').textContent(), /after/);
+      await seek(page, 0);
+      assert.ok((await drawn()).joints === alone.joints, 'the axes alone again');
+      assert.deepEqual(errors, []);
+    } finally {
+      await browser.close();
+    }
+  }
+});
+
+test('the bodies of the machine stand out in high contrast, and an axis at the end of its travel is marked', { skip }, async () => {
+  for (const theme of ['high contrast', 'light']) {
+    const { browser, page, errors } = await open(theme);
+    try {
+      await show(page, 'cone', mikron);
+      const alone = (await pixels(page)).count;
+      await page.locator('#machine').check();
+      await settled(page);
+      // edges in the colour of text, smoothed
+      const inked = (count) => Object.entries(count).reduce((sum, [colour, many]) => {
+        const parts = [16, 8, 0].map((shift) => (Number(colour) >> shift) & 255);
+        return sum + (parts.every((part) => (theme === 'light' ? part < 70 : part > 170)) ? many : 0);
+      }, 0);
+      const { count } = await pixels(page);
+      if (process.env.TRUNNION_SHOTS) await page.screenshot({ path: join(process.env.TRUNNION_SHOTS, `machine-${theme.replace(' ', '-')}.png`) });
+      assert.ok(inked(count) > inked(alone) + 800, `${theme}: ${inked(count)} pixels of edges after ${inked(alone)}`);
+      const near = { bytes: mikron.bytes, summary: structuredClone(mikron.summary) };
+      const tilt = near.summary.machine.axes.find(({ letter }) => letter === 'A');
+      tilt.limits = [-0.001, 0.001];
+      await show(page, 'at the end', near);
+      await settled(page);
+      const marked = Object.entries((await pixels(page)).count).filter(([colour]) => {
+        const [r, g, b] = [16, 8, 0].map((shift) => (Number(colour) >> shift) & 255);
+        return r > 100 && r > 1.8 * g && g > 3 * b;
+      });
+      assert.ok(marked.reduce((sum, [, many]) => sum + many, 0) > 300, `${theme}: vermilion bodies`);
+      assert.deepEqual(errors, []);
+    } finally {
+      await browser.close();
+    }
   }
 });
 

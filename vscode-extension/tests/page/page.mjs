@@ -62,6 +62,16 @@ export async function show(page, title, { summary, bytes }) {
   await settled(page);
 }
 
+/** Hands over what is drawn over it. */
+export async function over(page, title, { summary, bytes }) {
+  await page.evaluate(({ title, summary, base64 }) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer;
+    postMessage({ type: 'other', title, summary, bytes }, '*');
+  }, { title, summary, base64: bytes.toString('base64') });
+  await page.locator('#other').waitFor({ state: 'attached' });
+  await settled(page);
+}
+
 /** Two frames: what was asked for is on the canvas. */
 export const settled = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 

@@ -5,6 +5,7 @@ mod clamps;
 mod code;
 mod edits;
 mod edits_called;
+mod edits_part;
 mod edits_proof;
 mod guide_vane;
 mod holes;

@@ -72,13 +72,16 @@ const tests = {
     const [flip] = await until('pole-flip', () => flips(document.uri).length > 0 && flips(document.uri));
     const offered = async () => {
       const all = await vscode.commands.executeCommand('vscode.executeCodeActionProvider', document.uri, flip.range);
-      return all.find((action) => action.title.startsWith('smooth-pole') && !action.disabled);
+      return all.find((action) => action.title.startsWith('smooth-pole') && action.edit && !action.disabled);
     };
     assert.equal(await offered(), undefined, 'no tool is declared, so nothing can be proved');
     const settings = vscode.workspace.getConfiguration('trunnion');
     await settings.update('tool', 'ball:10', vscode.ConfigurationTarget.Workspace);
     try {
       const action = await until('smooth-pole', offered);
+      const all = await vscode.commands.executeCommand('vscode.executeCodeActionProvider', document.uri, flip.range);
+      const shows = all.find((one) => one.command?.command === 'trunnion.rewriteProgram');
+      assert.match(shows?.title ?? '', /^smooth-pole: show before and after, or the certificate/);
       assert.ok(await vscode.workspace.applyEdit(action.edit));
       await until('no flip', () => flips(document.uri).length === 0);
     } finally {
@@ -103,6 +106,43 @@ const tests = {
     const tokens = await ask('vscode.provideDocumentRangeSemanticTokens', new vscode.Range(0, 0, 5, 0));
     assert.ok(tokens.data.length > 0);
   },
+  async 'chosen lines are moved alone, and what would bend a cut is refused'() {
+    const content = '(trunnion: dialect fanuc-30i)\nG21 G90 G17 G94 G54\nG0 X0. Y0. Z50.\nG0 X10. Y10. Z2.\nG1 Z-1. F100.\nG1 X20.\nG0 Z50.\nG0 X40.\nG1 Z-1. F100.\nG0 Z50.\nM30\n';
+    const document = await vscode.workspace.openTextDocument({ language: 'gcode', content });
+    await vscode.window.showTextDocument(document);
+    const lines = (first, last) => ({ start: { line: first, character: 0 }, end: { line: last, character: 0 } });
+    const shift = { kind: 'shift', by: [3, 0, 0] };
+    assert.equal(await vscode.commands.executeCommand('trunnion.editProgram', shift, lines(3, 5)), false, 'the cut after it would begin elsewhere');
+    assert.equal(document.getText(), content);
+    assert.equal(await vscode.commands.executeCommand('trunnion.editProgram', shift, lines(3, 6)), true);
+    assert.equal(document.getText(), content.replace('X10.', 'X13.').replace('X20.', 'X23.'));
+  },
+  async 'formatting, and the lens that shows an operation in the backplot'() {
+    const content = '(trunnion: dialect fanuc-30i)\nO1\nT1 M6 (DRILL)\ng0x1.y2.\nM30\n';
+    const { uri } = await vscode.workspace.openTextDocument({ language: 'gcode', content });
+    const edits = await until('edits', () => vscode.commands.executeCommand('vscode.executeFormatDocumentProvider', uri, { tabSize: 2, insertSpaces: true }));
+    assert.ok(edits.some((edit) => /G0 X1\. Y2\./.test(edit.newText)) || edits.length > 2, JSON.stringify(edits));
+    const lenses = await until('lens', async () => {
+      const all = await vscode.commands.executeCommand('vscode.executeCodeLensProvider', uri, 10);
+      return all.find((lens) => lens.command?.command === 'trunnion.showInBackplot');
+    });
+    assert.equal(lenses.command.arguments[1], 2);
+  },
+  async 'a machine file is read as one, and another TOML file is left alone'() {
+    const machine = await show('ours.toml');
+    const at = machine.positionAt(machine.getText().indexOf('name') + 1);
+    const hover = await until('hover', async () => (await vscode.commands.executeCommand('vscode.executeHoverProvider', machine.uri, at))[0]);
+    assert.match(hover.contents.map((part) => part.value ?? part).join(''), /\*\*name\*\*/);
+    const edit = new vscode.WorkspaceEdit();
+    edit.insert(machine.uri, new vscode.Position(0, 0), 'nonsense = 1\n');
+    assert.ok(await vscode.workspace.applyEdit(edit));
+    await until('finding', () => vscode.languages.getDiagnostics(machine.uri).length > 0);
+    await vscode.commands.executeCommand('workbench.action.files.revert');
+    const other = await vscode.workspace.openTextDocument(file('other.toml'));
+    await show('strategy-2.mpf');
+    await until('pole-flip', () => flips(file('strategy-2.mpf')).length > 0);
+    assert.deepEqual(vscode.languages.getDiagnostics(other.uri), []);
+  },
   async 'words end where the next address begins'() {
     const document = await vscode.workspace.openTextDocument({ language: 'gcode', content: 'N10G1X10Y-2.5 #<_a b>=#101' });
     const words = [1, 4, 6, 10, 16, 24].map((at) => document.getText(document.getWordRangeAtPosition(new vscode.Position(0, at))));
@@ -110,7 +150,7 @@ const tests = {
   },
   async 'the commands are there'() {
     const all = await vscode.commands.getCommands(true);
-    for (const name of ['restartServer', 'chooseMachine', 'chooseDialect', 'checkFile']) assert.ok(all.includes(`trunnion.${name}`), name);
+    for (const name of ['restartServer', 'chooseMachine', 'chooseDialect', 'checkFile', 'editProgram', 'rewriteProgram', 'showInBackplot']) assert.ok(all.includes(`trunnion.${name}`), name);
   },
   async 'a restarted server finds the flip again'() {
     const document = await show('strategy-2.mpf');

@@ -43,7 +43,7 @@ pub(crate) struct Offer<'a> {
     asked: (u32, u32),
     /// The client knows our commands.
     commands: bool,
-    straight: Straight,
+    known: Known,
 }
 
 impl<'a> Offer<'a> {
@@ -53,7 +53,7 @@ impl<'a> Offer<'a> {
             encoding,
             asked,
             commands,
-            straight: Known::default(),
+            known: Known::default(),
         }
     }
 
@@ -80,7 +80,7 @@ impl<'a> Offer<'a> {
         };
         let (program, settings) = (&source.program, source.resolved.settings());
         let options = Options::of(&source.resolved.fix);
-        let whole = attempt_at(one, program, &settings, &options, |_| true, &self.straight);
+        let whole = attempt_at(one, program, &settings, &options, |_| true, &self.known);
         let Some(proved) = &whole.proved else {
             return whole
                 .reasons()
@@ -94,7 +94,7 @@ impl<'a> Offer<'a> {
         let here = changed().any(|place| touches(place.first, place.last));
         if here && !changed().all(|place| touches(place.first, place.last)) {
             let wanted = |place: &Place| touches(place.first, place.last);
-            let here = attempt_at(one, program, &settings, &options, wanted, &self.straight);
+            let here = attempt_at(one, program, &settings, &options, wanted, &self.known);
             if let Some(here) = &here.proved {
                 list.push(self.offer(one, kind, here, format!("{}: here only (proved)", one.name)));
                 list.extend(self.show(one, kind, true));

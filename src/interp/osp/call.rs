@@ -47,7 +47,9 @@ impl Iso<'_> {
     pub(crate) fn enter_task(&mut self, with: With) -> Level {
         let own = &mut self.memory.own;
         let scope = own.begin_scope();
-        own.task.outer.push(scope.sorts.keys().cloned().collect());
+        #[expect(clippy::disallowed_methods, reason = "they go into an ordered set")]
+        let names = scope.sorts.keys().cloned().collect();
+        own.task.outer.push(names);
         let level = Level {
             scope,
             written: std::mem::take(&mut own.task.written),

@@ -1,11 +1,9 @@
 //! How long a program takes: in all, by tool and operation, where it is slow, and why.
-use crate::cli::legs::flat_setup;
-use crate::cli::load::Loaded;
-use crate::cli::verdict::counted;
+use crate::cli::{legs::flat_setup, load::Loaded, verdict::counted};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use trunnion_interp::{Fault, ModalState};
+use trunnion_interp::ModalState;
 use trunnion_machine::{Leg, Machine, RapidPath};
 use trunnion_planner::{Listener, Timed, time};
 use trunnion_syntax::{BlockId, LineIndex};
@@ -396,7 +394,6 @@ impl Listener for Times<'_> {
         self.slow(timed, line);
     }
 
-    fn fault(&mut self, _: Fault) {}
     fn reads_faults(&self) -> bool {
         false
     }

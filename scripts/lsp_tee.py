@@ -2,7 +2,8 @@
 """Records what an editor sends to the language server: a wrapper that editors start in place of `trunnion`.
 
 TRUNNION_TEE_PROGRAM: the real program. TRUNNION_TEE_FILE: the record, one message a line. TRUNNION_TEE_ROOT: the folder of the session, which
-becomes $ROOT in the record. Process numbers and the paths of temporary files are left out too.
+becomes $ROOT in the record. The path of this wrapper becomes $SERVER. Process numbers and the
+paths of temporary files are left out too.
 tests/all/lsp_sessions.rs plays such records again; CONTRIBUTING.md says how they are made.
 """
 import json
@@ -36,7 +37,8 @@ def clean(message, root):
     if message.get("method") == "trunnion/backplot":
         message["params"]["file"] = "$TMP"
     text = json.dumps(message, ensure_ascii=False, separators=(",", ":"))
-    return text.replace(root, "$ROOT")
+    # settings name the program that the editor started: this one
+    return text.replace(sys.argv[0], "$SERVER").replace(root, "$ROOT")
 
 
 def main():

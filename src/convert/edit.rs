@@ -142,16 +142,16 @@ pub fn edit_part(
     };
     match (proposal, edit) {
         (Ok(proposal), _) => prove(program, dialect, setup, proposal),
-        (Err(nothing), Edit::Shape(shape)) if nothing.is_nothing && part.is_none() => {
-            stays(program, dialect, setup, shape)?;
+        (Err(nothing), Edit::Shape(shape)) if nothing.is_nothing => {
+            stays(program, dialect, setup, shape, part)?;
             Err(nothing)
         }
         (Err(refused), _) => Err(refused),
     }
 }
 
-/// Proves that a program without words to change is where the edit would put it.
-fn stays(program: &Program, dialect: &Dialect, setup: &Setup, shape: Shape) -> Result<(), Refused> {
+/// Proves that a program, or the part of it, without words to change is where the edit would put it.
+fn stays(program: &Program, dialect: &Dialect, setup: &Setup, shape: Shape, part: Option<Part>) -> Result<(), Refused> {
     let mut unit_mm = 1.0;
     survey::survey(program, dialect, setup, |here| {
         unit_mm = here.is.coordinates.unit_mm();
@@ -159,7 +159,10 @@ fn stays(program: &Program, dialect: &Dialect, setup: &Setup, shape: Shape) -> R
     })?;
     let proposal = Proposal {
         edits: Vec::new(),
-        change: claim::change(shape, DECIMALS_OF_NOTHING, unit_mm),
+        change: Change {
+            part,
+            ..claim::change(shape, DECIMALS_OF_NOTHING, unit_mm)
+        },
         notes: Vec::new(),
     };
     prove(program, dialect, setup, proposal).map(|_| ())

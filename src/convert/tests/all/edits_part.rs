@@ -123,3 +123,13 @@ fn any_other_number_is_found() {
     }
     assert!(tried > 60, "{tried}");
 }
+
+/// Blocks whose words do not name the axis cannot be moved along it; blocks that do not move have nothing to do.
+#[test]
+fn without_words_to_change_the_blocks_must_be_where_the_edit_puts_them() {
+    let along_y = shift(0.0, 3.0, 0.0);
+    let still = part(POCKETS, along_y, 11, 11).expect_err("X50. is a cut at Y10.");
+    assert!(still.contains("cannot be proved"), "{still}");
+    let nothing = part(POCKETS, along_y, 0, 1).expect_err("G codes alone");
+    assert!(nothing.contains("nothing to do"), "{nothing}");
+}

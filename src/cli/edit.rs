@@ -20,7 +20,7 @@ pub(crate) struct EditProgram {
     #[command(flatten)]
     asked: Asked,
     /// Edit these lines alone, counted from 1; all others do what they did. Not with --unit.
-    #[arg(long, value_name = "FIRST-LAST", value_parser = lines)]
+    #[arg(long, value_name = "FIRST[-LAST]", value_parser = super::args::lines::lines)]
     lines: Option<(u32, u32)>,
     /// Digits after the point of lengths that are rounded. Default: 3 in mm and 4 in inch; for --scale and --rotate as many as the program writes.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=9))]
@@ -114,16 +114,6 @@ fn turn(text: &str) -> Result<(usize, f64), String> {
         .split_once('=')
         .ok_or_else(|| format!("`{text}` has no `=`: write Z=90"))?;
     Ok((axis(letter)?, number(value)?))
-}
-
-/// `20-40`, or `20`.
-fn lines(text: &str) -> Result<(u32, u32), String> {
-    let (first, last) = text.split_once('-').unwrap_or((text, text));
-    let line = |text: &str| text.trim().parse::<u32>().ok().filter(|line| *line > 0);
-    match (line(first), line(last)) {
-        (Some(first), Some(last)) if first <= last => Ok((first, last)),
-        _ => Err(format!("`{text}` is not a row of lines: write 20-40")),
-    }
 }
 
 /// The blocks of these lines.

@@ -133,15 +133,19 @@ fn compare(mut client: Client, initialize: &Value, open: &BTreeMap<String, (Stri
     cold.finish();
 }
 
-const PART: &str = include_str!("../../vscode-extension/tests/e2e/programs/part.nc");
+/// What lies in the folder when a session begins.
+const FILES: [(&str, &str); 2] = [
+    (
+        "part.nc",
+        include_str!("../../vscode-extension/tests/e2e/programs/part.nc"),
+    ),
+    ("trunnion.toml", "machine = \"mill-3axis\"\n"),
+];
 
 #[test]
 fn a_session_of_vs_code() {
     let session = include_str!("../sessions/vscode.jsonl");
-    let kinds = play(
-        session,
-        &[("part.nc", PART), ("trunnion.toml", "machine = \"mill-3axis\"\n")],
-    );
+    let kinds = play(session, &FILES);
     for kind in [
         "textDocument/codeAction",
         "textDocument/completion",
@@ -161,10 +165,7 @@ fn a_session_of_vs_code() {
 #[test]
 fn a_session_of_neovim() {
     let session = include_str!("../sessions/neovim.jsonl");
-    let kinds = play(
-        session,
-        &[("part.nc", PART), ("trunnion.toml", "machine = \"mill-3axis\"\n")],
-    );
+    let kinds = play(session, &FILES);
     for kind in [
         "textDocument/codeAction",
         "textDocument/completion",

@@ -28,6 +28,10 @@ pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     const HELP: &str = "correct the code, or name the dialect of the program: --dialect NAME";
+    // most faults are others: no text is written for them
+    if !is_of_code(&fault.kind) {
+        return;
+    }
     let is_unknown = matches!(fault.kind, FaultKind::UnknownCode { machine_builder: false });
     if is_unknown && out.is_slip(fault.range) {
         return;
@@ -80,6 +84,18 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
         _ => {}
     }
+}
+
+/// Whether a fault is about a code that the dialect does not have.
+fn is_of_code(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::UnknownCode { .. }
+            | FaultKind::Rejected {
+                refusal: Refusal::UnknownCode,
+                ..
+            }
+    )
 }
 
 /// Whether another control, or the builder of its machine, may have a code. Tables list builders' M codes up to M999.

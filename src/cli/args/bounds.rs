@@ -25,11 +25,15 @@ impl TextBounds {
         megabytes: 16,
         lines: 400_000,
     };
-    /// What changes programs runs the old and the new text, each up to a dozen times, and compares each step. A page needs four runs, and
-    /// pictures.
+    /// What changes programs runs the old and the new text, each up to a dozen times, and compares each step.
     const CHANGES: Self = Self {
         megabytes: 16,
         lines: 300_000,
+    };
+    /// A page needs a check, three more runs, and pictures.
+    const REPORTS: Self = Self {
+        megabytes: 16,
+        lines: 200_000,
     };
 }
 
@@ -38,7 +42,8 @@ impl Global {
     pub(crate) fn bound_text(&mut self, command: &Command) {
         let most = match command {
             Command::Fmt(_) => TextBounds::LAYS_OUT,
-            Command::Fix(_) | Command::Edit(_) | Command::Report(_) => TextBounds::CHANGES,
+            Command::Fix(_) | Command::Edit(_) => TextBounds::CHANGES,
+            Command::Report(_) => TextBounds::REPORTS,
             Command::Certify(_) | Command::Diff(_) | Command::Machine(_) | Command::Plot(_) | Command::Stats(_) => {
                 TextBounds::RUNS_OFTEN
             }

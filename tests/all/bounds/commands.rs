@@ -8,8 +8,8 @@ use std::path::Path;
 pub(crate) struct Command {
     /// Its name in the table.
     pub(crate) name: &'static str,
-    /// The arguments; `FILE` is the program, `HALF`, `SHORTER` and `SHORTEST` are its beginning, as much as commands read that compare or change
-    /// programs, and `OTHER` is a copy of `HALF` in which every second line has another number.
+    /// The arguments; `FILE` is the program, the names in [`BEGINNINGS`] are its beginning, and `OTHER` is a copy of `HALF` in which every second
+    /// line has another number.
     arguments: &'static [&'static str],
     /// Standard output is one JSON document up to this exit status.
     pub(super) json: Option<i32>,
@@ -37,7 +37,7 @@ const fn json_command(group: &'static str, name: &'static str, arguments: &'stat
 pub(crate) const COMMANDS: &[Command] = &[
     command("check", "check", &["check", "--format", "pretty", "FILE"]),
     json_command("check", "check-json", &["check", "--format", "json", "FILE"]),
-    command("check", "report", &["report", "SHORTEST", "-o", "-"]),
+    command("check", "report", &["report", "PAGE", "-o", "-"]),
     command("trace", "trace", &["trace", "FILE"]),
     json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
     command("trace", "canon", &["canon", "FILE"]),
@@ -120,14 +120,19 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("lsp", "lsp", &["lsp"]),
 ];
 
-/// Bytes and lines of the longer beginning of a program: what `diff`, `plot` and `stats` read by default.
-const HALF: (usize, usize) = (32_000_000, 400_000);
+/// The most bytes and lines.
+type Size = (usize, usize);
 
-/// Those of a shorter beginning: what `fmt` reads by default.
-const SHORTER: (usize, usize) = (16_000_000, 400_000);
+/// The beginnings of a program that commands read by default which compare (`HALF`), lay out (`SHORTER`), change (`SHORTEST`) or report
+/// (`PAGE`).
+const BEGINNINGS: &[(&str, Size)] = &[
+    ("HALF", HALF),
+    ("SHORTER", (16_000_000, 400_000)),
+    ("SHORTEST", (16_000_000, 300_000)),
+    ("PAGE", (16_000_000, 200_000)),
+];
 
-/// Those of the shortest: what `fix`, `edit` and `report` read by default.
-const SHORTEST: (usize, usize) = (16_000_000, 300_000);
+const HALF: Size = (32_000_000, 400_000);
 
 /// Files that commands need beside the program.
 pub(crate) fn write_helpers(folder: &Path) {
@@ -148,36 +153,32 @@ fn other(file: &str) -> String {
     format!("other-{file}")
 }
 
-/// The name of the longer beginning of a program.
-fn half(file: &str) -> String {
-    format!("half-{file}")
+/// The name of a beginning of a program.
+fn beginning(named: &str, file: &str) -> String {
+    format!("{}-{file}", named.to_ascii_lowercase())
 }
 
-/// The name of a shorter beginning.
-fn shorter(file: &str) -> String {
-    format!("shorter-{file}")
+/// The beginning that an argument names.
+fn size_of(word: &str) -> Option<Size> {
+    let found = BEGINNINGS.iter().find(|(named, _)| *named == word);
+    found.map(|&(_, size)| size)
 }
 
-/// The name of the shortest.
-fn shortest(file: &str) -> String {
-    format!("shortest-{file}")
-}
-
-/// Writes a program and what commands read beside it: its beginnings, as much as `diff` and `fmt` read by default, and the changed copy.
+/// Writes a program and what commands read beside it: its beginnings, and the changed copy.
 pub(crate) fn write_program(folder: &Path, file: &str, program: &[u8]) {
-    let beginning = |(bytes, lines)| super::inputs::cut_off(program, bytes, lines);
-    let half_of_it = beginning(HALF);
     let write = |name: &str, bytes: &[u8]| std::fs::write(folder.join(name), bytes).expect("written");
+    let part = |(bytes, lines)| super::inputs::cut_off(program, bytes, lines);
     write(file, program);
-    write(&half(file), half_of_it);
-    write(&other(file), &changed(half_of_it));
-    write(&shorter(file), beginning(SHORTER));
-    write(&shortest(file), beginning(SHORTEST));
+    write(&other(file), &changed(part(HALF)));
+    for &(named, size) in BEGINNINGS {
+        write(&beginning(named, file), part(size));
+    }
 }
 
 /// Removes them, and the path that the server wrote.
 pub(crate) fn remove_program(folder: &Path, file: &str) {
-    for name in [file.to_owned(), half(file), other(file), shorter(file), shortest(file)] {
+    let beginnings = BEGINNINGS.iter().map(|(named, _)| beginning(named, file));
+    for name in beginnings.chain([file.to_owned(), other(file)]) {
         std::fs::remove_file(folder.join(name)).expect("removed");
     }
     let _ = std::fs::remove_file(folder.join(scene(file)));
@@ -197,30 +198,23 @@ fn changed(program: &[u8]) -> Vec<u8> {
 impl Command {
     /// The most bytes and lines that it is given of a program.
     pub(super) fn reads(&self) -> (usize, usize) {
-        let whole = super::inputs::Input::MOST;
-        let words = self.arguments.iter();
-        words.fold(whole, |most, word| match *word {
-            "HALF" => HALF,
-            "SHORTER" => SHORTER,
-            "SHORTEST" => SHORTEST,
-            _ => most,
-        })
+        let mut words = self.arguments.iter();
+        words
+            .find_map(|word| size_of(word))
+            .unwrap_or(super::inputs::Input::MOST)
     }
 
     /// The arguments for a program, in a dialect or in the one that it seems to be written in.
     pub(crate) fn arguments(&self, file: &str, dialect: Option<&str>) -> Vec<String> {
-        let (half, other, shorter, shortest) = (half(file), other(file), shorter(file), shortest(file));
-        let own = self.arguments.iter().map(|word| match *word {
-            "FILE" => file,
-            "HALF" => half.as_str(),
-            "OTHER" => other.as_str(),
-            "SHORTER" => shorter.as_str(),
-            "SHORTEST" => shortest.as_str(),
-            word => word,
+        let own = self.arguments.iter().map(|&word| match word {
+            "FILE" => file.to_owned(),
+            "OTHER" => other(file),
+            word if size_of(word).is_some() => beginning(word, file),
+            word => word.to_owned(),
         });
         let dialect = dialect.filter(|_| self.name != "lsp");
         let more = dialect.into_iter().flat_map(|dialect| ["--dialect", dialect]);
-        own.chain(more).map(str::to_owned).collect()
+        own.chain(more.map(str::to_owned)).collect()
     }
 
     /// What a run may not do, however long it took: end by a signal, panic, say nothing where it has no answer, print half a document.

@@ -286,8 +286,8 @@ impl Walk<'_> {
         if off.is_nan() || off > self.change.feed_share {
             let what = format!(
                 "the feed differs: {} and {}",
-                crate::process::feed(was.feed),
-                crate::process::feed(is.feed)
+                crate::motions::feed(was.feed),
+                crate::motions::feed(is.feed)
             );
             return Err(Verdict::Differs(place(was, is, what)));
         }

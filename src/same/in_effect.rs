@@ -2,7 +2,8 @@
 use crate::Claim;
 use crate::cut::feed_is_a_pitch;
 use crate::item::Step;
-use crate::process::{motion_difference, unlike};
+use crate::motions::motion_difference;
+use crate::process::unlike;
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{MotionKind, Orientation, same_number};
 
@@ -31,15 +32,26 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
     }
     let held = was.held.difference(&is.held, plane).filter(|_| !claim.across);
     let feed_counts = !claim.frees_feed || feed_is_a_pitch(was) || feed_is_a_pitch(is);
-    if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, feed_counts)) {
+    if let Some((name, from, to)) = held {
         return differs(format!("{name} differs: {from} and {to}"));
     }
-    if let Some(found) = unlike(&was.process, &is.process, claim.across) {
-        let what = format!("{} differs: {} and {}", found.key, found.from, found.to);
-        if !found.is_unknown {
-            return differs(what);
-        }
-        return unknown(what);
+    let moving = motion_difference(a, b, feed_counts);
+    let is_certain = moving.as_ref().is_some_and(|found| !found.is_unknown);
+    let modal = if is_certain {
+        None
+    } else {
+        unlike(&was.process, &is.process, claim.across)
+    };
+    let found = match (moving, modal) {
+        (Some(moving), Some(modal)) if modal.is_unknown => Some(moving),
+        (moving, modal) => modal.or(moving),
+    };
+    if let Some(found) = found {
+        return if found.is_unknown {
+            unknown(found.what())
+        } else {
+            differs(found.what())
+        };
     }
     let turns = a.orientation == Orientation::Words && b.orientation == Orientation::Words;
     if was.held.vector_mode != is.held.vector_mode && turns && !claim.across {

@@ -22,6 +22,7 @@ mod initial;
 mod input;
 mod item;
 mod judge;
+mod motions;
 mod near;
 mod notes;
 mod numbers;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_dialect::{Dialect, Plane};
-use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, Swivel, is_left, same_number};
+use trunnion_interp::{Argument, LengthOf, ModalState, is_left};
 
 /// Settings by their key; a key that is absent was never set, or has its initial value again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +36,13 @@ pub(crate) struct Unlike {
     pub(crate) to: String,
     /// The state is unknown in one of the programs: it never set it, or something ran that may have changed it.
     pub(crate) is_unknown: bool,
+}
+
+impl Unlike {
+    /// As a sentence.
+    pub(crate) fn what(&self) -> String {
+        format!("{} differs: {} and {}", self.key, self.from, self.to)
+    }
 }
 
 impl Process {
@@ -307,85 +314,5 @@ impl Held {
         } else {
             None
         }
-    }
-}
-
-/// Feed with its unit.
-pub(crate) fn feed(feed: Feed) -> String {
-    match feed {
-        Feed::PerMinute(value) => format!("{value} mm/min"),
-        Feed::PerRevolution(value) => format!("{value} mm/rev"),
-        Feed::InverseTime(value) => format!("{value} 1/min"),
-        Feed::Unknown => "unknown".to_owned(),
-        Feed::Rapid => "rapid".to_owned(),
-    }
-}
-
-/// Whether two feeds are the same setting.
-pub(crate) fn same_feed(a: Feed, b: Feed) -> bool {
-    match (a, b) {
-        (Feed::PerMinute(a), Feed::PerMinute(b))
-        | (Feed::PerRevolution(a), Feed::PerRevolution(b))
-        | (Feed::InverseTime(a), Feed::InverseTime(b)) => same_number(a, b),
-        (Feed::Unknown, Feed::Unknown) | (Feed::Rapid, Feed::Rapid) => true,
-        _ => false,
-    }
-}
-
-/// The parts of the process in the motions themselves that must be the same: name, before, after.
-pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Option<(&'static str, String, String)> {
-    let turn = |motion: &Motion| {
-        match motion.tilt.swivel {
-            Swivel::No => "no turn onto the plane",
-            Swivel::AxesStay => "they stay",
-            Swivel::TipStays => "they keep the tip on the part",
-            Swivel::AxesLost => "they retract",
-            Swivel::PointToPoint => "all axes move linearly",
-        }
-        .to_owned()
-    };
-    let yes = |on: bool| if on { "on" } else { "off" }.to_owned();
-    let tool = |motion: &Motion| motion.tool.map_or("unknown".to_owned(), |number| format!("T{number}"));
-    let circle = |motion: &Motion| {
-        match motion.great_circle {
-            Some(true) => "great circle",
-            Some(false) => "linear in the axes",
-            None => "as the machine does it",
-        }
-        .to_owned()
-    };
-    if a.tool != b.tool {
-        Some(("the tool", tool(a), tool(b)))
-    } else if !same_number(a.tool_length_mm, b.tool_length_mm) {
-        let mm = |motion: &Motion| format!("{} mm", motion.tool_length_mm);
-        Some(("the active tool length", mm(a), mm(b)))
-    } else if a.machine_coordinates != b.machine_coordinates {
-        Some((
-            "machine coordinates",
-            yes(a.machine_coordinates),
-            yes(b.machine_coordinates),
-        ))
-    } else if a.tilt.swivel != b.tilt.swivel {
-        Some(("what the linear axes do in a turn", turn(a), turn(b)))
-    } else if a.tilt.posture != b.tilt.posture {
-        let asked = |motion: &Motion| match motion.tilt.posture {
-            Posture::ByRule => "the control's own".to_owned(),
-            Posture::Lower => "the lower".to_owned(),
-            Posture::Higher => "the higher".to_owned(),
-            Posture::Numbered(number) => format!("number {number}"),
-            Posture::Bits { status, turn } => {
-                let bits = |name: &str, bits: Option<u16>| bits.map_or(String::new(), |bits| format!("{name}={bits} "));
-                format!("{}{}", bits("STAT", status), bits("TU", turn))
-                    .trim_end()
-                    .to_owned()
-            }
-        };
-        Some(("the requested posture", asked(a), asked(b)))
-    } else if a.tcp && b.tcp && a.great_circle != b.great_circle {
-        Some(("the interpolation of the tool axis", circle(a), circle(b)))
-    } else if feed_counts && a.is_feed() && !same_feed(a.feed, b.feed) {
-        Some(("the feed", feed(a.feed), feed(b.feed)))
-    } else {
-        None
     }
 }

@@ -1,7 +1,8 @@
 //! Rapid motions one after the other: where only their ends matter, two programs may make different ones between them.
 use crate::Claim;
 use crate::item::{Item, Step};
-use crate::process::{motion_difference, unlike};
+use crate::motions::motion_difference;
+use crate::process::unlike;
 use crate::steps::Steps;
 use trunnion_interp::{MotionKind, Swivel};
 

@@ -94,7 +94,7 @@ impl Iso<'_> {
             )
         } else if way(1) > 0.0 && steps[1].is_none_or(|step| step == 0.0) {
             Some("with a sideways move and no step for it")
-        } else if count(0) * (count(1) + 1.0) > MOST {
+        } else if count(0).max(1.0) * (count(1) + 1.0) > MOST {
             Some("with more than 10000 steps")
         } else {
             None

@@ -84,6 +84,12 @@ impl Iso<'_> {
             self.core.forget_linear();
             return;
         }
+        // the first of two blocks makes no motion
+        let runs = words.axes.any() || words.p.is_given();
+        if runs && self.is_full() {
+            let what = format!("{}: {}", self.memory.cycle.id, self.full());
+            return self.unknown_path_to_start(&what, self.core.state.position, report);
+        }
         match repeated.action {
             Action::FacePeckCycle | Action::GroovePeckCycle => self.peck_groove(repeated.action, words, report),
             Action::ThreadRepeatCycle => self.thread_repeat(words, report),

@@ -93,15 +93,13 @@ impl Row {
                     .collect(),
             ),
             Self::Line(start, angle, between, count) => {
-                let mut holes: Vec<_> = (0..count)
-                    .map(|hole| along(start, angle, between * hole as f64))
-                    .collect();
-                match nearest(&[holes[0], holes[count - 1]], here) {
-                    Some(0) => {}
-                    Some(_) => holes.reverse(),
-                    None => return Places::Unknown,
+                let hole = |at: usize| along(start, angle, between * at as f64);
+                // the ends first: a row in a loop may have no known first hole in any pass
+                match nearest(&[hole(0), hole(count - 1)], here) {
+                    Some(0) => Places::These((0..count).map(hole).collect()),
+                    Some(_) => Places::These((0..count).rev().map(hole).collect()),
+                    None => Places::Unknown,
                 }
-                Places::These(holes)
             }
             Self::Grid(corner, angle, between, counts) => Self::grid((corner, angle), between, counts, here),
         }
@@ -183,6 +181,10 @@ impl Iso<'_> {
         if !Row::is_called(&found.code.id) {
             return false;
         }
+        if self.is_full() {
+            self.row_is_too_long(found, report);
+            return true;
+        }
         let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         let unit = self.core.state.coordinates.unit_mm();
         let position = self.core.state.position;
@@ -215,9 +217,7 @@ impl Iso<'_> {
         let call = self.memory.cycle.call.clone();
         for hole in holes {
             if self.is_full() {
-                let why = format!("{}: {}", found.code.id, self.full());
-                report.fault(found.range, FaultKind::NotModelled { what: why });
-                self.row_lost(report);
+                self.row_is_too_long(found, report);
                 return true;
             }
             let position = self.core.state.position;
@@ -233,6 +233,12 @@ impl Iso<'_> {
             }
         }
         true
+    }
+
+    fn row_is_too_long(&mut self, found: &Found<'_>, report: &mut Report<'_>) {
+        let what = format!("{}: {}", found.code.id, self.full());
+        report.fault(found.range, FaultKind::NotModelled { what });
+        self.row_lost(report);
     }
 
     /// The tool moves on an unknown way to an unknown place.

@@ -118,12 +118,12 @@ impl Iso<'_> {
     }
 
     /// Whether the current block, or the cycles of the run together, have made more motions than are computed.
-    pub(super) fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
     }
 
     /// Why a block is full.
-    pub(super) fn full(&self) -> String {
+    pub(crate) fn full(&self) -> String {
         let blocks = self.core.setup.limits.blocks;
         if self.cycle_motions > blocks {
             return format!("more than {blocks} motions in the cycles of the program ([limits] blocks)");

@@ -199,11 +199,12 @@ fn is_flat(piece: &Piece) -> bool {
     near && in_order || extent <= 0.5 * CHORD_MM
 }
 
-/// The ends of the lines; `None`: the denominator has a zero, or there are too many.
-fn lines(whole: &Piece) -> Option<Vec<Vec3>> {
+/// The ends of the lines; `None`: the denominator has a zero, or there are too many. `looked_at` counts the pieces.
+fn lines(whole: &Piece, looked_at: &mut u64) -> Option<Vec<Vec3>> {
     let mut open = vec![(*whole, 0)];
     let mut ends = Vec::new();
     while let Some((piece, depth)) = open.pop() {
+        *looked_at += 1;
         if is_flat(&piece) {
             ends.push(point(piece[N - 1]));
             if ends.len() > MOST_LINES {
@@ -244,19 +245,21 @@ impl Iso<'_> {
             && !self.core.state.tool_axis.tcp()
             && self.core.state.feed.mode() != FeedMode::InverseTime;
         let unit = self.core.state.coordinates.unit_mm();
-        let ends = start
-            .xyz()
-            .zip(end.xyz())
-            .filter(|_| plain)
-            .and_then(|(start, end)| lines(&whole(&said, start, end, unit)?));
+        let mut looked_at = 0;
+        let full = self.is_full();
+        let known = start.xyz().zip(end.xyz()).filter(|_| plain && !full);
+        let ends = known.and_then(|(start, end)| lines(&whole(&said, start, end, unit)?, &mut looked_at));
         self.memory.own.contour.heading_is_lost();
         let Some(ends) = ends else {
-            let what =
-                "POLY: the path of this block: its values, or with other axes, radius compensation, TRAORI, G91 or G93";
-            report.fault(
-                words.first.unwrap_or_default(),
-                FaultKind::NotModelled { what: what.to_owned() },
-            );
+            // in a loop each pass would look at as many pieces: they count as motions do
+            self.cycle_motions += looked_at;
+            let what = if full {
+                format!("POLY: {}", self.full())
+            } else {
+                "POLY: the path of this block: its values, or with other axes, radius compensation, TRAORI, G91 or G93"
+                    .to_owned()
+            };
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             motion.kind = MotionKind::Unknown;
             return motion;
         };
@@ -346,7 +349,7 @@ mod tests {
     /// X = 10 (1 - p^2) / (1 + p^2), Y = 20 p / (1 + p^2): a quarter of a circle of radius 10.
     #[test]
     fn a_quarter_of_a_circle() {
-        let ends = lines(&quarter()).expect("a path");
+        let ends = lines(&quarter(), &mut 0).expect("a path");
         let mut before = Vec3::new(10.0, 0.0, 3.0);
         let mut way = 0.0;
         for end in &ends {
@@ -391,6 +394,6 @@ mod tests {
         for (slot, weight) in broken.iter_mut().zip([1.0, 0.5, 0.0, -0.5, 0.0, 1.0]) {
             slot[3] = weight;
         }
-        assert_eq!(lines(&broken), None);
+        assert_eq!(lines(&broken, &mut 0), None);
     }
 }

@@ -49,6 +49,19 @@ fn levels_that_count_from_an_unknown_place_are_told() {
     assert!(said.len() == 1 && said[0].contains("levels refer to Z"), "{said:?}");
 }
 
+/// Pecks beside each other are counted also where each is a single motion.
+#[test]
+fn pecks_without_depth_are_given_up() {
+    let source = "G0 X50. Z-25.\nG76 R1.\nG76 X999999. Z-25. P919 Q3 F.1\nM30\n";
+    let (program, log) = run_bytes("fanuc-30i-lathe-c", source.as_bytes(), &Setup::default());
+    assert!(log.motions.len() < 10, "{}", log.motions.len());
+    let said: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
+    assert!(
+        said.iter().any(|said| said.contains("more than 10000 steps")),
+        "{said:?}"
+    );
+}
+
 /// Cycles with many repeats in a loop end as the loop would: their motions count for the bound on executed blocks.
 #[test]
 fn cycles_in_a_loop_are_given_up() {
@@ -57,6 +70,26 @@ fn cycles_in_a_loop_are_given_up() {
             "fanuc-30i",
             "G0 X1. Y2. Z9.\n#1=0\nWHILE[#1LT500]DO1\n#1=#1+1\nG91 G81 X1. Z-1. R-1. F100. K300\nEND1\nM30\n",
             "motions in the cycles of the program",
+        ),
+        (
+            "fanuc-30i-lathe-a",
+            "G0 X50. Z2.\n#1=0\nG75 R1.\nWHILE[#1LT500]DO1\n#1=#1+1\nG75 X20. Z-9. P900 Q3000 F.1\nEND1\nM30\n",
+            "motions in the cycles of the program",
+        ),
+        (
+            "fanuc-30i-lathe-a",
+            "G0 X50. Z2.\n#1=0\nWHILE[#1LT500]DO1\n#1=#1+1\nG76 P010060 Q100 R.05\nG76 X38.16 Z-25. P919 Q100 F1.5\nEND1\nM30\n",
+            "motions in the cycles of the program",
+        ),
+        (
+            "sinumerik-840d",
+            "G71 G90 G17 G94 G0 X1 Y2 Z9 F100\nMCALL CYCLE81(10,0,1,-5)\nFOR R1=1 TO 400\nHOLES2(0,0,10,0,1,300)\nENDFOR\nM30\n",
+            "HOLES2: more than 2000 motions in the cycles of the program",
+        ),
+        (
+            "sinumerik-840d",
+            "G71 G90 G17 G94 G0 X1 Y2 Z9\nG1 F100\nFOR R1=1 TO 400\nPOLY PO[X]=(10,50,50) PO[Y]=(5,10,10)\nG1 X0 Y0\nENDFOR\nM30\n",
+            "POLY: more than 2000 motions in the cycles of the program",
         ),
         (
             "linuxcnc",

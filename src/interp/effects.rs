@@ -14,9 +14,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::written::{Keep, written};
 use crate::{Argument, Effect, FaultKind, Motion, Reach};
-use assignments::{
-    comments, declarations, named_effects, named_words, reads_machine_position, system_assignment, unknown_assignment,
-};
+use assignments::{comments, declarations, named_words, reads_machine_position, system_assignment, unknown_assignment};
 pub(crate) use collected::{Effects, Settings};
 use lengths::{in_lengths, may_read_unit, to_mm};
 pub use situation::Situation;
@@ -54,10 +52,7 @@ impl Iso<'_> {
     #[cold]
     pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
-        if self.core.setup.control.block_delete.is_none() {
-            self.deleted_parts(view, block);
-        }
-        named_effects(self, view, block);
+        self.written_effects(view, block);
         // S and T act before the codes of their block
         self.word_effects(codes, words, block);
         let mut free = self.free_letters(words);

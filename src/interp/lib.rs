@@ -23,6 +23,7 @@ mod engine;
 mod feed_speed;
 mod flow;
 mod frames;
+mod glance;
 mod iso;
 mod klartext;
 mod leader;
@@ -65,6 +66,7 @@ pub use directive::{Directive, directives, may_declare_obstacles, turned_deg};
 pub const UNNAMED_ZERO: &str = "G500";
 
 pub use effects::Situation;
+pub use glance::plain_letters;
 pub use klartext::{SentenceWord, sentence_words};
 pub use leader::leader;
 pub use program_bounds::{is_program_end, program_bound};

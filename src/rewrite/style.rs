@@ -80,7 +80,7 @@ impl NumberStyle {
 
     /// `value` in this style, rounded to [`NumberStyle::decimals`]; `plus` writes the sign of positive numbers.
     pub(crate) fn write(&self, value: f64, plus: bool) -> String {
-        let mut text = format!("{value:.*}", self.decimals);
+        let mut text = rounded(value, self.decimals).unwrap_or_else(|| format!("{value:.*}", self.decimals));
         if self.trims && text.contains('.') {
             text.truncate(text.trim_end_matches('0').len());
             if text.ends_with('.') && !self.whole_point {
@@ -114,6 +114,27 @@ impl NumberStyle {
     pub(crate) fn rounding(&self) -> f64 {
         0.5 / 10f64.powi(i32::try_from(self.decimals).unwrap_or(i32::MAX))
     }
+}
+
+/// `value` with so many digits after the point, where one product shows which number is nearest: as `format!` writes it, without the exact arithmetic that
+/// it needs for numbers that are decimals but for the last bit. `None` where the product is too large, or too near to the middle between two numbers.
+fn rounded(value: f64, decimals: usize) -> Option<String> {
+    // powers of ten up to this one are exact, and below the limit the product is off by less than 1e-3
+    let scale = 10f64.powi(i32::try_from(decimals).ok().filter(|digits| *digits <= 15)?);
+    let scaled = value.abs() * scale;
+    let whole = scaled.floor();
+    let rest = scaled - whole;
+    if scaled.is_nan() || scaled >= 4e12 || (rest - 0.5).abs() < 2e-3 {
+        return None;
+    }
+    // the cast is exact below the limit
+    let digits = (whole + if rest > 0.5 { 1.0 } else { 0.0 }) as u64;
+    let sign = if value.is_sign_negative() { "-" } else { "" };
+    let mut text = format!("{sign}{digits:0width$}", width = decimals + 1);
+    if decimals > 0 {
+        text.insert(text.len() - decimals, '.');
+    }
+    Some(text)
 }
 
 /// Signs and leading zero in this style; never a minus before only zeros.
@@ -186,10 +207,33 @@ pub(crate) fn blank_before_f(program: &Program, at: u32) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::{NumberStyle, add_whole};
+    use super::{NumberStyle, add_whole, rounded};
+    use proptest::prelude::*;
 
     fn style(texts: &[&str]) -> NumberStyle {
         NumberStyle::learn(texts.iter().copied()).expect("numbers")
+    }
+
+    proptest! {
+        #[test]
+        fn one_product_rounds_as_exact_arithmetic_does(
+            value in prop_oneof![-1e5..1e5f64, -1.0..1.0f64, (-1_000_000_i64..1_000_000).prop_map(|count| count as f64 * 0.5e-3), any::<f64>()],
+            decimals in 0..9_usize,
+        ) {
+            if let Some(text) = rounded(value, decimals) {
+                prop_assert_eq!(text, format!("{value:.decimals$}"));
+            }
+        }
+    }
+
+    #[test]
+    fn the_middle_between_two_numbers_is_left_to_exact_arithmetic() {
+        assert_eq!(rounded(2.2124, 3).as_deref(), Some("2.212"));
+        assert_eq!(rounded(-0.0, 2).as_deref(), Some("-0.00"));
+        assert_eq!(rounded(7.0, 0).as_deref(), Some("7"));
+        for (value, decimals) in [(0.5, 0), (0.125, 2), (1.0005, 3), (f64::NAN, 3), (1e300, 3), (1.0, 400)] {
+            assert_eq!(rounded(value, decimals), None, "{value} {decimals}");
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::since::{keeps_place, only_steers, reads_data, writes_control, writes_
 use crate::steps::Steps;
 use std::sync::Arc;
 use trunnion_dialect::Role;
-use trunnion_interp::{Argument, Effect, Situation};
+use trunnion_interp::{Argument, Effect, Situation, plain_letters};
 use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as SyntaxValue};
 
 impl Steps<'_> {
@@ -111,7 +111,7 @@ impl Steps<'_> {
     fn read_block(&mut self, block: BlockId, effects: u32, restates: bool) {
         let (program, dialect) = (self.input.program, self.input.dialect);
         let view = program.block(block);
-        if only_steers(&program.text(view.range())) {
+        if only_places(&program.source()[view.range().as_usize()]) || only_steers(&program.text(view.range())) {
             return;
         }
         let all = self.since.lost;
@@ -172,6 +172,13 @@ impl Steps<'_> {
             }
         }
     }
+}
+
+/// Whether a block has nothing but its number and coordinates with plain numbers: it restates nothing, and moves nothing but the tool.
+fn only_places(text: &[u8]) -> bool {
+    const PLACES: &[u8] = b"ABCIJKNUVWXYZ";
+    let places = PLACES.iter().fold(0, |all, letter| all | 1 << (letter - b'A'));
+    plain_letters(text).is_some_and(|letters| letters & !places == 0)
 }
 
 /// #1 to #33 of Macro B.

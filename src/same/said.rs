@@ -82,6 +82,9 @@ impl Steps<'_> {
         }
         let mut counts = Said::default();
         if !lost.kind {
+            if !(lost.linear || lost.feed || diameter) && self.names_none(motion, axes) {
+                return None;
+            }
             self.collect(motion, &lost, &mut counts);
             if !counts.counts {
                 return None;
@@ -93,6 +96,16 @@ impl Steps<'_> {
         };
         self.collect(motion, &lost, &mut said);
         Some(said.told(motion, self.state()))
+    }
+
+    /// Whether the block of a motion names none of these axes, as its bytes show: bits as in `Position::known`.
+    fn names_none(&self, motion: &Motion, axes: u16) -> bool {
+        let program = self.input.program;
+        let is_one = |byte: &u8| AxisLetter::new(*byte).is_some_and(|axis| axes & (1 << axis.0) != 0);
+        matches!(program.options().format, Format::Iso | Format::Osp)
+            && !program.source()[program.block(motion.block).range().as_usize()]
+                .iter()
+                .any(is_one)
     }
 
     /// The words of the block of a motion.

@@ -134,6 +134,14 @@ pub(crate) fn writes_control(text: &str) -> bool {
 
 /// Whether a block only decides which block runs next: `N10 IF [#1 EQ 1] GOTO 20`.
 pub(crate) fn only_steers(text: &str) -> bool {
+    // every word that steers has two letters side by side, and most blocks have none
+    if !text
+        .as_bytes()
+        .windows(2)
+        .any(|pair| pair.iter().all(u8::is_ascii_alphabetic))
+    {
+        return false;
+    }
     let text = text.trim().to_ascii_uppercase();
     let numbered = text
         .strip_prefix('N')

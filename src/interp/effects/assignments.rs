@@ -7,9 +7,8 @@ use crate::{Argument, Effect, Reach, canonical_text};
 use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
-/// What words written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`; before them the number of the block, where it counts.
+/// What words written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
 pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId) {
-    run.number_effect(view);
     let mut effects = Vec::new();
     for word in view.words() {
         if matches!(word.address, Address::Letter(_)) {
@@ -145,7 +144,8 @@ fn is_used(view: &Block<'_>, name: &str) -> bool {
 /// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its
 /// comment. A number that is computed may be any.
 pub(crate) fn system_assignment(run: &Iso<'_>, view: &Block<'_>) -> Option<Effect> {
-    if !run.core.dialect.quirks.macro_b() {
+    let text = &view.program().source()[view.range().as_usize()];
+    if !(run.core.dialect.quirks.macro_b() && text.contains(&b'#')) {
         return None;
     }
     let mut found = Vec::new();

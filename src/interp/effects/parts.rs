@@ -1,10 +1,12 @@
 //! Parts of a block that are effects of their own: reference points, what block delete may leave out, words that nothing reads.
+use super::assignments::named_effects;
 use crate::codes::{BlockCodes, Found};
+use crate::glance::plain_letters;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind};
-use trunnion_syntax::{Block, Item};
+use trunnion_syntax::{Address, Block, Item};
 
 impl Iso<'_> {
     /// A return to a reference point: which point it is, and that it is a return. Where no axis is named the machine decides which move.
@@ -42,8 +44,23 @@ impl Iso<'_> {
         }
     }
 
+    /// What may be deleted of a block, its number where that counts, and what its names set.
+    pub(super) fn written_effects(&mut self, view: &Block<'_>, block: trunnion_syntax::BlockId) {
+        // then it has no names, and no `/`
+        let plain = plain_letters(&view.program().source()[view.range().as_usize()]).is_some();
+        let is_letter = |item: Item| matches!(item, Item::Word(word) if matches!(word.address, Address::Letter(_)));
+        debug_assert!(!plain || view.items().all(is_letter), "a plain block with other items");
+        if !plain && self.core.setup.control.block_delete.is_none() {
+            self.deleted_parts(view, block);
+        }
+        self.number_effect(view);
+        if !plain {
+            named_effects(self, view, block);
+        }
+    }
+
     /// What the switch for block delete may leave out: the block, or its end.
-    pub(super) fn deleted_parts(&mut self, view: &Block<'_>, block: trunnion_syntax::BlockId) {
+    fn deleted_parts(&mut self, view: &Block<'_>, block: trunnion_syntax::BlockId) {
         let mut after_slash = false;
         let mut rest = String::new();
         for item in view.items() {

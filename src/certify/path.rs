@@ -6,7 +6,7 @@ use crate::curve::{great_circle, joint_bend};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{angle_between, asin};
 use trunnion_interp::MotionKind;
-use trunnion_machine::{AxisKind, Joints, Leg, MAX_AXES, Machine, Pose, Stance, forward};
+use trunnion_machine::{AxisKind, Joints, Leg, MAX_AXES, Machine, Pose, Stance, forward, tool_axis};
 
 /// Most moments at which two paths are compared.
 const MOST_SAMPLES: u32 = 512;
@@ -73,7 +73,7 @@ impl<'m> Path<'m> {
                 let pose = self.pose(t);
                 return (pose.tip + pose.axis * self.height, pose.axis);
             }
-            Interpolation::TipStraight => self.pose(t).axis,
+            Interpolation::TipStraight => tool_axis(self.machine, &self.joints_at(t)),
             Interpolation::GreatCircle => great_circle(&self.axes[0], &self.axes[1], t),
         };
         let [from, to] = self.tips;
@@ -82,11 +82,16 @@ impl<'m> Path<'m> {
 
     /// The pose at the share `t` of the way that the joints take.
     fn pose(&self, t: f64) -> Pose {
+        forward(self.machine, &self.joints_at(t), self.tool_length)
+    }
+
+    /// The joints at the share `t`, mm or rad.
+    fn joints_at(&self, t: f64) -> Joints {
         let mut joints: Joints = [0.0; MAX_AXES];
         for (joint, (from, to)) in joints.iter_mut().zip(self.joints[0].iter().zip(&self.joints[1])) {
             *joint = from + (to - from) * t;
         }
-        forward(self.machine, &joints, self.tool_length)
+        joints
     }
 
     /// Bounds on the second derivatives of point (mm) and tool axis.

@@ -94,9 +94,15 @@ impl<'d> Iso<'d> {
         (has_other_effects, ambiguous): (bool, bool),
         sink: &mut impl Sink,
     ) {
-        let motions: Vec<Motion> = self.memory.out.iter().chain(motion).copied().collect();
+        let several: Vec<Motion>;
+        let motions = if self.memory.out.is_empty() {
+            motion.map_or(&[][..], core::slice::from_ref)
+        } else {
+            several = self.memory.out.iter().chain(motion).copied().collect();
+            &several
+        };
         let has_other_effects = has_other_effects || self.memory.frames.entering_data && codes.is_empty();
-        self.late_effects(block, codes, words, &motions, (has_other_effects, ambiguous));
+        self.late_effects(block, codes, words, motions, (has_other_effects, ambiguous));
         self.core.emit_effects(sink);
     }
 

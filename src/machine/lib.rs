@@ -28,7 +28,7 @@ pub use kinematics::chain::{
     PoleAction, RapidPath, Side, Tolerances, Wrap,
 };
 pub use kinematics::constants::{Constants, LinearAxis, RotaryAxis};
-pub use kinematics::forward::{Pose, forward, tool_axis_at};
+pub use kinematics::forward::{Pose, forward, tool_axis, tool_axis_at};
 pub use kinematics::inverse::{Orientations, POLE_TOLERANCE, Postures, Solution, inverse, orientations};
 pub use kinematics::selftest::{SelfTest, self_test};
 pub use kinematics::uncertainty::{AxisUncertainty, pivot_sensitivity_between};

@@ -1,6 +1,6 @@
 //! An attempt: what a rewrite proposes is proved and compared with the program before; what cannot be proved at one place is left out there.
 use crate::edited::Edited;
-use crate::no_worse::{cured_errors, no_worse_report, no_worse_turns};
+use crate::no_worse::{cured_errors, no_worse_report, no_worse_turns, speaks_against};
 use crate::{Change, Known, Options, Place, Refusal, Rewrite};
 use core::cell::OnceCell;
 use core::fmt::Write;
@@ -313,6 +313,9 @@ impl Prover<'_> {
             no_worse_turns(&certificate)?;
         }
         let is = check_objections(&parse(after.clone(), self.program.options()), self.settings);
+        if !speaks_against(&is) {
+            return Ok(self.proved(edits, after, certificate, setup, ""));
+        }
         let was = self
             .before
             .get_or_init(|| check_objections(self.program, self.settings));
@@ -329,13 +332,25 @@ impl Prover<'_> {
         } else {
             String::new()
         };
-        Ok(Proved {
+        Ok(self.proved(edits, after, certificate, setup, &spread))
+    }
+
+    /// What is proved; `spread`: what is added to the summary.
+    fn proved(
+        &self,
+        edits: &[TextEdit],
+        after: Vec<u8>,
+        certificate: Box<Certificate>,
+        setup: Setup,
+        spread: &str,
+    ) -> Proved {
+        Proved {
             edits: edits.to_vec(),
             after,
             certificate,
             setup,
             summary: format!("{}{spread}", self.summary),
-        })
+        }
     }
 }
 

@@ -145,7 +145,7 @@ impl<'a> PosedWords<'a> {
             self.last = Some((motion.block, *wanted));
             return Ok(());
         }
-        let slots: Slots = slots(self.program, &view, self.scheme)?;
+        let slots: Slots<'_> = slots(self.program, &view, self.scheme)?;
         let named = slots.iter().any(Option::is_some);
         if motion.incremental && named {
             return Err("coordinates are incremental (G91)".into());
@@ -192,7 +192,7 @@ impl<'a> PosedWords<'a> {
         }
     }
 
-    fn text(&self, index: usize, value: f64, slot: Option<&Slot>) -> Result<String, String> {
+    fn text(&self, index: usize, value: f64, slot: Option<&Slot<'_>>) -> Result<String, String> {
         if let Some(slot) = slot {
             let whole = ((value - slot.value) / 360.0).round();
             if index >= 3 && (value - slot.value - 360.0 * whole).abs() < 1e-9 {

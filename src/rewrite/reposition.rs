@@ -96,7 +96,7 @@ impl Writer<'_> {
         for index in 0..3 {
             numbers.push((
                 index,
-                self.number(index, tip[index], slots[index].as_ref().map(|slot| slot.text.as_str()))?,
+                self.number(index, tip[index], slots[index].as_ref().map(|slot| &*slot.text))?,
             ));
         }
         let written = Vec3::new(numbers[0].1.value, numbers[1].1.value, numbers[2].1.value) * self.unit_mm;
@@ -125,7 +125,7 @@ impl Writer<'_> {
                 Some(slot) => numbers.push((
                     index,
                     Number {
-                        text: slot.text.clone(),
+                        text: slot.text.to_string(),
                         value: slot.value,
                     },
                 )),
@@ -141,7 +141,7 @@ impl Writer<'_> {
     }
 
     /// The orientation nearest to `aim` that can be written and is turned by no more than allowed.
-    fn orientation(&self, stance: &Stance, aim: Aim, slots: &Slots) -> Result<Orientation, String> {
+    fn orientation(&self, stance: &Stance, aim: Aim, slots: &Slots<'_>) -> Result<Orientation, String> {
         if self.by_words() {
             return self.rotary_words(stance, aim, slots);
         }
@@ -170,7 +170,7 @@ impl Writer<'_> {
     }
 
     /// The tool vector nearest to the one of `joints` with the first rotary joint at `q`, rad.
-    fn vector(&self, stance: &Stance, joints: &Joints, q: f64, slots: &Slots) -> Result<Orientation, String> {
+    fn vector(&self, stance: &Stance, joints: &Joints, q: f64, slots: &Slots<'_>) -> Result<Orientation, String> {
         let at = |q: f64| {
             let mut joints = *joints;
             joints[self.machine.rotary[0]] = q;
@@ -208,21 +208,17 @@ impl Writer<'_> {
     }
 
     /// The rotary words nearest to `aim`.
-    fn rotary_words(&self, stance: &Stance, aim: Aim, slots: &Slots) -> Result<Orientation, String> {
+    fn rotary_words(&self, stance: &Stance, aim: Aim, slots: &Slots<'_>) -> Result<Orientation, String> {
         let [first, second] = [self.machine.rotary[0], self.machine.rotary[1]];
         let mut joints = stance.joints;
         let other = match (aim.second, &slots[4]) {
             (Some(q), slot) => {
-                let number = self.number(
-                    4,
-                    deg(q) - self.rotary_zero[1],
-                    slot.as_ref().map(|slot| slot.text.as_str()),
-                )?;
+                let number = self.number(4, deg(q) - self.rotary_zero[1], slot.as_ref().map(|slot| &*slot.text))?;
                 joints[second] = rad(number.value + self.rotary_zero[1]);
                 number
             }
             (None, Some(slot)) => Number {
-                text: slot.text.clone(),
+                text: slot.text.to_string(),
                 value: slot.value,
             },
             (None, None) => self.number(4, self.word(stance, 1), None)?,
@@ -279,7 +275,7 @@ impl Writer<'_> {
     }
 
     /// The numbers below and above `value` as the program writes coordinate `index`.
-    fn neighbours(&self, index: usize, value: f64, was: Option<&Slot>) -> Result<[Number; 2], String> {
+    fn neighbours(&self, index: usize, value: f64, was: Option<&Slot<'_>>) -> Result<[Number; 2], String> {
         let texts = self
             .style(index)?
             .neighbours(value, was.is_some_and(|slot| slot.text.starts_with('+')));
@@ -333,7 +329,7 @@ impl Writer<'_> {
     fn edit(
         &self,
         block: &Block<'_>,
-        slots: &Slots,
+        slots: &Slots<'_>,
         numbers: Vec<(usize, Number)>,
         current: &mut [f64; 5],
         edits: &mut Vec<TextEdit>,

@@ -1,5 +1,6 @@
 //! The coordinate numbers of a block: where they are written, and edits that give them new values.
 use crate::style::NumberStyle;
+use std::borrow::Cow;
 use trunnion_syntax::{Address, AptArg, Block, Program, TextEdit, TextRange, Value};
 
 /// Which numbers of a block a rewrite handles: X, Y, Z, and then two rotary words or three components of the tool vector.
@@ -17,19 +18,19 @@ pub(crate) enum Scheme {
 
 /// One coordinate as written.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Slot {
+pub(crate) struct Slot<'p> {
     /// Bytes of the number.
     pub number: TextRange,
     /// Bytes of the whole word.
     pub word: TextRange,
     /// The number's text.
-    pub text: String,
+    pub text: Cow<'p, str>,
     /// Its value.
     pub value: f64,
 }
 
 /// Coordinates of a block, in the order of the scheme (at most six).
-pub(crate) type Slots = [Option<Slot>; 6];
+pub(crate) type Slots<'p> = [Option<Slot<'p>>; 6];
 
 impl Scheme {
     /// The scheme of a block whose tool axis is programmed as a vector.
@@ -83,7 +84,7 @@ impl Scheme {
 }
 
 /// The coordinates of a block. `Err`: one is not a plain number, or is given twice.
-pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Result<Slots, String> {
+pub(crate) fn slots<'p>(program: &'p Program, block: &Block<'_>, scheme: Scheme) -> Result<Slots<'p>, String> {
     let mut slots = Slots::default();
     if scheme == Scheme::Goto {
         let Some(record) = block.record().filter(|record| record.is("GOTO")) else {
@@ -96,7 +97,7 @@ pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Res
             slots[i] = Some(Slot {
                 number: range,
                 word: range,
-                text: program.text(range).into_owned(),
+                text: program.text(range),
                 value: value.to_f64(),
             });
         }
@@ -114,7 +115,7 @@ pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Res
         let slot = Slot {
             number: word.value_range,
             word: word.range,
-            text: program.text(word.value_range).into_owned(),
+            text: program.text(word.value_range),
             value: value.to_f64(),
         };
         if slots[i].replace(slot).is_some() {

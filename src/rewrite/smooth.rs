@@ -5,6 +5,7 @@ mod even;
 mod firm;
 pub(crate) mod mark;
 pub(crate) mod obstacles;
+mod pentadiagonal;
 pub(crate) mod plan;
 mod reach;
 pub(crate) mod window;

@@ -26,6 +26,22 @@ pub struct Step {
     pub is_part: bool,
 }
 
+impl Step {
+    /// A motion by itself: what depends on those before it is not known yet.
+    pub(crate) fn new(motion: &Motion, leg: Option<Leg>, held: Held, process: &Arc<Process>) -> Self {
+        Self {
+            motion: *motion,
+            leg,
+            held,
+            process: Arc::clone(process),
+            said: None,
+            may_repeat: false,
+            starts_anew: false,
+            is_part: false,
+        }
+    }
+}
+
 /// What an [`Item::Happens`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sort {

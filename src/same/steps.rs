@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trunnion_interp::{Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, is_left};
 use trunnion_interp::{Placed, ProgramRun as _, Reach, Sink, Value};
-use trunnion_machine::{Follower, Leg};
+use trunnion_machine::Follower;
 use trunnion_syntax::BlockId;
 
 /// Runs a program and yields what it does.
@@ -33,7 +33,8 @@ pub struct Steps<'a> {
 
 pub(crate) struct Run<'a> {
     follower: Option<Follower<'a>>,
-    motions: VecDeque<(Motion, Option<Leg>, Held)>,
+    /// Motions of the block: what depends on those before them is filled in when it has run.
+    motions: VecDeque<Box<Step>>,
     pub(crate) waiting: VecDeque<Waiting>,
     /// Effects so far.
     pub(crate) count: u32,
@@ -63,7 +64,8 @@ impl Sink for Run<'_> {
         }
         self.zeros.note(motion, state);
         let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
-        self.motions.push_back((*motion, leg, Held::new(state)));
+        let step = Step::new(motion, leg, Held::new(state), &self.process);
+        self.motions.push_back(Box::new(step));
     }
     fn fault(&mut self, fault: Fault) {
         if matches!(fault.kind, FaultKind::MissingSubprogram { .. }) {
@@ -312,21 +314,15 @@ impl<'a> Steps<'a> {
         if let Some(block) = block {
             self.note_block(block, effects, lost);
         }
-        while let Some((motion, leg, held)) = self.run.motions.pop_front() {
-            self.effects_before(motion.effects);
-            let starts_anew = self.since.starts_anew(&motion);
-            let may_repeat = self.since.motion(&motion, &held);
-            let said = self.said(&motion);
-            self.ready.push_back(Item::Motion(Box::new(Step {
-                may_repeat,
-                said,
-                starts_anew,
-                motion,
-                leg,
-                held,
-                process: Arc::clone(&self.run.process),
-                is_part: false,
-            })));
+        while let Some(mut step) = self.run.motions.pop_front() {
+            self.effects_before(step.motion.effects);
+            step.starts_anew = self.since.starts_anew(&step.motion);
+            step.may_repeat = self.since.motion(&step.motion, &step.held);
+            step.said = self.said(&step.motion);
+            if !Arc::ptr_eq(&step.process, &self.run.process) {
+                step.process = Arc::clone(&self.run.process);
+            }
+            self.ready.push_back(Item::Motion(step));
         }
         if self.over || !self.interpreter.motions_wait() {
             self.effects_before(u32::MAX);

@@ -170,6 +170,15 @@ pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
     Pose { tip, axis }
 }
 
+/// The tool axis of [`forward`] alone, workpiece frame.
+pub fn tool_axis(machine: &Machine, joints: &Joints) -> Vec3 {
+    if let Some(other) = machine.held_elsewhere(joints) {
+        return tool_axis(&other, joints);
+    }
+    let rotary = &machine.constants.rotary;
+    tool_axis_at(machine, [joints[rotary[0].joint], joints[rotary[1].joint]])
+}
+
 /// Tool axis in the workpiece frame for two rotary joint values, rad (a missing one is ignored): u = R1 R2 k0, docs/kinematics.md#machine-model.
 pub fn tool_axis_at(machine: &Machine, q: [f64; 2]) -> Vec3 {
     let constants = &machine.constants;

@@ -181,7 +181,7 @@ impl Writer<'_> {
             ));
         }
         let view = self.program.block(line.leg.motion.block);
-        let slots: Slots = slots(self.program, &view, self.scheme).map_err(refused)?;
+        let slots: Slots<'_> = slots(self.program, &view, self.scheme).map_err(refused)?;
         let ends = self.even_ends(line)?;
         let Some((first, others)) = ends.split_first() else {
             return Err(refused("no point is needed"));
@@ -207,7 +207,7 @@ impl Writer<'_> {
         }
         // the last piece says what the block said
         let last: [Option<String>; 5] = core::array::from_fn(|index| {
-            let slot = slots[index].as_ref().map(|slot| slot.text.clone());
+            let slot = slots[index].as_ref().map(|slot| slot.text.to_string());
             slot.or_else(|| {
                 first.texts[index]
                     .as_ref()

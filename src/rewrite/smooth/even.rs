@@ -3,6 +3,7 @@
 //! A convex quadratic programme, solved by Mehrotra's predictor-corrector interior point method (SIAM J. Optim. 2, 1992). Each
 //! station is joined with its two neighbours on either side only, so that every linear system is pentadiagonal and the work is
 //! linear in the stations.
+use super::pentadiagonal::Pentadiagonal;
 
 /// A stretch of a chain with fixed ends. All heights in one unit, all lengths in one unit.
 pub(super) struct Stretch<'a> {
@@ -71,14 +72,58 @@ struct Row {
 
 impl Row {
     fn value(&self, x: &[f64]) -> f64 {
-        self.plus + self.linear(x)
-    }
-
-    /// The same without the constant.
-    fn linear(&self, x: &[f64]) -> f64 {
         let [a, b, c] = self.by;
         let x = &x[self.at..self.at + 3];
-        a * x[0] + b * x[1] + c * x[2]
+        self.plus + (a * x[0] + b * x[1] + c * x[2])
+    }
+}
+
+/// A height or a slope between its two bounds, with all that the method keeps of them side by side: the upper bound first. What is kept has one
+/// memory for all of it, because the work is done in few passes over long chains.
+#[derive(Clone, Copy)]
+struct Pair {
+    /// The height or slope: the first unknown, and the coefficients of it and the next one.
+    at: usize,
+    by: [f64; 2],
+    /// Constants of both sides: `side * linear + plus` is to be at most zero.
+    plus: [f64; 2],
+    /// 1 where there is a bound on this side, 0 where there is none.
+    counts: [f64; 2],
+    slack: [f64; 2],
+    price: [f64; 2],
+    d_slack: [f64; 2],
+    d_price: [f64; 2],
+}
+
+/// The signs of both sides.
+const SIDES: [f64; 2] = [1.0, -1.0];
+
+impl Pair {
+    fn linear(&self, x: &[f64]) -> f64 {
+        let [a, b] = self.by;
+        let x = &x[self.at..self.at + 2];
+        a * x[0] + b * x[1]
+    }
+
+    /// A number for each side.
+    fn sides(&self, number: impl Fn(usize) -> f64) -> [f64; 2] {
+        [0, 1].map(|side| self.counts[side] * number(side))
+    }
+
+    /// By how much each bound and its slack do not fit together.
+    fn off(&self, x: &[f64]) -> [f64; 2] {
+        let value = self.linear(x);
+        self.sides(|side| SIDES[side] * value + self.plus[side] + self.slack[side])
+    }
+
+    /// What each product of slack and price is to lose, straight for the solution.
+    fn product(&self) -> [f64; 2] {
+        self.sides(|side| self.slack[side] * self.price[side])
+    }
+
+    /// The same with the curvature that the first step saw, back towards the middle.
+    fn corrected(&self, centre: f64) -> [f64; 2] {
+        self.sides(|side| self.slack[side] * self.price[side] + (self.d_slack[side] * self.d_price[side] - centre))
     }
 }
 
@@ -90,7 +135,7 @@ struct Problem<'a> {
     height: f64,
     unknowns: usize,
     bends: Vec<Row>,
-    bounds: Vec<Row>,
+    bounds: Vec<Pair>,
 }
 
 impl<'a> Problem<'a> {
@@ -105,7 +150,7 @@ impl<'a> Problem<'a> {
             height,
             unknowns: last - 1,
             bends: Vec::with_capacity(last + 1),
-            bounds: Vec::with_capacity(4 * last),
+            bounds: Vec::with_capacity(2 * last),
         };
         let d: Vec<f64> = stretch.s.windows(2).map(|s| (s[1] - s[0]) / length).collect();
         for at in 1..last {
@@ -120,19 +165,13 @@ impl<'a> Problem<'a> {
             let row = problem.row([(last - 1, -by), (last, by), (last, 0.0)], -after / steepest);
             problem.bends.push(row);
         }
-        for at in 1..last {
-            for (wall, side) in [(stretch.upper[at], 1.0), (stretch.lower[at], -1.0)] {
-                if wall.is_finite() {
-                    let row = problem.row([(at, side), (at, 0.0), (at, 0.0)], -side * wall / height);
-                    problem.bounds.push(row);
-                }
-            }
-        }
         for (at, (d, limit)) in d.iter().zip(stretch.limits).enumerate() {
-            for side in [1.0, -1.0] {
-                let row = problem.row([(at, -side / d), (at + 1, side / d), (at + 1, 0.0)], -limit / steepest);
-                problem.bounds.push(row);
+            if at > 0 {
+                let form = problem.row([(at, 1.0), (at, 0.0), (at, 0.0)], 0.0);
+                problem.bound(&form, [stretch.upper[at] / height, stretch.lower[at] / height]);
             }
+            let form = problem.row([(at, -1.0 / d), (at + 1, 1.0 / d), (at + 1, 0.0)], 0.0);
+            problem.bound(&form, [limit / steepest, -limit / steepest]);
         }
         problem
     }
@@ -140,6 +179,27 @@ impl<'a> Problem<'a> {
     fn bend(&mut self, at: usize, [a, b, c]: [f64; 3]) {
         let row = self.row([(at - 1, a), (at, b), (at + 1, c)], 0.0);
         self.bends.push(row);
+    }
+
+    /// Keeps a form of at most two unknowns between an upper and a lower bound; infinite where there is none.
+    fn bound(&mut self, form: &Row, bounds: [f64; 2]) {
+        let there = bounds.map(f64::is_finite);
+        self.bounds.push(Pair {
+            at: form.at,
+            by: [form.by[0], form.by[1]],
+            plus: [0, 1].map(|side| {
+                if there[side] {
+                    SIDES[side] * (form.plus - bounds[side])
+                } else {
+                    0.0
+                }
+            }),
+            counts: there.map(f64::from),
+            slack: [1.0; 2],
+            price: there.map(|there| if there { 1e-2 } else { 0.0 }),
+            d_slack: [0.0; 2],
+            d_price: [0.0; 2],
+        });
     }
 
     /// A row of coefficients of stations; the ends are known.
@@ -158,72 +218,60 @@ impl<'a> Problem<'a> {
     }
 
     /// All heights, clamped to the walls; `None` where the method did not converge.
-    fn solve(&self) -> Option<Vec<f64>> {
-        let count = self.bounds.len();
+    fn solve(mut self) -> Option<Vec<f64>> {
         // two more unknowns without meaning, so that every row has three
         let mut x: Vec<f64> = self.start[1..=self.unknowns]
             .iter()
             .map(|height| height / self.height)
             .collect();
         x.extend([0.0; 2]);
-        let mut slack: Vec<f64> = self.bounds.iter().map(|row| (-row.value(&x)).max(1e-2)).collect();
-        let mut price = vec![1e-2; count];
-        let (mut system, mut step, mut d_slack, mut d_price) = (
-            Pentadiagonal::new(x.len()),
-            vec![0.0; x.len()],
-            vec![0.0; count],
-            vec![0.0; count],
-        );
-        let mut rest = vec![0.0; count];
-        // by how much each bound and its slack do not fit together
-        let mut off = vec![0.0; count];
-        for _ in 0..ROUNDS {
-            let gap = slack.iter().zip(&price).map(|(s, z)| s * z).sum::<f64>() / count.max(1) as f64;
-            for (off, (row, s)) in off.iter_mut().zip(self.bounds.iter().zip(&slack)) {
-                *off = row.value(&x) + s;
+        for pair in &mut self.bounds {
+            let value = pair.linear(&x);
+            for side in [0, 1].into_iter().filter(|side| pair.counts[*side] > 0.0) {
+                pair.slack[side] = (-(SIDES[side] * value + pair.plus[side])).max(1e-2);
             }
-            if gap < EXACT * 0.1 && off.iter().all(|off| off.abs() < EXACT) {
+        }
+        let count = self.bounds.iter().flat_map(|pair| pair.counts).sum::<f64>().max(1.0);
+        let mut system = Pentadiagonal::new(x.len());
+        let mut step = vec![0.0; x.len()];
+        for _ in 0..ROUNDS {
+            let (mut gap, mut off) = (0.0, 0.0f64);
+            for pair in &self.bounds {
+                let ([upper, lower], [above, below]) = (pair.product(), pair.off(&x));
+                gap += upper + lower;
+                off = off.max(above.abs()).max(below.abs());
+            }
+            gap /= count;
+            if gap < EXACT * 0.1 && off < EXACT {
                 return Some(self.heights(&x));
             }
             if !gap.is_finite() {
                 return None;
             }
-            self.matrix(&slack, &price, &mut system);
+            self.matrix(&mut system);
             if !system.factor() {
                 return None;
             }
             // predictor: straight for the solution
-            for (rest, (s, z)) in rest.iter_mut().zip(slack.iter().zip(&price)) {
-                *rest = s * z;
-            }
-            self.direction(
-                &x,
-                (&slack, &price, &rest, &off),
-                &system,
-                (&mut step, &mut d_slack, &mut d_price),
-            );
-            let ahead = longest(&slack, &d_slack).min(longest(&price, &d_price));
-            let then = slack.iter().zip(&d_slack).zip(price.iter().zip(&d_price));
-            let then = then
-                .map(|((s, ds), (z, dz))| (s + ahead * ds) * (z + ahead * dz))
-                .sum::<f64>()
-                / count.max(1) as f64;
-            let centre = gap * (then / gap).powi(3);
+            let ahead = self.direction(&x, &system, &mut step, Pair::product);
+            let then = self.bounds.iter().map(|pair| {
+                let [upper, lower] = pair.sides(|side| {
+                    (pair.slack[side] + ahead * pair.d_slack[side]) * (pair.price[side] + ahead * pair.d_price[side])
+                });
+                upper + lower
+            });
+            let centre = gap * (then.sum::<f64>() / count / gap).powi(3);
             // corrector: back towards the middle, and with the curvature that the predictor saw
-            for (at, rest) in rest.iter_mut().enumerate() {
-                *rest += d_slack[at] * d_price[at] - centre;
+            let by = 0.995 * self.direction(&x, &system, &mut step, |pair| pair.corrected(centre));
+            for (x, step) in x.iter_mut().zip(&step) {
+                *x += by * step;
             }
-            self.direction(
-                &x,
-                (&slack, &price, &rest, &off),
-                &system,
-                (&mut step, &mut d_slack, &mut d_price),
-            );
-            let (by, price_by) = (0.995 * longest(&slack, &d_slack), 0.995 * longest(&price, &d_price));
-            let by = by.min(price_by);
-            advance(&mut x, &step, by);
-            advance(&mut slack, &d_slack, by);
-            advance(&mut price, &d_price, by);
+            for pair in &mut self.bounds {
+                for side in 0..2 {
+                    pair.slack[side] += by * pair.d_slack[side];
+                    pair.price[side] += by * pair.d_price[side];
+                }
+            }
         }
         None
     }
@@ -239,134 +287,59 @@ impl<'a> Problem<'a> {
     }
 
     /// H + G' (Z / S) G.
-    fn matrix(&self, slack: &[f64], price: &[f64], system: &mut Pentadiagonal) {
+    fn matrix(&self, system: &mut Pentadiagonal) {
         system.clear();
         for row in &self.bends {
-            system.add(row, 1.0);
+            system.add(row.at, row.by, 1.0);
         }
-        for (row, (s, z)) in self.bounds.iter().zip(slack.iter().zip(price)) {
-            system.add(row, z / s);
+        for pair in &self.bounds {
+            let [upper, lower] = [0, 1].map(|side| pair.price[side] / pair.slack[side]);
+            let [a, b] = pair.by;
+            system.add(pair.at, [a, b, 0.0], upper + lower);
         }
     }
 
-    /// One Newton step for what is left of each product of slack and price.
+    /// One Newton step for what is left of each product of slack and price. Gives the longest step, at most 1, that keeps all slacks and prices positive.
     fn direction(
-        &self,
+        &mut self,
         x: &[f64],
-        (slack, price, rest, off): (&[f64], &[f64], &[f64], &[f64]),
         system: &Pentadiagonal,
-        (step, d_slack, d_price): (&mut Vec<f64>, &mut [f64], &mut [f64]),
-    ) {
+        step: &mut [f64],
+        rest: impl Fn(&Pair) -> [f64; 2],
+    ) -> f64 {
         step.fill(0.0);
-        let mut subtract = |row: &Row, by: f64| {
-            let step = &mut step[row.at..row.at + 3];
-            for (step, coefficient) in step.iter_mut().zip(row.by) {
+        for row in &self.bends {
+            let by = row.value(x);
+            for (step, coefficient) in step[row.at..row.at + 3].iter_mut().zip(row.by) {
                 *step -= coefficient * by;
             }
-        };
-        for row in &self.bends {
-            subtract(row, row.value(x));
         }
-        let known = slack.iter().zip(price).zip(rest.iter().zip(off));
-        for (row, ((slack, price), (rest, off))) in self.bounds.iter().zip(known.clone()) {
-            subtract(row, price + (price * off - rest) / slack);
+        for pair in &self.bounds {
+            let (rest, off) = (rest(pair), pair.off(x));
+            let [upper, lower] =
+                [0, 1].map(|side| pair.price[side] + (pair.price[side] * off[side] - rest[side]) / pair.slack[side]);
+            for (step, coefficient) in step[pair.at..pair.at + 2].iter_mut().zip(pair.by) {
+                *step -= coefficient * (upper - lower);
+            }
         }
         system.solve(step);
-        let found = d_slack.iter_mut().zip(d_price.iter_mut());
-        for ((row, ((slack, price), (rest, off))), (d_slack, d_price)) in self.bounds.iter().zip(known).zip(found) {
-            *d_slack = -off - row.linear(step);
-            *d_price = (-rest - price * *d_slack) / slack;
-        }
-    }
-}
-
-/// The longest step, at most 1, that keeps all values positive.
-fn longest(values: &[f64], steps: &[f64]) -> f64 {
-    let pairs = values.iter().zip(steps).filter(|(_, step)| **step < 0.0);
-    pairs.map(|(value, step)| -value / step).fold(1.0, f64::min)
-}
-
-fn advance(values: &mut [f64], steps: &[f64], by: f64) {
-    for (value, step) in values.iter_mut().zip(steps) {
-        *value += by * step;
-    }
-}
-
-/// A symmetric matrix with two diagonals on either side of the middle one, and its factors L D L'.
-struct Pentadiagonal {
-    /// For each row: the middle, and what joins it with the next and the one after.
-    rows: Vec<[f64; 3]>,
-}
-
-impl Pentadiagonal {
-    fn new(count: usize) -> Self {
-        Self {
-            rows: vec![[0.0; 3]; count],
-        }
-    }
-
-    /// Zero, with a trace of the unit matrix for the unknowns without meaning.
-    fn clear(&mut self) {
-        self.rows.fill([1e-12, 0.0, 0.0]);
-    }
-
-    /// Adds `weight` times the square of a row.
-    fn add(&mut self, row: &Row, weight: f64) {
-        let [a, b, c] = row.by;
-        let rows = &mut self.rows[row.at..];
-        rows[0][0] += weight * a * a;
-        rows[0][1] += weight * a * b;
-        rows[0][2] += weight * a * c;
-        if let Some(next) = rows.get_mut(1) {
-            next[0] += weight * b * b;
-            next[1] += weight * b * c;
-        }
-        if let Some(next) = rows.get_mut(2) {
-            next[0] += weight * c * c;
-        }
-    }
-
-    /// Replaces the matrix by its factors; false where it is not positive.
-    fn factor(&mut self) -> bool {
-        for at in 0..self.rows.len() {
-            let [middle, next, after] = self.rows[at];
-            if middle <= 0.0 || !middle.is_finite() {
-                return false;
-            }
-            let (l1, l2) = (next / middle, after / middle);
-            if let Some(row) = self.rows.get_mut(at + 1) {
-                row[0] -= l1 * next;
-                row[1] -= l1 * after;
-            }
-            if let Some(row) = self.rows.get_mut(at + 2) {
-                row[0] -= l2 * after;
-            }
-            self.rows[at] = [middle, l1, l2];
-        }
-        true
-    }
-
-    /// Solves for a right side, in place.
-    fn solve(&self, x: &mut [f64]) {
-        let count = self.rows.len();
-        for at in 0..count {
-            let value = x[at];
-            if at + 1 < count {
-                x[at + 1] -= self.rows[at][1] * value;
-            }
-            if at + 2 < count {
-                x[at + 2] -= self.rows[at][2] * value;
+        let mut longest = 1.0f64;
+        for pair in &mut self.bounds {
+            let (rest, off, turned) = (rest(pair), pair.off(x), pair.linear(step));
+            pair.d_slack = pair.sides(|side| -off[side] - SIDES[side] * turned);
+            for (side, rest) in rest.into_iter().enumerate() {
+                pair.d_price[side] = (-rest - pair.price[side] * pair.d_slack[side]) / pair.slack[side];
+                for (value, step) in [
+                    (pair.slack[side], pair.d_slack[side]),
+                    (pair.price[side], pair.d_price[side]),
+                ] {
+                    // only then is the step shorter: a division less
+                    if value < -step * longest {
+                        longest = -value / step;
+                    }
+                }
             }
         }
-        for at in (0..count).rev() {
-            let mut value = x[at] / self.rows[at][0];
-            if at + 1 < count {
-                value -= self.rows[at][1] * x[at + 1];
-            }
-            if at + 2 < count {
-                value -= self.rows[at][2] * x[at + 2];
-            }
-            x[at] = value;
-        }
+        longest
     }
 }

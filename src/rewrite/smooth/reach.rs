@@ -81,32 +81,31 @@ impl Reach<'_> {
         sets
     }
 
-    /// Where it can be at the next station, no steeper than `limit` (rad per length).
-    fn step(&self, index: usize, before: &Sets, limit: f64) -> Sets {
+    /// Sets `sets` to where it can be at the next station, no steeper than `limit` (rad per length).
+    fn step(&self, index: usize, before: &Sets, limit: f64, sets: &mut Sets) {
         let reach = self.farthest(index - 1, limit);
         let changes = self.stations[index].free || self.stations[index - 1].free;
-        let mut sets = Sets::default();
         for (posture, set) in sets.iter_mut().enumerate() {
-            let mut found = Vec::new();
+            set.clear();
             for (from, ranges) in before.iter().enumerate() {
                 if from == posture || changes {
                     for range in ranges {
                         self.tubes(index, posture, (range.0 - reach, range.1 + reach), |_, inside| {
-                            found.push(inside);
+                            set.push(inside);
                         });
                     }
                 }
             }
-            *set = united(found);
+            unite(set);
         }
-        sets
     }
 
     /// Whether the chain can be run no steeper than `limit`.
     pub(super) fn allows(&self, limit: f64) -> bool {
-        let mut sets = self.begin();
+        let (mut sets, mut next) = (self.begin(), Sets::default());
         for index in 1..self.stations.len() {
-            sets = self.step(index, &sets, limit);
+            self.step(index, &sets, limit, &mut next);
+            core::mem::swap(&mut sets, &mut next);
             if sets.iter().all(Vec::is_empty) {
                 return false;
             }
@@ -118,7 +117,8 @@ impl Reach<'_> {
     pub(super) fn choices(&self, limit: f64) -> Option<Vec<Choice>> {
         let mut all = vec![self.begin()];
         for index in 1..self.stations.len() {
-            let sets = self.step(index, &all[index - 1], limit);
+            let mut sets = Sets::default();
+            self.step(index, &all[index - 1], limit, &mut sets);
             if sets.iter().all(Vec::is_empty) {
                 return None;
             }
@@ -183,15 +183,14 @@ impl Reach<'_> {
     }
 }
 
-/// Sorted ranges without overlaps.
-fn united(mut ranges: Vec<Range>) -> Vec<Range> {
+/// Sorts ranges and puts those together that overlap.
+fn unite(ranges: &mut Vec<Range>) {
     ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut out: Vec<Range> = Vec::with_capacity(ranges.len());
-    for range in ranges {
-        match out.last_mut() {
-            Some(last) if range.0 <= last.1 + ROUNDING => last.1 = last.1.max(range.1),
-            _ => out.push(range),
+    ranges.dedup_by(|range, last| {
+        let meets = range.0 <= last.1 + ROUNDING;
+        if meets {
+            last.1 = last.1.max(range.1);
         }
-    }
-    out
+        meets
+    });
 }

@@ -83,6 +83,8 @@ pub(crate) struct Apt<'d> {
     pub(crate) more: Vec<Motion>,
     /// The orientation of the first of them.
     pub(crate) first_vector: Option<Orientation>,
+    /// Motions of cycles so far: they count for the bound on executed blocks.
+    cycle_motions: u64,
     /// The record that runs next.
     next: u32,
     finished: bool,
@@ -123,6 +125,7 @@ impl<'d> Apt<'d> {
             core,
             kept: AptState::default(),
             more: Vec::new(),
+            cycle_motions: 0,
             first_vector: None,
             next: 0,
             finished: false,

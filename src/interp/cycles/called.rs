@@ -186,8 +186,21 @@ impl Iso<'_> {
             .collect()
     }
 
+    /// The cycle is not worked out: the linear axes move on an unknown way to an unknown place.
+    fn call_is_lost(&mut self, kind: FaultKind, report: &mut Report<'_>) {
+        report.fault(TextRange::default(), kind);
+        let mut motion = self.unknown_motion(&Words::default(), report);
+        motion.end.known &= !crate::core::LINEAR;
+        self.core.forget_linear();
+        self.memory.out.push(motion);
+    }
+
     /// Runs a cycle at the present position.
     pub(super) fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
+        if self.is_full() {
+            let what = format!("{}: {}", call.id, self.full());
+            return self.call_is_lost(FaultKind::NotModelled { what }, report);
+        }
         let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
             // _AXN 3 is the third geometry axis, as 0 is: Z
@@ -223,12 +236,7 @@ impl Iso<'_> {
                     what: format!("{} {}", call.id, why.unwrap_or_default()),
                 },
             };
-            report.fault(TextRange::default(), kind);
-            let mut motion = self.unknown_motion(&Words::default(), report);
-            motion.end.known &= !crate::core::LINEAR;
-            self.core.forget_linear();
-            self.memory.out.push(motion);
-            return;
+            return self.call_is_lost(kind, report);
         };
         let unit = self.core.state.coordinates.unit_mm();
         let feed = self.call_feed(call, words, report);

@@ -114,7 +114,7 @@ impl Iso<'_> {
     }
 
     /// The thread, or why it cannot be computed.
-    fn plan_thread(&self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
+    fn plan_thread(&mut self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
         let data = if [b'A', b'D', b'I', b'K']
             .iter()
             .any(|&letter| words.letter(letter).is_given())
@@ -155,8 +155,11 @@ impl Iso<'_> {
         if pull_out >= way.abs() {
             return Err("its pull-out is as long as the thread");
         }
-        let mut depths = cuts(first, least, height - allowance)
-            .ok_or("a finishing allowance as large as its height, or more than 10000 cuts")?;
+        let Some(mut depths) = cuts(first, least, height - allowance) else {
+            // in a loop each pass would work out as many cuts that become no motion: they count as motions do
+            self.cycle_motions += MOST as u64;
+            return Err("a finishing allowance as large as its height, or more than 10000 cuts");
+        };
         depths.extend(core::iter::repeat_n(height, finishing as usize));
         Ok(Plan {
             start,

@@ -14,6 +14,7 @@ pub use ignored::{IgnoredRecords, ignored_records};
 
 use crate::Sink;
 use crate::core::{Core, Report};
+use crate::cycle_motions::CycleMotions;
 use crate::engine::Engine;
 use crate::{FaultKind, FeedMode, Motion, Orientation};
 use trunnion_dialect::Action;
@@ -83,8 +84,7 @@ pub(crate) struct Apt<'d> {
     pub(crate) more: Vec<Motion>,
     /// The orientation of the first of them.
     pub(crate) first_vector: Option<Orientation>,
-    /// Motions of cycles so far: they count for the bound on executed blocks.
-    cycle_motions: u64,
+    cycle_motions: CycleMotions,
     /// The record that runs next.
     next: u32,
     finished: bool,
@@ -125,7 +125,7 @@ impl<'d> Apt<'d> {
             core,
             kept: AptState::default(),
             more: Vec::new(),
-            cycle_motions: 0,
+            cycle_motions: CycleMotions::default(),
             first_vector: None,
             next: 0,
             finished: false,

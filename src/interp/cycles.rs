@@ -5,6 +5,7 @@ mod called_feed;
 mod contour;
 mod data;
 mod deep;
+mod full;
 mod groove;
 mod hole;
 mod levels;

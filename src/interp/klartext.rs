@@ -30,6 +30,7 @@ mod values;
 mod words;
 
 use crate::core::{Core, Report};
+use crate::cycle_motions::CycleMotions;
 use crate::engine::Engine;
 use crate::frames::{Frames, Tilted};
 use crate::reported::Reported;
@@ -117,8 +118,7 @@ pub(crate) struct Klartext<'d> {
     flow: Flow,
     /// Motions of the block that are ready.
     out: Vec<Motion>,
-    /// Motions that cycles have made in this run.
-    cycle_motions: u64,
+    cycle_motions: CycleMotions,
 }
 
 impl<'d> Engine<'d> for Klartext<'d> {
@@ -163,7 +163,7 @@ impl<'d> Klartext<'d> {
             memory: Memory::default(),
             flow: Flow::default(),
             out: Vec::new(),
-            cycle_motions: 0,
+            cycle_motions: CycleMotions::default(),
         };
         // TNC positions are those of the tip: until a TOOL CALL they hold the length of the tool that is in the spindle, which nothing declares
         engine.core.state.length.set_declared(None, LengthOf::Tool(None));

@@ -12,6 +12,7 @@ mod codes;
 mod compensation;
 mod core;
 mod corner;
+mod cycle_motions;
 mod cycles;
 mod deleted;
 mod directive;

@@ -34,9 +34,7 @@ impl Apt<'_> {
             let motion = self.unknown_goto(orientation, report);
             return self.more.push(motion);
         };
-        let most = self.core.setup.limits.blocks;
-        if self.cycle_motions > most {
-            let what = format!("more than {most} motions in the cycles of the program ([limits] blocks)");
+        if let Some(what) = self.cycle_motions.over(self.core.setup.limits.blocks) {
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
             let motion = self.unknown_goto(orientation, report);
             return self.more.push(motion);
@@ -182,7 +180,7 @@ impl Apt<'_> {
         };
         let orientation = self.first_vector.take().unwrap_or_else(|| self.core.held_orientation());
         let motion: Motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
-        self.cycle_motions += 1;
+        self.cycle_motions.add();
         self.more.push(motion);
     }
 }

@@ -53,8 +53,7 @@ impl Iso<'_> {
         let here = report.block.0;
         let follows = is_next(program, here, first);
         let mut found = self.run_blocks(program, first, last);
-        // in a loop each pass runs them again, also where nothing comes of it: they count as motions do
-        self.cycle_motions += u64::from(last - first);
+        self.cycle_motions.add_in_vain(u64::from(last - first));
         if !self.memory.contours_reported.contains(&first) {
             self.memory.contours_reported.push(first);
             for fault in std::mem::take(&mut found.faults) {

@@ -140,8 +140,7 @@ impl Iso<'_> {
         let pecks = match Pecks::of(call, unit) {
             Ok(pecks) => pecks,
             Err(computed) => {
-                // each of many holes could compute steps that become no motion: they count as motions do
-                self.cycle_motions += computed as u64;
+                self.cycle_motions.add_in_vain(computed as u64);
                 return false;
             }
         };

@@ -10,9 +10,6 @@ use trunnion_dialect::Action;
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
 
-/// Motions of one block that are computed: they are held until the block is done.
-pub(super) const MOST_MOTIONS: usize = 200_000;
-
 /// One hole with its numbers, all as coordinates of the words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {

@@ -156,8 +156,7 @@ impl Iso<'_> {
             return Err("its pull-out is as long as the thread");
         }
         let Some(mut depths) = cuts(first, least, height - allowance) else {
-            // in a loop each pass would work out as many cuts that become no motion: they count as motions do
-            self.cycle_motions += MOST as u64;
+            self.cycle_motions.add_in_vain(MOST as u64);
             return Err("a finishing allowance as large as its height, or more than 10000 cuts");
         };
         depths.extend(core::iter::repeat_n(height, finishing as usize));

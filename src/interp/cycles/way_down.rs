@@ -1,5 +1,5 @@
 //! What drilling cycles need before they go down: levels in order, and for taps a spindle.
-use super::hole::{MOST_MOTIONS, Plan};
+use super::hole::Plan;
 use crate::arc::plane_axes;
 use crate::core::Report;
 use crate::iso::Iso;
@@ -115,24 +115,5 @@ impl Iso<'_> {
             let block = self.core.main_block(report.block);
             self.core.effects.add(block, Effect::left("spindle"));
         }
-    }
-
-    /// Whether the current block, or the cycles of the run together, have made more motions than are computed.
-    pub(crate) fn is_full(&self) -> bool {
-        self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
-    }
-
-    /// Why a block is full.
-    pub(crate) fn full(&self) -> String {
-        let blocks = self.core.setup.limits.blocks;
-        if self.cycle_motions > blocks {
-            return format!("more than {blocks} motions in the cycles of the program ([limits] blocks)");
-        }
-        format!("more than {MOST_MOTIONS} motions in one block")
-    }
-
-    pub(super) fn too_many(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) {
-        let why = self.full();
-        self.lost(words, axis, &why, report);
     }
 }

@@ -215,7 +215,7 @@ impl Iso<'_> {
 
     /// A motion to a position that is given as words give it; it is emitted with the others of the block.
     pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
-        self.cycle_motions += 1;
+        self.cycle_motions.add();
         let start = self.core.state.position;
         let end = self.memory.frames.arrive(to);
         self.core.state.position = end;

@@ -2,6 +2,7 @@
 use crate::Sink;
 use crate::codes::Found;
 use crate::core::Core;
+use crate::cycle_motions::CycleMotions;
 use crate::engine::Engine;
 use crate::flow::Flow;
 use crate::frames::OffsetValues;
@@ -18,8 +19,7 @@ pub(crate) struct Iso<'d> {
     /// Codes of the current block: kept only for its storage.
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) flow: Flow,
-    /// Motions of cycles so far: they are bounded like executed blocks.
-    pub(crate) cycle_motions: u64,
+    pub(crate) cycle_motions: CycleMotions,
 }
 
 impl<'d> Engine<'d> for Iso<'d> {
@@ -142,7 +142,7 @@ impl<'d> Iso<'d> {
             memory: Memory::default(),
             codes: Vec::new(),
             flow: Flow::default(),
-            cycle_motions: 0,
+            cycle_motions: CycleMotions::default(),
         };
         engine.memory.own.is_task = engine.core.dialect.quirks.user_task();
         engine.memory.own.main_spindle = engine.core.setup.control.main_spindle;

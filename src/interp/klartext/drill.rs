@@ -45,12 +45,9 @@ impl Klartext<'_> {
     /// Runs the cycle that is defined where the tool is.
     pub(crate) fn run_cycle(&mut self, report: &mut Report<'_>) {
         self.flush(report);
-        let most = self.core.setup.limits.blocks;
-        if self.cycle_motions > most && !matches!(self.memory.cycle, Cycle::None) {
-            self.not_modelled_once(
-                &format!("more than {most} motions in the cycles of the program ([limits] blocks)"),
-                report,
-            );
+        let over = self.cycle_motions.over(self.core.setup.limits.blocks);
+        if let Some(why) = over.filter(|_| !matches!(self.memory.cycle, Cycle::None)) {
+            self.not_modelled_once(&why, report);
             return self.work_unknown(report);
         }
         match self.memory.cycle.clone() {
@@ -369,7 +366,7 @@ impl Klartext<'_> {
         };
         let motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         self.memory.heading = None;
-        self.cycle_motions += 1;
+        self.cycle_motions.add();
         self.emit(&motion, report);
     }
 }

@@ -251,8 +251,7 @@ impl Iso<'_> {
         let ends = known.and_then(|(start, end)| lines(&whole(&said, start, end, unit)?, &mut looked_at));
         self.memory.own.contour.heading_is_lost();
         let Some(ends) = ends else {
-            // in a loop each pass would look at as many pieces: they count as motions do
-            self.cycle_motions += looked_at;
+            self.cycle_motions.add_in_vain(looked_at);
             let what = if full {
                 format!("POLY: {}", self.full())
             } else {

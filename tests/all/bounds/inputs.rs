@@ -6,6 +6,7 @@ mod klartext;
 mod many;
 mod nesting;
 mod okuma;
+mod repeated;
 mod tools;
 
 /// A hostile program.
@@ -75,6 +76,7 @@ pub(super) fn all() -> Vec<Input> {
     all.extend(okuma::inputs());
     // new ones at the end: the dialect that a program meets depends on its place, and a journal goes on where it was
     all.extend(tools::inputs());
+    all.extend(repeated::inputs());
     all
 }
 

@@ -31,6 +31,8 @@ pub enum Role {
     PostureTurn,
     /// FP=: the number of a fixed point.
     FixedPoint,
+    /// FGREF[A]=: the radius at which a rotary axis counts for the feed.
+    FeedReference,
     /// Feed F.
     Feed,
     /// Spindle speed S.

@@ -6,6 +6,7 @@ pub mod along;
 pub mod arc;
 pub mod math;
 pub mod plane;
+pub mod spline;
 
 /// A vector or point in three dimensions, mm where it is a length.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -79,6 +79,7 @@ pub(crate) fn meaning(dialect: &Dialect, word: &str) -> String {
         Some(Role::PostureStatus) => "which posture",
         Some(Role::PostureTurn) => "which turn of the rotary axes",
         Some(Role::FixedPoint) => "number of the fixed point",
+        Some(Role::FeedReference) => "radius at which the rotary axis counts for the feed",
         Some(Role::Feed) => "feed",
         Some(Role::Speed) => "spindle speed",
         Some(Role::Tool) => "tool",

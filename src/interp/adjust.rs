@@ -1,5 +1,5 @@
 //! How a control interprets words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
-use crate::codes::{BlockCodes, Found, dwell_reads, not_modelled};
+use crate::codes::{Found, dwell_reads};
 use crate::core::LINEAR;
 use crate::core::Report;
 use crate::iso::Iso;
@@ -11,30 +11,6 @@ use trunnion_dialect::{Action, Role};
 const INCREMENTS: [(u8, usize); 4] = [(b'U', 0), (b'V', 1), (b'W', 2), (b'H', 5)];
 
 impl Iso<'_> {
-    /// G10.9: X1 makes X a diameter, X0 a radius (Fanuc Series 30i operator's manual, switching of diameter and radius programming).
-    pub(crate) fn diameter_switch(
-        &mut self,
-        found: &Found<'_>,
-        words: &Words,
-        block: &mut BlockCodes,
-        report: &mut Report<'_>,
-    ) {
-        block.takes_coordinates = true;
-        let x = words.axes.get(0);
-        match x {
-            Some(value)
-                if self.core.dialect.quirks.diameter && (value == 0.0 || value == 1.0) && words.axes.given == 1 =>
-            {
-                self.memory.diameter = Some(value == 1.0);
-            }
-            _ => {
-                not_modelled(found, report);
-                self.core.unknown.for_good();
-                self.core.forget_position();
-            }
-        }
-    }
-
     /// Replaces the words of the block by their meaning.
     #[cold]
     pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words, report: &mut Report<'_>) {
@@ -54,10 +30,7 @@ impl Iso<'_> {
             Some(ImplicitDecimals::Calculator) => words.axes.point |= words.axes.given,
             None => {}
         }
-        let diameter = self.memory.diameter.unwrap_or(self.core.dialect.quirks.diameter);
-        if diameter && !has(Action::Dwell) && !has(Action::DiameterSwitch) {
-            words.axes.values[0] *= 0.5;
-        }
+        self.x_as_radius(codes, words, report);
         self.core.drawing_words(codes, words);
     }
 

@@ -29,6 +29,8 @@ pub(crate) struct ArcSetting<'a> {
     pub(crate) end: Position,
     /// Further full turns; `None`: unknown.
     pub(crate) turns: Option<u32>,
+    /// X is that of a lathe.
+    pub(crate) lathe: bool,
 }
 
 /// An arc, as far as it is known, and what is wrong with it.
@@ -66,8 +68,7 @@ fn ends(setting: &ArcSetting<'_>, axes: [usize; 3]) -> Option<(Vec3, Vec3, bool)
         end[axis] = setting.end.get(axis).unwrap_or(0.0);
     }
     let height = 1u16 << axes[2];
-    let level =
-        setting.dialect.quirks.diameter && axes[2] == 1 && (setting.start.known | setting.end.known) & height == 0;
+    let level = setting.lathe && axes[2] == 1 && (setting.start.known | setting.end.known) & height == 0;
     let whole = setting.start.xyz().is_some() && setting.end.xyz().is_some();
     Some((start, end, whole || level))
 }

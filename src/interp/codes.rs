@@ -113,6 +113,9 @@ impl<'d> Iso<'d> {
         }
         self.speed_word(codes, words);
         self.tool_word(words, report);
+        if self.writes_feed_reference() {
+            self.feed_references(report);
+        }
         for found in rest {
             self.apply_code(found, words, &mut block, report);
         }

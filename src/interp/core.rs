@@ -62,6 +62,8 @@ pub(crate) struct Core<'d> {
     pub(crate) turned: u16,
     /// Axes that are always at 0.
     pub(crate) standing: crate::standing::Standing,
+    /// Coordinates along X are radii, whatever the machine file says about words.
+    pub(crate) radii: bool,
     /// What A and C of a lathe mean.
     pub(crate) drawing: crate::drawing::Drawing,
 }
@@ -131,6 +133,7 @@ impl<'d> Core<'d> {
             proper_end: false,
             standing,
             drawing: crate::drawing::Drawing::new(dialect, setup),
+            radii: dialect.quirks.diameter,
         }
     }
 
@@ -285,12 +288,12 @@ impl<'d> Core<'d> {
             feed,
             spindle_on: state.spindle.on(),
             spindle_rpm: state.spindle.rpm(),
-            spin: spin(state, self.dialect.quirks.diameter, kind, [&start, &end]),
+            spin: spin(state, self.radii, kind, [&start, &end]),
             zero: state.zero.values(),
             tool_length_mm: state.length.mm().unwrap_or(0.0),
             undeclared: state.undeclared(),
             machine_coordinates: false,
-            radii: self.dialect.quirks.diameter,
+            radii: self.radii,
             tool: state.tool.number(),
             tilt: Tilt::default(),
             effects: self.effects.count(),

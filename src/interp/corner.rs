@@ -166,7 +166,7 @@ impl Iso<'_> {
         let lost = self.memory.corners.lost.take();
         let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
         let ways = flat(&before.0, axes).zip(flat(&next.0, axes));
-        let lathe = self.core.dialect.quirks.diameter && axes[2] == 1;
+        let lathe = self.core.radii && axes[2] == 1;
         let no_height = lathe && before.0.end.get(1).is_none() && next.0.end.get(1).is_none();
         let feeds = [(&before, waiting.feed), (&*next, self.memory.corners.feed)].map(corner_feed);
         let fed = !tolerant || feeds[0] == feeds[1];

@@ -238,6 +238,7 @@ impl Iso<'_> {
             start,
             end,
             turns: self.turns(words),
+            lathe: self.core.radii,
         };
         if self.is_spiral(words) {
             let what = "a spiral or cone: Q or L in the block of an arc".to_owned();

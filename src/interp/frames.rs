@@ -260,6 +260,10 @@ impl<'d> Iso<'d> {
             }
             Action::ReferenceStore => self.store_reference(0),
             Action::ReferenceStoreOther => self.store_reference(1),
+            Action::FeedGroup => self.feed_group(found, report),
+            Action::DiameterOn | Action::DiameterAbsolute | Action::DiameterOff => {
+                self.diameter_code(found, words, block, report);
+            }
             Action::DiameterSwitch => self.diameter_switch(found, words, block, report),
             Action::ReturnInitial => self.memory.cycle.to_r = false,
             Action::ReturnToR => (self.memory.cycle.to_r, self.memory.cycle.to_level) = (true, false),

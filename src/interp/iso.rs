@@ -2,6 +2,7 @@
 
 mod engine;
 mod grbl;
+mod put_out;
 mod signs;
 mod spindle;
 mod whole;
@@ -11,6 +12,7 @@ pub(crate) use engine::Iso;
 use crate::Sink;
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
+use crate::diameter::XWords;
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::Action;
@@ -60,7 +62,12 @@ impl<'d> Iso<'d> {
                 self.core.last_content = Some(block.id());
             }
             if words.has_content && !self.core.state.ended {
-                if self.core.dialect.quirks.diameter || self.core.setup.control.implicit_decimals.is_some() {
+                let switches = |found: &Found<'_>| XWords::is_set_by(found.code.action);
+                if self.core.dialect.quirks.diameter
+                    || self.core.setup.control.implicit_decimals.is_some()
+                    || self.memory.x_words != XWords::AsDeclared
+                    || codes.iter().any(switches)
+                {
                     self.adjust(&codes, &mut words, &mut report);
                 }
                 self.run_block(&mut codes, &words, &mut report)
@@ -119,65 +126,6 @@ impl<'d> Iso<'d> {
         over
     }
 
-    /// Emits the motions of a block.
-    #[inline]
-    fn put_out(&mut self, motion: Option<&Motion>, block: &Block<'_>, sink: &mut impl Sink) {
-        let memory = &self.memory;
-        if memory.compensation.is_busy() || !memory.compensation.ready.is_empty() || memory.corners.is_busy() {
-            self.put_out_compensated(motion, block, sink);
-            return;
-        }
-        if !self.memory.out.is_empty() {
-            for motion in &self.memory.out {
-                sink.motion(&self.untilted(motion), &self.core.state);
-            }
-            self.memory.out.clear();
-        }
-        if let Some(motion) = motion {
-            sink.motion(&self.untilted(motion), &self.core.state);
-        }
-    }
-
-    /// The same while cutter compensation holds motions back.
-    #[cold]
-    fn put_out_compensated(&mut self, motion: Option<&Motion>, block: &Block<'_>, sink: &mut impl Sink) {
-        let mut report = Report {
-            program: block.program(),
-            block: block.id(),
-            record: None,
-            faults: &mut |fault| sink.fault(fault),
-        };
-        let out = std::mem::take(&mut self.memory.out);
-        let mut on = Vec::new();
-        for motion in out.iter().chain(motion) {
-            self.round_corner(motion, &mut on, &mut report);
-        }
-        if self.core.state.ended {
-            self.end_corners(&mut on, &mut report);
-        }
-        for told in on {
-            if self.memory.compensation.is_busy() {
-                self.compensate(told, &mut report);
-            } else {
-                self.memory.compensation.ready.push(told);
-            }
-        }
-        if self.core.state.ended {
-            self.end_compensation(&mut report);
-        }
-        for (motion, state) in std::mem::take(&mut self.memory.compensation.ready) {
-            sink.motion(&self.untilted(&motion), &state);
-        }
-    }
-
-    /// What is pending at the end of a program without an end code.
-    pub(crate) fn put_out_rest(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
-        if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
-            self.core.state.ended = true;
-            self.put_out_compensated(None, block, sink);
-        }
-    }
-
     /// The second `%`, or one after content, ends the text.
     fn percent(&mut self, words: &Words) {
         if words.percent.is_some() {
@@ -216,9 +164,7 @@ impl<'d> Iso<'d> {
             }
             return None;
         }
-        if self.memory.own.pole.is_some() {
-            self.at_last_pole();
-        }
+        self.spline_before(codes, words, report);
         let block = self.apply(codes, words, report);
         let replaced;
         let words = if self.memory.own.path.any() {
@@ -323,9 +269,9 @@ impl<'d> Iso<'d> {
         if modal == Some(Action::NotModelled)
             && let Some(spline) = self.spline(codes, words, block)
         {
-            return Some(self.spline_motion(spline, words, block, report));
+            return self.spline_motion(spline, words, block, report);
         }
-        self.memory.own.pole = None;
+        self.memory.own.splines.pole = None;
         if modal == Some(Action::Polynomial) && !by_vector {
             return Some(self.polynomial_motion(words, block, report));
         }

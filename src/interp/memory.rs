@@ -27,8 +27,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) in_contour: bool,
     /// First blocks of contours whose faults were reported.
     pub(crate) contours_reported: Vec<u32>,
-    /// X by G10.9: a diameter, or a radius.
-    pub(crate) diameter: Option<bool>,
+    /// What X words are.
+    pub(crate) x_words: crate::diameter::XWords,
     /// A tool vector has turned the rotary axes.
     pub(crate) led_by_vector: bool,
     /// It was reported that no code loads the tool that T selected.

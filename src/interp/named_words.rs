@@ -14,7 +14,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         if name.first() == Some(&b'#') && self.macro_assignment(range, word) {
             return;
         }
-        if self.frame_word(range, word) || self.polynomial(name, word) {
+        if self.frame_word(range, word) || self.polynomial(name, word) || self.spline_word(name, word) {
             return;
         }
         self.system_word(name, word.range);
@@ -35,6 +35,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 }
                 (self.report)(word.range, FaultKind::NotModelled { what });
             }
+            (Some(Role::FeedReference), _) => self.feed_reference(index, word),
             (Some(role), _) => self.role_word(role, b' ', word),
             (None, Some(b',')) if self.corner(stem, word) => {}
             (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),

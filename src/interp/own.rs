@@ -111,10 +111,10 @@ pub(crate) struct Own {
     pub(crate) polynomial: crate::sinumerik::PolynomialWords,
     /// What path words of blocks before leave behind.
     pub(crate) contour: crate::sinumerik::Contour,
-    /// The kind of spline, where the motion in effect is one.
-    pub(crate) spline: Option<crate::sinumerik::Spline>,
-    /// The last pole of a B-spline, where it ends if it does not go on.
-    pub(crate) pole: Option<crate::Position>,
+    /// The spline that runs.
+    pub(crate) splines: crate::sinumerik::Splines,
+    /// Along which axes F is measured.
+    pub(crate) feed_group: crate::sinumerik::FeedGroup,
     /// The subprogram of MCALL, and how many calls were open there.
     pub(crate) modal: Option<(crate::flow::Calling, usize)>,
     /// How many calls are open.
@@ -140,6 +140,7 @@ impl Own {
     pub(crate) fn begin_block(&mut self) {
         self.fresh.clear();
         self.written_frames.clear();
+        self.splines.words = crate::sinumerik::SplineWords::default();
         if self.path.any() {
             self.path = crate::sinumerik::PathWords::default();
         }

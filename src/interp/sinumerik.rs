@@ -4,7 +4,9 @@
 //! subprograms 3.2.2 and 3.2.3; "check structures are found by a search for their keywords while the program runs". What is not documented
 //! there (a jump into a loop, out of a repeated section, which of two labels REPEAT takes) is not decided here.
 mod call;
+mod course;
 mod curve;
+mod feed_group;
 mod frame_value;
 mod high_speed;
 mod index;
@@ -21,11 +23,12 @@ mod words;
 
 pub(crate) use crate::frames::FrameValue;
 pub(crate) use call::{Level, With, declare_parameters, too_deep};
+pub(crate) use feed_group::FeedGroup;
 pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
 pub(crate) use polynomial::PolynomialWords;
-pub(crate) use spline::Spline;
+pub(crate) use spline::{Spline, SplineWords, Splines};
 pub(crate) use text::Text;
 
 use crate::flow::Index;

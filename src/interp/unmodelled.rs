@@ -17,7 +17,9 @@ impl<'d> Iso<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        not_modelled(found, report);
+        if !self.is_followed_spline(found) {
+            not_modelled(found, report);
+        }
         block.not_modelled = true;
         if found.code.kind == CodeKind::Name && found.with_arguments {
             // a cycle is a program of the control: it may leave other settings behind

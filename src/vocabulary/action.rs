@@ -289,6 +289,14 @@ actions! {
     ProgrammableFrame = "programmable-frame",
     /// G110, G111, G112: pole of the polar coordinates AP, RP.
     Pole = "pole",
+    /// FGROUP: the axes along which F is measured.
+    FeedGroup = "feed-group",
+    /// DIAMON: X is a diameter.
+    DiameterOn = "diameter-on",
+    /// DIAM90: absolute X words are diameters, distances along X are radii.
+    DiameterAbsolute = "diameter-absolute",
+    /// DIAMOF: X is a radius.
+    DiameterOff = "diameter-off",
 }
 
 impl Action {

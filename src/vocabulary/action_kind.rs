@@ -62,6 +62,10 @@ impl Action {
                     | Self::FrameChange
                     | Self::FrameLost
                     | Self::DiameterSwitch
+                    | Self::DiameterOn
+                    | Self::DiameterAbsolute
+                    | Self::DiameterOff
+                    | Self::FeedGroup
                     | Self::ProgrammableShift
                     | Self::ProgrammableFrame
                     | Self::FrameReset

@@ -170,6 +170,13 @@ pub enum FrameAngles {
     Euler,
 }
 
+/// Over which parameter the splines of a Sinumerik run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SplineReading {
+    /// ASPLINE and CSPLINE over the lengths of their chords, CSPLINE without curvature at its ends; BSPLINE with evenly spaced knots.
+    ChordLength,
+}
+
 /// How a rotary axis of the machine turns the tool against the workpiece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryTurn {
@@ -227,6 +234,8 @@ pub struct ControlData {
     pub roll_pitch_yaw: Option<RollPitchYaw>,
     /// In which order ROT and CROT of a Sinumerik turn about several axes; `None`: not declared, such frames are unknown.
     pub frame_angles: Option<FrameAngles>,
+    /// Over which parameter ASPLINE, BSPLINE and CSPLINE run; `None`: not declared, their paths are unknown.
+    pub splines: Option<SplineReading>,
     /// Whether the first incremental coordinate after another zero point or frame travels the change too (Sinumerik setting data 42440
     /// FRAME_OFFSET_INCR_PROG); `None`: not declared, where such a coordinate leads is unknown.
     pub increment_adds_frame: Option<bool>,

@@ -6,7 +6,7 @@ use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
 use trunnion_interp::{
-    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape,
+    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape, SplineReading,
 };
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
@@ -56,6 +56,7 @@ tags! { OuterCorner { Lines = 1, Arc = 2 } }
 tags! { RollPitchYaw { Fixed = 1, Turned = 2 } }
 
 tags! { FrameAngles { RollPitchYaw = 1, Euler = 2 } }
+tags! { SplineReading { ChordLength = 1 } }
 tags! { RefitSource { Points = 1, Chords = 2 } }
 tags! { PostureCost { Travel = 1, Time = 2, Deviation = 3 } }
 
@@ -64,7 +65,7 @@ tags! {
         BlockNumber = 1, ProgramNumber = 2, G = 3, M = 4, Axis = 5, ArcCentre = 6, ArcRadius = 7, ArcTurns = 8, ToolVector = 9,
         PostureStatus = 10, PostureTurn = 11, Feed = 12, Speed = 13, Tool = 14, LengthOffset = 15, EdgeOffset = 16,
         Parameter = 17, Increment = 18, Variable = 19, NotFollowed = 20, NotModelled = 21, PathWord = 22,
-        FeedOverride = 23, RapidOverride = 24, FixedPoint = 25,
+        FeedOverride = 23, RapidOverride = 24, FixedPoint = 25, FeedReference = 26,
     }
 }
 
@@ -91,5 +92,6 @@ tags! {
         OrientationVector = 107, PointToPoint = 108, PointToPointRapid = 109, ContinuousPath = 110,
         ArcThroughPoint = 111, ArcTangent = 112, ProgrammableFrame = 113, Pole = 114, WorkSystem = 115,
         WorkSystemOnce = 116, Polynomial = 117, ReturnLevel = 118, ReturnToLevel = 119, FixedPoint = 120,
+        FeedGroup = 121, DiameterOn = 122, DiameterAbsolute = 123, DiameterOff = 124,
     }
 }

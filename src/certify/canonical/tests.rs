@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{
     ClampCodes, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape, Setup,
-    TcpCodes, Tool, ToolShape, WorkOffset,
+    SplineReading, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 use trunnion_machine::{Criterion, Gantry, Limits, Machine, PoleAction, PostureRule, RapidPath, Wrap};
 
@@ -52,11 +52,8 @@ fn read(bytes: &[u8]) -> Result<&[u8], String> {
         }
         _ => return Err(format!("marker {marker} with {length} bytes")),
     };
-    if left.is_empty() {
-        Ok(rest)
-    } else {
-        Err(format!("{} bytes left in a value of marker {marker}", left.len()))
-    }
+    let all = left.is_empty().then_some(rest);
+    all.ok_or_else(|| format!("{} bytes left in a value of marker {marker}", left.len()))
 }
 
 fn well_formed(value: &impl Encode) {
@@ -217,6 +214,7 @@ fn every_fact_of_a_setup_counts() {
             |s| s.control.roll_pitch_yaw = Some(RollPitchYaw::Turned),
             |s| s.control.frame_angles = Some(FrameAngles::RollPitchYaw),
             |s| s.control.frame_angles = Some(FrameAngles::Euler),
+            |s| s.control.splines = Some(SplineReading::ChordLength),
             |s| s.control.increment_adds_frame = Some(true),
             |s| s.control.increment_adds_frame = Some(false),
             |s| s.control.increment_adds_length = Some(true),

@@ -6,7 +6,7 @@ use toml::Spanned;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
     AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position,
-    RollPitchYaw, RoughingEscape, TcpCodes,
+    RollPitchYaw, RoughingEscape, SplineReading, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -42,6 +42,12 @@ enum Angles {
 enum Order {
     Rpy,
     Euler,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Splines {
+    ChordLength,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -91,6 +97,7 @@ pub(super) struct FileControl {
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
     frame_angles: Option<Order>,
+    splines: Option<Splines>,
     increment_adds_frame: Option<bool>,
     increment_adds_length: Option<bool>,
     tcp_codes: Option<Codes>,
@@ -170,6 +177,7 @@ impl FileControl {
                 Order::Rpy => FrameAngles::RollPitchYaw,
                 Order::Euler => FrameAngles::Euler,
             }),
+            splines: self.splines.map(|Splines::ChordLength| SplineReading::ChordLength),
             increment_adds_frame: self.increment_adds_frame,
             increment_adds_length: self.increment_adds_length,
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {

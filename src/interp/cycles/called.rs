@@ -209,7 +209,7 @@ impl Iso<'_> {
                 None => false,
             },
             _ => false,
-        };
+        } || axis == 0 && self.program_sets_diameters();
         let other_mode = match call.modes {
             Modes::None => false,
             Modes::Depth { plane, .. } => plane.is_some_and(|plane| plane != self.core.state.coordinates.plane()),

@@ -222,7 +222,7 @@ impl Iso<'_> {
 
     /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: unknown.
     pub(super) fn allowance(&self, words: &Words) -> Option<[f64; 2]> {
-        let diameter = self.memory.diameter.unwrap_or(self.core.dialect.quirks.diameter);
+        let diameter = self.distances_are_diameters();
         let [x, z] = self.lengths(words)?;
         Some([x * if diameter { 0.5 } else { 1.0 }, z])
     }

@@ -191,7 +191,9 @@ impl Iso<'_> {
         let place = self.memory.frames.programmed(&position);
         let here = place.get(a).zip(place.get(b)).map(|(a, b)| [a / unit, b / unit]);
         // another call that is modal may run at each hole
-        let unknown_call = self.core.state.motion == Some(Action::CannedCycle) || words.axes.any();
+        let unknown_call = self.core.state.motion == Some(Action::CannedCycle)
+            || words.axes.any()
+            || a.min(b) == 0 && self.program_sets_diameters();
         let places = match Row::of(&found.code.id, numbers).filter(|_| !unknown_call) {
             Some(row) => row.places(here),
             None => Places::Unknown,

@@ -106,7 +106,12 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         {
             Sort::Setting("speed limit")
         }
-        Action::NoMotion | Action::PathMode | Action::DiameterSwitch => match code.group.as_deref() {
+        Action::NoMotion
+        | Action::PathMode
+        | Action::DiameterSwitch
+        | Action::DiameterOn
+        | Action::DiameterAbsolute
+        | Action::DiameterOff => match code.group.as_deref() {
             None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
             // the limits that it writes stay
             Some("stroke-check") if words.axes.any() => Sort::Before,

@@ -237,7 +237,8 @@ impl Iso<'_> {
         }
         let motion = self.core.state.motion;
         let through = motion == Some(Action::ArcThroughPoint) && words.axes.any();
-        if path.through.any() && !through || block.not_modelled {
+        let open = path.through.any() && self.program_sets_diameters();
+        if path.through.any() && !through || open || block.not_modelled {
             return None;
         }
         if path.polar.any() {

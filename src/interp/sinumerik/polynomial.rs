@@ -18,12 +18,12 @@ use trunnion_geometry::Vec3;
 use trunnion_syntax::{TextRange, Word};
 
 /// How far the lines leave the path at most, mm.
-const CHORD_MM: f64 = 1e-5;
+pub(super) const CHORD_MM: f64 = 1e-5;
 /// Halvings of a block, and lines of it.
 const MOST_HALVINGS: u32 = 24;
-const MOST_LINES: usize = 20_000;
+pub(super) const MOST_LINES: usize = 20_000;
 /// Coefficients of a polynomial of degree 5.
-const N: usize = 6;
+pub(super) const N: usize = 6;
 
 /// A PO word: its first number and the coefficients from a2 on.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,9 +38,9 @@ pub(crate) struct PolynomialWords {
     axes: [Option<Coefficients>; 3],
     denominator: Option<Coefficients>,
     /// PL.
-    length: Option<f64>,
+    pub(super) length: Option<f64>,
     /// A value is not known, or belongs to another axis.
-    unread: bool,
+    pub(super) unread: bool,
 }
 
 impl PolynomialWords {
@@ -157,7 +157,7 @@ fn bernstein(powers: [f64; N]) -> [f64; N] {
 }
 
 /// A piece of the curve: numerators of X, Y, Z and the denominator at its Bernstein points.
-type Piece = [[f64; 4]; N];
+pub(super) type Piece = [[f64; 4]; N];
 
 /// Both halves (de Casteljau).
 fn halves(piece: &Piece) -> [Piece; 2] {
@@ -200,7 +200,7 @@ fn is_flat(piece: &Piece) -> bool {
 }
 
 /// The ends of the lines; `None`: the denominator has a zero, or there are too many. `looked_at` counts the pieces.
-fn lines(whole: &Piece, looked_at: &mut u64) -> Option<Vec<Vec3>> {
+pub(super) fn lines(whole: &Piece, looked_at: &mut u64) -> Option<Vec<Vec3>> {
     let mut open = vec![(*whole, 0)];
     let mut ends = Vec::new();
     while let Some((piece, depth)) = open.pop() {
@@ -240,6 +240,7 @@ impl Iso<'_> {
             && !words.unknown_code
             && !words.forgets_all
             && (words.axes.given | words.axes.unread) & !LINEAR == 0
+            && !self.program_sets_diameters()
             && self.core.state.compensation == 0
             && !self.core.state.coordinates.incremental()
             && !self.core.state.tool_axis.tcp()

@@ -66,7 +66,7 @@ impl Iso<'_> {
         let (state, own) = (&self.core.state, &self.memory.own);
         Modes {
             motion: state.motion,
-            spline: own.spline,
+            spline: own.splines.kind,
             coordinates: state.coordinates,
             feed: (state.feed.mode(), state.feed.unit_mm()),
             surface_speed: state.spindle.surface_speed(),
@@ -136,7 +136,7 @@ impl Iso<'_> {
         }
         let (state, own) = (&mut self.core.state, &mut self.memory.own);
         own.changes += 1;
-        own.spline = modes.spline;
+        own.splines.kind = modes.spline;
         own.contour.euler = modes.euler;
         own.contour.heading_is_lost();
         state.motion = modes.motion;

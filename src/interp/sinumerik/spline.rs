@@ -1,38 +1,130 @@
-//! Splines: ASPLINE and CSPLINE go through the points, BSPLINE ends at its last pole. Their path is not followed: a motion of unknown shape
-//! between ends that are known where they are. Where the knots lie, and how the ends are joined, is not taken from a source.
+//! Splines: ASPLINE and CSPLINE go through their points, those of BSPLINE are poles, and the path ends at the last one.
 //!
-//! Source: Sinumerik 840D sl Programming Manual, Job Planning (07/2010), p. 234: spline interpolation.
+//! Over which parameter a control runs them is in no manual. Where the settings declare it (`[control] splines`), the points of a spline are kept
+//! until it ends, and become lines: see [`super::course`]. Else a motion has an unknown shape between ends that are known where they are.
+//!
+//! Source: Sinumerik 840D sl Programming Manual, Job Planning (07/2010), p. 234: spline interpolation; G groups 19 and 20.
+use super::course::{Course, Point};
 use crate::codes::{BlockCodes, Found};
-use crate::core::{LINEAR, Report};
+use crate::core::{LINEAR, ROTARY, Report};
 use crate::iso::Iso;
+use crate::reader::Reader;
 use crate::words::Words;
-use crate::{Motion, MotionKind};
-use trunnion_dialect::Action;
+use crate::{FaultKind, FeedMode, Motion, MotionKind, SplineReading};
+use trunnion_dialect::{Action, CodeKind};
+use trunnion_syntax::{TextRange, Value, Word};
 
-/// What the points of a spline are.
+/// Points of a spline that are kept.
+const MOST_POINTS: usize = 20_000;
+
+/// How a spline uses its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Spline {
-    /// The path goes through them.
-    Through,
+    /// Through them, by Akima.
+    Akima,
+    /// Through them, with continuous curvature.
+    Cubic,
     /// Poles: the path goes to the first and the last one.
     Poles,
 }
 
 impl Spline {
     /// The one that a code begins.
-    fn of(id: &str) -> Option<Self> {
+    pub(super) fn of(id: &str) -> Option<Self> {
         match id {
-            "ASPLINE" | "CSPLINE" => Some(Self::Through),
+            "ASPLINE" => Some(Self::Akima),
+            "CSPLINE" => Some(Self::Cubic),
             "BSPLINE" => Some(Self::Poles),
             _ => None,
         }
     }
+
+    pub(super) fn id(self) -> &'static str {
+        match self {
+            Self::Akima => "ASPLINE",
+            Self::Cubic => "CSPLINE",
+            Self::Poles => "BSPLINE",
+        }
+    }
 }
 
-impl Iso<'_> {
-    /// A code of the motion group that is not followed: a spline, or another.
+/// PW= and SD= of a block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SplineWords {
+    pub(super) weight: Option<f64>,
+    pub(super) degree: Option<f64>,
+    /// The value of one is not known.
+    pub(super) unread: bool,
+}
+
+/// Ends of splines by BTAN, BAUTO, ETAN and EAUTO, which are not followed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct SplineEnds {
+    begins: bool,
+    ends: bool,
+}
+
+impl SplineEnds {
+    pub(super) fn any(self) -> bool {
+        self.begins || self.ends
+    }
+}
+
+/// What is remembered of splines.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Splines {
+    /// PW and SD of the current block.
+    pub(crate) words: SplineWords,
+    /// The points of the spline that runs, where it is followed.
+    pub(crate) course: Option<Box<Course>>,
+    /// The path of the spline that runs is not known.
+    is_lost: bool,
+    ends: SplineEnds,
+    /// The kind of spline, where the motion in effect is one.
+    pub(crate) kind: Option<Spline>,
+    /// The last pole of a B-spline, where it ends if it does not go on.
+    pub(crate) pole: Option<crate::Position>,
+}
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// PW= and SD=. False: another word.
+    pub(crate) fn spline_word(&mut self, name: &[u8], word: &Word) -> bool {
+        let is_weight = name.eq_ignore_ascii_case(b"PW");
+        if !is_weight && !name.eq_ignore_ascii_case(b"SD") || self.own.is_none() {
+            return false;
+        }
+        self.words.has_values = true;
+        let value = match word.value {
+            Value::Number(decimal) => Some(decimal.to_f64()),
+            _ => self.own_number(word.value_range).map(|number| number.value),
+        };
+        if let Some(own) = self.own.as_mut() {
+            let words = &mut own.splines.words;
+            words.unread |= value.is_none();
+            if is_weight {
+                words.weight = value;
+            } else {
+                words.degree = value;
+            }
+        }
+        true
+    }
+}
+
+impl<'d> Iso<'d> {
+    /// Whether the settings say how splines run.
+    pub(crate) fn follows_splines(&self) -> bool {
+        self.core.setup.control.splines == Some(SplineReading::ChordLength)
+    }
+
+    /// Whether a code of the motion group begins a spline that is followed.
+    pub(crate) fn is_followed_spline(&self, found: &Found<'_>) -> bool {
+        self.follows_splines() && Spline::of(&found.code.id).is_some()
+    }
+
+    /// A code of the motion group that is not modelled: a spline, or another.
     pub(crate) fn spline_begins(&mut self, id: &str) {
-        self.memory.own.spline = Spline::of(id);
+        self.memory.own.splines.kind = Spline::of(id);
     }
 
     /// The spline to which the motion of a block belongs.
@@ -40,7 +132,8 @@ impl Iso<'_> {
         let spline = self
             .memory
             .own
-            .spline
+            .splines
+            .kind
             .filter(|_| self.core.state.motion == Some(Action::NotModelled))?;
         let other = |found: &Found<'_>| {
             found.code.action == Action::NotModelled && found.code.group.as_deref() != self.motion_group()
@@ -49,35 +142,208 @@ impl Iso<'_> {
         (plain && !words.polynomial && !block.machine_coordinates && !codes.iter().any(other)).then_some(spline)
     }
 
-    /// Before a block: a B-spline that ended there is at its last pole.
-    pub(crate) fn at_last_pole(&mut self) {
-        if let Some(pole) = self.memory.own.pole {
+    /// Before the codes of a block act: a B-spline that ended there is at its last pole; whether one that is followed goes on, ends here, or is lost.
+    #[inline]
+    pub(crate) fn spline_before(&mut self, codes: &[Found<'d>], words: &Words, report: &mut Report<'_>) {
+        if self.core.setup.control.splines.is_some() {
+            self.followed_spline_before(codes, words, report);
+        }
+        if let Some(pole) = self.memory.own.splines.pole {
             self.core.state.position = pole;
         }
     }
 
-    /// A motion of unknown shape to the programmed end.
+    fn followed_spline_before(&mut self, codes: &[Found<'d>], words: &Words, report: &mut Report<'_>) {
+        for found in codes {
+            let ends = &mut self.memory.own.splines.ends;
+            match found.code.id.as_str() {
+                "BNAT" => ends.begins = false,
+                "BTAN" | "BAUTO" => ends.begins = true,
+                "ENAT" => ends.ends = false,
+                "ETAN" | "EAUTO" => ends.ends = true,
+                _ => {}
+            }
+        }
+        let own = &self.memory.own;
+        if own.splines.course.is_none() && !own.splines.is_lost {
+            return;
+        }
+        let spline = own.splines.kind;
+        let group = self.motion_group();
+        let of_motion = |found: &Found<'_>| group.is_some() && found.code.group.as_deref() == group;
+        let same = |found: &Found<'_>| spline.is_some() && Spline::of(&found.code.id) == spline;
+        let other_motion = |found: &Found<'_>| of_motion(found) && !same(found);
+        let ends = |found: &Found<'_>| other_motion(found) || found.code.action == Action::ProgramEnd;
+        let harmless = |found: &Found<'_>| {
+            let action = found.code.action;
+            let spindle = matches!(
+                action,
+                Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop
+            );
+            let words = matches!(action, Action::Absolute | Action::Incremental | Action::PathMode);
+            // functions of the machine, and names that only set something
+            let quiet = action == Action::NoMotion && (found.code.kind != CodeKind::G || !found.with_arguments);
+            spindle || words || quiet
+        };
+        if codes.iter().any(ends) {
+            self.spline_ends(report);
+            self.memory.own.splines.is_lost = false;
+            return;
+        }
+        let other = codes.iter().find(|found| !same(found) && !harmless(found));
+        let changes = words.forgets_all || words.writes_system || words.unknown_code || words.flow;
+        if let Some(found) = other {
+            let why = format!("{} between its points", found.code.id);
+            self.spline_is_lost(&why, report);
+        } else if changes {
+            self.spline_is_lost("what stands between its points", report);
+        }
+    }
+
+    /// A motion of unknown shape to the programmed end, or none where the spline is followed: it comes with its end.
     pub(crate) fn spline_motion(
         &mut self,
         spline: Spline,
         words: &Words,
         block: &BlockCodes,
         report: &mut Report<'_>,
-    ) -> Motion {
-        let goes_on = self.memory.own.pole.take().is_some();
+    ) -> Option<Motion> {
+        let goes_on = self.memory.own.splines.pole.take().is_some();
+        let state = self.follows_splines().then(|| self.core.state.clone());
         self.core.state.motion = Some(Action::Linear);
-        let mut motion = self.modelled_motion(words, block, report);
+        let motion = self.modelled_motion(words, block, report);
         self.core.state.motion = Some(Action::NotModelled);
-        motion.kind = MotionKind::Unknown;
         self.memory.own.contour.heading_is_lost();
+        if let Some(state) = state.filter(|_| !self.memory.own.splines.is_lost) {
+            let said = std::mem::take(&mut self.memory.own.splines.words);
+            let weight = said.weight.unwrap_or(1.0);
+            let point = Point { motion, state, weight };
+            let why = self.why_not_followed(spline, &point, &said, words);
+            let course = self
+                .memory
+                .own
+                .splines
+                .course
+                .get_or_insert_with(|| Box::new(Course::new(spline)));
+            course.points.push(point);
+            if let Some(degree) = said.degree {
+                course.degree = degree;
+            }
+            if let Some(why) = why {
+                self.spline_is_lost(why, report);
+            }
+            return None;
+        }
+        let motion = Self::of_unknown_shape(motion, spline, goes_on);
+        if spline == Spline::Poles {
+            self.memory.own.splines.pole = Some(self.core.state.position);
+            self.core.state.position.known &= !LINEAR;
+        }
+        Some(motion)
+    }
+
+    /// The motion to a point whose path is not known.
+    fn of_unknown_shape(mut motion: Motion, spline: Spline, goes_on: bool) -> Motion {
+        motion.kind = MotionKind::Unknown;
         if spline == Spline::Poles {
             if goes_on {
                 motion.start.known &= !LINEAR;
             }
-            self.memory.own.pole = Some(self.core.state.position);
             motion.end.known &= !LINEAR;
-            self.core.state.position.known &= !LINEAR;
         }
         motion
+    }
+
+    /// Why a point cannot be part of a spline that is followed.
+    fn why_not_followed(
+        &self,
+        spline: Spline,
+        point: &Point,
+        said: &SplineWords,
+        words: &Words,
+    ) -> Option<&'static str> {
+        let (own, state, motion) = (&self.memory.own, &self.core.state, &point.motion);
+        let turns = (3..9).any(|axis| motion.start.get(axis) != motion.end.get(axis));
+        let named = (words.axes.given | words.axes.unread) & (ROTARY | !LINEAR) != 0;
+        let first = own.splines.course.as_ref().and_then(|course| course.points.first());
+        let moved = first.is_some_and(|first| first.motion.zero != motion.zero);
+        let tolerable = |weight: f64| weight > 0.0 && weight <= 3.0;
+        Some(match () {
+            () if motion.start.xyz().is_none() || motion.end.xyz().is_none() => "a point that is not known",
+            () if said.unread => "PW or SD of a value that is not known",
+            () if own.polynomial.length.is_some() || own.polynomial.unread => "PL, the distances between knots",
+            () if !tolerable(point.weight) => "PW outside 0 to 3",
+            () if turns || named || motion.tcp => "with rotary axes or further axes",
+            () if state.compensation != 0 => "under radius compensation",
+            () if state.feed.mode() == FeedMode::InverseTime => "under G93",
+            () if own.path.any() => "with words that give a path",
+            () if moved => "another zero point between its points",
+            () if spline != Spline::Poles && own.splines.ends.any() => "BTAN, BAUTO, ETAN or EAUTO",
+            () if spline != Spline::Poles && self.memory.frames.shape.linear.is_some() => {
+                "in a frame that turns or scales"
+            }
+            () if own
+                .splines
+                .course
+                .as_ref()
+                .is_some_and(|course| course.points.len() >= MOST_POINTS) =>
+            {
+                "more points than are kept"
+            }
+            () => return None,
+        })
+    }
+
+    /// The points read so far, and those that follow up to another motion code, have no known path between them.
+    fn spline_is_lost(&mut self, why: &str, report: &mut Report<'_>) {
+        self.memory.own.splines.is_lost = true;
+        let Some(course) = self.memory.own.splines.course.take() else {
+            return;
+        };
+        let what = format!("{}: {why}", course.kind.id());
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+        self.give_up(&course);
+        if course.kind == Spline::Poles {
+            self.memory.own.splines.pole = Some(self.core.state.position);
+            self.core.state.position.known &= !LINEAR;
+        }
+    }
+
+    /// Its points as motions of unknown shape.
+    fn give_up(&mut self, course: &Course) {
+        for (at, point) in course.points.iter().enumerate() {
+            let motion = Self::of_unknown_shape(point.motion, course.kind, at > 0);
+            self.memory.compensation.ready.push((motion, point.state.clone()));
+        }
+    }
+
+    /// The spline ends at its last point: its lines.
+    pub(crate) fn spline_ends(&mut self, report: &mut Report<'_>) {
+        let Some(course) = self.memory.own.splines.course.take() else {
+            return;
+        };
+        let mut looked_at = 0;
+        let growth = self.memory.frames.most_growth();
+        let lines = (!self.is_full())
+            .then(|| course.lines(growth, &mut looked_at))
+            .flatten();
+        self.cycle_motions.add_in_vain(looked_at);
+        let Some(lines) = lines else {
+            let why = if self.is_full() {
+                self.full()
+            } else {
+                "too few points for its degree, two at one place, a degree other than 2 and 3, or too many lines"
+                    .to_owned()
+            };
+            let what = format!("{}: {why}", course.kind.id());
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+            self.give_up(&course);
+            return;
+        };
+        for (motion, at) in lines {
+            self.cycle_motions.add();
+            let state = course.points[at].state.clone();
+            self.memory.compensation.ready.push((motion, state));
+        }
     }
 }

@@ -80,6 +80,9 @@ impl Iso<'_> {
         let angles = self.frame_angles(&frame).filter(|_| plain);
         let cutting_on_path = self.core.state.compensation == 0 && !self.memory.corners.is_busy();
         for (axis, letter) in crate::AXIS_LETTERS.iter().enumerate() {
+            if axis == 0 && self.program_sets_diameters() {
+                continue;
+            }
             let linear = crate::core::LINEAR & (1 << axis) != 0;
             let scale = if linear { unit } else { 1.0 };
             let letter = char::from(letter.to_ascii_lowercase());
@@ -109,6 +112,7 @@ impl Iso<'_> {
             .feed
             .value()
             .map(|feed| feed / self.core.state.feed.unit_mm());
+        put(format_args!("$pi"), Some(core::f64::consts::PI));
         put(format_args!("$p_f"), feed);
         let spindle = &self.core.state.spindle;
         put(

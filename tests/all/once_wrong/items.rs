@@ -120,13 +120,17 @@ pub(super) const ITEMS: &[Item] = &[
         [1, 3],
     ),
     (
-        "DIAMON",
-        ["sinumerik-840d", ""],
+        "DIAMON on a machine whose X words are no diameters",
+        ["sinumerik-840d", "mill-4axis-a"],
         [
             "",
             "G18 G90 G95 G71 G54\nDIAMON\nS1000 M3\nG0 X40 Z2\nG1 Z-10 F0.2\nM30\n",
         ],
-        &["2 unknown not-modelled"],
+        &[
+            "2 unknown not-modelled",
+            "4 unknown position-unknown",
+            "5 unknown position-unknown",
+        ],
         [0, 2],
     ),
     (

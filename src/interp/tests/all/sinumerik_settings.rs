@@ -1,4 +1,4 @@
-//! CYCLE832 in both forms, DIAMOF on a machine whose X words are diameters, positions of the machine as values.
+//! CYCLE832 in both forms, positions of the machine as values.
 use crate::support::{fault_line, faults, lines, run_bytes};
 use trunnion_interp::{Feed, Setup, WorkOffset};
 
@@ -46,17 +46,6 @@ fn the_older_form_of_cycle832_switches_the_transformation() {
             "{told:?}"
         );
     }
-}
-
-#[test]
-fn a_radius_on_a_machine_of_diameters_is_unknown_by_name() {
-    let mut setup = Setup::default();
-    let text = "DIAMOF\nG1 X10 Y2 Z3 F100\n";
-    assert_eq!(run(text, &setup), (vec![(false, true)], vec![]));
-    setup.control.x_diameter = true;
-    let (found, told) = run(text, &setup);
-    assert_eq!(found, [(false, false)]);
-    assert!(told.iter().any(|fault| fault.contains("DIAMOF")), "{told:?}");
 }
 
 /// $AA_IM is known where the zero point and the tool's length are declared, $P_TOOLR where the tool is.

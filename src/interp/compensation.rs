@@ -71,7 +71,7 @@ pub(crate) struct Compensation {
 const MOST_BETWEEN: usize = 10_000;
 
 /// A motion that waits is as large as so many entries of other lists.
-const WAITS: usize = 16;
+pub(crate) const WAITS: usize = 16;
 
 impl Compensation {
     /// How many entries of lists that grow with the program a clone copies.

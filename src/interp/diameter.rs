@@ -33,6 +33,16 @@ impl XWords {
         }
     }
 
+    /// The code by which the program has set them.
+    pub(crate) fn code(self) -> Option<&'static str> {
+        match self {
+            Self::AsDeclared => None,
+            Self::Radius => Some("DIAMOF"),
+            Self::Diameter => Some("DIAMON"),
+            Self::DiameterAbsolute => Some("DIAM90"),
+        }
+    }
+
     /// Whether the code is one of those.
     pub(crate) fn is_set_by(action: Action) -> bool {
         Self::of(action).is_some()

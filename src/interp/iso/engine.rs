@@ -76,7 +76,12 @@ impl<'d> Engine<'d> for Iso<'d> {
                 .status
                 .map(|status| crate::Argument::number("STAT", f64::from(status))),
         );
-        let polar = self.memory.own.contour.numbers();
+        let own = &self.memory.own;
+        data.extend(self.memory.x_words.code().map(crate::Argument::code));
+        data.extend(own.feed_group.data());
+        let waiting = Some(own.splines.waiting()).filter(|waiting| *waiting > 0);
+        data.extend(waiting.map(|points| crate::Argument::number("points of a spline", points as f64)));
+        let polar = own.contour.numbers();
         data.extend(polar.map(|value| crate::Argument::number("", value)));
         data
     }

@@ -34,7 +34,7 @@ impl Own {
             .sum::<usize>()
             + self.task.written.len();
         let names = self.missing.len() + self.declared.len() + self.system.len() + task;
-        declared + values + self.counted_to.len() + self.headed.len() + names
+        declared + values + self.counted_to.len() + self.headed.len() + names + self.splines.copied()
     }
 }
 

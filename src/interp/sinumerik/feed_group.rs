@@ -49,6 +49,22 @@ impl FeedGroup {
         self.measured != Measured::Machine || self.radius_mm != [None; 9]
     }
 
+    /// What the program has set, for comparisons.
+    pub(crate) fn data(&self) -> Vec<Argument> {
+        let axes = match self.measured {
+            Measured::Machine => None,
+            Measured::Axes(axes) => Some(f64::from(axes)),
+            Measured::Unknown => Some(f64::NAN),
+        };
+        let radii = self.radius_mm.iter().zip(AXIS_LETTERS);
+        let radii = radii.filter_map(|(radius, letter)| Some((format!("FGREF {}", char::from(letter)), (*radius)?)));
+        axes.map(|axes| ("FGROUP".to_owned(), axes))
+            .into_iter()
+            .chain(radii)
+            .map(|(name, value)| Argument::number(name, value))
+            .collect()
+    }
+
     /// Why F was not known in a motion; once.
     pub(crate) fn take_open(&mut self) -> Option<FaultKind> {
         let why = self.open.take().filter(|_| !self.is_reported)?;
@@ -170,7 +186,9 @@ impl FeedGroup {
             return Path::Own;
         }
         if unknown & axes != 0 {
-            return Path::Open("FGROUP: what F is in a motion whose ends are not known");
+            return Path::Open(
+                "FGROUP: what F is in a motion whose ends are not known, or whose rotary axis may turn either way",
+            );
         }
         let only_turns = straight & LINEAR == 0 && straight & ROTARY & !axes == 0;
         if only_turns && (0..9).all(|axis| straight & (1 << axis) == 0 || self.radius_mm[axis].is_none()) {

@@ -86,6 +86,18 @@ pub(crate) struct Splines {
     pub(crate) pole: Option<crate::Position>,
 }
 
+impl Splines {
+    /// How many entries of lists that grow with the program a clone copies.
+    pub(crate) fn copied(&self) -> usize {
+        crate::compensation::WAITS * self.waiting()
+    }
+
+    /// Points whose motions wait for the end of their spline.
+    pub(crate) fn waiting(&self) -> usize {
+        self.course.as_ref().map_or(0, |course| course.points.len())
+    }
+}
+
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// PW= and SD=. False: another word.
     pub(crate) fn spline_word(&mut self, name: &[u8], word: &Word) -> bool {

@@ -31,7 +31,7 @@ pub enum Role {
     PostureTurn,
     /// FP=: the number of a fixed point.
     FixedPoint,
-    /// FGREF[A]=: the radius at which a rotary axis counts for the feed.
+    /// `FGREF[A]=`: the radius at which a rotary axis counts for the feed.
     FeedReference,
     /// Feed F.
     Feed,

@@ -2,7 +2,7 @@
 //!
 //! Sources: Fanuc Series 30i operator's manual, lathe system (G10.9); for the Sinumerik two readers of its programs, which agree: NC-PB/gEdit (diameter
 //! on, off, for absolute words only) and the package sinumerik-highlight of Atom. Centres I, J, K and radii stay as they are. Not in them, and not
-//! followed: X of TRANS, of a pole, of POLY, of I=AC(), of I1=, of rows of holes, of $P_EP[X] and the like while X words are diameters.
+//! followed: X of TRANS, of a pole, of POLY, of I=AC(), of I1=, of rows of holes, of `$P_EP[X]` and the like while X words are diameters.
 use crate::FaultKind;
 use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;

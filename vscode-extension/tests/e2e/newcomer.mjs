@@ -53,7 +53,7 @@ await test('without settings the status bar says that there is no machine', asyn
 await test('a click there chooses a machine, and writes it down', async () => {
   await status.click();
   await rows.filter({ hasText: 'mill-3axis' }).first().click();
-  await status.filter({ hasText: 'mill-3axis' }).waitFor({ timeout: 60_000 });
+  await status.filter({ hasText: 'mill-3axis' }).waitFor({ timeout: 20_000 });
   assert.match(readFileSync(`${work}/trunnion.toml`, 'utf8'), /^machine = "mill-3axis"$/m);
 });
 

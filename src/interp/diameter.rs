@@ -125,6 +125,13 @@ impl<'d> Iso<'d> {
         }
     }
 
+    /// X words are again what they were at a call, after a subprogram with SAVE.
+    pub(crate) fn bring_x_words_back(&mut self, was: XWords) {
+        let by_machine = was == XWords::AsDeclared && self.core.setup.control.x_diameter && self.core.radii;
+        // coordinates have become radii since, and the machine still reads diameters
+        self.memory.x_words = if by_machine { XWords::Diameter } else { was };
+    }
+
     /// X of a block as a radius.
     pub(crate) fn x_as_radius(&self, codes: &[Found<'_>], words: &mut Words, report: &mut Report<'_>) {
         let has = |action: Action| codes.iter().any(|found| found.code.action == action);

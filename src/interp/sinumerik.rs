@@ -28,7 +28,7 @@ pub(crate) use index::index;
 pub(crate) use names::files;
 pub(crate) use path::{Contour, PathWords};
 pub(crate) use polynomial::PolynomialWords;
-pub(crate) use spline::{Spline, SplineWords, Splines};
+pub(crate) use spline::{Spline, SplineEnds, SplineWords, Splines};
 pub(crate) use text::Text;
 
 use crate::flow::Index;

@@ -17,8 +17,10 @@ impl<'d> Iso<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        if !self.is_followed_spline(found) {
-            not_modelled(found, report);
+        match Self::undeclared_spline(found) {
+            Some(_) if self.follows_splines() => {}
+            Some(what) => report.fault(found.range, FaultKind::NotModelled { what }),
+            None => not_modelled(found, report),
         }
         block.not_modelled = true;
         if found.code.kind == CodeKind::Name && found.with_arguments {
@@ -73,8 +75,9 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let group = found.code.group.as_deref();
-        if group == Some("diameter") && self.core.setup.control.x_diameter {
-            // DIAMOF on a machine that reads X as a diameter
+        let counts = self.core.setup.control.x_diameter || self.program_sets_diameters();
+        if group == Some("diameter") && counts {
+            // DIAMCYCOF where X words are diameters
             return self.unmodelled_code(found, words, block, report);
         }
         if group == Some("dynamic-offset") && self.memory.frames.dynamic.take().is_some() {

@@ -12,8 +12,8 @@ interface Choice extends vscode.QuickPickItem {
 
 const FILE = '\u0000file';
 
-/** Asks for the machine: those `trunnion machine list` knows, a file, or none. */
-export async function chooseMachine(program: string): Promise<void> {
+/** Asks for the machine: those `trunnion machine list` knows, a file, or none. `changed`: what to do when trunnion.toml has been written. */
+export async function chooseMachine(program: string, changed: (file: vscode.Uri) => Promise<void>): Promise<void> {
   const current = vscode.workspace.getConfiguration('trunnion').get<string>('machine', '') || ((await written()) ?? '');
   const choices: Choice[] = [
     ...(await machines(program)),
@@ -25,9 +25,9 @@ export async function chooseMachine(program: string): Promise<void> {
     const files = await vscode.window.showOpenDialog({ title: 'Machine file', filters: { 'Machine file': ['toml'] } });
     const path = files?.[0]?.fsPath;
     const inside = path !== undefined && firstFolder() !== undefined ? relative(firstFolder() ?? '', path) : path;
-    await use(inside === undefined || inside.startsWith('..') ? path : inside);
+    await use(inside === undefined || inside.startsWith('..') ? path : inside, changed);
   } else {
-    await use(picked);
+    await use(picked, changed);
   }
 }
 
@@ -70,15 +70,16 @@ export function withMachine(text: string, machine: string): string {
 }
 
 /** Writes the machine into the folder's trunnion.toml and clears the setting that would override it; without a folder, into the setting. */
-async function use(machine: string | undefined): Promise<void> {
+async function use(machine: string | undefined, changed: (file: vscode.Uri) => Promise<void>): Promise<void> {
   const file = settingsFile();
   if (machine === undefined || file === undefined) {
     return save('machine', machine);
   }
   const text = (await read(file)) ?? '';
-  const changed = withMachine(text, machine);
-  if (changed !== text) {
-    await vscode.workspace.fs.writeFile(file, new TextEncoder().encode(changed));
+  const anew = withMachine(text, machine);
+  if (anew !== text) {
+    await vscode.workspace.fs.writeFile(file, new TextEncoder().encode(anew));
+    await changed(file);
   }
   await vscode.workspace.getConfiguration('trunnion').update('machine', undefined, vscode.ConfigurationTarget.Workspace);
 }

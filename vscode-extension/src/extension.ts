@@ -1,6 +1,6 @@
 // Starts `trunnion lsp` for G-code and APT programs, and shows what it says about machine and dialect.
 import * as vscode from 'vscode';
-import { LanguageClient, type Range, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
+import { FileChangeType, LanguageClient, type Range, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
 import { Backplot } from './backplot';
 import { chooseDialect, chooseMachine } from './choose';
 import { type Edit, editProgram } from './edits';
@@ -46,7 +46,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<Api> {
     output,
     configs,
     vscode.commands.registerCommand('trunnion.restartServer', restart),
-    vscode.commands.registerCommand('trunnion.chooseMachine', withProgram(chooseMachine)),
+    vscode.commands.registerCommand('trunnion.chooseMachine', withProgram((program) => chooseMachine(program, settingsWritten))),
     vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
     vscode.commands.registerCommand('trunnion.showBackplot', () => backplot.open()),
     vscode.commands.registerCommand('trunnion.compareBackplot', () => backplot.compare()),
@@ -153,6 +153,12 @@ async function stop(): Promise<void> {
   const running = client;
   client = undefined;
   await running?.dispose().catch(() => undefined);
+}
+
+/** Tells the server that trunnion.toml has new text. Watching sees it too, but late or not at all on some file systems. */
+async function settingsWritten(file: vscode.Uri): Promise<void> {
+  const changes = [{ uri: file.toString(), type: FileChangeType.Changed }];
+  await client?.sendNotification('workspace/didChangeWatchedFiles', { changes });
 }
 
 async function checkActiveFile(program: string): Promise<void> {

@@ -67,10 +67,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// Gives a variable the value of a word.
     pub(crate) fn own_value(&mut self, name: &str, word: &Word) {
-        let number = match word.value {
-            Value::Number(decimal) => Some(decimal.to_f64()),
-            _ => self.own_number(word.value_range).map(|number| number.value),
-        };
+        let number = self.value_of(word);
         let text = self.text(word.value_range);
         if let Some(own) = &mut self.own {
             if number.is_none() && own.assign_list(name, &text) {
@@ -98,6 +95,14 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             }
             (Some(own), "EXTERN") => own.declare_subprogram(text.get(6..).unwrap_or_default()),
             _ => {}
+        }
+    }
+
+    /// The number of a word, written or worked out; `None`: not known.
+    pub(crate) fn value_of(&self, word: &Word) -> Option<f64> {
+        match word.value {
+            Value::Number(decimal) => Some(decimal.to_f64()),
+            _ => self.own_number(word.value_range).map(|number| number.value),
         }
     }
 

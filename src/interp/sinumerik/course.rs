@@ -9,6 +9,9 @@ use super::polynomial::{CHORD_MM, N, Piece, lines};
 use crate::{Feed, ModalState, Motion, MotionKind};
 use trunnion_geometry::{Vec3, spline};
 
+/// Why a path is given up that bends too much.
+const TOO_MANY: &str = "more than 20 000 lines";
+
 /// A point as it is programmed.
 #[derive(Clone, Debug)]
 pub(crate) struct Point {
@@ -54,24 +57,24 @@ impl Course {
         }
     }
 
-    /// Its lines, each with the point to whose block it belongs; `None`: it has no path, or too many lines. `growth`: how much a frame stretches
+    /// Its lines, each with the point to whose block it belongs, or why there are none. `growth`: how much a frame stretches
     /// lengths at most; `looked_at` counts the pieces.
-    pub(super) fn lines(&self, growth: f64, looked_at: &mut u64) -> Option<Vec<(Motion, usize)>> {
-        let first = self.points.first()?;
-        let mut places: Vec<Vec3> = vec![first.motion.start.xyz()?];
+    pub(super) fn lines(&self, growth: f64, looked_at: &mut u64) -> Result<Vec<(Motion, usize)>, &'static str> {
+        const UNKNOWN: &str = "a point that is not known";
+        let first = self.points.first().ok_or(UNKNOWN)?;
+        let mut places: Vec<Vec3> = vec![first.motion.start.xyz().ok_or(UNKNOWN)?];
         for point in &self.points {
-            places.push(point.motion.end.xyz()?);
+            places.push(point.motion.end.xyz().ok_or(UNKNOWN)?);
         }
         let pieces = match self.kind {
-            Spline::Akima => spline::akima(&places)?,
-            Spline::Cubic => spline::natural(&places)?,
+            Spline::Akima => spline::akima(&places).ok_or("two points at one place")?,
+            Spline::Cubic => spline::natural(&places).ok_or("two points at one place")?,
             Spline::Poles => {
                 let weights = core::iter::once(1.0).chain(self.points.iter().map(|point| point.weight));
-                let degree = [2, 3].into_iter().find(|degree| f64::from(*degree) == self.degree)?;
-                spline::b_spline(
-                    &places.iter().copied().zip(weights).collect::<Vec<_>>(),
-                    degree as usize,
-                )?
+                let degree = [2_usize, 3].into_iter().find(|degree| *degree as f64 == self.degree);
+                let degree = degree.ok_or("SD other than 2 and 3, or not known")?;
+                spline::b_spline(&places.iter().copied().zip(weights).collect::<Vec<_>>(), degree)
+                    .ok_or("fewer points than its degree needs")?
             }
         };
         let beyond = self.points.len() - pieces.len();
@@ -81,7 +84,7 @@ impl Course {
         for (at, cubic) in pieces.iter().enumerate() {
             // a piece of a B-spline ends with the last pole that bends it
             let point = at + beyond;
-            for place in lines(&raised(cubic), looked_at)? {
+            for place in lines(&raised(cubic), looked_at).ok_or(TOO_MANY)? {
                 let mut motion = self.points[point].motion;
                 motion.kind = MotionKind::Linear;
                 if self.kind == Spline::Poles {
@@ -96,13 +99,14 @@ impl Course {
                 out.push((motion, point));
             }
             if out.len() > super::polynomial::MOST_LINES {
-                return None;
+                return Err(TOO_MANY);
             }
         }
         // exactly where the program says
-        let (last, _) = out.last_mut()?;
-        last.end = self.points.last()?.motion.end;
-        Some(out)
+        if let (Some((last, _)), Some(point)) = (out.last_mut(), self.points.last()) {
+            last.end = point.motion.end;
+        }
+        Ok(out)
     }
 
     /// The feed of all points; unknown where they differ: which part of a B-spline belongs to which block is not known.

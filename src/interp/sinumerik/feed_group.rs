@@ -12,7 +12,7 @@ use crate::{AXIS_LETTERS, Argument, Effect, FaultKind, Feed, Motion, MotionKind,
 use core::f64::consts::PI;
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::Arc;
-use trunnion_syntax::{TextRange, Value, Word};
+use trunnion_syntax::{TextRange, Word};
 
 /// The radius of a rotary axis without FGREF, mm: a degree counts as 1 mm.
 const DEGREE_AS_MM: f64 = 180.0 / PI;
@@ -90,10 +90,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let axis = index
             .strip_prefix('[')
             .and_then(|rest| axis_of(rest.strip_suffix(']')?));
-        let value = match word.value {
-            Value::Number(decimal) => Some(decimal.to_f64()),
-            _ => self.own_number(word.value_range).map(|number| number.value),
-        };
+        let value = self.value_of(word);
         if axis.is_none() || value.is_none_or(|value| value < 0.0) {
             self.not_modelled(word.range);
         }
@@ -124,10 +121,12 @@ fn flat(arc: &Arc) -> Arc {
     }
 }
 
-/// The axes of the plane of an arc, bits as in [`crate::Position::known`]; 0: no arc.
+/// The axes of the plane of an arc, bits as in [`crate::Position::known`]: all three of an arc that is not known; 0: no arc.
 fn plane_of(motion: &Motion) -> u16 {
-    let MotionKind::Arc(Some(arc)) = &motion.kind else {
-        return 0;
+    let arc = match &motion.kind {
+        MotionKind::Arc(Some(arc)) => arc,
+        MotionKind::Arc(None) => return 0b111,
+        _ => return 0,
     };
     (0..3)
         .filter(|&axis| arc.normal[axis] == 0.0)
@@ -176,9 +175,14 @@ impl FeedGroup {
         };
         let turning = axes & ROTARY & (moving | unknown);
         if motion.tcp && axes & ROTARY != 0 && (turning != 0 && motion.great_circle != Some(false) || by_vector) {
-            return Path::Open(
-                "FGROUP with rotary axes, where the tool turns about its tip other than by ORIAXES: what F is",
-            );
+            return match self.turn_of_tool(motion, axes) {
+                Some(turn) if unknown & axes & LINEAR == 0 => self.length(motion, axes & LINEAR, &ways, turn),
+                Some(_) => Path::Open("FGROUP: what F is in a motion whose ends are not known"),
+                None => Path::Open(
+                    "FGROUP with rotary axes, where the tool turns about its tip neither by ORIAXES nor, with two of them, by \
+                     ORIVECT between tool vectors: what F is",
+                ),
+            };
         }
         let straight = moving | unknown | plane_of(motion);
         let as_machine = |axes: u16| straight & LINEAR & !axes == 0 && straight & LINEAR & !0b111 == 0;
@@ -194,7 +198,24 @@ impl FeedGroup {
         if only_turns && (0..9).all(|axis| straight & (1 << axis) == 0 || self.radius_mm[axis].is_none()) {
             return Path::Own;
         }
-        self.length(motion, axes, &ways)
+        self.length(motion, axes, &ways, 0.0)
+    }
+
+    /// The path of the turn of the tool about its tip in a great circle, mm: its angle at the geometric mean of the radii of the two rotary
+    /// axes. Source: Programming Manual, Fundamentals, 11/2006, p. 277, and 07/2010, p. 119 (effective FGREF of a vector interpolation).
+    fn turn_of_tool(&self, motion: &Motion, axes: u16) -> Option<f64> {
+        let Orientation::Vector(Some(before), after) = motion.orientation else {
+            return None;
+        };
+        let radii: Vec<f64> = (0..9)
+            .filter(|axis| axes & ROTARY & (1 << axis) != 0)
+            .map(|axis| self.radius_mm[axis].unwrap_or(DEGREE_AS_MM))
+            .collect();
+        let [first, second] = radii[..] else {
+            return None;
+        };
+        let angle = before.cross(&after).norm().atan2(before.dot(&after));
+        (motion.great_circle == Some(true)).then_some(angle * (first * second).sqrt())
     }
 
     /// Whether no linear axis moves, and a rotary one with an FGREF of its own.
@@ -204,9 +225,9 @@ impl FeedGroup {
         !linear && !motion.tcp && (0..9).any(|axis| self.radius_mm[axis].is_some() && moves(axis))
     }
 
-    /// The path along these axes.
-    fn length(&self, motion: &Motion, axes: u16, ways: &[f64; 9]) -> Path {
-        let mut square = 0.0;
+    /// The path along these axes, and along the turn of the tool, mm.
+    fn length(&self, motion: &Motion, axes: u16, ways: &[f64; 9], turn: f64) -> Path {
+        let mut square = turn * turn;
         let mut left = axes;
         if let MotionKind::Arc(arc) = &motion.kind {
             let Some(arc) = arc else {

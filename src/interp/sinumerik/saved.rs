@@ -4,7 +4,8 @@
 //! Sources: SINUMERIK, Basic Machine, Function Manual, 08/2005, p. 2-108, and Basic Functions, 09/2011, p. 793 (subprograms with SAVE): the
 //! programmable frame and the G function of the settable frame are those of the call; a settable frame whose values the subprogram has
 //! changed under the same G function is a matter of machine data 10617; system frames stay.
-use super::Spline;
+use super::{Spline, SplineEnds};
+use crate::diameter::XWords;
 use crate::effects::Settings;
 use crate::frames::{FrameValue, OffsetValues};
 use crate::iso::Iso;
@@ -42,6 +43,8 @@ struct Modes {
     euler: bool,
     feed_profile: bool,
     feed_mode_unread: bool,
+    x_words: XWords,
+    spline_ends: SplineEnds,
 }
 
 impl Iso<'_> {
@@ -75,6 +78,8 @@ impl Iso<'_> {
             euler: own.contour.euler,
             feed_profile: self.core.feed_profile,
             feed_mode_unread: self.core.feed_mode_unread,
+            x_words: self.memory.x_words,
+            spline_ends: own.splines.ends,
         }
     }
 
@@ -137,6 +142,7 @@ impl Iso<'_> {
         let (state, own) = (&mut self.core.state, &mut self.memory.own);
         own.changes += 1;
         own.splines.kind = modes.spline;
+        own.splines.ends = modes.spline_ends;
         own.contour.euler = modes.euler;
         own.contour.heading_is_lost();
         state.motion = modes.motion;
@@ -150,6 +156,7 @@ impl Iso<'_> {
         self.memory.travel = modes.travel;
         self.core.feed_profile = modes.feed_profile;
         self.core.feed_mode_unread = modes.feed_mode_unread;
+        self.bring_x_words_back(modes.x_words);
     }
 
     /// G functions that only set something, for comparisons.

@@ -6,13 +6,13 @@
 //! Source: Sinumerik 840D sl Programming Manual, Job Planning (07/2010), p. 234: spline interpolation; G groups 19 and 20.
 use super::course::{Course, Point};
 use crate::codes::{BlockCodes, Found};
-use crate::core::{LINEAR, ROTARY, Report};
+use crate::core::{LINEAR, Report};
 use crate::iso::Iso;
 use crate::reader::Reader;
 use crate::words::Words;
 use crate::{FaultKind, FeedMode, Motion, MotionKind, SplineReading};
-use trunnion_dialect::{Action, CodeKind};
-use trunnion_syntax::{TextRange, Value, Word};
+use trunnion_dialect::Action;
+use trunnion_syntax::{TextRange, Word};
 
 /// Points of a spline that are kept.
 const MOST_POINTS: usize = 20_000;
@@ -48,13 +48,11 @@ impl Spline {
     }
 }
 
-/// PW= and SD= of a block.
+/// PW= and SD= of a block; NaN: the value is not known.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SplineWords {
-    pub(super) weight: Option<f64>,
-    pub(super) degree: Option<f64>,
-    /// The value of one is not known.
-    pub(super) unread: bool,
+    weight: Option<f64>,
+    degree: Option<f64>,
 }
 
 /// Ends of splines by BTAN, BAUTO, ETAN and EAUTO, which are not followed.
@@ -75,11 +73,14 @@ impl SplineEnds {
 pub(crate) struct Splines {
     /// PW and SD of the current block.
     pub(crate) words: SplineWords,
+    /// SD of the spline that runs.
+    degree: Option<f64>,
     /// The points of the spline that runs, where it is followed.
     pub(crate) course: Option<Box<Course>>,
     /// The path of the spline that runs is not known.
     is_lost: bool,
-    ends: SplineEnds,
+    /// BTAN and the like.
+    pub(super) ends: SplineEnds,
     /// The kind of spline, where the motion in effect is one.
     pub(crate) kind: Option<Spline>,
     /// The last pole of a B-spline, where it ends if it does not go on.
@@ -106,18 +107,15 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             return false;
         }
         self.words.has_values = true;
-        let value = match word.value {
-            Value::Number(decimal) => Some(decimal.to_f64()),
-            _ => self.own_number(word.value_range).map(|number| number.value),
-        };
+        let value = self.value_of(word);
+        let value = Some(value.unwrap_or(f64::NAN));
         if let Some(own) = self.own.as_mut() {
             let words = &mut own.splines.words;
-            words.unread |= value.is_none();
-            if is_weight {
-                words.weight = value;
+            *(if is_weight {
+                &mut words.weight
             } else {
-                words.degree = value;
-            }
+                &mut words.degree
+            }) = value;
         }
         true
     }
@@ -129,9 +127,13 @@ impl<'d> Iso<'d> {
         self.core.setup.control.splines == Some(SplineReading::ChordLength)
     }
 
-    /// Whether a code of the motion group begins a spline that is followed.
-    pub(crate) fn is_followed_spline(&self, found: &Found<'_>) -> bool {
-        self.follows_splines() && Spline::of(&found.code.id).is_some()
+    /// What to say of a spline whose path is not declared; `None`: another code, or it is followed.
+    pub(crate) fn undeclared_spline(found: &Found<'_>) -> Option<String> {
+        let spline = Spline::of(&found.code.id)?;
+        Some(format!(
+            "{}: the path between its points (declare [control] splines)",
+            spline.id()
+        ))
     }
 
     /// A code of the motion group that is not modelled: a spline, or another.
@@ -176,8 +178,14 @@ impl<'d> Iso<'d> {
                 _ => {}
             }
         }
-        let own = &self.memory.own;
-        if own.splines.course.is_none() && !own.splines.is_lost {
+        let own = &mut self.memory.own;
+        let runs = own.splines.course.is_some() || own.splines.is_lost;
+        let begins = codes.iter().any(|found| Spline::of(&found.code.id).is_some());
+        // SD may stand alone in the block of BSPLINE
+        if own.splines.words.degree.is_some() || begins && !runs {
+            own.splines.degree = own.splines.words.degree;
+        }
+        if !runs {
             return;
         }
         let spline = own.splines.kind;
@@ -187,15 +195,16 @@ impl<'d> Iso<'d> {
         let other_motion = |found: &Found<'_>| of_motion(found) && !same(found);
         let ends = |found: &Found<'_>| other_motion(found) || found.code.action == Action::ProgramEnd;
         let harmless = |found: &Found<'_>| {
-            let action = found.code.action;
-            let spindle = matches!(
-                action,
-                Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop
-            );
-            let words = matches!(action, Action::Absolute | Action::Incremental | Action::PathMode);
-            // functions of the machine, and names that only set something
-            let quiet = action == Action::NoMotion && (found.code.kind != CodeKind::G || !found.with_arguments);
-            spindle || words || quiet
+            matches!(
+                found.code.action,
+                Action::NoMotion
+                    | Action::PathMode
+                    | Action::Absolute
+                    | Action::Incremental
+                    | Action::SpindleClockwise
+                    | Action::SpindleCounterClockwise
+                    | Action::SpindleStop
+            )
         };
         if codes.iter().any(ends) {
             self.spline_ends(report);
@@ -203,12 +212,16 @@ impl<'d> Iso<'d> {
             return;
         }
         let other = codes.iter().find(|found| !same(found) && !harmless(found));
-        let changes = words.forgets_all || words.writes_system || words.unknown_code || words.flow;
+        let own = &self.memory.own;
+        let alone = !words.axes.any() && (own.splines.words.weight.is_some() || own.polynomial.length.is_some());
+        let changes = words.forgets_all || words.writes_system || words.unknown_code || words.flow || alone;
         if let Some(found) = other {
             let why = format!("{} between its points", found.code.id);
             self.spline_is_lost(&why, report);
         } else if changes {
-            self.spline_is_lost("what stands between its points", report);
+            self.spline_is_lost("a word between its points that may change coordinates", report);
+        } else if words.tool.is_given() || words.edge.is_given() {
+            self.spline_is_lost("T or D between its points", report);
         }
     }
 
@@ -227,21 +240,12 @@ impl<'d> Iso<'d> {
         self.core.state.motion = Some(Action::NotModelled);
         self.memory.own.contour.heading_is_lost();
         if let Some(state) = state.filter(|_| !self.memory.own.splines.is_lost) {
-            let said = std::mem::take(&mut self.memory.own.splines.words);
-            let weight = said.weight.unwrap_or(1.0);
-            let point = Point { motion, state, weight };
-            let why = self.why_not_followed(spline, &point, &said, words);
-            let course = self
-                .memory
-                .own
-                .splines
-                .course
-                .get_or_insert_with(|| Box::new(Course::new(spline)));
-            course.points.push(point);
-            if let Some(degree) = said.degree {
-                course.degree = degree;
-            }
-            if let Some(why) = why {
+            let splines = &mut self.memory.own.splines;
+            let weight = splines.words.weight.unwrap_or(1.0);
+            let course = splines.course.get_or_insert_with(|| Box::new(Course::new(spline)));
+            course.points.push(Point { motion, state, weight });
+            course.degree = splines.degree.unwrap_or(course.degree);
+            if let Some(why) = self.why_not_followed(words) {
                 self.spline_is_lost(why, report);
             }
             return None;
@@ -266,44 +270,47 @@ impl<'d> Iso<'d> {
         motion
     }
 
-    /// Why a point cannot be part of a spline that is followed.
-    fn why_not_followed(
-        &self,
-        spline: Spline,
-        point: &Point,
-        said: &SplineWords,
-        words: &Words,
-    ) -> Option<&'static str> {
-        let (own, state, motion) = (&self.memory.own, &self.core.state, &point.motion);
+    /// Why the last point cannot be part of a spline that is followed.
+    fn why_not_followed(&self, words: &Words) -> Option<&'static str> {
+        let (own, state) = (&self.memory.own, &self.core.state);
+        let course = own.splines.course.as_ref()?;
+        let (first, point) = (course.points.first()?, course.points.last()?);
+        let motion = &point.motion;
         let turns = (3..9).any(|axis| motion.start.get(axis) != motion.end.get(axis));
-        let named = (words.axes.given | words.axes.unread) & (ROTARY | !LINEAR) != 0;
-        let first = own.splines.course.as_ref().and_then(|course| course.points.first());
-        let moved = first.is_some_and(|first| first.motion.zero != motion.zero);
-        let tolerable = |weight: f64| weight > 0.0 && weight <= 3.0;
-        Some(match () {
-            () if motion.start.xyz().is_none() || motion.end.xyz().is_none() => "a point that is not known",
-            () if said.unread => "PW or SD of a value that is not known",
-            () if own.polynomial.length.is_some() || own.polynomial.unread => "PL, the distances between knots",
-            () if !tolerable(point.weight) => "PW outside 0 to 3",
-            () if turns || named || motion.tcp => "with rotary axes or further axes",
-            () if state.compensation != 0 => "under radius compensation",
-            () if state.feed.mode() == FeedMode::InverseTime => "under G93",
-            () if own.path.any() => "with words that give a path",
-            () if moved => "another zero point between its points",
-            () if spline != Spline::Poles && own.splines.ends.any() => "BTAN, BAUTO, ETAN or EAUTO",
-            () if spline != Spline::Poles && self.memory.frames.shape.linear.is_some() => {
-                "in a frame that turns or scales"
-            }
-            () if own
-                .splines
-                .course
-                .as_ref()
-                .is_some_and(|course| course.points.len() >= MOST_POINTS) =>
-            {
-                "more points than are kept"
-            }
-            () => return None,
-        })
+        let beside = turns || (words.axes.given | words.axes.unread) & !0b111 != 0 || motion.tcp;
+        let through = course.kind != Spline::Poles;
+        let open = [
+            (
+                motion.start.xyz().is_none() || motion.end.xyz().is_none(),
+                "a point that is not known",
+            ),
+            (
+                own.polynomial.length.is_some() || own.polynomial.unread,
+                "PL, the distances between knots",
+            ),
+            (
+                !(point.weight > 0.0 && point.weight <= 3.0),
+                "PW outside 0 to 3, or not known",
+            ),
+            (beside, "with rotary axes or further axes"),
+            (state.compensation != 0, "under radius compensation"),
+            (state.feed.mode() == FeedMode::InverseTime, "under G93"),
+            (own.path.any(), "with words that give a path"),
+            (
+                first.motion.zero != motion.zero,
+                "another zero point between its points",
+            ),
+            (
+                through && own.splines.ends.any(),
+                "its ends by BTAN, BAUTO, ETAN or EAUTO",
+            ),
+            (
+                through && self.memory.frames.shape.linear.is_some(),
+                "in a frame that turns or scales",
+            ),
+            (course.points.len() > MOST_POINTS, "more points than are kept"),
+        ];
+        open.into_iter().find_map(|(open, why)| open.then_some(why))
     }
 
     /// The points read so far, and those that follow up to another motion code, have no known path between them.
@@ -336,21 +343,19 @@ impl<'d> Iso<'d> {
         };
         let mut looked_at = 0;
         let growth = self.memory.frames.most_growth();
-        let lines = (!self.is_full())
-            .then(|| course.lines(growth, &mut looked_at))
-            .flatten();
+        let lines = if self.is_full() {
+            Err(self.full())
+        } else {
+            course.lines(growth, &mut looked_at).map_err(str::to_owned)
+        };
         self.cycle_motions.add_in_vain(looked_at);
-        let Some(lines) = lines else {
-            let why = if self.is_full() {
-                self.full()
-            } else {
-                "too few points for its degree, two at one place, a degree other than 2 and 3, or too many lines"
-                    .to_owned()
-            };
-            let what = format!("{}: {why}", course.kind.id());
-            report.fault(report.whole(), FaultKind::NotModelled { what });
-            self.give_up(&course);
-            return;
+        let lines = match lines {
+            Ok(lines) => lines,
+            Err(why) => {
+                let what = format!("{}: {why}", course.kind.id());
+                report.fault(report.whole(), FaultKind::NotModelled { what });
+                return self.give_up(&course);
+            }
         };
         for (motion, at) in lines {
             self.cycle_motions.add();

@@ -28,6 +28,8 @@ impl Files for Folder {
             "OTHER.SPF" => "PROC OTHER SAVE\nG41\nG1 X10 D1\nM17\n",
             "TURNS.SPF" => "PROC TURNS SAVE\nAROT Z90\nG1 X10 Y0\nM17\n",
             "ANEW.SPF" => "PROC ANEW SAVE\nG55\n$P_UIFR[1,X,TR]=7\nG54\nM17\n",
+            "RADII.SPF" => "PROC RADII SAVE\nDIAMOF\nG1 X40\nM17\n",
+            "STAYS.SPF" => "PROC STAYS\nDIAMOF\nG1 X40\nM17\n",
             "LOOPS.SPF" => "DEF INT ROW\nFOR ROW=1 TO 2\nG0 Y=ROW\nENDFOR\nIF R1==0 GOTOF OUT\nG0 Y99\nOUT: RET\n",
             _ => return Err(vec!["subs".into()]),
         };
@@ -336,6 +338,11 @@ fn save_brings_back_the_g_functions_and_the_frame() {
             "A(5 0 1; -90) X5 Y2 Z1 F50"
         ]
     );
+    // DIAMON too
+    for (name, x) in [("RADII", 30), ("STAYS", 60)] {
+        let text = format!("G54 G1 F100 DIAMON X40\n{name}\nX60\nM30\n");
+        assert_eq!(quiet(&text), ["L X20 F100", "L X40 F100", &format!("L X{x} F100")]);
+    }
     // the frame of the caller, after each of two runs
     assert_eq!(
         quiet("G54 G1 F100 X0 Y0 Z0\nTRANS X20\nX0 Y0\nTURNS P2\nX7 Y1\nM30\n")[1..],

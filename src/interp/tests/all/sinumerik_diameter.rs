@@ -80,6 +80,7 @@ fn a_machine_says_whether_x_counts_diameters() {
 #[test]
 fn other_values_of_x_are_unknown_by_name() {
     for (text, what) in [
+        ("DIAMON\nDIAMCYCOF\nG1 X40 Z2", "DIAMCYCOF"),
         ("DIAMON\nTRANS X10\nG1 X40 Z2", "X of TRANS"),
         ("DIAMON\nATRANS X10\nG1 X40 Z2", "X of ATRANS"),
         ("DIAMON\nG111 X10 Z0\nG1 AP=0 RP=5", "X of G111"),

@@ -108,12 +108,13 @@ fn what_is_not_known_is_said_once() {
         ("FGROUP(X,Y)\nG1 Z5 F100\nZ6\n", "moves none of its axes"),
         ("FGROUP(X1,Y1)\nG1 X5 F100\nX6\n", "without a known letter"),
         ("FGROUP(X)\nG2 X20 Y0 I10 J0 F100\n", "one axis of an arc"),
+        ("FGROUP(X)\nG2 X20 Y0 I=R99 J0 F100\n", "an arc that is not known"),
         ("FGROUP(X,Y)\nG95 G1 X5 Z5 F0.1\nX6 Z6\n", "per revolution"),
         ("FGREF[A]=10\nG1 A5 F100\nA6\n", "FGREF without FGROUP"),
         ("FGREF[A]=R99\nFGROUP(X,A)\nG1 X5 A5 F100\n", "of a value"),
         (
             "TRAORI\nFGROUP(X,Y,Z,A,C)\nG1 X5 A5 F100\nX6 A6\n",
-            "other than by ORIAXES",
+            "neither by ORIAXES",
         ),
         ("FGROUP(X,A)\nG1 X5 A=R99 F100\n", "ends are not known"),
     ] {
@@ -144,6 +145,40 @@ fn the_tip_and_the_axes_together_under_oriaxes() {
     // a tool that does not turn
     let still = rate(&format!("{head}ORIVECT\nFGROUP(X,Y,Z,A,C)\nG1 X30 Y40 F1000\n"));
     assert_eq!(still, Feed::PerMinute(1000.0));
+}
+
+/// The radii of the two rotary axes give one for the turn of the tool: their geometric mean.
+#[test]
+fn the_tip_and_the_turn_of_the_tool_under_orivect() {
+    let head = "G17 G90 G94 G710\nTRAORI\nG0 X0 Y0 Z0 A3=0 B3=0 C3=1\nORIVECT\nFGREF[A]=10\nFGREF[C]=40\n";
+    let rate = |text: &str| match cuts(&format!("{head}{text}"))[..] {
+        [cut] => cut.feed,
+        _ => panic!("{text}"),
+    };
+    let turn = 20.0 * core::f64::consts::FRAC_PI_4;
+    for (text, path) in [
+        ("FGROUP(X,Y,Z,A,C)\nG1 X30 Y40 A3=0 B3=1 C3=1 F1000\n", hypot(50.0, turn)),
+        ("FGROUP(A,C)\nG1 X30 Y40 A3=0 B3=-2 C3=2 F1000\n", turn),
+        ("FGROUP(X,Y,Z,A,C)\nG1 A3=1 B3=0 C3=1 F1000\n", turn),
+        ("FGREF[C]=0\nFGROUP(X,A,C)\nG1 X30 Y40 A3=1 B3=0 C3=1 F1000\n", 30.0),
+        // the same tool vector
+        ("FGROUP(X,A,C)\nG1 X30 Y40 A3=0 B3=0 C3=3 F1000\n", 30.0),
+    ] {
+        let Feed::InverseTime(found) = rate(text) else {
+            panic!("{text}: {:?}", rate(text));
+        };
+        assert!((found * path / 1000.0 - 1.0).abs() < 1e-12, "{text}: {found}");
+    }
+    for text in [
+        "ORIAXES\nFGROUP(X,Y,Z,A,C)\nG1 X30 Y40 A3=0 B3=1 C3=1 F1000\n",
+        "ORIPATH\nFGROUP(X,Y,Z,A,C)\nG1 X30 Y40 A3=0 B3=1 C3=1 F1000\n",
+        "FGROUP(X,Y,Z,A)\nG1 X30 Y40 A3=0 B3=1 C3=1 F1000\n",
+        "FGROUP(X,Y,Z,A,C)\nG1 X=R99 Y40 A3=0 B3=1 C3=1 F1000\n",
+        "FGREF[C]=R99\nFGROUP(X,Y,Z,A,C)\nG1 X10 Y40 A3=0 B3=1 C3=1 F1000\n",
+        "FGROUP(X,Y,Z,A,C)\nG1 X30 Y40 A30 C40 F1000\n",
+    ] {
+        assert_eq!(rate(text), Feed::Unknown, "{text}");
+    }
 }
 
 /// A corner that is cut off has the F of its block, measured along its own path.

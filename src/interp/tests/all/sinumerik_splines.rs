@@ -130,9 +130,11 @@ fn what_is_not_followed_has_a_name_and_known_ends() {
         ("BSPLINE X10 Y5 PL=2\nX20\nX30\n", "PL"),
         ("BSPLINE X10 Y5 PW=5\nX20\nX30\n", "PW outside"),
         ("BSPLINE X10 Y5 PW=R99\nX20\nX30\n", "not known"),
-        ("BSPLINE SD=4 X10 Y5\nX20\nX30\nX40\n", "a degree other than"),
-        ("BSPLINE X10 Y5\n", "too few points"),
-        ("CSPLINE X10 Y5\nX10 Y5\nX30\n", "two at one place"),
+        ("BSPLINE SD=4 X10 Y5\nX20\nX30\nX40\n", "SD other than"),
+        ("BSPLINE X10 Y5\n", "fewer points than"),
+        ("BSPLINE X10 Y5\nPW=2\nX20\nX30\n", "between its points"),
+        ("BSPLINE X10 Y5\nX20 D2\nX30\n", "T or D"),
+        ("CSPLINE X10 Y5\nX10 Y5\nX30\n", "two points at one place"),
         ("BTAN ETAN CSPLINE X10 Y5\nX20\nX30\n", "BTAN"),
         ("CSPLINE X10 Y5\nX=R99\nX30\n", "not known"),
         ("G41 D1 BSPLINE X10 Y5\nX20 Y9\nX30\n", "radius compensation"),
@@ -158,6 +160,23 @@ fn what_is_not_followed_has_a_name_and_known_ends() {
     let (log, told) = run("BSPLINE X10 Y5 PL=3\nX20\nG1 X30\nBSPLINE X40 Y5\nX50 Y9\nX60 Y-5\nG1 X70\n");
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(log.motions.len() > 20);
+}
+
+/// SD stands alone in the block of BSPLINE, and holds for this spline only.
+#[test]
+fn the_degree_holds_up_to_the_end_of_the_spline() {
+    let lines = |text: &str| -> Vec<[f64; 3]> {
+        let (log, told) = run(text);
+        assert_eq!(told, [""; 0], "{text}");
+        log.motions.iter().filter_map(end).collect()
+    };
+    let points = "X10 Y5\nX20 Y-3\nX30 Y8\nX40\nG1 X50\n";
+    let by_itself = lines(&format!("BSPLINE SD=2\n{points}"));
+    let [inside, without] = ["SD=2 ", ""].map(|degree| lines(&format!("BSPLINE {degree}{points}")));
+    assert_eq!(by_itself, inside);
+    assert_ne!(inside, without);
+    let twice = lines(&format!("BSPLINE SD=2\n{points}G1 X0 Y0\nBSPLINE {points}"));
+    assert_eq!(twice[twice.len() - without.len()..], without);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::frames::{Rotation, Scaling};
 use crate::{AxisLetter, Refusal};
 
 /// A mirror image and a rotation together: their order is not known.
-const ORDER: u16 = 256;
+const ORDER: u16 = 2048;
 /// A rotation that is not known.
 const ROTATION: u16 = 512;
 /// A scaling that is not known.

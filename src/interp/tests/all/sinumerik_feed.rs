@@ -157,7 +157,10 @@ fn the_tip_and_the_turn_of_the_tool_under_orivect() {
     };
     let turn = 20.0 * core::f64::consts::FRAC_PI_4;
     for (text, path) in [
-        ("FGROUP(X,Y,Z,A,C)\nG1 X30 Y40 A3=0 B3=1 C3=1 F1000\n", hypot(50.0, turn)),
+        (
+            "FGROUP(X,Y,Z,A,C)\nG1 X30 Y40 A3=0 B3=1 C3=1 F1000\n",
+            hypot(50.0, turn),
+        ),
         ("FGROUP(A,C)\nG1 X30 Y40 A3=0 B3=-2 C3=2 F1000\n", turn),
         ("FGROUP(X,Y,Z,A,C)\nG1 A3=1 B3=0 C3=1 F1000\n", turn),
         ("FGREF[C]=0\nFGROUP(X,A,C)\nG1 X30 Y40 A3=1 B3=0 C3=1 F1000\n", 30.0),

@@ -214,7 +214,7 @@ impl FeedGroup {
         let [first, second] = radii[..] else {
             return None;
         };
-        let angle = before.cross(&after).norm().atan2(before.dot(&after));
+        let angle = trunnion_geometry::math::atan2(before.cross(&after).norm(), before.dot(&after));
         (motion.great_circle == Some(true)).then_some(angle * (first * second).sqrt())
     }
 

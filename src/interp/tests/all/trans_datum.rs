@@ -150,3 +150,18 @@ fn function_dwell_waits() {
     );
     assert_eq!(last(&format!("FUNCTION DWELL TIME2\n{LINE}")), Some([1.0, 2.0, 3.0]));
 }
+
+/// Cycle 10 does not take back another reason why positions are not known.
+#[test]
+fn a_rotation_does_not_make_a_wrong_tool_axis_right() {
+    let mut setup = trunnion_interp::Setup::default();
+    setup.control.axes_declared = true;
+    for (axis, known) in [("Z", true), ("X", false)] {
+        let text = format!(
+            "BEGIN PGM A MM\nTOOL CALL 1 {axis} S1000\nCYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+90\nL X+1 Y+2 Z+3 R0 F100\nEND PGM A MM\n"
+        );
+        let log = crate::support::run_bytes("heidenhain-klartext", text.as_bytes(), &setup).1;
+        let last = log.motions.last().expect("a motion");
+        assert_eq!(last.end.xyz().is_some(), known, "{axis}");
+    }
+}

@@ -6,13 +6,16 @@ use memchr::memmem;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, Block, BlockId, Program, Value};
 
-/// The first program that a run calls and does not find, if it could name a block number of its caller.
+/// The first program that a run calls and does not find, if it could name a block number of its caller. Those who ask compare or prove each step: what a
+/// run calls after the bound of theirs is nothing to them.
 pub fn may_return_to_numbers(program: &Program, dialect: &Dialect, setup: &Setup) -> Option<String> {
     if !dialect.quirks.macro_b() || !has_calls(program) {
         return None;
     }
     let mut found = Missing::default();
-    crate::run(program, dialect, setup, &mut found);
+    let mut setup = setup.clone();
+    setup.limits = setup.limits.of_steps();
+    crate::run(program, dialect, &setup, &mut found);
     found.0
 }
 

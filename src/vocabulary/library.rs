@@ -103,7 +103,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             blocks: 3_000_000,
-            steps: 500_000,
+            steps: 300_000,
             held: 150_000,
             depth: 100,
         }

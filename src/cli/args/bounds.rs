@@ -1,5 +1,5 @@
 //! How large a program a command reads by default.
-use super::{Command, Global};
+use super::{Command, Global, Parse};
 
 /// Megabytes and lines of a program.
 #[derive(Clone, Copy)]
@@ -13,7 +13,12 @@ pub(crate) struct TextBounds {
 impl TextBounds {
     const DEFAULT: Self = Self {
         megabytes: 64,
-        lines: 1_200_000,
+        lines: 1_050_000,
+    };
+    /// A trace prints a line for each motion and for each of its faults, a tree up to a hundred times the text.
+    const LISTS: Self = Self {
+        megabytes: 64,
+        lines: 600_000,
     };
     /// What compares programs or machines runs two texts, twice where they differ; a picture and statistics run one text up to four times.
     const RUNS_OFTEN: Self = Self {
@@ -28,12 +33,12 @@ impl TextBounds {
     /// What changes programs runs the old and the new text, each up to a dozen times, and compares each step.
     const CHANGES: Self = Self {
         megabytes: 16,
-        lines: 300_000,
+        lines: 250_000,
     };
     /// A page needs a check, three more runs, and pictures.
     const REPORTS: Self = Self {
         megabytes: 16,
-        lines: 200_000,
+        lines: 150_000,
     };
 }
 
@@ -44,6 +49,7 @@ impl Global {
             Command::Fmt(_) => TextBounds::LAYS_OUT,
             Command::Fix(_) | Command::Edit(_) => TextBounds::CHANGES,
             Command::Report(_) => TextBounds::REPORTS,
+            Command::Trace(_) | Command::Parse(Parse { tokens: false, .. }) => TextBounds::LISTS,
             Command::Certify(_) | Command::Diff(_) | Command::Machine(_) | Command::Plot(_) | Command::Stats(_) => {
                 TextBounds::RUNS_OFTEN
             }

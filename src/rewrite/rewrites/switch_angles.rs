@@ -93,6 +93,10 @@ struct Collector<'m> {
 
 impl Sink for Collector<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        // such a program is refused
+        if self.vector.is_some() {
+            return;
+        }
         let leg = self.follower.follow(motion);
         self.stations.add(&leg);
         if matches!(motion.orientation, Orientation::Vector(..)) {

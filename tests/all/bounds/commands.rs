@@ -38,8 +38,8 @@ pub(crate) const COMMANDS: &[Command] = &[
     command("check", "check", &["check", "--format", "pretty", "FILE"]),
     json_command("check", "check-json", &["check", "--format", "json", "FILE"]),
     command("check", "report", &["report", "PAGE", "-o", "-"]),
-    command("trace", "trace", &["trace", "FILE"]),
-    json_command("trace", "trace-json", &["trace", "--format", "json", "FILE"]),
+    command("trace", "trace", &["trace", "LISTED"]),
+    json_command("trace", "trace-json", &["trace", "--format", "json", "LISTED"]),
     command("trace", "canon", &["canon", "FILE"]),
     command("fmt", "fmt", &["fmt", "--diff", "SHORTER"]),
     command(
@@ -116,20 +116,21 @@ pub(crate) const COMMANDS: &[Command] = &[
     json_command("stats", "stats", &["stats", "--format", "json", "HALF"]),
     json_command("stats", "stats-time", &["stats", "--time", "--format", "json", "HALF"]),
     command("parse", "parse-tokens", &["parse", "--tokens", "FILE"]),
-    json_command("parse", "parse", &["parse", "FILE", "--format", "json"]),
+    json_command("parse", "parse", &["parse", "LISTED", "--format", "json"]),
     command("lsp", "lsp", &["lsp"]),
 ];
 
 /// The most bytes and lines.
 type Size = (usize, usize);
 
-/// The beginnings of a program that commands read by default which compare (`HALF`), lay out (`SHORTER`), change (`SHORTEST`) or report
-/// (`PAGE`).
+/// The beginnings of a program that commands read by default which trace or print a tree (`LISTED`), compare (`HALF`), lay out (`SHORTER`), change
+/// (`SHORTEST`) or report (`PAGE`).
 const BEGINNINGS: &[(&str, Size)] = &[
+    ("LISTED", (64_000_000, 600_000)),
     ("HALF", HALF),
     ("SHORTER", (16_000_000, 400_000)),
-    ("SHORTEST", (16_000_000, 300_000)),
-    ("PAGE", (16_000_000, 200_000)),
+    ("SHORTEST", (16_000_000, 250_000)),
+    ("PAGE", (16_000_000, 150_000)),
 ];
 
 const HALF: Size = (32_000_000, 400_000);

@@ -264,6 +264,7 @@ fn lines_over_the_bound_are_refused_whatever_ends_them() {
 fn what_compares_or_changes_programs_reads_smaller_ones_and_says_how_to_read_larger_ones() {
     let folder = TempDir::new().expect("works");
     fs::write(folder.path().join("many.nc"), "G1X1.\n".repeat(400_001)).expect("writable");
+    fs::write(folder.path().join("more.nc"), "G1\n".repeat(600_001)).expect("writable");
     for (name, lines) in [("large.nc", 160_001), ("larger.nc", 320_001)] {
         let text = format!("(a)G1X1.{}\n", " ".repeat(92)).repeat(lines);
         fs::write(folder.path().join(name), text).expect("writable");
@@ -273,12 +274,14 @@ fn what_compares_or_changes_programs_reads_smaller_ones_and_says_how_to_read_lar
     let reports = [&["report", "-o", "-"][..]];
     let machines = ["machine", "compare", "mikron-ucp710", "mikron-ucp710"];
     let compares = [&["diff", "many.nc"][..], &["certify", "many.nc"], &machines];
+    let lists = [&["trace"][..], &["parse"], &["parse", "--tree"]];
     let (lines, megabytes) = ("--max-lines", "--max-file-mb");
     for (name, said, option, most, commands) in [
         ("many.nc", "400001 lines, more than 400000", lines, "400001", lays_out),
-        ("many.nc", "400001 lines, more than 300000", lines, "400001", &changes),
-        ("many.nc", "400001 lines, more than 200000", lines, "400001", &reports),
+        ("many.nc", "400001 lines, more than 250000", lines, "400001", &changes),
+        ("many.nc", "400001 lines, more than 150000", lines, "400001", &reports),
         ("many.nc", "400001 lines, more than 400000", lines, "400001", &compares),
+        ("more.nc", "600001 lines, more than 600000", lines, "600001", &lists),
         ("large.nc", "larger than 16 MB", megabytes, "17", lays_out),
         ("large.nc", "larger than 16 MB", megabytes, "17", &changes),
         ("large.nc", "larger than 16 MB", megabytes, "17", &reports),
@@ -295,7 +298,7 @@ fn what_compares_or_changes_programs_reads_smaller_ones_and_says_how_to_read_lar
         }
         let read = run(&folder, &["fmt", "--check", name, option, most, "--dialect", "apt"]);
         assert!(!text(&read.stderr).contains(option), "{}", text(&read.stderr));
-        let parsed = run(&folder, &["parse", name]);
+        let parsed = run(&folder, &["parse", "--tokens", name]);
         assert_eq!(status(&parsed), 0, "{}", text(&parsed.stderr));
     }
 }

@@ -22,6 +22,7 @@ mod pattern;
 mod plane;
 mod plane_shift;
 mod positioning;
+mod reason;
 mod sentence;
 mod shape;
 mod tool;
@@ -55,8 +56,8 @@ pub(crate) struct Memory {
     frames: Frames,
     /// Angle of cycle 10, deg.
     rotation: f64,
-    /// Reasons why coordinates say nothing: bits of [`datum`].
-    lost: u16,
+    /// Why coordinates say nothing.
+    lost: reason::Reasons,
     /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
     level_shift: bool,
     /// X Y Z that cycle 7 has given since then.

@@ -1,16 +1,10 @@
 //! Cycles that mirror, turn and scale the system of coordinates: 8, 10 and 11.
 use super::Klartext;
+use super::reason::Reason;
 use super::words::Words;
 use crate::core::Report;
 use crate::frames::{Rotation, Scaling};
 use crate::{AxisLetter, Refusal};
-
-/// A mirror image and a rotation together: their order is not known.
-const ORDER: u16 = 2048;
-/// A rotation that is not known.
-const ROTATION: u16 = 512;
-/// A scaling that is not known.
-const SCALE: u16 = 1024;
 
 impl Klartext<'_> {
     /// 8.1 X Y: mirrors the named axes; none: ends.
@@ -31,7 +25,7 @@ impl Klartext<'_> {
         self.reshape(shape);
         if mirror != [None; 3] && shape.rotation.is_some() {
             Self::not_modelled("cycle 8 together with cycle 10: their order", report);
-            self.lose(ORDER);
+            self.lose(Reason::Order);
         }
     }
 
@@ -45,15 +39,15 @@ impl Klartext<'_> {
         };
         let added = if word.is("IROT") { self.memory.rotation } else { 0.0 };
         // what is added to an unknown angle is unknown
-        let from = !word.is("IROT") || self.memory.lost & ROTATION == 0;
+        let from = !word.is("IROT") || !self.memory.lost.has(Reason::Rotation);
         let Some(angle) = self
             .said(word.value, report)
             .filter(|_| from)
             .map(|angle| angle + added)
         else {
-            return self.lose(ROTATION);
+            return self.lose(Reason::Rotation);
         };
-        self.found(ROTATION);
+        self.found(Reason::Rotation);
         let mut shape = self.memory.frames.shape;
         self.memory.rotation = angle;
         let plane = self.core.state.coordinates.plane();
@@ -61,7 +55,7 @@ impl Klartext<'_> {
         self.reshape(shape);
         if angle != 0.0 && shape.mirror != [None; 3] {
             Self::not_modelled("cycle 10 together with cycle 8: their order", report);
-            self.lose(ORDER);
+            self.lose(Reason::Order);
         }
     }
 
@@ -76,7 +70,7 @@ impl Klartext<'_> {
             .filter(|factor| *factor > 0.0);
         let Some(factor) = factor else {
             Self::not_modelled("cycle 11 without a factor", report);
-            return self.lose(SCALE);
+            return self.lose(Reason::Scale);
         };
         // whether the axis of the tool is scaled too is a parameter of the machine
         if factor != 1.0 {
@@ -84,16 +78,16 @@ impl Klartext<'_> {
                 "cycle 11: a machine parameter decides whether the tool axis is scaled",
                 report,
             );
-            return self.lose(SCALE);
+            return self.lose(Reason::Scale);
         }
-        self.found(SCALE);
+        self.found(Reason::Scale);
         let mut shape = self.memory.frames.shape;
         shape.scaling = None::<Scaling>;
         self.reshape(shape);
     }
 
     fn reshape(&mut self, shape: crate::frames::Shape) {
-        self.found(ORDER);
+        self.found(Reason::Order);
         self.memory.frames.shape = shape;
         let position = self.core.state.position;
         self.memory.frames.refresh(&position);

@@ -23,6 +23,7 @@ mod plane;
 mod plane_shift;
 mod positioning;
 mod reason;
+mod scaling;
 mod sentence;
 mod shape;
 mod tool;
@@ -58,6 +59,8 @@ pub(crate) struct Memory {
     rotation: f64,
     /// Why coordinates say nothing.
     lost: reason::Reasons,
+    /// What cycles 11 and 26 have set.
+    scales: scaling::Scales,
     /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
     level_shift: bool,
     /// X Y Z that cycle 7 has given since then.
@@ -246,6 +249,9 @@ impl<'d> Klartext<'d> {
                 record: Some(sentence.range),
                 faults: &mut faults,
             };
+            if self.memory.frames.shape.scaling.is_some() {
+                self.review_scaling(&mut report);
+            }
             self.sentence(&text, &mut report)
         };
         other |= self.memory.unfollowed;

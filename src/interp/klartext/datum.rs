@@ -1,4 +1,4 @@
-//! Cycles that act where they are defined: datum shift 7, preset 247, mirror 8, rotation 10, scaling 11 and 26, working plane 19, dwell 9.
+//! Cycles that act where they are defined: datum shift 7, preset 247, mirror 8, rotation 10, working plane 19, dwell 9.
 //!
 //! An axis that a datum shift leaves out keeps its shift; mirror without axes, rotation by 0 and scaling by 1 end them (TNC 640 cycle
 //! manuals, coordinate transformations). Shifts inside a tilted plane are in `plane_shift`.
@@ -84,7 +84,8 @@ impl Klartext<'_> {
             11 => self.scaling(line, words, report),
             19 => self.working_plane(line, words, report),
             247 => self.preset(words, report),
-            26 | 27 | 28 | 29 | 39 => {
+            26 => self.axis_scaling(line, words, report),
+            27 | 28 | 29 | 39 => {
                 if line == 0 {
                     Self::not_modelled(format!("cycle {cycle}"), report);
                     self.lose(Reason::Shape);
@@ -148,6 +149,9 @@ impl Klartext<'_> {
         // where several shifts are possible the same value again is not the same shift
         let shifts = found.given & 7 != 0;
         let zero = local[..3] == [0.0; 3];
+        if shifts && local[..3] != self.memory.frames.local[..3] {
+            self.scaled_system_shifts();
+        }
         let turned = self.memory.turned[0] & !(found.given & !found.incremental) | unknown & ROTARY;
         self.turned(0, turned);
         if unknown != 0 {
@@ -156,7 +160,7 @@ impl Klartext<'_> {
             self.refresh_zero();
             return self.lose(Reason::Datum);
         }
-        if shifts && !zero && !self.memory.frames.shape.is_identity() {
+        if shifts && !zero && self.is_shaped() {
             self.not_modelled_once(&format!("{name} in a turned, mirrored or scaled system"), report);
             self.memory.frames.local = local;
             self.refresh_zero();
@@ -223,6 +227,7 @@ impl Klartext<'_> {
             self.turned(1, ROTARY);
             return self.lose(Reason::Preset);
         };
+        self.scaled_preset_changes();
         self.found(Reason::Preset);
         self.turned(1, 0);
         let name = format!("preset {number}");

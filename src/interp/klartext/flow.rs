@@ -3,7 +3,6 @@
 //! `CALL LBL n` runs the blocks from the label to LBL 0; with REP m the section from the label to the call runs m times more; a called program
 //! ends with END PGM, M2 or M30, and what it has shifted and turned stays. Source: TNC 640 user's manual, subprograms and program sections.
 use super::labels::{doubled_label, files, labels, named, no_label};
-use super::reason::Reason;
 use super::words::Parameter;
 use super::{Klartext, values::Value};
 use crate::flow::through::Through;
@@ -316,8 +315,7 @@ impl Klartext<'_> {
                 });
                 self.core.forget_everything();
                 self.memory.parameters.lose();
-                self.lose(Reason::Datum);
-                self.lose(Reason::Plane);
+                self.lose_system();
                 Request::Next
             }
             Ok(_) if self.flow.course.depth() >= self.core.setup.limits.depth as usize => {

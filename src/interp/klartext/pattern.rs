@@ -35,6 +35,9 @@ impl Klartext<'_> {
 
     /// The cycle at a place; `shift`: of its levels along the tool axis, mm.
     fn work_at(&mut self, mut end: Position, shift: Option<f64>, found: &PathWords, report: &mut Report<'_>) {
+        if self.scales_cycles(report) {
+            return self.unknown_motion(report);
+        }
         let along = self.axes()[2];
         let before = self.core.state.feed;
         let mut hole = match &self.memory.cycle {

@@ -242,6 +242,7 @@ impl Klartext<'_> {
             // the tool is led in the plane's coordinates: rotary words are still those of the axes
             self.not_modelled_once("M128 in a tilted plane", report);
         }
+        self.review_scaling(report);
     }
 
     /// Codes that act before the block's motion.

@@ -21,6 +21,9 @@ impl Klartext<'_> {
     /// CYCL CALL POS X Y Z: the cycle at a place, whose coordinate along the tool axis shifts the cycle's levels (NC-PB/gEdit,
     /// docs/user/transformations.md: "a second datum shift on top of Q203"). In which order the axes go there is not taken from a source.
     pub(super) fn call_at(&mut self, found: &PathWords, report: &mut Report<'_>) {
+        if self.scales_cycles(report) {
+            return self.unknown_motion(report);
+        }
         if found.given & XYZ != XYZ {
             let message = "CYCL CALL POS needs the coordinates of all three axes";
             Self::rejected(Refusal::MissingWord, message, report);
@@ -35,9 +38,6 @@ impl Klartext<'_> {
 
     /// The cycle at a place; `shift`: of its levels along the tool axis, mm.
     fn work_at(&mut self, mut end: Position, shift: Option<f64>, found: &PathWords, report: &mut Report<'_>) {
-        if self.scales_cycles(report) {
-            return self.unknown_motion(report);
-        }
         let along = self.axes()[2];
         let before = self.core.state.feed;
         let mut hole = match &self.memory.cycle {
@@ -115,7 +115,8 @@ impl Klartext<'_> {
     pub(super) fn call_pattern(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
-        if let Some(points) = self.memory.pattern.clone() {
+        let points = self.memory.pattern.clone().filter(|_| !self.scales_cycles(report));
+        if let Some(points) = points {
             self.not_modelled_once("CYCL CALL PAT: the path between its points", report);
             let axes = self.axes();
             for point in points {
@@ -163,7 +164,7 @@ impl Klartext<'_> {
                     on_line(&numbers)
                 }
             });
-        let Some(places) = places.filter(|_| alike) else {
+        let Some(places) = places.filter(|_| alike && !self.scales_cycles(report)) else {
             Self::not_modelled(format!("cycle {cycle}: a pattern of holes"), report);
             return self.unknown_motion(report);
         };

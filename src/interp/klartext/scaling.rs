@@ -247,7 +247,7 @@ impl Klartext<'_> {
     pub(super) fn review_scaling(&mut self, report: &mut Report<'_>) {
         match self.scaled_with() {
             Some(what) => {
-                self.not_modelled_once(what, report);
+                self.not_modelled_once(&what, report);
                 if !self.memory.lost.has(Reason::ScaleWith) {
                     self.lose(Reason::ScaleWith);
                 }
@@ -256,25 +256,27 @@ impl Klartext<'_> {
         }
     }
 
-    fn scaled_with(&self) -> Option<&'static str> {
+    fn scaled_with(&self) -> Option<String> {
         let (shape, scales) = (&self.memory.frames.shape, &self.memory.scales);
         shape.scaling?;
         let by_axis = scales.by_axis();
+        let cycle = if by_axis { "cycle 26" } else { "cycle 11" };
         let plane = self.core.state.coordinates.plane();
         let in_plane = self.core.setup.control.scaled_axes == Some(ScaledAxes::Plane);
         let turned_elsewhere = |of: Plane| shape.rotation.is_some_and(|rotation| rotation.plane != of);
-        Some(match scales.whole {
-            Some(_) if by_axis => "cycle 11 together with cycle 26: the factor of both",
+        let with = match scales.whole {
+            Some(_) if by_axis => "together with cycle 11: the factor of both",
             Some((_, of)) if in_plane && (of != plane || turned_elsewhere(of)) => {
-                "another tool axis while cycle 11 scales the working plane: which axes it scales"
+                "with another tool axis after it: which axes it scales"
             }
-            _ if by_axis && shape.rotation.is_some() => "cycle 26 together with cycle 10: their order",
-            _ if by_axis && shape.mirror != [None; 3] => "cycle 26 together with cycle 8: their order",
-            _ if self.memory.frames.tilt.is_some() => "a scaling by cycle 11 or 26 in a tilted plane",
-            _ if self.core.state.tool_axis.tcp() => "M128 or FUNCTION TCPM while cycle 11 or 26 scales",
-            _ if scales.moved => "another datum while cycle 11 or 26 scales: whether the scaling and its centre stay",
+            _ if by_axis && shape.rotation.is_some() => "together with cycle 10: their order",
+            _ if by_axis && shape.mirror != [None; 3] => "together with cycle 8: their order",
+            _ if self.memory.frames.tilt.is_some() => "in a tilted plane",
+            _ if self.core.state.tool_axis.tcp() => "under M128 or FUNCTION TCPM",
+            _ if scales.moved => "with another datum after it: whether the scaling and its centre stay",
             _ => return None,
-        })
+        };
+        Some(format!("{cycle} {with}"))
     }
 
     /// The radius of RND in the workpiece; `None`: not known. Cycle 11 multiplies radii; what cycle 26 does with them is not stated.

@@ -22,6 +22,8 @@ mod pattern;
 mod plane;
 mod plane_shift;
 mod positioning;
+mod reason;
+mod scaling;
 mod sentence;
 mod shape;
 mod tool;
@@ -55,8 +57,10 @@ pub(crate) struct Memory {
     frames: Frames,
     /// Angle of cycle 10, deg.
     rotation: f64,
-    /// Reasons why coordinates say nothing: bits of [`datum`].
-    lost: u16,
+    /// Why coordinates say nothing.
+    lost: reason::Reasons,
+    /// What cycles 11 and 26 have set.
+    scales: scaling::Scales,
     /// Cycle 7 has shifted in a plane of zero angles: before a plane that turns, or inside one.
     level_shift: bool,
     /// X Y Z that cycle 7 has given since then.
@@ -245,6 +249,9 @@ impl<'d> Klartext<'d> {
                 record: Some(sentence.range),
                 faults: &mut faults,
             };
+            if self.memory.frames.shape.scaling.is_some() {
+                self.review_scaling(&mut report);
+            }
             self.sentence(&text, &mut report)
         };
         other |= self.memory.unfollowed;

@@ -79,7 +79,7 @@ pub use trunnion_vocabulary::{
     DrillingAxis, Effect, Fault, FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks,
     LengthOf, LengthUnit, Library, Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation,
     OuterCorner, Placed, Position, Posture, ProgramRun, Progress, Reach, Refusal, RollPitchYaw, RotaryTurn,
-    RoughingEscape, Searched, Setup, Sink, Spin, SplineReading, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolLength,
-    ToolOffsets, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left, same_number,
+    RoughingEscape, ScaledAxes, Searched, Setup, Sink, Spin, SplineReading, Swivel, TcpCodes, TcpMistake, Tilt, Tool,
+    ToolLength, ToolOffsets, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left, same_number,
 };
 pub use written::canonical_text;

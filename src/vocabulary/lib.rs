@@ -30,6 +30,7 @@ pub use motion::{
 pub use progress::Progress;
 pub use setup::{
     ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner,
-    RollPitchYaw, RotaryTurn, RoughingEscape, Setup, SplineReading, TcpCodes, Tool, ToolOffsets, ToolShape, WorkOffset,
+    RollPitchYaw, RotaryTurn, RoughingEscape, ScaledAxes, Setup, SplineReading, TcpCodes, Tool, ToolOffsets, ToolShape,
+    WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

@@ -177,6 +177,15 @@ pub enum SplineReading {
     ChordLength,
 }
 
+/// Which axes cycle 11 of a HEIDENHAIN control scales (machine parameter 7410).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScaledAxes {
+    /// 1: those of the working plane.
+    Plane,
+    /// 0: all three principal axes.
+    All,
+}
+
 /// How a rotary axis of the machine turns the tool against the workpiece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryTurn {
@@ -236,6 +245,8 @@ pub struct ControlData {
     pub frame_angles: Option<FrameAngles>,
     /// Over which parameter ASPLINE, BSPLINE and CSPLINE run; `None`: not declared, their paths are unknown.
     pub splines: Option<SplineReading>,
+    /// Which axes cycle 11 of Klartext scales; `None`: not declared, positions after it are unknown.
+    pub scaled_axes: Option<ScaledAxes>,
     /// Whether the first incremental coordinate after another zero point or frame travels the change too (Sinumerik setting data 42440
     /// FRAME_OFFSET_INCR_PROG); `None`: not declared, where such a coordinate leads is unknown.
     pub increment_adds_frame: Option<bool>,

@@ -6,7 +6,8 @@ use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
 use trunnion_interp::{
-    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape, SplineReading,
+    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape, ScaledAxes,
+    SplineReading,
 };
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
@@ -57,6 +58,7 @@ tags! { RollPitchYaw { Fixed = 1, Turned = 2 } }
 
 tags! { FrameAngles { RollPitchYaw = 1, Euler = 2 } }
 tags! { SplineReading { ChordLength = 1 } }
+tags! { ScaledAxes { Plane = 1, All = 2 } }
 tags! { RefitSource { Points = 1, Chords = 2 } }
 tags! { PostureCost { Travel = 1, Time = 2, Deviation = 3 } }
 

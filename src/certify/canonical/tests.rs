@@ -4,8 +4,8 @@ use crate::digest::{dialect_digest, machine_digest, setup_digest};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{
-    ClampCodes, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape, Setup,
-    SplineReading, TcpCodes, Tool, ToolShape, WorkOffset,
+    ClampCodes, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape,
+    ScaledAxes, Setup, SplineReading, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 use trunnion_machine::{Criterion, Gantry, Limits, Machine, PoleAction, PostureRule, RapidPath, Wrap};
 
@@ -215,6 +215,8 @@ fn every_fact_of_a_setup_counts() {
             |s| s.control.frame_angles = Some(FrameAngles::RollPitchYaw),
             |s| s.control.frame_angles = Some(FrameAngles::Euler),
             |s| s.control.splines = Some(SplineReading::ChordLength),
+            |s| s.control.scaled_axes = Some(ScaledAxes::Plane),
+            |s| s.control.scaled_axes = Some(ScaledAxes::All),
             |s| s.control.increment_adds_frame = Some(true),
             |s| s.control.increment_adds_frame = Some(false),
             |s| s.control.increment_adds_length = Some(true),

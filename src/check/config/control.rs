@@ -6,7 +6,7 @@ use toml::Spanned;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
     AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position,
-    RollPitchYaw, RoughingEscape, SplineReading, TcpCodes,
+    RollPitchYaw, RoughingEscape, ScaledAxes, SplineReading, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -48,6 +48,13 @@ enum Order {
 #[serde(rename_all = "kebab-case")]
 enum Splines {
     ChordLength,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Scaled {
+    Plane,
+    All,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -98,6 +105,7 @@ pub(super) struct FileControl {
     roll_pitch_yaw: Option<Angles>,
     frame_angles: Option<Order>,
     splines: Option<Splines>,
+    scaled_axes: Option<Scaled>,
     increment_adds_frame: Option<bool>,
     increment_adds_length: Option<bool>,
     tcp_codes: Option<Codes>,
@@ -178,6 +186,10 @@ impl FileControl {
                 Order::Euler => FrameAngles::Euler,
             }),
             splines: self.splines.map(|Splines::ChordLength| SplineReading::ChordLength),
+            scaled_axes: self.scaled_axes.map(|axes| match axes {
+                Scaled::Plane => ScaledAxes::Plane,
+                Scaled::All => ScaledAxes::All,
+            }),
             increment_adds_frame: self.increment_adds_frame,
             increment_adds_length: self.increment_adds_length,
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
@@ -308,7 +320,7 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nmain_spindle = 2\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
-                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nscaled_axes = \"all\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
@@ -323,6 +335,7 @@ mod tests {
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
         assert_eq!(control.frame_angles, Some(trunnion_interp::FrameAngles::RollPitchYaw));
+        assert_eq!(control.scaled_axes, Some(ScaledAxes::All));
         assert_eq!(
             (control.increment_adds_frame, control.increment_adds_length),
             (Some(true), Some(false))
@@ -355,6 +368,7 @@ mod tests {
             ("[control]\nmain_spindle = 0", "0"),
             ("[control]\nbore_shift = \"X\"", "\"X\""),
             ("[control]\ndrilling_axis = \"y\"", "\"y\""),
+            ("[control]\nscaled_axes = \"z\"", "\"z\""),
             ("[control]\nroughing_escape = \"slow\"", "\"slow\""),
             ("[control]\nthread_pull_out = -0.1", "-0.1"),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),

@@ -66,6 +66,11 @@ impl Scaling {
         let [x, y, z] = self.factors.map(f64::abs);
         (x == y && y == z).then_some(x)
     }
+    /// The common size of the two factors across an axis.
+    fn across(&self, normal: usize) -> Option<f64> {
+        let [a, b] = [(normal + 1) % 3, (normal + 2) % 3].map(|axis| self.factors[axis].abs());
+        (a == b).then_some(a)
+    }
 }
 
 /// All of them.
@@ -126,9 +131,8 @@ impl Shape {
             }
         }
     }
-    /// An arc of the words in work coordinates; none if different factors distort it.
+    /// An arc of the words in work coordinates; none if different factors distort it, or a rotation turns it out of its plane.
     pub(crate) fn arc_to_work(&self, arc: &Arc) -> Option<Arc> {
-        let size = self.scaling.map_or(Some(1.0), |scaling| scaling.uniform())?;
         let place = |point: Vec3| {
             let mut position = Position {
                 known: XYZ,
@@ -147,6 +151,13 @@ impl Shape {
             }
         }
         let normal = (0..3).find(|axis| along(*axis))?;
+        if self
+            .rotation
+            .is_some_and(|rotation| plane_axes(rotation.plane)[2] != normal)
+        {
+            return None;
+        }
+        let size = self.scaling.map_or(Some(1.0), |scaling| scaling.across(normal))?;
         let size = size * self.linear.map_or(Some(1.0), |linear| linear.size(normal))?;
         if self.linear.is_some_and(|linear| linear.flips(normal)) {
             sign = -sign;

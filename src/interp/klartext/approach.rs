@@ -48,15 +48,21 @@ impl Klartext<'_> {
             return self.unknown_motion(report);
         };
         let (first_is_rapid, first_feed) = (self.memory.was_rapid, self.last_feed());
-        let (found, start, end) = self.contour_words(words, polar, report);
+        let (found, _, end) = self.contour_words(words, polar, report);
         let feed = self.core.feed(MotionKind::Linear, Default::default, report);
         let side = match self.core.state.compensation {
             41 => 1.0,
             42 => -1.0,
             _ => 0.0,
         };
+        let flips = self.memory.frames.shape.flips(self.core.state.coordinates.plane());
+        let side = if flips { -side } else { side };
         let orientation = self.core.held_orientation();
-        self.core.state.position = self.memory.frames.arrive(end);
+        // the first contour element is in work coordinates too
+        let start = self.core.state.position;
+        let end = self.memory.frames.arrive(end);
+        self.core.state.position = end;
+        let scaled = self.scales_lengths("APPR", report);
         let kind = MotionKind::Linear;
         let template = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         let unit = self.core.state.coordinates.unit_mm();
@@ -67,8 +73,8 @@ impl Klartext<'_> {
             template,
             tilt: self.memory.frames.tilt,
             normal: self.plane_normal(),
-            length: mm(found.length),
-            radius: mm(found.radius.filter(|_| found.compensation != Some(0))),
+            length: mm(found.length).filter(|_| !scaled),
+            radius: mm(found.radius.filter(|_| found.compensation != Some(0))).filter(|_| !scaled),
             angle_deg: found.centre_angle.flatten(),
             side,
             first_is_rapid: first_is_rapid && !whole,
@@ -210,7 +216,11 @@ impl Klartext<'_> {
         self.core.state.compensation = 0;
         let unit = self.core.state.coordinates.unit_mm();
         let mm = |value: Option<Option<f64>>| value.flatten().map(|value| value * unit);
-        let (length, radius) = (mm(found.length), mm(found.radius));
+        let scaled = self.scales_lengths("DEP", report);
+        let (length, radius) = (
+            mm(found.length).filter(|_| !scaled),
+            mm(found.radius).filter(|_| !scaled),
+        );
         let normal = self.plane_normal();
         let flat = |vector: Vec3| vector - normal * normal.dot(&vector);
         let tangent = self

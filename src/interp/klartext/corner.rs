@@ -84,6 +84,7 @@ impl Klartext<'_> {
         } else {
             let unit = self.core.state.coordinates.unit_mm();
             radius = self.said(value, report).map(|radius| radius.abs() * unit);
+            radius = radius.and_then(|radius| self.scaled_radius(radius, report));
         }
         if unread {
             self.not_modelled_once("RND: words beside its radius and a feed in mm/min", report);

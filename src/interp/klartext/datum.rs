@@ -1,39 +1,21 @@
-//! Cycles that act where they are defined: datum shift 7, preset 247, mirror 8, rotation 10, scaling 11 and 26, working plane 19, dwell 9.
+//! Cycles that act where they are defined: datum shift 7, preset 247, mirror 8, rotation 10, working plane 19, dwell 9.
 //!
 //! An axis that a datum shift leaves out keeps its shift; mirror without axes, rotation by 0 and scaling by 1 end them (TNC 640 cycle
 //! manuals, coordinate transformations). Shifts inside a tilted plane are in `plane_shift`.
 use super::path_words::PathWords;
+use super::reason::Reason;
 use super::words::{Said, Words};
 use super::{Klartext, values::Value};
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::{Feed, MotionKind, Refusal, Undeclared};
 use trunnion_syntax::TextRange;
 
-/// A datum shift that is not known.
-pub(crate) const DATUM: u16 = 1;
-/// A working plane that is not known.
-pub(crate) const PLANE: u16 = 2;
-/// A cycle between definition and call that changes the system, and that nothing which is followed ends.
-const SHAPE: u16 = 4;
-/// Turning: X is a diameter.
-pub(crate) const TURNING: u16 = 8;
-/// A preset that is not known.
-pub(crate) const PRESET: u16 = 64;
-/// A length of the tool that is not known.
-pub(crate) const LENGTH: u16 = 128;
-/// A direction of the tool that the machine does not have at home.
-pub(crate) const TOOL_AXIS: u16 = 256;
-/// A shift that belongs to a plane, or to the system outside of it: which one is not known.
-pub(crate) const INSIDE: u16 = 32;
-/// A system of coordinates that nothing which is followed ends: parallel axes, a correction table, a preset that the program writes.
-pub(crate) const OTHER: u16 = 16;
-
 impl Klartext<'_> {
     /// Coordinates say nothing from here on, for a reason.
-    pub(crate) fn lose(&mut self, reason: u16) {
-        self.memory.lost |= reason;
+    pub(crate) fn lose(&mut self, reason: Reason) {
+        self.memory.lost.add(reason);
         self.memory.shifted = 0;
-        self.memory.shift_unknown |= reason & DATUM != 0;
+        self.memory.shift_unknown |= reason == Reason::Datum;
         self.core.forget_linear();
         self.core.state.zero.lose(true);
     }
@@ -41,7 +23,7 @@ impl Klartext<'_> {
     /// A datum is unknown in all axes.
     pub(super) fn lose_datum(&mut self) {
         self.turned(0, ROTARY);
-        self.lose(DATUM);
+        self.lose(Reason::Datum);
     }
 
     /// Rotary axes whose zero is unknown by a shift (0) or by a preset (1).
@@ -53,11 +35,11 @@ impl Klartext<'_> {
     }
 
     /// The reason has ended.
-    pub(crate) fn found(&mut self, reason: u16) {
-        if self.memory.lost & reason != 0 {
-            self.memory.lost &= !reason;
+    pub(crate) fn found(&mut self, reason: Reason) {
+        if self.memory.lost.has(reason) {
+            self.memory.lost.remove(reason);
             self.core.forget_linear();
-            self.core.state.zero.lose(self.memory.lost != 0);
+            self.core.state.zero.lose(self.memory.lost.any());
         }
     }
 
@@ -102,10 +84,11 @@ impl Klartext<'_> {
             11 => self.scaling(line, words, report),
             19 => self.working_plane(line, words, report),
             247 => self.preset(words, report),
-            26 | 27 | 28 | 29 | 39 => {
+            26 => self.axis_scaling(line, words, report),
+            27 | 28 | 29 | 39 => {
                 if line == 0 {
                     Self::not_modelled(format!("cycle {cycle}"), report);
-                    self.lose(SHAPE);
+                    self.lose(Reason::Shape);
                 }
             }
             // tolerance, oriented stop, contour data
@@ -115,7 +98,7 @@ impl Klartext<'_> {
                 if line == 0 && !waits_for_its_call(cycle) {
                     Self::not_modelled(format!("cycle {cycle}: whether it acts where it is defined"), report);
                     self.core.forget_position();
-                    self.lose(OTHER);
+                    self.lose(Reason::Other);
                 }
                 self.define_cycle(cycle, line, words, report);
             }
@@ -166,20 +149,23 @@ impl Klartext<'_> {
         // where several shifts are possible the same value again is not the same shift
         let shifts = found.given & 7 != 0;
         let zero = local[..3] == [0.0; 3];
+        if shifts && local[..3] != self.memory.frames.local[..3] {
+            self.scaled_system_shifts();
+        }
         let turned = self.memory.turned[0] & !(found.given & !found.incremental) | unknown & ROTARY;
         self.turned(0, turned);
         if unknown != 0 {
             // the value was reported; the zero of a rotary axis with a value is known
             self.memory.frames.local[3..6].copy_from_slice(&local[3..6]);
             self.refresh_zero();
-            return self.lose(DATUM);
+            return self.lose(Reason::Datum);
         }
-        if shifts && !zero && !self.memory.frames.shape.is_identity() {
+        if shifts && !zero && self.is_shaped() {
             self.not_modelled_once(&format!("{name} in a turned, mirrored or scaled system"), report);
             self.memory.frames.local = local;
             self.refresh_zero();
             let unknown = self.memory.shift_unknown;
-            self.lose(DATUM);
+            self.lose(Reason::Datum);
             // the shift itself is known: taking it back ends it
             self.memory.shift_unknown = unknown;
             return;
@@ -190,7 +176,7 @@ impl Klartext<'_> {
             self.not_modelled_once(&format!("{name} {what}"), report);
             self.memory.frames.local = local;
             self.refresh_zero();
-            return self.lose(INSIDE);
+            return self.lose(Reason::Inside);
         }
         self.memory.frames.local = local;
         let level = shifts && !tilted && self.memory.frames.tilt.is_some();
@@ -198,9 +184,9 @@ impl Klartext<'_> {
         self.memory.shifted |= found.given & !found.incremental & 7;
         self.memory.shift_unknown &= self.memory.shifted != 7;
         if (zero || self.memory.shifted == 7) && !self.memory.shift_unknown {
-            self.found(DATUM);
+            self.found(Reason::Datum);
             if !tilted {
-                self.found(INSIDE);
+                self.found(Reason::Inside);
             }
         }
         self.refresh_zero();
@@ -239,9 +225,10 @@ impl Klartext<'_> {
         else {
             Self::not_modelled("cycle 247: which preset", report);
             self.turned(1, ROTARY);
-            return self.lose(PRESET);
+            return self.lose(Reason::Preset);
         };
-        self.found(PRESET);
+        self.scaled_preset_changes();
+        self.found(Reason::Preset);
         self.turned(1, 0);
         let name = format!("preset {number}");
         let declared = self.core.setup.work_offset(&name).map(|offset| offset.values);

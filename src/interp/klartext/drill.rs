@@ -53,6 +53,7 @@ impl Klartext<'_> {
         match self.memory.cycle.clone() {
             Cycle::None => Self::rejected(Refusal::CannedCycle, "no cycle is defined before its call", report),
             Cycle::Hole(hole) => self.drill(&hole, report),
+            Cycle::Old(_) if self.scales_cycles(report) => self.work_unknown(report),
             Cycle::Old(old) => self.run_old_cycle(&old, report),
             Cycle::Other(number) => {
                 self.not_modelled_once(&format!("cycle {number}: its path"), report);
@@ -97,6 +98,9 @@ impl Klartext<'_> {
     }
 
     pub(super) fn drill(&mut self, hole: &Hole, report: &mut Report<'_>) {
+        if self.scales_cycles(report) {
+            return self.work_unknown(report);
+        }
         if let Some(parameter) = self.changed_since(hole) {
             self.memory.unfollowed = true;
             self.not_modelled_once(

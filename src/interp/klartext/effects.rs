@@ -256,7 +256,7 @@ impl Klartext<'_> {
         });
         match &self.memory.cycle {
             Cycle::Hole(hole) if number >= 200 && number == hole.cycle => !self.is_followed(hole),
-            _ => !matches!(number, 7..=11 | 19 | 247),
+            _ => !matches!(number, 7..=11 | 19 | 26 | 247),
         }
     }
 }

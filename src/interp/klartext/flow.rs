@@ -315,7 +315,7 @@ impl Klartext<'_> {
                 });
                 self.core.forget_everything();
                 self.memory.parameters.lose();
-                self.lose(super::datum::DATUM | super::datum::PLANE);
+                self.lose_system();
                 Request::Next
             }
             Ok(_) if self.flow.course.depth() >= self.core.setup.limits.depth as usize => {

@@ -1,6 +1,7 @@
 //! FN 0 to FN 29, and assignments of formulas.
 use super::Klartext;
 use super::flow::Request;
+use super::reason::Reason;
 use super::values::{Value, formula};
 use super::words::{Kind, Parameter, Said, Words};
 use crate::core::Report;
@@ -56,7 +57,7 @@ impl Klartext<'_> {
             17 | 25 => {
                 self.not_modelled_once(&format!("FN {number}: what it writes"), report);
                 self.flush(report);
-                self.lose(super::datum::OTHER);
+                self.lose(Reason::Other);
             }
             // the centre and the radius of a circle through points, in three parameters
             23 | 24 => {

@@ -117,6 +117,7 @@ impl Klartext<'_> {
             Orientation::Vector(_, vector) => Some(vector),
             Orientation::Words => stands.then(|| self.plane_normal()),
         };
+        let along = along.filter(|_| !self.scales_lengths("a retract along the tool (M140, PLANE)", report));
         let mut end = start;
         match distance.zip(along) {
             Some((distance, along)) => {

@@ -123,6 +123,7 @@ impl Klartext<'_> {
                 }
             }
         };
+        self.scale_parallel_axes(words, &mut end, report);
         self.go(kind, from, end, words, report);
     }
 
@@ -174,7 +175,9 @@ impl Klartext<'_> {
         self.note_heading(&kind, &from, &end);
         let ways = self.rotary_ways(words, [&from, &end], report);
         let (mut end, mut kind) = if self.memory.frames.active {
-            (self.memory.frames.arrive(end), self.memory.frames.kind_to_work(kind))
+            let in_work = self.memory.frames.kind_to_work(kind);
+            self.distorted(&kind, &in_work, report);
+            (self.memory.frames.arrive(end), in_work)
         } else {
             (end, kind)
         };

@@ -21,6 +21,9 @@ impl Klartext<'_> {
     /// CYCL CALL POS X Y Z: the cycle at a place, whose coordinate along the tool axis shifts the cycle's levels (NC-PB/gEdit,
     /// docs/user/transformations.md: "a second datum shift on top of Q203"). In which order the axes go there is not taken from a source.
     pub(super) fn call_at(&mut self, found: &PathWords, report: &mut Report<'_>) {
+        if self.scales_cycles(report) {
+            return self.unknown_motion(report);
+        }
         if found.given & XYZ != XYZ {
             let message = "CYCL CALL POS needs the coordinates of all three axes";
             Self::rejected(Refusal::MissingWord, message, report);
@@ -112,7 +115,8 @@ impl Klartext<'_> {
     pub(super) fn call_pattern(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
-        if let Some(points) = self.memory.pattern.clone() {
+        let points = self.memory.pattern.clone().filter(|_| !self.scales_cycles(report));
+        if let Some(points) = points {
             self.not_modelled_once("CYCL CALL PAT: the path between its points", report);
             let axes = self.axes();
             for point in points {
@@ -160,7 +164,7 @@ impl Klartext<'_> {
                     on_line(&numbers)
                 }
             });
-        let Some(places) = places.filter(|_| alike) else {
+        let Some(places) = places.filter(|_| alike && !self.scales_cycles(report)) else {
             Self::not_modelled(format!("cycle {cycle}: a pattern of holes"), report);
             return self.unknown_motion(report);
         };

@@ -6,8 +6,8 @@
 //! it acts incrementally; TNC7 81762x-17: it is a transformation in the system of the working plane). Where the swivel leaves a rotary axis free,
 //! COORD ROT (the default) keeps it and turns the coordinates. PROJECTED is not followed; AXIAL is in `axial`, shifts inside a plane are in `plane_shift`.
 use super::Klartext;
-use super::datum::PLANE;
 use super::positioning::Positioning;
+use super::reason::Reason;
 use super::values::Value;
 use super::words::Words;
 use crate::core::{LINEAR, ROTARY, Report};
@@ -69,7 +69,7 @@ impl Klartext<'_> {
             .enumerate()
             .filter_map(|(axis, said)| Some((axis, (*said)?)));
         let (axis, angle) = given.next()?;
-        let alone = given.next().is_none() && self.memory.lost & PLANE == 0;
+        let alone = given.next().is_none() && !self.memory.lost.has(Reason::Plane);
         let turn = Tilted::new(Vec3::zeros(), &[(axis, angle.filter(|_| alone)?)]).turn;
         Some(active * turn)
     }
@@ -84,7 +84,7 @@ impl Klartext<'_> {
 
     pub(super) fn unknown_plane(&mut self, report: &mut Report<'_>) {
         self.tilt_to(None, report);
-        self.lose(PLANE);
+        self.lose(Reason::Plane);
     }
 
     /// MOVE and TURN onto a plane that is not known turn the rotary axes to positions that are not known.
@@ -96,7 +96,7 @@ impl Klartext<'_> {
     }
 
     fn reset_plane(&mut self, positioning: Positioning, report: &mut Report<'_>) {
-        self.found(PLANE);
+        self.found(Reason::Plane);
         self.tilt_to(None, report);
         self.nothing_is_shifted();
         self.memory.angles_wait = None;
@@ -146,10 +146,10 @@ impl Klartext<'_> {
 
     /// `positioning`: `None` where the block turns the axes otherwise.
     pub(super) fn set_plane(&mut self, turn: Mat3, positioning: Option<Positioning>, report: &mut Report<'_>) {
-        self.found(PLANE);
+        self.found(Reason::Plane);
         if !self.memory.frames.shape.is_identity() {
             Self::not_modelled("a tilted plane in a turned, mirrored or scaled system", report);
-            self.lose(PLANE);
+            self.lose(Reason::Plane);
             if let Some(positioning) = positioning {
                 self.unknown_turn(positioning, report);
             }
@@ -250,11 +250,11 @@ impl Klartext<'_> {
         self.set_angles([None; 3]);
         let found = self.path_words(words, report);
         let zero = (3..6).all(|axis| found.given & (1 << axis) == 0 || found.values[axis] == Some(0.0));
-        self.found(PLANE);
+        self.found(Reason::Plane);
         self.tilt_to(None, report);
         if !zero {
             Self::not_modelled("cycle 19: a machine parameter decides what its angles are", report);
-            self.lose(PLANE);
+            self.lose(Reason::Plane);
         }
     }
 }

@@ -4,7 +4,7 @@
 //! Klartext, 10/2017, p. 145; TNC 640, 10/2017, p. 153). Which of both a later cycle 7 replaces, and where a shift acts whose plane has ended, is
 //! not taken from a source.
 use super::Klartext;
-use super::datum::INSIDE;
+use super::reason::Reason;
 use crate::core::Report;
 
 impl Klartext<'_> {
@@ -23,7 +23,7 @@ impl Klartext<'_> {
         if self.memory.frames.inside_plane() || turns && self.memory.level_shift {
             let what = "a shift by cycle 7 in a tilted plane, once the plane ends (shift back before it)";
             self.not_modelled_once(what, report);
-            self.lose(INSIDE);
+            self.lose(Reason::Inside);
         }
         self.memory.frames.swivel = None;
     }
@@ -31,8 +31,8 @@ impl Klartext<'_> {
     /// PLANE RESET after the shift was taken back: nothing is left of both.
     pub(super) fn nothing_is_shifted(&mut self) {
         self.memory.level_shift = false;
-        if self.memory.lost & INSIDE != 0 && self.memory.frames.local[..3] == [0.0; 3] {
-            self.found(INSIDE);
+        if self.memory.lost.has(Reason::Inside) && self.memory.frames.local[..3] == [0.0; 3] {
+            self.found(Reason::Inside);
             self.refresh_zero();
         }
     }

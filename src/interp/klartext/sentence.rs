@@ -1,9 +1,9 @@
 //! What a block begins with, and M codes.
 use super::Klartext;
-use super::datum::PLANE;
 use super::flow::Request;
 use super::path::Path;
 use super::path_words::{FeedSaid, PathWords, is_no_number};
+use super::reason::Reason;
 use super::words::{Said, Words};
 use crate::core::Report;
 use crate::{FaultKind, FeedMode, Refusal};
@@ -135,8 +135,8 @@ impl Klartext<'_> {
             }
             // cycle 7 ends a shift, but no rotation, mirror image or scaling
             "TRANS" | "PRESET" => self.lose(match start.get(1).map(|word| word.to_ascii_uppercase()).as_deref() {
-                Some("SELECT") => super::datum::PRESET,
-                _ => super::datum::OTHER,
+                Some("SELECT") => Reason::Preset,
+                _ => Reason::Other,
             }),
             _ => {
                 self.core.forget_everything();
@@ -195,16 +195,16 @@ impl Klartext<'_> {
         if !has("TCPM") {
             let what = String::from_utf8_lossy(&text).trim().to_owned();
             if has("MODE") && has("MILL") {
-                return self.found(super::datum::TURNING);
+                return self.found(Reason::Turning);
             }
             self.not_modelled_once(&format!("FUNCTION {what}"), report);
             let first = what.split_ascii_whitespace().next().unwrap_or_default();
             if first == "MODE" {
                 self.flush(report);
-                self.lose(super::datum::TURNING);
+                self.lose(Reason::Turning);
             } else if !LEAVES_COORDINATES.contains(&first) && !has("OFF") && !has("DISPLAY") {
                 self.flush(report);
-                self.lose(super::datum::OTHER);
+                self.lose(Reason::Other);
             }
             return;
         }
@@ -242,6 +242,7 @@ impl Klartext<'_> {
             // the tool is led in the plane's coordinates: rotary words are still those of the axes
             self.not_modelled_once("M128 in a tilted plane", report);
         }
+        self.review_scaling(report);
     }
 
     /// Codes that act before the block's motion.
@@ -267,9 +268,9 @@ impl Klartext<'_> {
                 137 => self.feed_per_turn(false),
                 114 | 144 => {
                     Self::not_modelled(format!("M{code}"), report);
-                    self.lose(PLANE);
+                    self.lose(Reason::Plane);
                 }
-                115 | 145 => self.found(PLANE),
+                115 | 145 => self.found(Reason::Plane),
                 130 | 143 => {
                     Self::not_modelled(format!("M{code}"), report);
                     self.core.forget_linear();

@@ -1,16 +1,10 @@
-//! Cycles that mirror, turn and scale the system of coordinates: 8, 10 and 11.
+//! Cycles that mirror and turn the system of coordinates: 8 and 10. Those that scale it are in `scaling`.
 use super::Klartext;
+use super::reason::Reason;
 use super::words::Words;
 use crate::core::Report;
-use crate::frames::{Rotation, Scaling};
+use crate::frames::Rotation;
 use crate::{AxisLetter, Refusal};
-
-/// A mirror image and a rotation together: their order is not known.
-const ORDER: u16 = 2048;
-/// A rotation that is not known.
-const ROTATION: u16 = 512;
-/// A scaling that is not known.
-const SCALE: u16 = 1024;
 
 impl Klartext<'_> {
     /// 8.1 X Y: mirrors the named axes; none: ends.
@@ -28,10 +22,9 @@ impl Klartext<'_> {
         }
         let mut shape = self.memory.frames.shape;
         shape.mirror = mirror;
-        self.reshape(shape);
+        self.reshape(shape, report);
         if mirror != [None; 3] && shape.rotation.is_some() {
             Self::not_modelled("cycle 8 together with cycle 10: their order", report);
-            self.lose(ORDER);
         }
     }
 
@@ -45,58 +38,36 @@ impl Klartext<'_> {
         };
         let added = if word.is("IROT") { self.memory.rotation } else { 0.0 };
         // what is added to an unknown angle is unknown
-        let from = !word.is("IROT") || self.memory.lost & ROTATION == 0;
+        let from = !word.is("IROT") || !self.memory.lost.has(Reason::Rotation);
         let Some(angle) = self
             .said(word.value, report)
             .filter(|_| from)
             .map(|angle| angle + added)
         else {
-            return self.lose(ROTATION);
+            return self.lose(Reason::Rotation);
         };
-        self.found(ROTATION);
+        self.found(Reason::Rotation);
         let mut shape = self.memory.frames.shape;
         self.memory.rotation = angle;
         let plane = self.core.state.coordinates.plane();
         shape.rotation = (angle != 0.0).then(|| Rotation::new(plane, [0.0, 0.0], angle));
-        self.reshape(shape);
+        self.reshape(shape, report);
         if angle != 0.0 && shape.mirror != [None; 3] {
             Self::not_modelled("cycle 10 together with cycle 8: their order", report);
-            self.lose(ORDER);
         }
     }
 
-    /// 11.1 SCL 0.99.
-    pub(super) fn scaling(&mut self, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
-        if line == 0 {
-            return;
-        }
-        let said = words.find(|word| word.is("SCL")).map(|word| word.value);
-        let factor = said
-            .and_then(|said| self.said(said, report))
-            .filter(|factor| *factor > 0.0);
-        let Some(factor) = factor else {
-            Self::not_modelled("cycle 11 without a factor", report);
-            return self.lose(SCALE);
-        };
-        // whether the axis of the tool is scaled too is a parameter of the machine
-        if factor != 1.0 {
-            Self::not_modelled(
-                "cycle 11: a machine parameter decides whether the tool axis is scaled",
-                report,
-            );
-            return self.lose(SCALE);
-        }
-        self.found(SCALE);
-        let mut shape = self.memory.frames.shape;
-        shape.scaling = None::<Scaling>;
-        self.reshape(shape);
-    }
-
-    fn reshape(&mut self, shape: crate::frames::Shape) {
-        self.found(ORDER);
+    /// The system has another shape; the machine stays where it is.
+    pub(super) fn reshape(&mut self, shape: crate::frames::Shape, report: &mut Report<'_>) {
         self.memory.frames.shape = shape;
         let position = self.core.state.position;
         self.memory.frames.refresh(&position);
-        self.memory.pole = [None; 3];
+        (self.memory.pole, self.memory.heading) = ([None; 3], None);
+        if shape.rotation.is_some() && shape.mirror != [None; 3] {
+            self.lose(Reason::Order);
+        } else {
+            self.found(Reason::Order);
+        }
+        self.review_scaling(report);
     }
 }

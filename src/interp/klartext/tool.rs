@@ -1,6 +1,6 @@
 //! TOOL CALL and TOOL DEF.
 use super::Klartext;
-use super::datum::{LENGTH, TOOL_AXIS};
+use super::reason::Reason;
 use super::words::{Said, Words};
 use crate::arc::plane_axes;
 use crate::core::Report;
@@ -163,14 +163,14 @@ impl Klartext<'_> {
         let axis = plane_axes(plane)[2];
         let along = self.core.setup.length_along();
         if !self.core.setup.control.axes_declared || along[axis] != 0.0 {
-            return self.found(TOOL_AXIS);
+            return self.found(Reason::ToolAxis);
         }
         let what = format!(
             "TOOL CALL with tool axis {}: the spindle of the machine does not point along it",
             char::from(crate::AXIS_LETTERS[axis])
         );
         self.not_modelled_once(&what, report);
-        self.lose(TOOL_AXIS);
+        self.lose(Reason::ToolAxis);
     }
 
     /// TOOL CALL DL+0,1: the same tool, measured otherwise. The machine stays where it is, so the tip is somewhere else along the tool.
@@ -214,7 +214,7 @@ impl Klartext<'_> {
         self.core.merge_tool();
         self.memory.tool_length = None;
         if number == Some(0) {
-            self.found(LENGTH);
+            self.found(Reason::Length);
             self.core.state.length.set(None, LengthOf::Nothing);
             return;
         }
@@ -237,8 +237,8 @@ impl Klartext<'_> {
             (_, None) => length.set_declared(None, of),
         }
         match delta {
-            Some(_) => self.found(LENGTH),
-            None => self.lose(LENGTH),
+            Some(_) => self.found(Reason::Length),
+            None => self.lose(Reason::Length),
         }
     }
 

@@ -24,7 +24,7 @@ fn each_word_is_named_with_its_reason() {
     for (dialect, blocks, reason) in [
         (
             KLARTEXT,
-            format!("CYCL DEF 26.0 S\nCYCL DEF 26.1 X1.4 Y0.6 CCX+15 CCY+20\n{L}"),
+            format!("CYCL DEF 26.0 S\nCYCL DEF 26.1 X1.4 Y0.6\n{L}"),
             "cycle 26",
         ),
         (

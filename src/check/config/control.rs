@@ -335,7 +335,7 @@ mod tests {
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
         assert_eq!(control.frame_angles, Some(trunnion_interp::FrameAngles::RollPitchYaw));
-        assert_eq!(control.scaled_axes, Some(ScaledAxes::All));
+        assert_eq!(control.scaled_axes, Some(trunnion_interp::ScaledAxes::All));
         assert_eq!(
             (control.increment_adds_frame, control.increment_adds_length),
             (Some(true), Some(false))

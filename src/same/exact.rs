@@ -16,8 +16,8 @@ use trunnion_syntax::{BlockId, Program, TokenKind};
 pub struct Exact {
     /// The numbers of blocks may differ, and what names them: texts in faults, and the words of blocks that are not modelled.
     pub frees_block_numbers: bool,
-    /// This many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
-    /// larger: empty blocks of one side would make its interpreter stop before the other.
+    /// This many blocks are run at most, and motions of blocks that ran before; an endless loop is the same as far as it was followed. The
+    /// bound of the interpreters must be larger: empty blocks of one side would make its interpreter stop before the other.
     pub most_blocks: u64,
     /// A program whose blocks do more actions than that, besides motions, before one of them runs again is not compared to its end.
     pub most_actions: u64,
@@ -31,8 +31,10 @@ struct Side<'r, 'a> {
     steps: &'r mut Steps<'a>,
     /// How many blocks with content come before each block.
     ordinals: Vec<u32>,
-    /// Blocks that it has run, empty ones too.
+    /// Blocks that it has run, empty ones too, and motions of those that had run before: a cycle in a loop makes many.
     blocks: u64,
+    /// Whether each block has run.
+    ran: Vec<bool>,
     /// Blocks of which a mistake was found.
     refused: BTreeSet<u32>,
     /// Motions and effects that the other side has not matched yet.
@@ -114,8 +116,10 @@ impl<'r, 'a> Side<'r, 'a> {
             count += u32::from(!is_empty(program, block.id()));
             own
         });
+        let ordinals: Vec<u32> = ordinals.collect();
         Self {
-            ordinals: ordinals.collect(),
+            ran: vec![false; ordinals.len()],
+            ordinals,
             blocks: 0,
             refused: BTreeSet::new(),
             items: VecDeque::new(),
@@ -143,7 +147,9 @@ impl<'r, 'a> Side<'r, 'a> {
     fn advance(&mut self) -> Option<BlockId> {
         loop {
             let block = self.steps.advance();
-            self.items.append(&mut self.steps.take_ready());
+            let mut ready = self.steps.take_ready();
+            let motions = ready.iter().filter(|item| matches!(item, Item::Motion(_))).count();
+            self.items.append(&mut ready);
             let mut faults = self.steps.take_faults();
             faults.retain(|fault| self.is_first(fault));
             if self.faults.is_empty() {
@@ -154,6 +160,11 @@ impl<'r, 'a> Side<'r, 'a> {
             }
             let block = block?;
             self.blocks += 1;
+            if let Some(ran) = self.ran.get_mut(block.0 as usize)
+                && core::mem::replace(ran, true)
+            {
+                self.blocks += motions as u64;
+            }
             if !is_empty(self.steps.input().program, block) {
                 return Some(block);
             }
@@ -331,4 +342,43 @@ fn quotes(alarm: Option<&String>) -> bool {
 fn folded(text: &str) -> impl Iterator<Item = char> {
     let visible = text.chars().filter(|c| !c.is_whitespace());
     visible.map(|c| c.to_ascii_uppercase())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Item, Side};
+    use crate::input::Input;
+    use crate::steps::Steps;
+    use trunnion_interp::Setup;
+
+    /// Motions of a program up to a count of 1000, or to its end.
+    fn compared(text: &str) -> usize {
+        let dialect = trunnion_dialect::builtin("fanuc-30i").expect("embedded");
+        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+        let setup = Setup::default();
+        let mut steps = Steps::new(Input {
+            program: &program,
+            dialect,
+            setup: &setup,
+            machine: None,
+        });
+        let mut side = Side::new(&mut steps);
+        let mut motions = 0;
+        while side.blocks < 1000 && side.advance().is_some() {
+            let items = side.items.drain(..);
+            motions += items.filter(|item| matches!(item, Item::Motion(_))).count();
+        }
+        motions
+    }
+
+    #[test]
+    fn motions_of_a_cycle_count_where_a_loop_repeats_it() {
+        let head = "G21 G90 G94 G17\nG0 X0. Y0. Z9.\n";
+        let cycle = "G83 X1. Y1. Z-40. R1. Q1. F100.\n";
+        let looped = compared(&format!("{head}#1=0\nWHILE[#1LT900]DO1\n#1=#1+1\n{cycle}END1\nM30\n"));
+        assert!((900..1300).contains(&looped), "{looped}");
+        // each block of the text once: to its end
+        let written = compared(&format!("{head}{}G80\nM30\n", cycle.repeat(100)));
+        assert!(written > 10_000, "{written}");
+    }
 }

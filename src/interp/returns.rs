@@ -6,8 +6,8 @@ use memchr::memmem;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Address, Block, BlockId, Program, Value};
 
-/// The first program that a run calls and does not find, if it could name a block number of its caller. Those who ask compare or prove each step: what a
-/// run calls after the bound of theirs is nothing to them.
+/// The first program that a run calls and does not find, if it could name a block number of its caller. It is followed as far as a
+/// comparison follows it (`steps` of the limits): what is called later is not compared.
 pub fn may_return_to_numbers(program: &Program, dialect: &Dialect, setup: &Setup) -> Option<String> {
     if !dialect.quirks.macro_b() || !has_calls(program) {
         return None;

@@ -75,11 +75,12 @@ pub use run::{Interpreter, run};
 pub use start::{declared_at_power_on, power_on_state};
 pub use trunnion_ngc::is_stored_global;
 pub use trunnion_vocabulary::{
-    AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, Beside, ChainId, Clamp, ClampCodes, Clamps, ControlData,
-    DrillingAxis, Effect, Fault, FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, ImplicitDecimals, Lacks,
-    LengthOf, LengthUnit, Library, Limits, Loaded, ModalState, Motion, MotionKind, NamedVariables, Nose, Orientation,
-    OuterCorner, Placed, Position, Posture, ProgramRun, Progress, Reach, Refusal, RollPitchYaw, RotaryTurn,
-    RoughingEscape, ScaledAxes, Searched, Setup, Sink, Spin, SplineReading, Swivel, TcpCodes, TcpMistake, Tilt, Tool,
-    ToolLength, ToolOffsets, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset, is_left, same_number,
+    AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, Beside, ChainId, ChamferLength, Clamp, ClampCodes, Clamps,
+    ControlData, DrillingAxis, Effect, Fault, FaultKind, Feed, FeedMode, Files, Frame, FrameAngles, HolePlaces,
+    ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library, Limits, Loaded, ModalState, Motion, MotionKind,
+    NamedVariables, Nose, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Progress, Reach, Refusal,
+    RollPitchYaw, RotaryTurn, RoughingEscape, ScaledAxes, Searched, Setup, Sink, Spin, SplineReading, Swivel, TcpCodes,
+    TcpMistake, Tilt, Tool, ToolLength, ToolOffsets, ToolShape, Undeclared, UnknownName, Value, Ways, WorkOffset,
+    is_left, same_number,
 };
 pub use written::canonical_text;

@@ -29,8 +29,8 @@ pub use motion::{
 };
 pub use progress::Progress;
 pub use setup::{
-    ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, Library, NamedVariables, Nose, OuterCorner,
-    RollPitchYaw, RotaryTurn, RoughingEscape, ScaledAxes, Setup, SplineReading, TcpCodes, Tool, ToolOffsets, ToolShape,
-    WorkOffset,
+    ChamferLength, ControlData, DrillingAxis, FrameAngles, HolePlaces, ImplicitDecimals, LengthUnit, Library,
+    NamedVariables, Nose, OuterCorner, RollPitchYaw, RotaryTurn, RoughingEscape, ScaledAxes, Setup, SplineReading,
+    TcpCodes, Tool, ToolOffsets, ToolShape, WorkOffset,
 };
 pub use sink::{ProgramRun, Sink};

@@ -186,6 +186,23 @@ pub enum ScaledAxes {
     All,
 }
 
+/// What the length of CHF of a HEIDENHAIN control measures: its manuals call it both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChamferLength {
+    /// How much the chamfer takes off each of its two lines.
+    Side,
+    /// The chamfer itself, from line to line.
+    Face,
+}
+
+/// How the arguments of CYCLE802 of a Sinumerik are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HolePlaces {
+    /// Nine digits for X and nine for Y, the last one of the first place: 1 absolute, 2 from the place before; then X and Y of up to nine
+    /// places in pairs.
+    Pairs,
+}
+
 /// How a rotary axis of the machine turns the tool against the workpiece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryTurn {
@@ -247,6 +264,10 @@ pub struct ControlData {
     pub splines: Option<SplineReading>,
     /// Which axes cycle 11 of Klartext scales; `None`: not declared, positions after it are unknown.
     pub scaled_axes: Option<ScaledAxes>,
+    /// What the length of CHF of Klartext measures; `None`: not declared, the path at such a corner is unknown.
+    pub chamfer_length: Option<ChamferLength>,
+    /// How the arguments of CYCLE802 are read; `None`: not declared, positions after it are unknown.
+    pub hole_places: Option<HolePlaces>,
     /// Whether the first incremental coordinate after another zero point or frame travels the change too (Sinumerik setting data 42440
     /// FRAME_OFFSET_INCR_PROG); `None`: not declared, where such a coordinate leads is unknown.
     pub increment_adds_frame: Option<bool>,

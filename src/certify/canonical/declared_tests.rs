@@ -1,10 +1,10 @@
-//! What settings and machine files declare of lathes, spindles and drilling in other planes counts.
+//! What settings and machine files declare of lathes, spindles, chamfers and holes counts.
 use crate::digest::{machine_digest, setup_digest};
 use std::collections::BTreeSet;
-use trunnion_interp::{DrillingAxis, Setup, ToolOffsets};
+use trunnion_interp::{ChamferLength, DrillingAxis, HolePlaces, Setup, ToolOffsets};
 
 #[test]
-fn tool_offsets_spindles_and_the_drilling_axis_count() {
+fn what_settings_declare_counts() {
     let offsets = |number: u32, value: f64| Setup {
         tool_offsets: ToolOffsets(vec![(number, [value; 9])]),
         ..Setup::default()
@@ -19,6 +19,13 @@ fn tool_offsets_spindles_and_the_drilling_axis_count() {
         setup.control.main_spindle = Some(number);
         setup
     };
+    let chamfer = |length| {
+        let mut setup = Setup::default();
+        setup.control.chamfer_length = Some(length);
+        setup
+    };
+    let mut places = Setup::default();
+    places.control.hole_places = Some(HolePlaces::Pairs);
     let setups = [
         Setup::default(),
         offsets(2, 0.0),
@@ -28,6 +35,9 @@ fn tool_offsets_spindles_and_the_drilling_axis_count() {
         turns(2),
         drills(DrillingAxis::Z),
         drills(DrillingAxis::AcrossPlane),
+        chamfer(ChamferLength::Side),
+        chamfer(ChamferLength::Face),
+        places,
     ];
     let digests: BTreeSet<_> = setups.iter().map(setup_digest).collect();
     assert_eq!(digests.len(), setups.len());

@@ -6,8 +6,8 @@ use crate::claim::RefitSource;
 use crate::postures::PostureCost;
 use trunnion_dialect::{Action, CodeKind, Owner, PathMode, Role};
 use trunnion_interp::{
-    DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw, RoughingEscape, ScaledAxes,
-    SplineReading,
+    ChamferLength, DrillingAxis, FrameAngles, HolePlaces, ImplicitDecimals, LengthUnit, OuterCorner, RollPitchYaw,
+    RoughingEscape, ScaledAxes, SplineReading,
 };
 use trunnion_machine::{AxisKind, FeedMeaning, PoleAction, PostureRule, RapidPath, Side, Wrap};
 use trunnion_syntax::Format;
@@ -59,6 +59,8 @@ tags! { RollPitchYaw { Fixed = 1, Turned = 2 } }
 tags! { FrameAngles { RollPitchYaw = 1, Euler = 2 } }
 tags! { SplineReading { ChordLength = 1 } }
 tags! { ScaledAxes { Plane = 1, All = 2 } }
+tags! { ChamferLength { Side = 1, Face = 2 } }
+tags! { HolePlaces { Pairs = 1 } }
 tags! { RefitSource { Points = 1, Chords = 2 } }
 tags! { PostureCost { Travel = 1, Time = 2, Deviation = 3 } }
 

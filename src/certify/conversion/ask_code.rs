@@ -66,7 +66,8 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         | Action::ThreadRepeatCycle => Own(Why::Synchronised),
         // CYCLE84 taps; 86, 87 and 88 stop the spindle at an angle or wait for the operator
         Action::HoleCall => match code.id.as_str() {
-            "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85" | "CYCLE89" | "CYCLE801" | "HOLES1" | "HOLES2" => Motions,
+            "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85" | "CYCLE89" | "CYCLE801" | "CYCLE802" | "HOLES1"
+            | "HOLES2" => Motions,
             "CYCLE84" => Own(Why::Synchronised),
             _ => Own(Why::Motion),
         },

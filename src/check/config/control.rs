@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
-    AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position,
-    RollPitchYaw, RoughingEscape, ScaledAxes, SplineReading, TcpCodes,
+    AxisLetter, ChamferLength, ControlData, DrillingAxis, FrameAngles, HolePlaces, ImplicitDecimals, LengthUnit,
+    OuterCorner, Position, RollPitchYaw, RoughingEscape, ScaledAxes, SplineReading, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -59,6 +59,19 @@ enum Scaled {
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+enum Chamfer {
+    Side,
+    Face,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Places {
+    Pairs,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 enum Escape {
     Feed,
     Rapid,
@@ -106,6 +119,8 @@ pub(super) struct FileControl {
     frame_angles: Option<Order>,
     splines: Option<Splines>,
     scaled_axes: Option<Scaled>,
+    chamfer_length: Option<Chamfer>,
+    hole_places: Option<Places>,
     increment_adds_frame: Option<bool>,
     increment_adds_length: Option<bool>,
     tcp_codes: Option<Codes>,
@@ -190,6 +205,11 @@ impl FileControl {
                 Scaled::Plane => ScaledAxes::Plane,
                 Scaled::All => ScaledAxes::All,
             }),
+            chamfer_length: self.chamfer_length.map(|length| match length {
+                Chamfer::Side => ChamferLength::Side,
+                Chamfer::Face => ChamferLength::Face,
+            }),
+            hole_places: self.hole_places.map(|Places::Pairs| HolePlaces::Pairs),
             increment_adds_frame: self.increment_adds_frame,
             increment_adds_length: self.increment_adds_length,
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
@@ -320,7 +340,7 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nmain_spindle = 2\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
-                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nscaled_axes = \"all\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nscaled_axes = \"all\"\nchamfer_length = \"side\"\nhole_places = \"pairs\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
@@ -336,6 +356,8 @@ mod tests {
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
         assert_eq!(control.frame_angles, Some(trunnion_interp::FrameAngles::RollPitchYaw));
         assert_eq!(control.scaled_axes, Some(trunnion_interp::ScaledAxes::All));
+        assert_eq!(control.chamfer_length, Some(trunnion_interp::ChamferLength::Side));
+        assert_eq!(control.hole_places, Some(trunnion_interp::HolePlaces::Pairs));
         assert_eq!(
             (control.increment_adds_frame, control.increment_adds_length),
             (Some(true), Some(false))
@@ -369,6 +391,8 @@ mod tests {
             ("[control]\nbore_shift = \"X\"", "\"X\""),
             ("[control]\ndrilling_axis = \"y\"", "\"y\""),
             ("[control]\nscaled_axes = \"z\"", "\"z\""),
+            ("[control]\nchamfer_length = 2", "2"),
+            ("[control]\nhole_places = \"list\"", "\"list\""),
             ("[control]\nroughing_escape = \"slow\"", "\"slow\""),
             ("[control]\nthread_pull_out = -0.1", "-0.1"),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),

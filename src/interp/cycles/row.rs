@@ -1,7 +1,9 @@
-//! Holes in a row, on a circle and in a grid (Sinumerik HOLES1, HOLES2, CYCLE801): the cycle of MCALL runs at each of them.
+//! Holes in a row, on a circle, in a grid and at any places (Sinumerik HOLES1, HOLES2, CYCLE801, CYCLE802): the cycle of MCALL runs at each of
+//! them.
 //!
 //! Sources: the text of the control's own cycles (version 6) and the Sinumerik 840D sl Programming Manual, Cycles. Where a row begins
 //! differs between them: at the end nearer the frame's zero, or nearer the present position. It is followed where both are the same end.
+//! No source gives the arguments of CYCLE802: it is followed where the settings declare them (`[control] hole_places`, decision 0367).
 use super::called::Given;
 use crate::arc::plane_axes;
 use crate::codes::{Found, not_modelled};
@@ -9,7 +11,7 @@ use crate::core::Report;
 use crate::frames::sin_cos_degrees;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{FaultKind, Feed, MotionKind, Refusal};
+use crate::{FaultKind, Feed, HolePlaces, MotionKind, Refusal};
 use trunnion_dialect::Action;
 use trunnion_geometry::math::hypot;
 
@@ -22,7 +24,7 @@ const TINY: f64 = 1e-9;
 type Place = [f64; 2];
 
 /// The numbers of a call that are lengths and angles, and how many holes there are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Row {
     /// HOLES1: first hole, angle, distance between holes, how many.
     Line(Place, f64, f64, usize),
@@ -30,6 +32,8 @@ enum Row {
     Circle(Place, f64, f64, f64, usize),
     /// CYCLE801: corner, angle, distances, how many each way.
     Grid(Place, f64, [f64; 2], [usize; 2]),
+    /// CYCLE802: the places.
+    Listed(Vec<Place>),
 }
 
 /// What a call makes.
@@ -43,10 +47,13 @@ enum Places {
 
 impl Row {
     fn is_called(id: &str) -> bool {
-        matches!(id, "HOLES1" | "HOLES2" | "CYCLE801")
+        matches!(id, "HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802")
     }
 
-    fn of(id: &str, numbers: &[Given]) -> Option<Self> {
+    fn of(id: &str, numbers: &[Given], listed: Option<HolePlaces>) -> Option<Self> {
+        if id == "CYCLE802" {
+            return listed.and_then(|HolePlaces::Pairs| pairs(numbers)).map(Self::Listed);
+        }
         let number = |place: usize| numbers.get(place).copied().unwrap_or(Given::Nothing).or_zero();
         let count = |place: usize| {
             let count = number(place)?;
@@ -84,6 +91,7 @@ impl Row {
     /// The holes in their order, seen from a place.
     fn places(&self, here: Option<Place>) -> Places {
         match *self {
+            Self::Listed(ref places) => Places::These(places.clone()),
             Self::Circle(.., between, count) if count > 1 && between.abs() * (count - 1) as f64 >= 360.0 => {
                 Places::Refused
             }
@@ -142,6 +150,44 @@ impl Row {
     }
 }
 
+/// The places of CYCLE802 as [`HolePlaces::Pairs`] reads them.
+fn pairs(numbers: &[Given]) -> Option<Vec<Place>> {
+    const MOST: usize = 9;
+    let number = |place: usize| numbers.get(place).copied().unwrap_or(Given::Nothing);
+    if (2 + 2 * MOST..numbers.len()).any(|place| number(place).or_zero() != Some(0.0)) {
+        return None;
+    }
+    let ways = [number(0), number(1)].map(|given| match given {
+        Given::Number(digits) if digits.fract() == 0.0 && (1.0..1e9).contains(&digits) => Some(digits as u32),
+        _ => None,
+    });
+    let ways = [ways[0]?, ways[1]?];
+    let mut places: Vec<Place> = Vec::new();
+    let mut ended = false;
+    for hole in 0..MOST {
+        let mut place = Place::default();
+        match [number(2 + 2 * hole), number(3 + 2 * hole)] {
+            [Given::Nothing, Given::Nothing] => {
+                ended = true;
+                continue;
+            }
+            [Given::Number(a), Given::Number(b)] if !ended => {
+                for (axis, value) in [a, b].into_iter().enumerate() {
+                    let way = ways[axis] / 10_u32.pow(hole as u32) % 10;
+                    place[axis] = match (way, places.last()) {
+                        (1, _) => value,
+                        (2, Some(before)) => before[axis] + value,
+                        _ => return None,
+                    };
+                }
+            }
+            _ => return None,
+        }
+        places.push(place);
+    }
+    (!places.is_empty()).then_some(places)
+}
+
 fn along(from: Place, degrees: f64, by: f64) -> Place {
     let (sin, cos) = sin_cos_degrees(degrees);
     [from[0] + by * cos, from[1] + by * sin]
@@ -194,10 +240,11 @@ impl Iso<'_> {
         let unknown_call = self.core.state.motion == Some(Action::CannedCycle)
             || words.axes.any()
             || a.min(b) == 0 && self.program_sets_diameters();
-        let places = match Row::of(&found.code.id, numbers).filter(|_| !unknown_call) {
-            Some(row) => row.places(here),
-            None => Places::Unknown,
-        };
+        let places =
+            match Row::of(&found.code.id, numbers, self.core.setup.control.hole_places).filter(|_| !unknown_call) {
+                Some(row) => row.places(here),
+                None => Places::Unknown,
+            };
         let holes = match places {
             Places::These(holes) => holes,
             Places::Refused => {
@@ -211,7 +258,12 @@ impl Iso<'_> {
                 return true;
             }
             Places::Unknown => {
-                not_modelled(found, report);
+                if found.code.id == "CYCLE802" && self.core.setup.control.hole_places.is_none() {
+                    let what = "CYCLE802: what its arguments say (declare [control] hole_places)".to_owned();
+                    report.fault(found.range, FaultKind::NotModelled { what });
+                } else {
+                    not_modelled(found, report);
+                }
                 self.row_lost(report);
                 return true;
             }

@@ -35,7 +35,7 @@ pub(super) fn couples(action: Action) -> bool {
 /// Whether a code calls a cycle whose whole effect is in its motions; the others tap, orient the spindle, or wait.
 pub(super) fn is_plain_cycle(code: &trunnion_dialect::Code) -> bool {
     let plain = [
-        "CYCLE81", "CYCLE82", "CYCLE83", "CYCLE85", "CYCLE89", "CYCLE801", "HOLES1", "HOLES2",
+        "CYCLE81", "CYCLE82", "CYCLE83", "CYCLE85", "CYCLE89", "CYCLE801", "CYCLE802", "HOLES1", "HOLES2",
     ];
     code.action == Action::HoleCall && plain.contains(&code.id.as_str())
 }

@@ -4,7 +4,7 @@ use super::words::{Said, Words};
 use super::{Klartext, Made};
 use crate::core::Report;
 use crate::corner::{Cut, flat};
-use crate::{Feed, FeedMode, MotionKind, Refusal};
+use crate::{ChamferLength, Feed, FeedMode, MotionKind, Refusal};
 use trunnion_syntax::BlockId;
 
 /// What needs the next motion.
@@ -23,8 +23,23 @@ pub(crate) enum Corner {
     Awaited,
     /// It is not followed.
     Unknown,
-    /// RND with this radius, mm, and its own feed.
-    Round(f64, Option<Feed>),
+    /// RND or CHF.
+    Cut(Size, Option<Feed>),
+}
+
+/// How large a corner is, and what its block calls it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Size {
+    /// `R` for a radius, `C` and `F` for a chamfer by its side and by its face: see [`Cut::new`].
+    letter: u8,
+    /// mm
+    mm: f64,
+}
+
+impl Size {
+    fn name(self) -> &'static str {
+        if self.letter == b'R' { "RND" } else { "CHF" }
+    }
 }
 
 /// Blocks without words that are passed over to find the next one.
@@ -60,12 +75,32 @@ pub(crate) fn comes(report: &Report<'_>) -> bool {
 impl Klartext<'_> {
     /// RND R.
     pub(crate) fn round(&mut self, first: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
-        let mut radius = None;
+        self.sized("RND", Some(b'R'), first, words, report);
+    }
+
+    /// CHF: what its length measures is declared.
+    pub(crate) fn chamfer(&mut self, first: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
+        let letter = self.core.setup.control.chamfer_length.map(|length| match length {
+            ChamferLength::Side => b'C',
+            ChamferLength::Face => b'F',
+        });
+        self.sized("CHF", letter, first, words, report);
+    }
+
+    /// The size of a corner; `letter`: see [`Size`], `None` where the settings do not say how it is meant.
+    fn sized(
+        &mut self,
+        name: &str,
+        letter: Option<u8>,
+        first: Said<'_>,
+        words: &mut Words<'_>,
+        report: &mut Report<'_>,
+    ) {
         let (mut feed, mut unread) = (None, false);
         let mut value = first;
         for word in words.by_ref() {
             match word.name() {
-                b"R" => value = word.value,
+                b"R" if letter == Some(b'R') => value = word.value,
                 // it ends with the corner (iTNC 530 60642x-03, p. 232)
                 b"F" => match word.value {
                     Said::Number(_) | Said::Parameter(..) if self.core.state.feed.mode() == FeedMode::PerMinute => {
@@ -79,26 +114,31 @@ impl Klartext<'_> {
                 _ => unread = true,
             }
         }
-        if value == Said::Nothing {
-            Self::rejected(Refusal::MissingWord, "RND needs its radius", report);
-        } else {
+        let is_round = letter == Some(b'R');
+        let size = if value == Said::Nothing {
+            let what = if is_round {
+                "RND needs its radius"
+            } else {
+                "CHF needs its length"
+            };
+            Self::rejected(Refusal::MissingWord, what, report);
+            None
+        } else if let Some(letter) = letter {
             let unit = self.core.state.coordinates.unit_mm();
-            radius = self.said(value, report).map(|radius| radius.abs() * unit);
-            radius = radius.and_then(|radius| self.scaled_radius(radius, report));
-        }
+            let mm = self.said(value, report).map(|size| size.abs() * unit);
+            let mm = mm.and_then(|mm| self.scaled_size(name, mm, report));
+            mm.map(|mm| Size { letter, mm })
+        } else {
+            let what = "CHF: what its length measures (declare [control] chamfer_length)";
+            Self::not_modelled(what, report);
+            None
+        };
         if unread {
-            self.not_modelled_once("RND: words beside its radius and a feed in mm/min", report);
+            let what = if is_round { "its radius" } else { "its length" };
+            let what = format!("{name}: words beside {what} and a feed in mm/min");
+            self.not_modelled_once(&what, report);
         }
-        self.corner(
-            radius.map_or(Corner::Unknown, |radius| Corner::Round(radius, feed)),
-            report,
-        );
-    }
-
-    /// CHF: whether its length is that of the face or of what it takes off is not taken from a source.
-    pub(crate) fn chamfer(&mut self, _length: Said<'_>, report: &mut Report<'_>) {
-        Self::not_modelled("CHF: what its length measures", report);
-        self.corner(Corner::Unknown, report);
+        self.corner(size.map_or(Corner::Unknown, |size| Corner::Cut(size, feed)), report);
     }
 
     fn corner(&mut self, found: Corner, report: &mut Report<'_>) {
@@ -116,8 +156,8 @@ impl Klartext<'_> {
                 self.hold_or_finish(made, report);
             }
             Some(Waiting::Corner(before, Corner::Unknown)) => self.cut(*before, None, made, report),
-            Some(Waiting::Corner(before, Corner::Round(radius, feed))) => {
-                self.cut(*before, Some((radius, feed)), made, report);
+            Some(Waiting::Corner(before, Corner::Cut(size, feed))) => {
+                self.cut(*before, Some((size, feed)), made, report);
             }
             Some(Waiting::Approach(approach)) => {
                 self.finish_approach(&approach, &made, report);
@@ -135,14 +175,14 @@ impl Klartext<'_> {
         }
     }
 
-    /// Rounds the corner between two lines in the plane.
-    fn cut(&mut self, mut before: Made, round: Option<(f64, Option<Feed>)>, mut next: Made, report: &mut Report<'_>) {
-        let radius = round.map(|(radius, _)| radius);
-        let feed = round.and_then(|(_, feed)| feed);
+    /// Rounds or chamfers the corner between two lines in the plane.
+    fn cut(&mut self, mut before: Made, known: Option<(Size, Option<Feed>)>, mut next: Made, report: &mut Report<'_>) {
+        let size = known.map(|(size, _)| size);
+        let feed = known.and_then(|(_, feed)| feed);
         let axes = self.axes();
         let ways = flat(&before.motion, axes).zip(flat(&next.motion, axes));
-        let fits = ways.zip(radius).map(|((first, second), radius)| {
-            let cut = Cut::new(axes, first, second, b'R', radius);
+        let fits = ways.zip(size).map(|((first, second), size)| {
+            let cut = Cut::new(axes, first, second, size.letter, size.mm);
             let room = cut.by <= first.norm() + 1e-9 && cut.by <= second.norm() + 1e-9;
             (cut, room)
         });
@@ -150,9 +190,12 @@ impl Klartext<'_> {
             Some((cut, true)) if before.tilt == next.tilt => {
                 let mut done = Vec::new();
                 let mut pending = (next.motion, self.core.state.clone());
-                cut.apply((before.motion, self.core.state.clone()), true, &mut pending, &mut done);
-                for (mut motion, _) in done {
-                    if let (MotionKind::Arc(_), Some(feed)) = (motion.kind, feed) {
+                let round = size.is_some_and(|size| size.letter == b'R');
+                let first = (before.motion, self.core.state.clone());
+                cut.apply(first, round, &mut pending, &mut done);
+                // the motion up to the corner, and the corner
+                for (place, (mut motion, _)) in done.into_iter().enumerate() {
+                    if let (1, Some(feed)) = (place, feed) {
                         motion.feed = feed;
                     }
                     self.finish_motion(&Made {
@@ -171,8 +214,9 @@ impl Klartext<'_> {
                 self.finish_motion(&before);
             }
             _ => {
-                if radius.is_some() {
-                    Self::not_modelled("RND: a corner that is not between two lines in the plane", report);
+                if let Some(size) = size {
+                    let what = format!("{}: a corner that is not between two lines in the plane", size.name());
+                    Self::not_modelled(&what, report);
                 }
                 for axis in &axes[..2] {
                     before.motion.end.forget(*axis);

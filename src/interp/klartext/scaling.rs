@@ -280,15 +280,15 @@ impl Klartext<'_> {
     }
 
     /// The radius of RND in the workpiece; `None`: not known. Cycle 11 multiplies radii; what cycle 26 does with them is not stated.
-    pub(super) fn scaled_radius(&mut self, radius: f64, report: &mut Report<'_>) -> Option<f64> {
+    pub(super) fn scaled_size(&mut self, name: &str, mm: f64, report: &mut Report<'_>) -> Option<f64> {
         let Some(scaling) = self.memory.frames.shape.scaling else {
-            return Some(radius);
+            return Some(mm);
         };
         if self.memory.scales.by_axis() {
-            self.not_modelled_once("RND while cycle 26 scales: its radius", report);
+            self.not_modelled_once(&format!("{name} while cycle 26 scales: its size"), report);
             return None;
         }
-        Some(radius * scaling.factors[self.axes()[0]])
+        Some(mm * scaling.factors[self.axes()[0]])
     }
 
     /// Whether a cycle runs in a scaled system: its dimensions are scaled, in the tool axis too or not.

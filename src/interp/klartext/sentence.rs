@@ -39,7 +39,7 @@ impl Klartext<'_> {
             b"CTP" => self.path_block(Path::PolarTangent, &mut words, report),
             b"CC" => self.pole(&mut words, report),
             b"RND" => self.round(first.value, &mut words, report),
-            b"CHF" => self.chamfer(first.value, report),
+            b"CHF" => self.chamfer(first.value, &mut words, report),
             b"APPR" => self.approach(&mut words, report),
             b"DEP" => self.depart(&mut words, report),
             b"FL" | b"FLT" | b"FC" | b"FCT" | b"FPOL" | b"FSELECT" => self.free_contour(first.name(), report),

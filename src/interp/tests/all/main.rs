@@ -15,6 +15,7 @@ mod cycles;
 mod cycles_given_up;
 mod cycles_steps;
 mod data_words;
+mod declared_words;
 mod directives;
 mod drawing;
 mod faults;

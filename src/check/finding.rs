@@ -17,6 +17,13 @@ pub(crate) struct Draft<'p> {
     spans: Option<(u32, BlockId)>,
 }
 
+/// The part of a range that the program has.
+pub(crate) fn within(program: &Program, range: TextRange) -> TextRange {
+    let end = program.source().len() as u32;
+    let start = range.start.min(end);
+    TextRange::new(start, range.end.clamp(start, end))
+}
+
 impl<'p> Draft<'p> {
     /// A finding of a rule, without words.
     pub(crate) fn new(
@@ -58,9 +65,7 @@ impl<'p> Draft<'p> {
     /// The finding, how it is merged with others, and its block where its rule looked at one.
     pub(crate) fn finish(mut self) -> (Diagnostic, Option<Merge>) {
         let range = self.place.unwrap_or_else(|| code_range(self.program, self.block));
-        let end = self.program.source().len() as u32;
-        let start = range.start.min(end);
-        self.diagnostic.range = TextRange::new(start, range.end.clamp(start, end));
+        self.diagnostic.range = within(self.program, range);
         self.diagnostic.last = self.diagnostic.range;
         if let Some((count, last)) = self.spans {
             self.diagnostic.count = count;

@@ -255,6 +255,23 @@ impl Log {
         true
     }
 
+    /// Counts a cause that is reported once ([`Merge::once`]), of unknown status: true if it was reported.
+    pub(crate) fn repeat(&mut self, (rule, key): (&'static str, u64), block: BlockId, range: TextRange) -> bool {
+        let Some(run) = self.open.get_mut(&(rule, key, true)) else {
+            return false;
+        };
+        let [(_, whole)] = run.items.as_mut_slice() else {
+            return false;
+        };
+        if !run.everywhere || run.later.is_some() {
+            return false;
+        }
+        whole.count += 1;
+        whole.last = range;
+        (run.merged, run.last, run.block) = (true, None, Some(block));
+        true
+    }
+
     fn close(&mut self, place: Place, mut run: Run, program: &Program) {
         match run.unworded.take() {
             Some(kept) => {

@@ -1,11 +1,11 @@
 //! Where rules report to: they write the messages; levels, suppression, block numbers and merging are handled here.
 use crate::caller::Part;
 use crate::diagnostic::Origin;
-use crate::finding::Draft;
+use crate::finding::{Draft, within};
 use crate::keyed::Keyed;
 use crate::nearest::NearCodes;
 use crate::runs::{Log, Merge, Repeat};
-use crate::slip::{bare_keyword, letter_o};
+use crate::slip::bare_keyword;
 use crate::suppress::Suppressions;
 use crate::view::LegView;
 use crate::wake::Wake;
@@ -73,6 +73,7 @@ pub(crate) struct Reporter<'a> {
 }
 
 mod scope;
+mod slips;
 
 impl<'a> Reporter<'a> {
     pub(crate) fn new(program: &'a Program, dialect: &'a Dialect, suppressions: &'a Suppressions) -> Self {
@@ -132,41 +133,6 @@ impl<'a> Reporter<'a> {
     /// Starts a finding at a place; the message says what is wrong, in one sentence with numbers and units.
     pub(crate) fn report(&mut self, range: TextRange, message: impl Into<String>) -> &mut Draft<'a> {
         self.draft().at(range).say(message)
-    }
-
-    /// Whether a place is in a word that has the letter O for a zero; that is reported once for each such word, in place of what else
-    /// is wrong with it.
-    pub(crate) fn is_slip(&mut self, range: TextRange) -> bool {
-        let Some(slip) = letter_o(self.program, range.start) else {
-            return false;
-        };
-        if self.slips.insert(slip.range.start) {
-            let text = self.text(slip.range);
-            let meant = slip.meant;
-            self.report(
-                slip.range,
-                format!("`{text}` contains the letter O; did you mean `{meant}`?"),
-            )
-            .severity(Severity::Error)
-            .help(format!("write {meant}, with the digit 0"))
-            .replace_with(meant);
-        }
-        true
-    }
-
-    /// The same where names are words, too: the word has a digit or a point besides the letter O, before it or right after it.
-    pub(crate) fn is_slip_of_digits(&mut self, range: TextRange) -> bool {
-        let Some(slip) = letter_o(self.program, range.start) else {
-            return false;
-        };
-        let text = self.program.text(slip.range);
-        let is_name = text.as_bytes().get(1).is_some_and(u8::is_ascii_alphabetic) && !text.contains(['.', '=']);
-        !is_name && self.is_slip(range)
-    }
-
-    /// Whether a place is in a word that has the letter O for a zero.
-    pub(crate) fn has_letter_o(&self, range: TextRange) -> bool {
-        letter_o(self.program, range.start).is_some()
     }
 
     /// Starts a finding at the code of a block.
@@ -283,6 +249,15 @@ impl<'a> Reporter<'a> {
         let absorbed = !self.wording && !self.suppressions.allows(rule, block) && self.log.absorb(repeat, view);
         self.spoke |= absorbed;
         absorbed
+    }
+
+    /// Whether a cause, of unknown status, was reported before: then it is counted, and needs no message.
+    pub(crate) fn repeats(&mut self, cause: u64, range: TextRange) -> bool {
+        let Some(block) = self.block else { return false };
+        let repeats = !self.suppressions.allows(self.name, block)
+            && self.log.repeat((self.name, cause), block, within(self.program, range));
+        self.spoke |= repeats;
+        repeats
     }
 
     /// Writes the messages of the worst legs of runs that only kept them.

@@ -76,11 +76,11 @@ pub(crate) struct Global {
     /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory). Default: 64; fmt: 16.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_file_mb: Option<u64>,
-    /// Refuse to read a program of more lines than this (every line takes memory, empty ones too). Default: 1050000; trace: 600000; fmt: 400000.
+    /// Refuse to read a program of more lines than this (every line takes memory, empty ones too). Default: 1050000; trace: 600000; fmt: 300000.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_lines: Option<u64>,
     /// Stop a run that is compared, proved, converted, listed or drawn after this many executed blocks, in addition to one run of each block of the text.
-    /// Default: `steps` of [limits] in trunnion.toml, else 300000.
+    /// Default: `steps` of [limits] in trunnion.toml, else 150000.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_steps: Option<u64>,
     /// When to use colours.

@@ -53,7 +53,7 @@ pub(crate) enum SourceOf {
 
 /// Runs `fix`. A rewrite that changes nothing because it is refused makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
-    let loaded = load::load(global, &command.file)?;
+    let mut loaded = load::load(global, &command.file)?;
     loaded.machine_or_fail("fix")?;
     if load::is_stdin(&command.file) && command.write {
         return Err(Failure::new(
@@ -87,6 +87,8 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         trunnion_files::sweep_beside(&command.file);
     }
     let chosen = waiting::during(global, "checking", &command.file, || choose(command, &loaded))?;
+    // the findings are those of a check; proposals and proofs are of every step
+    loaded.resolved.bound_steps();
     if chosen.is_empty() && !retarget::wanted(command) {
         remark(
             global.quiet,

@@ -32,7 +32,7 @@ pub fn style(settings: &FormatSettings) -> Style {
 /// Larger programs are not laid out in an editor: the old and the new text are run and compared step by step, which takes ten seconds and a gigabyte
 /// for a million lines. As much as `trunnion fmt` reads by default.
 const MOST_BYTES: usize = 16_000_000;
-const MOST_LINES: usize = 400_000;
+const MOST_LINES: usize = 300_000;
 
 /// So many edits are sent one by one: each costs more on its way to the editor than the line that it changes.
 const EDITS: usize = 20_000;

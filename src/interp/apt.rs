@@ -94,6 +94,10 @@ impl<'d> Engine<'d> for Apt<'d> {
     fn core(&self) -> &Core<'d> {
         &self.core
     }
+    fn cycle_work(&self) -> u64 {
+        self.cycle_motions.count()
+    }
+
     fn core_mut(&mut self) -> &mut Core<'d> {
         &mut self.core
     }

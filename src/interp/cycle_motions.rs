@@ -16,6 +16,11 @@ impl CycleMotions {
         self.0 += steps;
     }
 
+    /// All of them.
+    pub(crate) fn count(self) -> u64 {
+        self.0
+    }
+
     /// Why no more are made; `blocks`: the bound on executed blocks. `None`: there is room.
     pub(crate) fn over(self, blocks: u64) -> Option<String> {
         (self.0 > blocks).then(|| format!("more than {blocks} motions in the cycles of the program ([limits] blocks)"))

@@ -41,6 +41,10 @@ pub(crate) trait Engine<'d>: Clone {
     fn cycle_data(&self) -> Vec<Argument> {
         Vec::new()
     }
+    /// How many motions its cycles have made, and steps that they worked out in vain.
+    fn cycle_work(&self) -> u64 {
+        0
+    }
     /// Whether drilling cycles return to the R level.
     fn returns_to_r(&self) -> bool {
         false

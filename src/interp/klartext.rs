@@ -129,6 +129,10 @@ impl<'d> Engine<'d> for Klartext<'d> {
     fn core(&self) -> &Core<'d> {
         &self.core
     }
+    fn cycle_work(&self) -> u64 {
+        self.cycle_motions.count()
+    }
+
     fn core_mut(&mut self) -> &mut Core<'d> {
         &mut self.core
     }

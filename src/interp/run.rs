@@ -188,6 +188,11 @@ impl<'d> Interpreter<'d> {
         with_engine!(&self.engine, engine => engine.core().losses)
     }
 
+    /// How many motions the cycles of the run have made so far, and steps that they worked out in vain.
+    pub fn cycle_work(&self) -> u64 {
+        with_engine!(&self.engine, engine => engine.cycle_work())
+    }
+
     /// All variables that are known, or were known before something ran that is not followed, by name.
     pub fn known_variables(&self) -> Vec<crate::Argument> {
         with_engine!(&self.engine, engine => engine.known_variables())

@@ -16,7 +16,7 @@ use trunnion_syntax::{BlockId, Program, TokenKind};
 pub struct Exact {
     /// The numbers of blocks may differ, and what names them: texts in faults, and the words of blocks that are not modelled.
     pub frees_block_numbers: bool,
-    /// This many blocks are run at most, and motions of blocks that ran before; an endless loop is the same as far as it was followed. The
+    /// This many blocks are run at most, and motions and steps of cycles of blocks that ran before; an endless loop is the same as far as it was followed. The
     /// bound of the interpreters must be larger: empty blocks of one side would make its interpreter stop before the other.
     pub most_blocks: u64,
     /// A program whose blocks do more actions than that, besides motions, before one of them runs again is not compared to its end.
@@ -31,7 +31,8 @@ struct Side<'r, 'a> {
     steps: &'r mut Steps<'a>,
     /// How many blocks with content come before each block.
     ordinals: Vec<u32>,
-    /// Blocks that it has run, empty ones too, and motions of those that had run before: a cycle in a loop makes many.
+    /// Blocks that it has run, empty ones too, and what those that had run before made: a cycle in a loop makes many motions, or follows a long
+    /// contour for a few.
     blocks: u64,
     /// Whether each block has run.
     ran: Vec<bool>,
@@ -146,7 +147,9 @@ impl<'r, 'a> Side<'r, 'a> {
     /// Runs to the end of the next block with content; `None` at the end.
     fn advance(&mut self) -> Option<BlockId> {
         loop {
+            let worked = self.steps.interpreter.cycle_work();
             let block = self.steps.advance();
+            let worked = self.steps.interpreter.cycle_work().saturating_sub(worked);
             let mut ready = self.steps.take_ready();
             let motions = ready.iter().filter(|item| matches!(item, Item::Motion(_))).count();
             self.items.append(&mut ready);
@@ -163,7 +166,7 @@ impl<'r, 'a> Side<'r, 'a> {
             if let Some(ran) = self.ran.get_mut(block.0 as usize)
                 && core::mem::replace(ran, true)
             {
-                self.blocks += motions as u64;
+                self.blocks += worked.max(motions as u64);
             }
             if !is_empty(self.steps.input().program, block) {
                 return Some(block);
@@ -353,7 +356,11 @@ mod tests {
 
     /// Motions of a program up to a count of 1000, or to its end.
     fn compared(text: &str) -> usize {
-        let dialect = trunnion_dialect::builtin("fanuc-30i").expect("embedded");
+        compared_on("fanuc-30i", text)
+    }
+
+    fn compared_on(dialect: &str, text: &str) -> usize {
+        let dialect = trunnion_dialect::builtin(dialect).expect("embedded");
         let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
         let setup = Setup::default();
         let mut steps = Steps::new(Input {
@@ -377,6 +384,12 @@ mod tests {
         let cycle = "G83 X1. Y1. Z-40. R1. Q1. F100.\n";
         let looped = compared(&format!("{head}#1=0\nWHILE[#1LT900]DO1\n#1=#1+1\n{cycle}END1\nM30\n"));
         assert!((900..1300).contains(&looped), "{looped}");
+        // 200 lines of a contour for each pass: they count, too
+        let lines: String = (0..200).map(|z| format!("G1 X{} Z-{z}.\n", 20 + z % 7)).collect();
+        let rough = "#1=0\nWHILE[#1LT900]DO1\n#1=#1+1\nG71 U90. R1.\nG71 P10 Q20 F.1\nEND1\nGOTO 30\n";
+        let contour = format!("G21 G18\nG0 X50. Z9.\n{rough}N10 G0 X20.\n{lines}N20 G1 X50.\nN30 M30\n");
+        let looped = compared_on("fanuc-30i-lathe-a", &contour);
+        assert!((2..60).contains(&looped), "{looped}");
         // each block of the text once: to its end
         let written = compared(&format!("{head}{}G80\nM30\n", cycle.repeat(100)));
         assert!(written > 10_000, "{written}");

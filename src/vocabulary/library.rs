@@ -102,8 +102,8 @@ pub struct Work {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            blocks: 3_000_000,
-            steps: 300_000,
+            blocks: 1_500_000,
+            steps: 150_000,
             held: 150_000,
             depth: 100,
         }

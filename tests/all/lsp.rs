@@ -343,7 +343,7 @@ fn a_finding_of_a_loop_says_how_often_and_an_endless_one_how_long() {
     );
     // the server gives up sooner than the command line
     assert!(
-        message("endless-loop").contains("within 300000 executed blocks"),
+        message("endless-loop").contains("within 150000 executed blocks"),
         "{}",
         message("endless-loop")
     );

@@ -234,12 +234,12 @@ fn a_text_of_megabytes_is_coloured_where_it_is_shown() {
 fn more_lines_than_fmt_reads_are_not_laid_out() {
     let uri = "untitled:/long.nc";
     let mut client = Client::start(&json!({}));
-    client.open(uri, &format!("G21 G90\n{}M30\n", "\n".repeat(400_000)));
+    client.open(uri, &format!("G21 G90\n{}M30\n", "\n".repeat(300_000)));
     let ask = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let answer = client.request("textDocument/formatting", ask);
     let said = answer["error"]["message"].as_str().expect("an error");
     assert!(
-        said.contains("400002 lines") && said.contains("trunnion fmt --max-lines 400003"),
+        said.contains("300002 lines") && said.contains("trunnion fmt --max-lines 300003"),
         "{said}"
     );
     client.finish();

@@ -26,7 +26,7 @@
 //! # Guarantee
 //! Where the message says that a loop never ends, this is proved: a pass returned to the same values. Other loops
 //! are reported because they did not end within the limits of the run (`[limits] blocks` in `trunnion.toml`, by
-//! default 3 000 000 executed blocks). A program without this finding ends, if everything in it was decided.
+//! default 1 500 000 executed blocks). A program without this finding ends, if everything in it was decided.
 //!
 //! # Sources
 //! * docs/contract.md#limits-of-a-run

@@ -98,34 +98,40 @@ fn too_near(leg: &facts::Curved<'_>, out: &mut Reporter<'_>) {
 }
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if fault.kind.lacks() == Some(Lacks::ReferencePoint) && !out.judges_machine() {
+    match fault.kind.lacks() {
         // without a machine no rule asks where it is
-        out.report(
-            fault.range,
-            "this move goes to a position of the machine that is not declared",
-        )
-        .note("positions after it are unknown until the program sets them again")
-        .help("to check it, name the machine: --machine NAME or FILE, with reference_points (G75: fixed_points) in its [control]")
-        .merge(Merge::once(0));
-        return;
-    }
-    if let Some(Lacks::Caller(label)) = fault.kind.lacks() {
-        out.report(fault.range, format!("{label} was checked with unknown arguments: nothing in this file calls it"))
-            .note("its arguments, F, S and the position of the axes come from the caller; what depends on them was not checked")
-            .help("check the program that calls it, with this file in its folder or under `subprogram_path`")
-            .unknown()
-            .merge(Merge::once(1));
-        return;
-    }
-    if let Some(Lacks::Meaning(name)) = fault.kind.lacks() {
-        return unknown_name(fault, name, out);
+        Some(Lacks::ReferencePoint) if !out.judges_machine() => {
+            out.report(
+                fault.range,
+                "this move goes to a position of the machine that is not declared",
+            )
+            .note("positions after it are unknown until the program sets them again")
+            .help("to check it, name the machine: --machine NAME or FILE, with reference_points (G75: fixed_points) in its [control]")
+            .merge(Merge::once(0));
+            return;
+        }
+        Some(Lacks::Caller(label)) => {
+            out.report(fault.range, format!("{label} was checked with unknown arguments: nothing in this file calls it"))
+                .note("its arguments, F, S and the position of the axes come from the caller; what depends on them was not checked")
+                .help("check the program that calls it, with this file in its folder or under `subprogram_path`")
+                .unknown()
+                .merge(Merge::once(1));
+            return;
+        }
+        Some(Lacks::Meaning(name)) => return unknown_name(fault, name, out),
+        _ => {}
     }
     if let FaultKind::NotModelled { what } = &fault.kind {
         if out.is_slip_of_digits(fault.range) {
             return;
         }
-        let (note, remedy) = radius_advice(&fault.kind, what);
-        let (what, declare) = divided(what);
+        let whole = what;
+        let (what, declare) = divided(whole);
+        let cause = hash(cause(what));
+        if out.repeats(cause, fault.range) {
+            return;
+        }
+        let (note, remedy) = radius_advice(&fault.kind, whole);
         let declare = declare.or_else(|| {
             let line = declaration(what, out.dialect())?;
             Some(format!(
@@ -143,7 +149,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .replace_with_some(meant)
             .note(note)
             .unknown()
-            .merge(Merge::once(hash(cause(what))));
+            .merge(Merge::once(cause));
         draft.help(declare.or(remedy).unwrap_or_else(|| BY_HAND.to_owned()));
     }
 }
@@ -158,12 +164,16 @@ fn unknown_name(fault: &Fault, name: UnknownName<'_>, out: &mut Reporter<'_>) {
         is_program,
         place,
     } = name;
+    let stem = text.split(['(', ' ']).next().unwrap_or_default().to_ascii_uppercase();
+    let cause = hash(&stem);
+    if out.repeats(cause, fault.range) {
+        return;
+    }
     let near = out.near_code(text).or_else(|| out.code_with_zeros(fault.range));
     let hint = near
         .as_ref()
         .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
     let meant = near.filter(|_| out.text(fault.range) == text);
-    let stem = text.split(['(', ' ']).next().unwrap_or_default().to_ascii_uppercase();
     let program = if is_program {
         format!(", and no program {}.SPF or .MPF was found", short(&stem))
     } else {
@@ -176,7 +186,7 @@ fn unknown_name(fault: &Fault, name: UnknownName<'_>, out: &mut Reporter<'_>) {
         .replace_with_some(meant)
         .note(radius_advice(&fault.kind, text).0)
         .unknown()
-        .merge(Merge::once(hash(&stem)));
+        .merge(Merge::once(cause));
     if is_program {
         draft
             .note("programs are looked for in this file, in its folder and in the folders of `subprogram_path`")

@@ -23,22 +23,22 @@ impl TextBounds {
     /// What compares programs or machines runs two texts, twice where they differ; a picture and statistics run one text up to four times.
     const RUNS_OFTEN: Self = Self {
         megabytes: 32,
-        lines: 400_000,
+        lines: 250_000,
     };
     /// Layout reads both texts and compares what they say.
     const LAYS_OUT: Self = Self {
         megabytes: 16,
-        lines: 400_000,
+        lines: 300_000,
     };
     /// What changes programs runs the old and the new text, each up to a dozen times, and compares each step.
     const CHANGES: Self = Self {
         megabytes: 16,
-        lines: 250_000,
+        lines: 200_000,
     };
     /// A page needs a check, three more runs, and pictures.
     const REPORTS: Self = Self {
         megabytes: 16,
-        lines: 150_000,
+        lines: 100_000,
     };
 }
 

@@ -67,6 +67,9 @@ impl<'d> Engine<'d> for Iso<'d> {
         numbers.extend(Some(rounding).filter(|rounding| *rounding != 0.0));
         numbers
     }
+    fn cycle_work(&self) -> u64 {
+        self.cycle_motions.count()
+    }
     fn cycle_data(&self) -> Vec<crate::Argument> {
         let mut data = self.memory.cycle.data(self.core.state.motion);
         data.extend(self.flow.deep.iter().flat_map(|deep| deep.modal_words()));

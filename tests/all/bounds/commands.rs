@@ -128,12 +128,12 @@ type Size = (usize, usize);
 const BEGINNINGS: &[(&str, Size)] = &[
     ("LISTED", (64_000_000, 600_000)),
     ("HALF", HALF),
-    ("SHORTER", (16_000_000, 400_000)),
-    ("SHORTEST", (16_000_000, 250_000)),
-    ("PAGE", (16_000_000, 150_000)),
+    ("SHORTER", (16_000_000, 300_000)),
+    ("SHORTEST", (16_000_000, 200_000)),
+    ("PAGE", (16_000_000, 100_000)),
 ];
 
-const HALF: Size = (32_000_000, 400_000);
+const HALF: Size = (32_000_000, 250_000);
 
 /// Files that commands need beside the program.
 pub(crate) fn write_helpers(folder: &Path) {

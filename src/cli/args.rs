@@ -63,8 +63,8 @@ pub(crate) struct Global {
     /// Also report words that mean something else on this control (name of a dialect; may be repeated).
     #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
     pub(crate) port_to: Vec<String>,
-    /// Treat undeclared work offsets and tool lengths as zero (work-offset, tool-length); take the usual state at power-on (power-on). Write
-    /// commas between several. The verdict lists what was assumed.
+    /// Treat undeclared work offsets and tool lengths as zero (work-offset, tool-length); take the usual state at power-on (power-on). Separate
+    /// several with commas. The verdict lists what was assumed.
     #[arg(long, global = true, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) assume: Vec<String>,
     /// Blocks that begin with `/`: run them (off) or skip them (on). Default: trunnion.toml; without it, check judges both.
@@ -73,10 +73,12 @@ pub(crate) struct Global {
     /// Silence a rule (may be repeated).
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
-    /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory). Default: 64; fmt: 16.
+    /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory). Default: 64; diff, certify, machine, plot, stats:
+    /// 32; fmt, fix, edit, report: 16.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_file_mb: Option<u64>,
-    /// Refuse to read a program of more lines than this (every line takes memory, empty ones too). Default: 1050000; trace: 600000; fmt: 300000.
+    /// Refuse to read a program of more lines, empty ones included. Default: 1050000; trace, parse: 600000; fmt: 300000; diff, certify, machine, plot,
+    /// stats: 250000; fix, edit: 200000; report: 100000.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_lines: Option<u64>,
     /// Stop a run that is compared, proved, converted, listed or drawn after this many executed blocks, in addition to one run of each block of the text.

@@ -385,9 +385,12 @@ mod tests {
         let looped = compared(&format!("{head}#1=0\nWHILE[#1LT900]DO1\n#1=#1+1\n{cycle}END1\nM30\n"));
         assert!((900..1300).contains(&looped), "{looped}");
         // 200 lines of a contour for each pass: they count, too
-        let lines: String = (0..200).map(|z| format!("G1 X{} Z-{z}.\n", 20 + z % 7)).collect();
+        let lines: Vec<String> = (0..200).map(|z| format!("G1 X{} Z-{z}.\n", 20 + z % 7)).collect();
         let rough = "#1=0\nWHILE[#1LT900]DO1\n#1=#1+1\nG71 U90. R1.\nG71 P10 Q20 F.1\nEND1\nGOTO 30\n";
-        let contour = format!("G21 G18\nG0 X50. Z9.\n{rough}N10 G0 X20.\n{lines}N20 G1 X50.\nN30 M30\n");
+        let contour = format!(
+            "G21 G18\nG0 X50. Z9.\n{rough}N10 G0 X20.\n{}N20 G1 X50.\nN30 M30\n",
+            lines.concat()
+        );
         let looped = compared_on("fanuc-30i-lathe-a", &contour);
         assert!((2..60).contains(&looped), "{looped}");
         // each block of the text once: to its end

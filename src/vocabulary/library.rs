@@ -145,6 +145,6 @@ impl Limits {
     /// How many pieces of 2 deg the long turns of guided motions may take together.
     #[must_use]
     pub fn turned(self) -> u64 {
-        self.steps / 2
+        self.steps
     }
 }

@@ -126,3 +126,28 @@ fn a_pecking_cycle_is_told_once() {
         found[0]
     );
 }
+
+/// A cause that is reported once is counted where it comes again, and its last place is kept.
+#[test]
+fn a_cause_is_counted_where_it_comes_again() {
+    let found = |text: &str| {
+        let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mill-3axis", text)
+            .check()
+            .expect("a report");
+        let own = |found: &&crate::Diagnostic| found.rule == "not-modelled" && found.message.contains("R1");
+        let found: Vec<_> = report.diagnostics.iter().filter(own).collect();
+        assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
+        (found[0].count, found[0].range.start, found[0].last.start as usize)
+    };
+    let head = "G71 G90 G17 G94\nG0 X0 Y0 Z50\nF100\n";
+    let line = "G1 X=R1+2\n";
+    let text = format!("{head}{}M30\n", line.repeat(5));
+    let (first, last) = (text.find("R1"), text.rfind("R1"));
+    let (first, last) = (first.expect("one") as u32, last.expect("one"));
+    assert_eq!(found(&text), (5, first, last));
+    let allowed = "G1 X=R1+2 ; trunnion: allow not-modelled because it is known\n";
+    assert_eq!(
+        found(&format!("{head}{line}{line}{allowed}M30\n")),
+        (2, first, last - 3 * line.len())
+    );
+}

@@ -22,7 +22,7 @@ pub(crate) struct Fix {
     /// switch-angles: what to minimise when choosing postures for the whole program. Default: `cost` of [fix] in trunnion.toml, else travel.
     #[arg(long, value_enum)]
     pub(crate) cost: Option<crate::cli::fix::CostOf>,
-    /// fit-arcs, fit-splines: what the new path must be near, the lines as they are programmed or only their ends. Default: `source` of [fix] in trunnion.toml, else
+    /// fit-arcs, fit-splines: whether the new path must stay near the whole programmed lines or only near their ends. Default: `source` of [fix] in trunnion.toml, else
     /// chords.
     #[arg(long, value_enum)]
     pub(crate) source: Option<crate::cli::fix::SourceOf>,
@@ -35,7 +35,7 @@ pub(crate) struct Fix {
     pub(crate) feed: Option<f64>,
     #[command(flatten, next_help_heading = "Target of retarget")]
     pub(crate) target: crate::cli::convert::TargetArgs,
-    /// On standard output: a unified diff, or what became of every place and what is gained (JSON).
+    /// What to print: a unified diff (text), or the result and the gain at every place (json).
     #[arg(long, value_enum, default_value = "text", conflicts_with = "diff")]
     pub(crate) format: ListFormat,
     /// Print a unified diff (the default).

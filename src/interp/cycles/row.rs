@@ -308,7 +308,7 @@ impl Iso<'_> {
 mod tests {
     use super::{Places, Row};
 
-    fn holes(row: Row, here: [f64; 2]) -> Vec<[i64; 2]> {
+    fn holes(row: &Row, here: [f64; 2]) -> Vec<[i64; 2]> {
         let Places::These(holes) = row.places(Some(here)) else {
             panic!("{row:?} is not known")
         };
@@ -321,9 +321,9 @@ mod tests {
     #[test]
     fn rows_begin_at_the_nearer_end() {
         let row = Row::Line([10.0, 0.0], 0.0, 5.0, 3);
-        assert_eq!(holes(row, [0.0, 0.0]), [[10, 0], [15, 0], [20, 0]]);
+        assert_eq!(holes(&row, [0.0, 0.0]), [[10, 0], [15, 0], [20, 0]]);
         let row = Row::Line([-20.0, 0.0], 0.0, 5.0, 3);
-        assert_eq!(holes(row, [0.0, 0.0]), [[-10, 0], [-15, 0], [-20, 0]]);
+        assert_eq!(holes(&row, [0.0, 0.0]), [[-10, 0], [-15, 0], [-20, 0]]);
         // near the far end: the sources differ
         assert_eq!(
             Row::Line([10.0, 0.0], 0.0, 5.0, 3).places(Some([50.0, 0.0])),
@@ -335,10 +335,10 @@ mod tests {
     #[test]
     fn grids_go_there_and_back_along_the_smaller_distance() {
         let grid = Row::Grid([1.0, 1.0], 0.0, [10.0, 5.0], [2, 3]);
-        let found = holes(grid, [0.0, 0.0]);
+        let found = holes(&grid, [0.0, 0.0]);
         assert_eq!(found, [[1, 1], [1, 6], [1, 11], [11, 11], [11, 6], [11, 1]]);
         let turned = Row::Grid([1.0, 1.0], 90.0, [5.0, 10.0], [2, 1]);
-        assert_eq!(holes(turned, [0.0, 0.0]), [[1, 1], [1, 6]]);
+        assert_eq!(holes(&turned, [0.0, 0.0]), [[1, 1], [1, 6]]);
         assert_eq!(
             Row::Grid([1.0, 1.0], 0.0, [5.0, 5.0], [2, 2]).places(Some([0.0; 2])),
             Places::Unknown
@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn a_circle_has_at_most_one_turn() {
         assert_eq!(
-            holes(Row::Circle([0.0, 0.0], 10.0, 0.0, 90.0, 4), [0.0, 0.0]),
+            holes(&Row::Circle([0.0, 0.0], 10.0, 0.0, 90.0, 4), [0.0, 0.0]),
             [[10, 0], [0, 10], [-10, 0], [0, -10]]
         );
         assert_eq!(Row::Circle([0.0; 2], 10.0, 0.0, 120.0, 4).places(None), Places::Refused);

@@ -15,7 +15,7 @@ use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::AXIS_LETTERS;
 
 /// [`Machine::most_turned`] unless the settings say otherwise.
-const MOST_TURNED: u64 = 250_000;
+const MOST_TURNED: u64 = 150_000;
 
 /// Two directions nearer than this are taken as parallel, rad.
 const PARALLEL: f64 = 1e-3;

@@ -20,7 +20,7 @@ fn run(dialect: &str, text: &str, declare: impl Fn(&mut Setup)) -> (Vec<String>,
 fn chamfer(length: ChamferLength, blocks: &str) -> (Vec<String>, Vec<String>) {
     let text = format!("0 BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nL X+0 Y+0 Z+0 R0 FMAX\n{blocks}\n9 END PGM A MM\n");
     run("heidenhain-klartext", &text, |setup| {
-        setup.control.chamfer_length = Some(length)
+        setup.control.chamfer_length = Some(length);
     })
 }
 

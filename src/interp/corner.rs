@@ -181,6 +181,7 @@ impl Iso<'_> {
         });
         let place = match fits {
             _ if waiting.size.is_nan() => Some("of an unknown size"),
+            _ if self.memory.frames.scales() => Some("while the axes are scaled"),
             _ if before.0.zero != next.0.zero => Some("where the zero point changes between both blocks"),
             Some(true)
                 if tolerant

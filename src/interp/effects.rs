@@ -3,6 +3,7 @@ mod assignments;
 mod collected;
 mod lengths;
 mod lines;
+mod message;
 mod moment;
 mod parts;
 mod situation;
@@ -67,8 +68,7 @@ impl Iso<'_> {
         let mut opaque = Vec::new();
         for found in codes {
             if tells(found) {
-                let to = [name_of(found, view)];
-                self.core.effects.add(block, Effect::set("message", to));
+                self.message_effect(found, view, block);
             }
             match sort(found, words) {
                 Sort::Held => free &= !crate::unused::letters(found.code),

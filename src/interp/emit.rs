@@ -58,7 +58,7 @@ impl Iso<'_> {
         };
         if shaped {
             end = self.memory.frames.arrive(end);
-            kind = self.memory.frames.kind_to_work(kind);
+            kind = self.shaped_kind(kind, report);
         }
         self.core.state.position = end;
         let orientation = self.orientation(words, report);
@@ -240,6 +240,10 @@ impl Iso<'_> {
             turns: self.turns(words),
             lathe: self.core.radii,
         };
+        if setting.turns.is_none() {
+            let what = "the turns of an arc: not a known whole number from 0 to 1000000".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
         if self.is_spiral(words) {
             let what = "a spiral or cone: Q or L in the block of an arc".to_owned();
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
@@ -269,6 +273,17 @@ impl Iso<'_> {
             report.fault(words.first.unwrap_or_default(), kind);
         }
         MotionKind::Arc(arc)
+    }
+
+    /// The kind of a motion in work coordinates.
+    fn shaped_kind(&mut self, kind: MotionKind, report: &mut Report<'_>) -> MotionKind {
+        let shaped = self.memory.frames.kind_to_work(kind);
+        if matches!((kind, shaped), (MotionKind::Arc(Some(_)), MotionKind::Arc(None))) {
+            let what =
+                "an arc whose two axes are scaled by different factors, or that is turned out of its plane".to_owned();
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+        }
+        shaped
     }
 
     /// Further full turns: TURN= counts them; P, where the arc codes read it, counts all turns begun.

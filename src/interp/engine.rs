@@ -33,6 +33,10 @@ pub(crate) trait Engine<'d>: Clone {
     fn outliving(&self) -> Vec<(String, f64)> {
         Vec::new()
     }
+    /// The same for variables that hold texts.
+    fn outliving_texts(&self) -> Vec<(String, String)> {
+        Vec::new()
+    }
     /// See [`crate::Interpreter::turned`].
     fn turned(&self) -> Vec<f64> {
         Vec::new()

@@ -130,8 +130,19 @@ impl Frames {
     }
     /// By how much a short way may grow from the coordinates of the words to work coordinates: 1 unless something is scaled.
     pub(crate) fn most_growth(&self) -> f64 {
+        let columns = self.scaled_directions();
+        columns.map_or(1.0, |columns| {
+            columns.iter().map(Vec3::norm_squared).sum::<f64>().sqrt()
+        })
+    }
+    /// Whether lengths in the words have others in work coordinates.
+    pub(crate) fn scales(&self) -> bool {
+        self.scaled_directions().is_some()
+    }
+    /// Where the directions of the words lead in work coordinates, if lengths or right angles change.
+    fn scaled_directions(&self) -> Option<[Vec3; 3]> {
         if !self.active {
-            return 1.0;
+            return None;
         }
         let at = |axis: Option<usize>| {
             let mut words = Position::default();
@@ -144,10 +155,7 @@ impl Frames {
         let square = |pair: [usize; 2]| columns[pair[0]].dot(&columns[pair[1]]).abs() <= 1e-9;
         let rigid = columns.iter().all(|column| (column.norm() - 1.0).abs() <= 1e-9)
             && [[0, 1], [0, 2], [1, 2]].into_iter().all(square);
-        if rigid {
-            return 1.0;
-        }
-        columns.iter().map(Vec3::norm_squared).sum::<f64>().sqrt()
+        (!rigid).then_some(columns)
     }
     /// The kind of a motion in work coordinates.
     pub(crate) fn kind_to_work(&self, kind: MotionKind) -> MotionKind {

@@ -12,6 +12,7 @@ mod drill;
 mod effects;
 mod flow;
 mod fn_block;
+mod formula;
 mod hole;
 mod labels;
 mod machine_motion;
@@ -24,6 +25,7 @@ mod plane_shift;
 mod positioning;
 mod reason;
 mod scaling;
+mod seen;
 mod sentence;
 mod shape;
 mod tool;
@@ -156,6 +158,16 @@ impl<'d> Engine<'d> for Klartext<'d> {
     }
     fn outliving(&self) -> Vec<(String, f64)> {
         self.memory.parameters.known()
+    }
+    fn outliving_texts(&self) -> Vec<(String, String)> {
+        let texts = self.memory.parameters.known_texts();
+        texts.map(|(name, text)| (name, text.to_owned())).collect()
+    }
+    fn known_variables(&self) -> Vec<crate::Argument> {
+        self.memory.parameters.readable()
+    }
+    fn cycle_data(&self) -> Vec<crate::Argument> {
+        self.what_calls_see()
     }
     fn turned(&self) -> Vec<f64> {
         self.memory.frames.turned()

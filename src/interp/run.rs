@@ -193,6 +193,11 @@ impl<'d> Interpreter<'d> {
         with_engine!(&self.engine, engine => engine.cycle_work())
     }
 
+    /// Variables that hold texts, keep them after the program ends and are known.
+    pub fn outliving_texts(&self) -> Vec<(String, String)> {
+        with_engine!(&self.engine, engine => engine.outliving_texts())
+    }
+
     /// All variables that are known, or were known before something ran that is not followed, by name.
     pub fn known_variables(&self) -> Vec<crate::Argument> {
         with_engine!(&self.engine, engine => engine.known_variables())

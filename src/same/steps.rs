@@ -207,6 +207,8 @@ impl<'a> Steps<'a> {
         let mut stores = self.run.stores.clone();
         let kept = self.interpreter.outliving().into_iter();
         stores.extend(kept.map(|(name, value)| (name, Value::Number(value))));
+        let texts = self.interpreter.outliving_texts().into_iter();
+        stores.extend(texts.map(|(name, text)| (name, Value::Text(text.into()))));
         stores
     }
 

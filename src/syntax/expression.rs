@@ -2,7 +2,7 @@
 use crate::error::SyntaxErrorKind;
 use crate::scan::Scan;
 use crate::sink::Sink;
-use crate::{TextRange, TokenId, TokenKind, Value};
+use crate::{Format, TextRange, TokenId, TokenKind, Value};
 
 /// Operators that are written as words, of all dialects.
 const BINARY: [&str; 17] = [
@@ -70,6 +70,11 @@ impl Scan<'_> {
         Some(at + length)
     }
 
+    /// Whether `<<` stands at `at`.
+    pub(crate) fn joins(&self, at: TokenId) -> bool {
+        [at, at + 1].into_iter().all(|at| self.kind(at) == TokenKind::Less)
+    }
+
     /// Whether a colon stands between a bracket or a name and another name.
     fn chains(&self, at: TokenId, next: TokenKind) -> bool {
         let before = self.trim(0, at);
@@ -125,9 +130,7 @@ impl Scan<'_> {
             TokenKind::BracketOpen | TokenKind::ParenOpen => self.group(at, sink),
             TokenKind::Word | TokenKind::Letter => self.index(at + 1, sink),
             // MOD of an Okuma is a function
-            TokenKind::Name
-                if !is_one_of(self.text(at), &BINARY) || self.is_osp() && is_one_of(self.text(at), &["MOD"]) =>
-            {
+            TokenKind::Name if !self.is_operator(at) => {
                 let end = self.name_end(at);
                 let bracket = self.skip_blank(end);
                 match self.kind(bracket) {
@@ -137,6 +140,16 @@ impl Scan<'_> {
             }
             _ => return None,
         })
+    }
+
+    /// Whether the name at `at` is an operator where an operand is wanted. On a Sinumerik EQ to GE are names like others, and so is `OR1`.
+    fn is_operator(&self, at: TokenId) -> bool {
+        const COMPARISONS: [&str; 6] = ["EQ", "NE", "LT", "LE", "GT", "GE"];
+        let sinumerik = self.options.format == Format::Iso && !self.options.paren_comment;
+        let (text, whole) = (self.text(at), self.bytes(self.span(at, self.name_end(at))));
+        let name = if sinumerik { whole } else { text };
+        let function = self.is_osp() && is_one_of(text, &["MOD"]) || sinumerik && is_one_of(name, &COMPARISONS);
+        is_one_of(name, &BINARY) && !function
     }
 
     /// After the hexadecimal number `#1FH` at `at` (OSP).

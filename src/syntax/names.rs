@@ -122,7 +122,13 @@ impl Items<'_> {
             match scan.kind(next) {
                 TokenKind::ParenOpen => None,
                 TokenKind::Text => self.joined_text(next, sink),
-                _ => scan.operand(next, sink),
+                _ => match scan.operand(next, &mut Quiet) {
+                    // a name that holds a text: `GOTOF PLACE<<R1`
+                    Some(end) if self.has_elements() && scan.joins(scan.skip_blank(end)) => {
+                        self.joined_text(next, sink)
+                    }
+                    _ => scan.operand(next, sink),
+                },
             }
         } else if is_one_of(text, &NUMBERED) {
             (scan.kind(next) == TokenKind::Number).then_some(next + 1)

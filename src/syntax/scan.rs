@@ -111,7 +111,13 @@ impl<'p> Scan<'p> {
                 _ => {}
             }
             let closes = matches!(kind, TokenKind::BracketClose | TokenKind::ParenClose);
-            let nothing = kind == TokenKind::BracketClose && self.kind(before) == TokenKind::BracketOpen;
+            // `PO[]=(2,1)` of a Sinumerik is the common denominator
+            let denominator = || {
+                let named = before == at && at > 0 && self.text(at - 1).eq_ignore_ascii_case(b"PO");
+                named && !self.options.paren_comment
+            };
+            let nothing =
+                kind == TokenKind::BracketClose && self.kind(before) == TokenKind::BracketOpen && !denominator();
             if nothing || closes && self.lacks_operand(before) {
                 sink.report(SyntaxErrorKind::MissingValue, self.range(before));
             }

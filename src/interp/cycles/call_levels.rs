@@ -1,25 +1,61 @@
 //! The levels of a drilling cycle with its numbers, and what is wrong with them.
-use super::called::{Given, HoleCall};
+//!
+//! Source: the text of the control's own cycles (version 6): the depth lies on the other side of RFP than RTP, and alarm 61101 is RTP = RFP with DPR.
+use super::called::{Given, HoleCall, Sort};
 use super::modes::Modes;
 
 impl HoleCall {
-    /// Levels of retraction, beginning of the feed and bottom in program units. `None`: one is not known, or they make no hole.
+    /// Levels of retraction, beginning of the feed and bottom in program units. `None`: one is not known, or they make no hole. A hole may go up,
+    /// with RTP below RFP: SDIS lies on the side of RTP.
     pub(super) fn levels(&self) -> Option<[f64; 3]> {
         let [retract, surface, clearance, bottom] = self.given_levels()?;
-        (retract > surface && bottom < surface).then_some([retract, surface + clearance, bottom])
+        let down = bottom < surface && retract >= surface;
+        // the steps of a deep hole are taken from a source that goes down
+        let up = bottom > surface && retract < surface && self.sort != Sort::Deep;
+        let begin = if up { surface - clearance } else { surface + clearance };
+        ((down || up) && !self.has_no_side()).then_some([retract, begin, bottom])
     }
 
-    /// Which of the levels is wrong, where all are known: the tool goes from RTP down to RFP, and from there down to the depth.
-    pub(super) fn wrong_level(&self) -> Option<String> {
+    /// RFP is DP: nothing moves.
+    pub(super) fn makes_no_hole(&self) -> bool {
+        let relative = self.number(4).or_zero() != Some(0.0);
+        !relative
+            && self
+                .given_levels()
+                .is_some_and(|[_, surface, _, bottom]| bottom.total_cmp(&surface).is_eq())
+    }
+
+    /// RTP is RFP where the depth counts from RFP away from RTP.
+    fn has_no_side(&self) -> bool {
+        let relative = !matches!(self.modes, Modes::Depth { incremental: false, .. })
+            && matches!(self.number(4), Given::Number(depth) if depth != 0.0);
+        relative
+            && self
+                .given_levels()
+                .is_some_and(|[retract, surface, ..]| retract.total_cmp(&surface).is_eq())
+    }
+
+    /// Which of the levels is wrong, where all are known, and the alarm of the control: the tool goes from RTP to RFP, and on to the depth.
+    pub(super) fn wrong_level(&self) -> Option<(String, Option<&'static str>)> {
         let [retract, surface, _, bottom] = self.given_levels()?;
         let id = &self.id;
-        if retract <= surface {
-            return Some(format!(
-                "{id}: RTP {retract} is not above RFP {surface}: write the retract plane, the first number, above the surface"
-            ));
+        if self.has_no_side() {
+            let message = format!(
+                "{id}: RTP {retract} is RFP, and DPR, the fifth number, is a depth away from RTP: write the retract plane, the first number, above the surface"
+            );
+            return Some((message, Some("61101")));
         }
-        (bottom > surface).then(|| {
-            format!("{id}: the depth {bottom} is above RFP {surface}: write DP, the fourth number, below the surface")
+        if bottom > surface && retract >= surface {
+            let message = format!(
+                "{id}: the depth {bottom} is above RFP {surface}: write DP, the fourth number, below the surface"
+            );
+            return Some((message, None));
+        }
+        (bottom < surface && retract < surface).then(|| {
+            let message = format!(
+                "{id}: RTP {retract} is not above RFP {surface}: write the retract plane, the first number, above the surface"
+            );
+            (message, None)
         })
     }
 
@@ -36,6 +72,7 @@ impl HoleCall {
         };
         let bottom = match depths {
             (Given::Unread, _) | (_, Given::Unread) | (Given::Nothing, Given::Nothing) => return None,
+            (_, Given::Number(depth)) if depth != 0.0 && retract < surface => surface + depth.abs(),
             (_, Given::Number(depth)) if depth != 0.0 => surface - depth.abs(),
             (Given::Number(bottom), _) => bottom,
             (Given::Nothing, Given::Number(_)) => return None,

@@ -222,15 +222,18 @@ impl Iso<'_> {
         } else {
             None
         };
+        if call.makes_no_hole() && !call.further && !other_axis && !other_mode {
+            return;
+        }
         let Some([retract, begin, bottom]) = call.levels().filter(|_| why.is_none()) else {
             let wrong = call
                 .wrong_level()
                 .filter(|_| !call.further && !other_axis && !other_mode);
             let kind = match wrong {
-                Some(message) => FaultKind::Rejected {
+                Some((message, alarm)) => FaultKind::Rejected {
                     refusal: Refusal::CannedCycle,
                     message,
-                    alarm: None,
+                    alarm: alarm.map(str::to_owned),
                 },
                 None => FaultKind::NotModelled {
                     what: format!("{} {}", call.id, why.unwrap_or_default()),
@@ -318,7 +321,8 @@ impl Iso<'_> {
         }
         match call.sort {
             Sort::Drill | Sort::Deep => {}
-            Sort::Tap | Sort::FloatingTap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
+            Sort::Tap => self.out_of_thread(call, plan, report),
+            Sort::FloatingTap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
             Sort::Ream => {
                 let out = Plan {
                     feed: self.own_feed(call.number(7)),

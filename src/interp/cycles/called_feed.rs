@@ -69,6 +69,19 @@ impl Iso<'_> {
         }
     }
 
+    /// CYCLE84: out of the hole along the thread, at the speed SST1 where it is not 0.
+    pub(super) fn out_of_thread(&mut self, call: &HoleCall, plan: &super::hole::Plan, report: &mut Report<'_>) {
+        let out = call.number(11).or_zero();
+        if out != Some(0.0) {
+            self.core.state.spindle.set_rpm(out.filter(|speed| *speed > 0.0));
+        }
+        self.down(plan, MotionKind::Linear, plan.r, report);
+        if out != Some(0.0) && out != call.number(10).or_zero() {
+            // which of both speeds stays, no source says
+            self.core.state.spindle.set_rpm(None);
+        }
+    }
+
     /// Cycles that switch the spindle on themselves.
     pub(super) fn call_spindle(&mut self, call: &HoleCall) {
         match call.sort {

@@ -73,6 +73,7 @@ impl<'d> Engine<'d> for Iso<'d> {
     fn cycle_data(&self) -> Vec<crate::Argument> {
         let mut data = self.memory.cycle.data(self.core.state.motion);
         data.extend(self.flow.deep.iter().flat_map(|deep| deep.modal_words()));
+        data.extend(self.modal_task_data());
         data.extend(self.memory.travel.word());
         data.extend(
             self.memory

@@ -228,6 +228,7 @@ impl Klartext<'_> {
             return self.lose(Reason::Preset);
         };
         self.scaled_preset_changes();
+        self.shifted_preset_changes(report);
         self.found(Reason::Preset);
         self.turned(1, 0);
         let name = format!("preset {number}");
@@ -245,6 +246,35 @@ impl Klartext<'_> {
             self.core.forget_linear();
         }
         self.refresh_zero();
+    }
+
+    /// Whether a shift, a mirror image and a rotation stay when a preset is chosen is not taken from a source.
+    fn shifted_preset_changes(&mut self, report: &mut Report<'_>) {
+        let shape = &self.memory.frames.shape;
+        let (turned, mirrored) = (shape.rotation.is_some(), shape.mirror != [None; 3]);
+        let shifted = self.memory.frames.local.iter().any(|shift| *shift != 0.0);
+        for (holds, reason, what) in [
+            (
+                shifted,
+                Reason::Datum,
+                "cycle 247 after cycle 7: whether the shift stays (reset it before)",
+            ),
+            (
+                turned,
+                Reason::Rotation,
+                "cycle 247 after cycle 10: whether the rotation stays (reset it before)",
+            ),
+            (
+                mirrored,
+                Reason::Mirror,
+                "cycle 247 after cycle 8: whether the mirror image stays (reset it before)",
+            ),
+        ] {
+            if holds {
+                self.not_modelled_once(what, report);
+                self.lose(reason);
+            }
+        }
     }
 
     /// The value of `Qn=` among the words; `None`: it is not there.

@@ -60,13 +60,7 @@ impl Klartext<'_> {
         if unmodelled || unknown || may_skip {
             let canonical = canonical_words(text);
             let mut arguments = vec![Argument::text("", &canonical)];
-            for word in Words::new(text) {
-                if let Said::Parameter(_, parameter) = word.value
-                    && let Some(value) = self.memory.parameters.get(parameter)
-                {
-                    arguments.push(Argument::number(parameter.to_string(), value));
-                }
-            }
+            self.add_read(text, &mut arguments);
             self.core.effects.add(block, Effect::Unmodelled(arguments));
         }
         for effect in after {
@@ -106,7 +100,8 @@ impl Klartext<'_> {
     /// Deltas of the tool table act along it.
     fn surface_normal(&mut self, first: &Word<'_>, words: Words<'_>, block: BlockId) {
         let mut normal = Vec::new();
-        for word in words {
+        // NX of PLANE VECTOR is a normal of the plane
+        for word in words.filter(|_| first.name() == b"LN") {
             if let name @ (b"NX" | b"NY" | b"NZ") = word.name() {
                 let name = String::from_utf8_lossy(name).into_owned();
                 normal.push(match self.memory.parameters.of(word.value) {
@@ -126,20 +121,47 @@ impl Klartext<'_> {
         }
     }
 
+    /// The values of the parameters that a block reads: those that it names, and all of them where a file of masks names them (FN 16).
+    fn add_read(&self, text: &[u8], arguments: &mut Vec<Argument>) {
+        let parameters = &self.memory.parameters;
+        let mut words = Words::new(text);
+        let prints = words
+            .next()
+            .is_some_and(|first| first.is("FN") && first.value == Said::Number(16.0));
+        if prints {
+            return arguments.extend(parameters.arguments());
+        }
+        for word in Words::new(text) {
+            let Said::Parameter(_, parameter) = word.value else {
+                continue;
+            };
+            if let Some(value) = parameters.get(parameter) {
+                arguments.push(Argument::number(parameter.to_string(), value));
+            } else if let Some(text) = parameters.text(parameter) {
+                arguments.push(Argument::text(parameter.to_string(), text));
+            }
+        }
+    }
+
     fn tool_effects(&mut self, mut words: Words<'_>, block: BlockId) {
         let Some(kind) = words.next() else { return };
         let named = kind.is("CALL")
             && (kind.value != Said::Nothing
-                || words
-                    .clone()
-                    .next()
-                    .is_some_and(|word| matches!(word.value, Said::Text(_))));
+                || words.clone().next().is_some_and(|word| {
+                    let names = matches!(word.value, Said::Text(_) | Said::Parameter(..));
+                    names && word.name().is_empty()
+                }));
+        let by_text = words.clone().next().and_then(|word| match word.value {
+            Said::Parameter(_, parameter) => self.memory.parameters.text(parameter),
+            _ => None,
+        });
+        let unread = by_text.unwrap_or("unknown").to_owned();
         let effects = &mut self.core.effects;
         if named {
             let tool = match self.core.tools.in_spindle() {
                 Chosen::Number(number) => Argument::number("T", f64::from(*number)),
                 Chosen::Named(name) => Argument::text("T", name),
-                Chosen::Nothing | Chosen::Unread => Argument::text("T", "unknown"),
+                Chosen::Nothing | Chosen::Unread => Argument::text("T", &unread),
             };
             effects.add(block, Effect::set("tool prepared", [tool.clone()]));
             effects.add(block, Effect::set("tool in use", [tool]));

@@ -1,8 +1,9 @@
 //! FN 0 to FN 29, and assignments of formulas.
 use super::Klartext;
 use super::flow::Request;
+use super::formula::formula;
 use super::reason::Reason;
-use super::values::{Value, formula};
+use super::values::Value;
 use super::words::{Kind, Parameter, Said, Words};
 use crate::core::Report;
 use crate::frames::sin_cos_degrees;

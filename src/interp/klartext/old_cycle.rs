@@ -11,6 +11,7 @@ use super::drill::{MOST, linear};
 use super::hole::{Cycle, CycleFeed};
 use super::values::Value;
 use super::words::{Said, Words};
+use crate::Argument;
 use crate::core::Report;
 use crate::{Feed, MotionKind};
 
@@ -24,6 +25,17 @@ pub(crate) struct OldCycle {
     /// The last number of each line; the first line has none.
     values: [Value; LINES],
     feed: CycleFeed,
+}
+
+impl OldCycle {
+    /// Its number and its known values.
+    pub(super) fn arguments(&self) -> Vec<Argument> {
+        let values = (1..).zip(&self.values);
+        let values = values.filter_map(|(line, value)| Some(Argument::number(format!("cycle {line}"), (*value)?)));
+        core::iter::once(Argument::number("cycle", f64::from(self.number)))
+            .chain(values)
+            .collect()
+    }
 }
 
 impl Klartext<'_> {

@@ -31,11 +31,13 @@ pub(crate) enum Reason {
     ScaleWith,
     /// A mirror image and a rotation together: their order is not known.
     Order,
+    /// A mirror image that is not known.
+    Mirror,
 }
 
 impl Reason {
     /// The last of them.
-    const LAST: Self = Self::Order;
+    const LAST: Self = Self::Mirror;
 
     const fn bit(self) -> u16 {
         1 << self as u16
@@ -86,6 +88,7 @@ mod tests {
         Reason::AxisScale,
         Reason::ScaleWith,
         Reason::Order,
+        Reason::Mirror,
     ];
 
     /// Two of them once had one bit: the end of one ended the other.

@@ -20,6 +20,7 @@ impl Klartext<'_> {
                 mirror[usize::from(axis)] = Some(0.0);
             }
         }
+        self.found(Reason::Mirror);
         let mut shape = self.memory.frames.shape;
         shape.mirror = mirror;
         self.reshape(shape, report);

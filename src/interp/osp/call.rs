@@ -1,8 +1,10 @@
 //! Subprograms: their arguments are local variables that RTS clears.
-use crate::flow::Calling;
+use crate::Argument;
+use crate::flow::{Calling, With as FlowWith};
 use crate::iso::Iso;
 use crate::own::{Own, Scope, Sort};
 use std::collections::HashSet;
+use trunnion_flow::Key;
 
 /// What a call hands over.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +71,25 @@ impl Iso<'_> {
         own.task.written = level.written;
         own.task.in_modal = level.in_modal;
         own.begin_block();
+    }
+
+    /// The call of MODIN that is in effect: what a program that is missing is called with.
+    pub(crate) fn modal_task_data(&self) -> Vec<Argument> {
+        let Some((calling, _)) = &self.memory.own.task.modal else {
+            return Vec::new();
+        };
+        let program = match &calling.program {
+            Key::Number(number) => number.to_string(),
+            Key::Name(name) => name.to_string(),
+        };
+        let mut data = vec![Argument::text("MODIN", &program)];
+        if let FlowWith::Task(with) = &calling.with {
+            data.extend(with.arguments.iter().map(|(name, value)| match value {
+                Some(value) => Argument::number(format!("MODIN {name}"), *value),
+                None => Argument::text(format!("MODIN {name}"), "unknown"),
+            }));
+        }
+        data
     }
 
     /// The call of MODIN after a block that has moved; else why it cannot be followed.

@@ -16,6 +16,39 @@ fn cycle81_goes_down_in_feed_and_out_in_rapid() {
     assert_eq!(cycle("R1=10 R2=-20\nCYCLE81(R1,,3.,R2)"), hole);
 }
 
+/// The control takes the depth on the other side of RFP than RTP; RTP may be RFP where the depth is absolute.
+#[test]
+fn a_hole_may_go_up_and_end_on_its_surface() {
+    assert_eq!(
+        cycle("CYCLE81(0,0,2,-5)"),
+        ["R X0 Y0 Z2", "L X0 Y0 Z-5 F100", "R X0 Y0 Z0"]
+    );
+    assert_eq!(
+        cycle("G0 Z-20\nCYCLE81(-10,0,2,5)")[1..],
+        ["R X0 Y0 Z-2", "L X0 Y0 Z5 F100", "R X0 Y0 Z-10"]
+    );
+    assert_eq!(
+        cycle("G0 Z-20\nCYCLE81(-10,0,2,,5)")[1..],
+        ["R X0 Y0 Z-2", "L X0 Y0 Z5 F100", "R X0 Y0 Z-10"]
+    );
+    // RFP is DP: nothing moves
+    assert_eq!(cycle("CYCLE81(10,5,2,5)\nX1"), ["R X1 Y0 Z50"]);
+}
+
+/// SST1 is the speed on the way out; which of both stays is not known.
+#[test]
+fn cycle84_comes_out_at_its_own_speed() {
+    let speeds = |call: &str| -> Vec<_> {
+        let log = run_text("sinumerik-840d", &format!("{HEAD}{call}\nG1 X5\n"));
+        log.motions[1..].iter().map(|motion| motion.spindle_rpm).collect()
+    };
+    let tap = [Some(500.0), Some(500.0), Some(1000.0)];
+    assert_eq!(speeds("CYCLE84(10,0,2,-15,,0,3,,1.5,0,500,1000)")[..3], tap);
+    assert_eq!(speeds("CYCLE84(10,0,2,-15,,0,3,,1.5,0,500,1000)").last(), Some(&None));
+    let same = [Some(500.0), Some(500.0), Some(500.0)];
+    assert_eq!(speeds("CYCLE84(10,0,2,-15,,0,3,,1.5,0,500,0)")[..3], same);
+}
+
 #[test]
 fn mcall_runs_the_cycle_behind_every_motion_until_it_stands_alone() {
     assert_eq!(

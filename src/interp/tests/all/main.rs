@@ -52,6 +52,7 @@ mod roughing;
 mod roughing_unknown;
 mod shop;
 mod silent;
+mod silent_paths;
 mod sinumerik_calls;
 mod sinumerik_diameter;
 mod sinumerik_examples;

@@ -194,7 +194,9 @@ fn wrong_levels_and_an_address_without_its_sign() {
     for (call, wanted) in [
         ("CYCLE81(50,0,2,12)", "the depth 12 is above RFP 0"),
         ("CYCLE81(-5,0,2,-12)", "RTP -5 is not above RFP 0"),
-        ("CYCLE83(0,0,2,-12,,-5,,1)", "RTP 0 is not above RFP 0"),
+        ("CYCLE83(-1,0,2,-12,,-5,,1)", "RTP -1 is not above RFP 0"),
+        ("CYCLE81(0,0,2,,12)", "61101"),
+        ("CYCLE81(0,0,2,5)", "the depth 5 is above RFP 0"),
         ("CYCLE81(50,0,2)", "without known levels"),
         ("G2 X10 Y40 CR10", "write CR=10"),
     ] {

@@ -346,6 +346,9 @@ fn names() {
         (CORE, "WHILE[#150 LT 2]DO1", "call:WHILE([#150 LT 2]) call:DO(1)", ""),
         (CORE, "IF[#1EQ0]THEN#2=5", "call:IF([#1EQ0]) call:THEN <#2>=5", ""),
         (SINUMERIK, "GOTOF \"L_\"<<R1 X5", "call:GOTOF(\"L_\"<<R1) X=5", ""),
+        (SINUMERIK, "GOTOF PLACE<<NR X5", "call:GOTOF(PLACE<<NR) X=5", ""),
+        (SINUMERIK, "PO[]=(2,1)", "<PO[]>={(2,1)}", ""),
+        (SINUMERIK, "X=GE Y=LT Z=OR1", "X={GE} Y={LT} Z={OR1}", ""),
         (
             SINUMERIK,
             "IF (R1==5) OR (R2==6) GOTOF X_1",

@@ -1,0 +1,270 @@
+//! Formulas of Q parameters.
+//!
+//! Source: HEIDENHAIN TNC 640 user's manual, Q parameter programming. The order of a function without parentheses and of `^` among other
+//! operators and signs is not taken from a source: the value is unknown there.
+use super::values::{Parameters, Value};
+use super::words::{Said, Words};
+use crate::frames::sin_cos_degrees;
+use trunnion_geometry::math::{acos, asin, atan2, exp, ln, pow};
+
+/// Parentheses inside parentheses.
+const DEEPEST: usize = 64;
+
+/// A formula at the place of `words`, up to what cannot continue it.
+pub(crate) fn formula(words: &mut Words<'_>, parameters: &Parameters) -> Result<Value, String> {
+    Formula {
+        words,
+        parameters,
+        depth: 0,
+    }
+    .sum()
+}
+
+struct Formula<'w, 't, 'p> {
+    words: &'w mut Words<'t>,
+    parameters: &'p Parameters,
+    depth: usize,
+}
+
+/// An operand, and what is not taken from a source about it.
+struct Operand {
+    value: Value,
+    /// A function whose argument stands without parentheses, or a power: what an operator after it acts on.
+    loose: bool,
+    /// A power: what an operator before it acts on.
+    power: bool,
+}
+
+impl Formula<'_, '_, '_> {
+    fn next_is(&mut self, byte: u8) -> bool {
+        self.words.takes(byte)
+    }
+
+    fn sum(&mut self) -> Result<Value, String> {
+        let mut first = self.product()?;
+        loop {
+            let minus = if self.next_is(b'+') {
+                false
+            } else if self.next_is(b'-') {
+                true
+            } else {
+                return Ok(first.value);
+            };
+            let second = self.product()?;
+            let known = !first.loose && !second.power;
+            let value = first.value.zip(second.value).filter(|_| known);
+            first = Operand {
+                value: value.map(|(a, b)| if minus { a - b } else { a + b }),
+                loose: second.loose,
+                power: false,
+            };
+        }
+    }
+
+    fn product(&mut self) -> Result<Operand, String> {
+        let mut first = self.power()?;
+        loop {
+            let divides = if self.next_is(b'*') {
+                false
+            } else if self.next_is(b'/') {
+                true
+            } else {
+                return Ok(first);
+            };
+            let second = self.power()?;
+            let known = !first.loose && !second.power;
+            let value = first.value.zip(second.value).filter(|_| known);
+            first = Operand {
+                value: value
+                    .map(|(a, b)| if divides { a / b } else { a * b })
+                    .filter(|value| value.is_finite()),
+                loose: second.loose,
+                power: false,
+            };
+        }
+    }
+
+    fn power(&mut self) -> Result<Operand, String> {
+        self.words.blanks();
+        let signed = matches!(self.words.peek(), Some(b'+' | b'-'));
+        let base = self.operand()?;
+        if !self.next_is(b'^') {
+            return Ok(base);
+        }
+        let exponent = self.operand()?;
+        let known = !signed && !base.loose && !exponent.loose;
+        let value = base.value.zip(exponent.value).filter(|_| known);
+        Ok(Operand {
+            value: value.map(|(a, b)| pow(a, b)).filter(|value| value.is_finite()),
+            loose: true,
+            power: true,
+        })
+    }
+
+    fn operand(&mut self) -> Result<Operand, String> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return Err("too many parentheses".to_owned());
+        }
+        let found = self.read_operand();
+        self.depth -= 1;
+        found
+    }
+
+    /// What is in the parentheses after a function of texts.
+    fn value_of_text(&mut self) -> Result<Value, String> {
+        self.words.blanks();
+        let rest = self.words.rest();
+        let end = rest
+            .iter()
+            .position(|byte| *byte == b')')
+            .filter(|_| rest.first() == Some(&b'('));
+        let Some(end) = end else {
+            return Err("a function of texts needs its arguments in parentheses".to_owned());
+        };
+        self.words.at += end + 1;
+        Ok(None)
+    }
+
+    fn read_operand(&mut self) -> Result<Operand, String> {
+        let plain = |value| {
+            Ok(Operand {
+                value,
+                loose: false,
+                power: false,
+            })
+        };
+        if self.next_is(b'(') {
+            let value = self.sum()?;
+            if !self.next_is(b')') {
+                return Err("a parenthesis is not closed".to_owned());
+            }
+            return plain(value);
+        }
+        self.words.blanks();
+        match self.words.value() {
+            Said::Number(value) => return plain(Some(value)),
+            said @ Said::Parameter(..) => return plain(self.parameters.of(said)),
+            Said::Bad => return Err("a number with two points".to_owned()),
+            Said::Sign(minus) => {
+                let inner = self.operand()?;
+                return Ok(Operand {
+                    value: inner.value.map(|value| if minus { -value } else { value }),
+                    loose: inner.loose,
+                    power: false,
+                });
+            }
+            Said::Nothing | Said::Text(_) => {}
+        }
+        let rest = self.words.rest();
+        let letters = rest.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        let name = rest[..letters].to_ascii_uppercase();
+        self.words.at += letters;
+        if name == b"PI" {
+            return plain(Some(core::f64::consts::PI));
+        }
+        if OF_TEXTS.contains(&name.as_slice()) {
+            return plain(self.value_of_text()?);
+        }
+        let function = function(&name).ok_or_else(|| {
+            let text = String::from_utf8_lossy(&rest[..rest.len().min(12)]).into_owned();
+            if text.trim().is_empty() {
+                "a value is missing".to_owned()
+            } else {
+                format!("`{text}` is no value")
+            }
+        })?;
+        self.words.blanks();
+        let closed = self.words.peek() == Some(b'(');
+        let inner = self.operand()?;
+        Ok(Operand {
+            value: inner.value.and_then(function).filter(|value| value.is_finite()),
+            loose: !closed,
+            power: false,
+        })
+    }
+}
+
+/// Functions of texts: they are recognised, and their values are not known (TNC 640, Q parameter programming, string parameters).
+const OF_TEXTS: [&[u8]; 5] = [b"TONUMB", b"STRLEN", b"INSTR", b"STRCOMP", b"SYSNUM"];
+
+fn function(name: &[u8]) -> Option<fn(f64) -> Value> {
+    Some(match name {
+        b"SIN" => |x| Some(sin_cos_degrees(x).0),
+        b"COS" => |x| Some(sin_cos_degrees(x).1),
+        b"TAN" => |x| {
+            let (sin, cos) = sin_cos_degrees(x);
+            (cos != 0.0).then(|| sin / cos)
+        },
+        b"ASIN" => |x| (x.abs() <= 1.0).then(|| asin(x).to_degrees()),
+        b"ACOS" => |x| (x.abs() <= 1.0).then(|| acos(x).to_degrees()),
+        b"ATAN" => |x| Some(atan2(x, 1.0).to_degrees()),
+        b"SQ" => |x| Some(x * x),
+        b"SQRT" => |x| (x >= 0.0).then(|| x.sqrt()),
+        b"LN" => |x| (x > 0.0).then(|| ln(x)),
+        b"LOG" => |x| (x > 0.0).then(|| ln(x) / core::f64::consts::LN_10),
+        b"EXP" => |x| Some(exp(x)),
+        b"NEG" => |x| Some(-x),
+        b"INT" => |x| Some(x.trunc()),
+        b"ABS" => |x| Some(x.abs()),
+        b"FRAC" => |x| Some(x.fract()),
+        b"SGN" => |x| Some(if x == 0.0 { 0.0 } else { x.signum() }),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::klartext::words::{Kind, Parameter};
+
+    fn value(text: &str) -> Result<Value, String> {
+        let mut parameters = Parameters::default();
+        let q = |number| Parameter {
+            kind: Kind::Global,
+            number,
+        };
+        parameters.set(q(1), Some(5.0));
+        parameters.set(q(2), Some(-2.5));
+        formula(&mut Words::new(text.as_bytes()), &parameters)
+    }
+
+    #[test]
+    fn formulas() {
+        for (text, expected) in [
+            (" ( Q1 + 3 ) * 2 - Q2", 18.5),
+            ("INT ( ( Q1 / 2 ) + 0,99 )", 3.0),
+            ("-Q1 + +Q2", -7.5),
+            ("SIN ( 30 )", 0.5),
+            ("2 + 3 * 4", 14.0),
+            ("SQRT 16", 4.0),
+            ("2 ^ 3", 8.0),
+            ("FRAC Q2", -0.5),
+            ("2 + ( 3 ^ 2 )", 11.0),
+            ("( -3 ) ^ 2", 9.0),
+            ("5 - - 3", 8.0),
+        ] {
+            let found = value(text).expect(text).expect(text);
+            assert!((found - expected).abs() < 1e-12, "{text}: {found}");
+        }
+        for text in [
+            "SIN 30 * 2",
+            "Q9 + 1",
+            "SQRT ( -1 )",
+            "1 / 0",
+            "2 ^ 3 * 4",
+            "2 + 3 ^ 2",
+            "2 * 3 ^ 2",
+            "- 3 ^ 2",
+            "-3 ^ 2",
+            "TONUMB ( SRC_QS1 )",
+            "INSTR ( SRC_QS1 SEA_QS2 BEG0 ) + 1",
+        ] {
+            assert_eq!(value(text), Ok(None), "{text}");
+        }
+        for text in ["( 1 + 2", "FOO ( 1 )", "1 +", "STRLEN SRC_QS1"] {
+            assert!(value(text).is_err(), "{text}");
+        }
+        assert!(value(&"(".repeat(5000)).is_err());
+    }
+}

@@ -133,7 +133,9 @@ fn each_word_says_what_its_value_was_computed_from() {
 fn what_is_in_effect_keeps_its_length_when_the_unit_changes() {
     // LinuxCNC, convert_length_units: tool offsets and F are read again from the machine, in the new units
     let z = |change: &str| {
-        let motions = run(&format!("g21 f100\ng10 l2 p1 x0 y0 z0\ng0 x0 y0 z5\n{change}\ng0 x1\nm2\n"));
+        let motions = run(&format!(
+            "g21 f100\ng10 l2 p1 x0 y0 z0\ng0 x0 y0 z5\n{change}\ng0 x1\nm2\n"
+        ));
         assert_eq!(motions.1, [""; 0], "{change}");
         motions.0.last().expect("a motion")[2]
     };

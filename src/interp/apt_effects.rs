@@ -48,7 +48,9 @@ impl Apt<'_> {
                 vec![Argument::code("M3")]
             };
             if let Some(&speed) = args.numbers().first().filter(|_| !still) {
-                effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
+                // m/min of feet per minute
+                let unit = if args.has(program, "SFM") { 0.3048 } else { 1.0 };
+                effects.add(block, Effect::set("speed", [Argument::number("S", speed * unit)]));
             }
             effects.add(block, Effect::set("spindle", to));
             let plain = ["RPM", "CLW", "CCLW", "ON", "OFF", "LOCK", "ORIENT", "SFM", "SMM"];

@@ -8,6 +8,7 @@ mod moment;
 mod parts;
 mod situation;
 mod sort;
+mod speed;
 mod unread;
 
 use crate::codes::{BlockCodes, Found, dwell_reads};
@@ -216,9 +217,9 @@ impl Iso<'_> {
             .iter()
             .any(|found| matches!(sort(found, words), Sort::Setting("speed limit")));
         if words.speed.is_given() && !limits && !dwell_reads(codes, "S") {
-            self.core
-                .effects
-                .add(block, Effect::set("speed", [said("S", words.speed)]));
+            self.speed_effects(words, block);
+        } else {
+            self.kept_cutting_speed(block);
         }
         if words.tool.is_given() {
             // the word counts beside the tool where it says more: T0101

@@ -144,6 +144,8 @@ pub struct State {
     pub motion_mode: MotionMode,
     /// Q of G64.
     pub naive_tolerance: f64,
+    /// In which P and Q of G64 are.
+    pub(crate) tolerance_units: Units,
     /// T: tool number that was selected, -1 for none.
     pub selected_tool: i32,
     /// Tool in the spindle, 0 for none.
@@ -328,6 +330,7 @@ impl State {
             flood: false,
             motion_mode: MotionMode::Continuous(0.0),
             naive_tolerance: 0.0,
+            tolerance_units: Units::Millimetre,
             selected_tool: -1,
             tool: 0,
             tools: std::sync::Arc::default(),

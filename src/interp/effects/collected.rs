@@ -23,6 +23,8 @@ pub(crate) struct Effects {
     ready: Vec<Placed>,
     /// The settings in effect, by their keys.
     settings: Settings,
+    /// mm per unit of lengths where S of G96 was given last; `None`: nowhere so far.
+    cutting_unit: Option<f64>,
 }
 
 impl Effects {
@@ -79,6 +81,14 @@ impl Effects {
     /// The settings in effect that were not those of the start.
     pub(crate) fn settings(&self) -> &Settings {
         &self.settings
+    }
+    /// mm per unit of lengths in which S of G96 is; a control begins in mm.
+    pub(crate) fn cutting_unit(&self) -> f64 {
+        self.cutting_unit.unwrap_or(1.0)
+    }
+    /// See [`Self::cutting_unit`].
+    pub(crate) fn set_cutting_unit(&mut self, mm: f64) {
+        self.cutting_unit = Some(mm);
     }
     /// Keeps the words of a block that shifts or turns the coordinates.
     pub(crate) fn keep_frame(&mut self, words: Vec<Argument>) {

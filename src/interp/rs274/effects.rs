@@ -4,13 +4,13 @@ use super::frames::Shift;
 use crate::{Argument, Effect, Reach};
 use crate::{Feed, MotionKind, Sink};
 use std::borrow::Cow;
-use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, State, Stop, Switch};
+use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleMode, SpindleTurn, State, Stop, Switch, Units};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// Emits the effect of a canonical call, if it has one.
     #[cold]
     pub(super) fn effect_of_call(&mut self, call: &Canon, at: At, state: &State) {
-        if let Some(effect) = effect(call) {
+        if let Some(effect) = effect(call, state.units.mm(), self.speed_unit(call, state)) {
             let block = self.block(at);
             let reach = reach(call).unwrap_or(effect.usual_reach());
             self.core.effects.add_with(block, effect, reach);
@@ -19,6 +19,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 self.core.effects.add(block, Effect::Event(change));
             }
             self.hand_on();
+        }
+        // a spindle that is switched on takes S of G96 in the unit of now (LinuxCNC, emccanon.cc: START_SPINDLE_CLOCKWISE)
+        if let Canon::Spindle(spindle, SpindleTurn::Clockwise | SpindleTurn::CounterClockwise) = call
+            && self.cuts_at_speed(*spindle, state)
+        {
+            let speed = usize::try_from(*spindle).ok().and_then(|index| state.speed.get(index));
+            let speed = Canon::SpindleSpeed(*spindle, speed.copied().unwrap_or(f64::NAN));
+            self.effect_of_call(&speed, at, state);
         }
         if matches!(call, Canon::G92Offset(_)) && !self.calls.g92_known {
             self.calls.g92_known = self.has_code(at, |tenths| matches!(tenths, 520 | 920..=923));
@@ -34,6 +42,27 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         {
             self.core.set_from_here(self.block(at), None);
             self.hand_on();
+        }
+    }
+
+    /// Whether G96 is in effect for a spindle.
+    fn cuts_at_speed(&self, spindle: i32, state: &State) -> bool {
+        let mode = usize::try_from(spindle)
+            .ok()
+            .and_then(|index| state.spindle_mode.get(index));
+        match spindle {
+            0 => self.core.state.spindle.surface_speed(),
+            _ => matches!(mode, Some(SpindleMode::ConstantSurface(_))),
+        }
+    }
+
+    /// m/min or 1/min per unit of S: under G96 it is in feet per minute where lengths are in inches (LinuxCNC user manual, G96).
+    fn speed_unit(&self, call: &Canon, state: &State) -> f64 {
+        match call {
+            Canon::SpindleSpeed(spindle, _) if state.units == Units::Inch && self.cuts_at_speed(*spindle, state) => {
+                0.3048
+            }
+            _ => 1.0,
         }
     }
 
@@ -150,22 +179,24 @@ fn reach(call: &Canon) -> Option<Reach> {
 }
 
 /// What a call does apart from moving. Calls that a [`crate::Motion`] or the modal state holds, and texts that do not stop the program, have
-/// none.
+/// none. `mm`: per unit of lengths; `speed_unit`: m/min or 1/min per unit of S.
 #[expect(
     clippy::too_many_lines,
     reason = "one row for each canonical call, so that a new one must be sorted in"
 )]
-fn effect(call: &Canon) -> Option<Effect> {
+fn effect(call: &Canon, mm: f64, speed_unit: f64) -> Option<Effect> {
     Some(match call {
         Canon::MotionMode(mode) => Effect::set(
             "path-control",
             match mode {
                 MotionMode::ExactPath => vec![Argument::code("G61")],
                 MotionMode::ExactStop => vec![Argument::code("G61.1")],
-                MotionMode::Continuous(tolerance) => vec![Argument::code("G64"), Argument::number("P", *tolerance)],
+                MotionMode::Continuous(tolerance) => {
+                    vec![Argument::code("G64"), Argument::number("P", *tolerance * mm)]
+                }
             },
         ),
-        Canon::NaiveCamTolerance(tolerance) => Effect::set("path-control Q", [Argument::number("Q", *tolerance)]),
+        Canon::NaiveCamTolerance(tolerance) => Effect::set("path-control Q", [Argument::number("Q", *tolerance * mm)]),
         Canon::SpindleMode(spindle, ceiling) => Effect::set(
             key("speed mode", *spindle),
             if *ceiling == 0.0 {
@@ -174,7 +205,9 @@ fn effect(call: &Canon) -> Option<Effect> {
                 vec![Argument::number("D", *ceiling)]
             },
         ),
-        Canon::SpindleSpeed(spindle, speed) => Effect::set(key("speed", *spindle), [Argument::number("S", *speed)]),
+        Canon::SpindleSpeed(spindle, speed) => {
+            Effect::set(key("speed", *spindle), [Argument::number("S", *speed * speed_unit)])
+        }
         Canon::Spindle(spindle, turn) => Effect::set(
             key("spindle", *spindle),
             [Argument::code(match turn {
@@ -287,7 +320,7 @@ fn effect(call: &Canon) -> Option<Effect> {
         )]),
         Canon::Probe(kind, _) => Effect::Event(vec![Argument::code(format!("G38.{kind}"))]),
         Canon::StartSync(synced) if !synced.velocity => {
-            Effect::set("cycle", [Argument::number("synchronised", synced.per_revolution)])
+            Effect::set("cycle", [Argument::number("synchronised", synced.per_revolution * mm)])
         }
         Canon::StopSync => Effect::set("cycle", []),
         Canon::StartChange

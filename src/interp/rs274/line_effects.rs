@@ -22,7 +22,8 @@ impl Ngc<'_> {
         let names = crate::written::names(&text);
         self.line_events(program, block, (at, &text, &upper), &codes, sink);
         // the control keeps what is written to its offsets, also where that is what they are without a declaration
-        let stores = stored_offsets(&upper, &names, |name| self.variable(name));
+        let unit = self.core.state.coordinates.unit_mm();
+        let stores = stored_offsets(&upper, &names, unit, |name| self.variable(name));
         let from_here = |store: &Argument| store.name.starts_with("G10 L20") || store.name == "written by G10";
         if upper.contains("L20") && stores.iter().any(from_here) {
             self.core.set_from_here(block, Some("G10 L20"));

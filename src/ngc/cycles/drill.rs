@@ -3,8 +3,8 @@ use super::hole::{self, Axes, Hole};
 use super::{Work, problems};
 use crate::state::CycleWords;
 use crate::{
-    Canon, DistanceMode, Error, FeedMode, MotionMode, Problem, RetractMode, Side, SpindleTurn, Stop, Switch, Units,
-    exec,
+    Canon, DistanceMode, Error, FeedMode, MotionMode, Problem, RetractMode, Side, SpindleTurn, Start, Stop, Switch,
+    Units, exec,
 };
 
 /// Whether a motion code is a canned cycle of drilling.
@@ -91,12 +91,26 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
         level = clear;
     }
     if !exact {
-        let mode = work.engine.state.motion_mode;
-        work.emit(Canon::MotionMode(mode));
-        work.emit(Canon::NaiveCamTolerance(work.engine.state.naive_tolerance));
+        path_control_again(work);
     }
     work.engine.state.motion = code;
     Ok(())
+}
+
+/// The path control before the cycle. A machine knows its tolerances in the units of now; `rs274` repeats the numbers.
+fn path_control_again(work: &mut Work<'_>) {
+    let state = &work.engine.state;
+    let factor = match work.engine.setup.start {
+        Start::Unknown => state.tolerance_units.mm() / state.units.mm(),
+        Start::Zero => 1.0,
+    };
+    let mode = match state.motion_mode {
+        MotionMode::Continuous(tolerance) => MotionMode::Continuous(tolerance * factor),
+        mode => mode,
+    };
+    let naive = state.naive_tolerance * factor;
+    work.emit(Canon::MotionMode(mode));
+    work.emit(Canon::NaiveCamTolerance(naive));
 }
 
 /// What is refused before anything happens, in the control's order.

@@ -3,7 +3,7 @@ use super::{frame, problems};
 use crate::state::said;
 use crate::{
     At, Block, Canon, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, Problem, RetractMode, Side, Sink,
-    SpindleMode, Units,
+    SpindleMode, Start, Units,
 };
 use std::sync::Arc;
 
@@ -79,7 +79,8 @@ pub(crate) fn units(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
     change_units(engine, units);
 }
 
-/// Lengths of the state in other units. The tool offset keeps its number: so does the control.
+/// Lengths of the state in other units. `rs274` keeps the number of the tool offset and of F; on a machine the interpreter reads both again
+/// from what the machine has, in the new units. Words that cycles keep have their numbers on both.
 fn change_units(engine: &mut Engine, units: Units) {
     let state = &mut engine.state;
     if state.units == units {
@@ -100,6 +101,15 @@ fn change_units(engine: &mut Engine, units: Units) {
     }
     state.radius *= factor;
     state.units = units;
+    if engine.setup.start == Start::Unknown {
+        for axis in [0, 1, 2, 6, 7, 8] {
+            state.tool_offset[axis] *= factor;
+        }
+        // per revolution the number stays
+        if state.feed_mode != FeedMode::PerRevolution {
+            state.feed_rate *= factor;
+        }
+    }
 }
 
 /// G61, G61.1, G64 P Q.
@@ -118,6 +128,7 @@ pub(crate) fn control_mode(engine: &mut Engine, block: &Block, at: At, sink: &mu
     if let MotionMode::Continuous(tolerance) = mode {
         let naive = positive(block.word(b'Q')).unwrap_or(tolerance);
         engine.state.naive_tolerance = naive;
+        engine.state.tolerance_units = engine.state.units;
         engine.emit(Canon::NaiveCamTolerance(naive), at, sink);
     }
     Ok(())

@@ -128,3 +128,38 @@ fn each_word_says_what_its_value_was_computed_from() {
         "{said:?}"
     );
 }
+
+#[test]
+fn what_is_in_effect_keeps_its_length_when_the_unit_changes() {
+    // LinuxCNC, convert_length_units: tool offsets and F are read again from the machine, in the new units
+    let z = |change: &str| {
+        let motions = run(&format!(
+            "g21 f100\ng10 l2 p1 x0 y0 z0\ng0 x0 y0 z5\n{change}\ng0 x1\nm2\n"
+        ));
+        assert_eq!(motions.1, [""; 0], "{change}");
+        motions.0.last().expect("a motion")[2]
+    };
+    for (change, expected) in [
+        ("g20\ng43.1 z1\ng21\ng49", 5.0),
+        ("g43.1 z25.4\ng20\ng49\ng21", 5.0),
+        ("g43.1 z25.4\ng20\ng43.1 z2\ng21", 5.0 - 50.8),
+        ("g43.1 z25.4\ng20\ng43.1 x2\ng21", 5.0 - 25.4),
+        ("g10 l1 p1 z10\ng20\ng43.1 z1\ng43.2 h1\ng21\ng49", 5.0),
+        ("g92 z30.4\ng20\ng92.1\ng21", 5.0),
+        ("g52 z25.4\ng20\ng52 z0\ng21", 5.0),
+        ("g20\ng10 l2 p1 z1\ng21\ng10 l2 p1 z0\ng54", 5.0),
+        ("g20\ng10 l20 p1 z1\ng21\ng10 l2 p1 z0\ng54", 5.0),
+        ("g20\ng43.1 z1\ng28.1\ng21\ng49\ng0 z50\ng28", 5.0),
+    ] {
+        let got = z(change);
+        assert!((got - expected).abs() < 1e-9, "{change}: {got}");
+    }
+}
+
+#[test]
+fn f_is_the_same_feed_in_other_units() {
+    let read = |start: &str| run(&format!("{start}\ng0 x#<_feed>\nm2\n")).0[0][0];
+    assert!((read("g21\ng94 f254\ng20") - 10.0).abs() < 1e-9);
+    assert!((read("g20\ng94 f10\ng21") - 254.0).abs() < 1e-9);
+    assert!((read("g21\ng95 f2\ng20") - 2.0).abs() < 1e-9);
+}

@@ -7,6 +7,7 @@ mod format;
 mod message_tests;
 mod nose;
 mod offsets;
+mod readings;
 mod tool;
 mod variables;
 

@@ -140,6 +140,16 @@ pub(crate) fn hash(text: &str) -> u64 {
     })
 }
 
+/// A cause may quote the program: its first 100 characters, in one line.
+pub(crate) fn short(what: &str) -> String {
+    const MOST: usize = 100;
+    let line = what.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &line[..end]),
+        None => line,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, number};

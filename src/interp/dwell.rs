@@ -15,7 +15,9 @@ impl Iso<'_> {
         let said = self.dwell_seconds(codes, words);
         let seconds = said.filter(|seconds| *seconds >= 0.0);
         let given = words.p.is_given() || words.feed.is_given() || words.speed.is_given() || words.axes.any();
-        if said.is_some() && seconds.is_none() {
+        // P and X are read as numbers without a sign
+        let by_own_word = words.feed.is_given() || words.speed.is_given();
+        if said.is_some() && seconds.is_none() && by_own_word {
             let kind = FaultKind::Rejected {
                 refusal: Refusal::Number,
                 message: "the time of a dwell is negative: write 0 or more".to_owned(),

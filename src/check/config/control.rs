@@ -1,12 +1,13 @@
 //! `[control]` of `trunnion.toml`: parameters of the control that decide what a program means.
 use super::ConfigError;
+use super::readings::{Chamfer, Places, Scaled};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
-    AxisLetter, ChamferLength, ControlData, DrillingAxis, FrameAngles, HolePlaces, ImplicitDecimals, LengthUnit,
-    OuterCorner, Position, RollPitchYaw, RoughingEscape, ScaledAxes, SplineReading, TcpCodes,
+    AxisLetter, ControlData, DrillingAxis, FrameAngles, ImplicitDecimals, LengthUnit, OuterCorner, Position,
+    RollPitchYaw, RoughingEscape, SplineReading, TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -48,26 +49,6 @@ enum Order {
 #[serde(rename_all = "kebab-case")]
 enum Splines {
     ChordLength,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Scaled {
-    Plane,
-    All,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Chamfer {
-    Side,
-    Face,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Places {
-    Pairs,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -201,15 +182,9 @@ impl FileControl {
                 Order::Euler => FrameAngles::Euler,
             }),
             splines: self.splines.map(|Splines::ChordLength| SplineReading::ChordLength),
-            scaled_axes: self.scaled_axes.map(|axes| match axes {
-                Scaled::Plane => ScaledAxes::Plane,
-                Scaled::All => ScaledAxes::All,
-            }),
-            chamfer_length: self.chamfer_length.map(|length| match length {
-                Chamfer::Side => ChamferLength::Side,
-                Chamfer::Face => ChamferLength::Face,
-            }),
-            hole_places: self.hole_places.map(|Places::Pairs| HolePlaces::Pairs),
+            scaled_axes: self.scaled_axes.map(Into::into),
+            chamfer_length: self.chamfer_length.map(Into::into),
+            hole_places: self.hole_places.map(Into::into),
             increment_adds_frame: self.increment_adds_frame,
             increment_adds_length: self.increment_adds_length,
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {

@@ -29,6 +29,7 @@ use crate::config::declaration;
 use crate::facts::Margin;
 use crate::prelude::*;
 use crate::slip::record_with_zeros;
+use crate::words::short;
 use trunnion_dialect::Plane;
 use trunnion_interp::{Lacks, UnknownName};
 
@@ -259,16 +260,6 @@ fn cause(what: &str) -> &str {
     match what.split_once(": ") {
         Some((function, _)) if function.starts_with("FN ") => function,
         _ => what,
-    }
-}
-
-/// A cause may quote the program: its first 100 characters, in one line.
-fn short(what: &str) -> String {
-    const MOST: usize = 100;
-    let line = what.split_whitespace().collect::<Vec<_>>().join(" ");
-    match line.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}...", &line[..end]),
-        None => line,
     }
 }
 

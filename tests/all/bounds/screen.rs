@@ -205,7 +205,7 @@ fn growth_ends_with_what_a_command_reads() {
             .expect("a command")
     };
     assert_eq!(factor(of("check"), (1_000_000, 60_000), MIDDLE), 8.0);
-    assert_eq!(factor(of("fmt"), (1_000_000, 100_000), MIDDLE), 4.0);
+    assert_eq!(factor(of("fmt"), (1_000_000, 100_000), MIDDLE), 3.0);
     assert_eq!(factor(of("diff-other"), (16_000_000, 10), MIDDLE), 2.0);
     assert_eq!(factor(of("fix"), (60_000_000, 10), MIDDLE), 1.0);
     assert_eq!(grown(1.0, 4.0, NO_START, 8.0), 32.0 * MARGIN);

@@ -82,7 +82,7 @@ pub(super) const UNKNOWN_VALUES: &[Item] = &[
         ["fanuc-30i", ""],
         [HEAD, "N10 G0 X10.\nM98 P9000\nGOTO 10\nM30\n"],
         &["6 unknown not-decided", "7 error missing-subprogram"],
-        [2, 1_000_006],
+        [2, 500_006],
     ),
     (
         "an alarm of the program ends it",

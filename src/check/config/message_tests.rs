@@ -38,7 +38,7 @@ fn what_is_wrong_is_said_with_its_key() {
         (
             "[limits]\nblocks = 0.5\n",
             "`blocks` in [limits] must be a whole number (Executed blocks in addition to those of the text, after which `check` reports a loop as \
-             endless, from 1): `blocks = 1500000`",
+             endless, from 1): `blocks = 3000000`",
         ),
         (
             "dialect = \"fanuc-30i\"\n[control]\npower_on = [\"G17\", \"G177\"]\n",

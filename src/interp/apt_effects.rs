@@ -3,6 +3,7 @@
 //! Source of the records: ISO 4343 (NC processor output, post processor commands): SPINDL, COOLNT, LOADTL, STOP, OPSTOP, END, FINI.
 use crate::apt::Apt;
 use crate::apt::Args;
+use crate::feed_speed::METRES_PER_FOOT;
 use crate::written::{call_argument, packed};
 use crate::{Argument, Effect};
 use crate::{Motion, MotionKind};
@@ -49,7 +50,7 @@ impl Apt<'_> {
             };
             if let Some(&speed) = args.numbers().first().filter(|_| !still) {
                 // m/min of feet per minute
-                let unit = if args.has(program, "SFM") { 0.3048 } else { 1.0 };
+                let unit = if args.has(program, "SFM") { METRES_PER_FOOT } else { 1.0 };
                 effects.add(block, Effect::set("speed", [Argument::number("S", speed * unit)]));
             }
             effects.add(block, Effect::set("spindle", to));

@@ -3,7 +3,7 @@ use crate::codes::Found;
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{FaultKind, Feed, Motion, MotionKind, Refusal};
+use crate::{FaultKind, Feed, Motion, MotionKind};
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
@@ -15,17 +15,8 @@ impl Iso<'_> {
         let said = self.dwell_seconds(codes, words);
         let seconds = said.filter(|seconds| *seconds >= 0.0);
         let given = words.p.is_given() || words.feed.is_given() || words.speed.is_given() || words.axes.any();
-        // P and X are read as numbers without a sign
-        let by_own_word = words.feed.is_given() || words.speed.is_given();
-        if said.is_some() && seconds.is_none() && by_own_word {
-            let kind = FaultKind::Rejected {
-                refusal: Refusal::Number,
-                message: "the time of a dwell is negative: write 0 or more".to_owned(),
-                alarm: None,
-            };
-            report.fault(report.whole(), kind);
-        } else if said.is_none() && !given {
-            let what = "a dwell without its time".to_owned();
+        if said.is_none() && !given {
+            let what = "a dwell without its time: write the word that gives it".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
         }
         let position = self.core.state.position;

@@ -241,7 +241,7 @@ impl Iso<'_> {
             lathe: self.core.radii,
         };
         if setting.turns.is_none() {
-            let what = "the turns of an arc: not a known whole number from 0 to 1000000".to_owned();
+            let what = "the turns of an arc (TURN or P): write a whole number from 0 to 1000000".to_owned();
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
         }
         if self.is_spiral(words) {

@@ -7,6 +7,9 @@ use crate::{FaultKind, FeedMode};
 use trunnion_dialect::{Action, Code, CodeKind};
 use trunnion_syntax::TextRange;
 
+/// A foot in m: S of G96 is in feet per minute where lengths are in inches.
+pub(crate) const METRES_PER_FOOT: f64 = 0.3048;
+
 impl Iso<'_> {
     pub(crate) fn feed_mode(&mut self, mode: FeedMode) {
         if self.core.state.feed.mode() != mode {
@@ -83,7 +86,7 @@ impl Iso<'_> {
                 let unit = if state.coordinates.unit_mm() == 1.0 {
                     1.0
                 } else {
-                    0.3048
+                    METRES_PER_FOOT
                 };
                 state.spindle.set_cutting_speed(value.map(|value| value * unit));
             } else {

@@ -188,6 +188,8 @@ impl<'d> Iso<'d> {
         self.spindle_before(words);
         if self.core.dialect.quirks.macro_b() {
             self.signs(words, &block, report);
+        } else if block.dwell {
+            self.dwell_sign(words, report);
         }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));

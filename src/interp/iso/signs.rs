@@ -38,4 +38,14 @@ impl Iso<'_> {
             }
         }
     }
+
+    /// The time of a dwell, on controls without the alarm of [`Self::signs`].
+    pub(super) fn dwell_sign(&self, words: &Words, report: &mut Report<'_>) {
+        for (name, value) in [("F", words.feed), ("P", words.p), ("S", words.speed)] {
+            if value.number().is_some_and(|number| number.value < 0.0) {
+                let message = format!("{name} is negative: the time of a dwell must be 0 or more");
+                self.refuse(words, Refusal::Number, message, None, report);
+            }
+        }
+    }
 }

@@ -35,6 +35,17 @@ struct Operand {
     power: bool,
 }
 
+/// Two operands with an operator between them.
+fn joined(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Operand {
+    let known = !first.loose && !second.power;
+    let value = first.value.zip(second.value).filter(|_| known);
+    Operand {
+        value: value.map(|(a, b)| of(a, b)).filter(|value| value.is_finite()),
+        loose: second.loose,
+        power: false,
+    }
+}
+
 impl Formula<'_, '_, '_> {
     fn next_is(&mut self, byte: u8) -> bool {
         self.words.takes(byte)
@@ -51,13 +62,7 @@ impl Formula<'_, '_, '_> {
                 return Ok(first.value);
             };
             let second = self.product()?;
-            let known = !first.loose && !second.power;
-            let value = first.value.zip(second.value).filter(|_| known);
-            first = Operand {
-                value: value.map(|(a, b)| if minus { a - b } else { a + b }),
-                loose: second.loose,
-                power: false,
-            };
+            first = joined(&first, &second, |a, b| if minus { a - b } else { a + b });
         }
     }
 
@@ -72,15 +77,7 @@ impl Formula<'_, '_, '_> {
                 return Ok(first);
             };
             let second = self.power()?;
-            let known = !first.loose && !second.power;
-            let value = first.value.zip(second.value).filter(|_| known);
-            first = Operand {
-                value: value
-                    .map(|(a, b)| if divides { a / b } else { a * b })
-                    .filter(|value| value.is_finite()),
-                loose: second.loose,
-                power: false,
-            };
+            first = joined(&first, &second, |a, b| if divides { a / b } else { a * b });
         }
     }
 

@@ -2,6 +2,7 @@
 use super::bridge::{Bridge, LINEAR_AXES};
 use super::feed::Rate;
 use super::frames::Shift;
+use crate::feed_speed::METRES_PER_FOOT;
 use crate::tools::Chosen;
 use crate::{Fault, FaultKind, Sink};
 use trunnion_dialect::{Action, Code, Dialect, Owner, Plane};
@@ -193,7 +194,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 let speed = Some(speed).filter(|speed| speed.is_finite());
                 if spindle.surface_speed() {
                     // S is in feet per minute where lengths are in inches (LinuxCNC user manual, G96)
-                    let metres = if unit == 1.0 { 1.0 } else { 0.3048 };
+                    let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
                     spindle.set_cutting_speed(speed.map(|speed| speed * metres));
                 } else {
                     spindle.set_rpm(speed);

@@ -1,6 +1,7 @@
 //! Effects of a LinuxCNC program: canonical calls that are not motions and not in the modal state.
 use super::bridge::Bridge;
 use super::frames::Shift;
+use crate::feed_speed::METRES_PER_FOOT;
 use crate::{Argument, Effect, Reach};
 use crate::{Feed, MotionKind, Sink};
 use std::borrow::Cow;
@@ -60,7 +61,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn speed_unit(&self, call: &Canon, state: &State) -> f64 {
         match call {
             Canon::SpindleSpeed(spindle, _) if state.units == Units::Inch && self.cuts_at_speed(*spindle, state) => {
-                0.3048
+                METRES_PER_FOOT
             }
             _ => 1.0,
         }

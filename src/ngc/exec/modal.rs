@@ -80,7 +80,8 @@ pub(crate) fn units(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
 }
 
 /// Lengths of the state in other units. `rs274` keeps the number of the tool offset and of F; on a machine the interpreter reads both again
-/// from what the machine has, in the new units. Words that cycles keep have their numbers on both.
+/// from what the machine has, in the new units (LinuxCNC,
+/// interp_convert.cc, remarks on convert_length_units). Words that cycles keep have their numbers on both.
 fn change_units(engine: &mut Engine, units: Units) {
     let state = &mut engine.state;
     if state.units == units {

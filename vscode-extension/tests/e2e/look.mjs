@@ -76,6 +76,19 @@ export async function look(suite) {
     throw new Error(`no ${what} after ${milliseconds / 1000} s; last: ${JSON.stringify(last)}`);
   }
 
+  /** Does something again until its answer is on the screen. VS Code drops a request of the keyboard when its own, which a moved cursor or a new
+   *  finding starts a quarter of a second later, comes before the answer; a person presses the keys once more. */
+  async function insist(answer, act) {
+    for (let tries = 1; ; tries += 1) {
+      await act();
+      try {
+        return await answer.waitFor({ timeout: 5_000 });
+      } catch (error) {
+        if (tries === 6) throw error;
+      }
+    }
+  }
+
   /** The page of the backplot, among the frames in frames of a webview. */
   async function backplotPage() {
     for (const frame of page.frames()) {
@@ -90,5 +103,5 @@ export async function look(suite) {
     process.exit(failed === 0 ? 0 : 1);
   }
 
-  return { page, test, until, backplotPage, finish };
+  return { page, test, until, insist, backplotPage, finish };
 }

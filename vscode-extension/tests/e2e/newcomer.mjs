@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { open, remote, work } from './browser.mjs';
 import { coloured, look, shots, squigglesUnder } from './look.mjs';
 
-const { page, test, until, backplotPage, finish } = await look('newcomer');
+const { page, test, until, insist, backplotPage, finish } = await look('newcomer');
 const keys = page.keyboard;
 const rows = page.locator('.quick-input-list .monaco-list-row');
 const status = page.locator('.statusbar-item[id="trunnion.trunnion.trunnion.status"]');
@@ -68,9 +68,7 @@ await test('a mistake gets a squiggle, and the light bulb mends it', async () =>
   // the list of completions is open
   await keys.press('Escape');
   await keys.press('ArrowLeft');
-  await keys.press('Control+.');
-  const fix = page.locator('.action-widget .monaco-list-row', { hasText: 'write G0' });
-  await fix.waitFor({ timeout: 20_000 });
+  await insist(page.locator('.action-widget .monaco-list-row', { hasText: 'write G0' }), () => keys.press('Control+.'));
   await page.screenshot({ path: `${shots}/light-bulb.png` });
   // the first one has the focus; older versions take no click while the menu opens
   await keys.press('Enter');
@@ -82,8 +80,7 @@ await test('completion explains the codes, and a hover the block', async () => {
   await keys.press('End');
   await keys.press('Enter');
   await keys.type('G8');
-  await keys.press('Control+Space');
-  await page.locator('.suggest-widget .monaco-list-row', { hasText: 'G81' }).first().waitFor({ timeout: 20_000 });
+  await insist(page.locator('.suggest-widget .monaco-list-row', { hasText: 'G81' }).first(), () => keys.press('Control+Space'));
   await page.screenshot({ path: `${shots}/completion.png` });
   await keys.press('Escape');
   await line('N140').click();
@@ -95,17 +92,17 @@ await test('completion explains the codes, and a hover the block', async () => {
     return now;
   });
   await into('N110');
-  await keys.press('Control+k');
-  await keys.press('Control+i');
-  await page.locator('.monaco-hover', { hasText: 'feed' }).first().waitFor({ timeout: 20_000 });
+  await insist(page.locator('.monaco-hover', { hasText: 'feed' }).first(), async () => {
+    await keys.press('Control+k');
+    await keys.press('Control+i');
+  });
   await keys.press('Escape');
 });
 
 await test('F2 renames a variable at all places', async () => {
   await into('#100');
-  await keys.press('F2');
   const box = page.locator('.rename-box input');
-  await box.waitFor({ timeout: 20_000 });
+  await insist(box, () => keys.press('F2'));
   await box.fill('#110');
   await keys.press('Enter');
   await until('the new name', async () => /#110=12\.5/.test(await text()) && /y#110/i.test(await text()) || (await text()));

@@ -47,7 +47,7 @@ pub(crate) enum Unary {
     BitNot,
     /// Sinumerik: TRUNC, unknown near a whole number.
     CutOff,
-    /// Sinumerik: ROUND, unknown for a negative half.
+    /// Sinumerik: ROUND, halves away from zero.
     RoundHalf,
     /// Sinumerik: ROUNDUP, unknown below zero; Okuma: FUP.
     RoundUp,
@@ -146,6 +146,8 @@ pub(crate) enum Op {
     Binary(Binary),
     /// The same with a number as its second value: the commonest of all, in one step.
     WithNumber(Binary, f64),
+    /// Sinumerik: BOUND of the least, the most and a value.
+    Bound,
     /// The text is wrong from here on.
     Fail(Box<FormulaErrorKind>),
 }

@@ -130,6 +130,12 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
                 stack.push(f64::from(u8::from(variables.exists(name))));
                 continue;
             }
+            Op::Bound => {
+                let most = stack.before_last();
+                let least = stack.before_last();
+                stack.last = crate::sinumerik::bound(least, most, stack.last);
+                continue;
+            }
             Op::Fail(kind) => return Err(failed((**kind).clone())),
             on_index => {
                 stack.last = at_index(on_index, variables, stack.last).map_err(failed)?;

@@ -16,6 +16,8 @@ pub(crate) enum Waiting {
     One(Unary),
     /// A function of two arguments; whether the second is being read.
     Two(Binary, bool),
+    /// BOUND: three arguments; how many commas are read.
+    Bound(u8),
 }
 
 /// What one language decides.
@@ -212,13 +214,15 @@ impl<'s, R: Rules> Reader<'s, R> {
     fn operator(&mut self) -> Result<NextToken, Kind> {
         match self.peek() {
             Some(byte) if byte == R::GROUP[1] || byte == b']' => return self.close(byte),
-            Some(b',') if matches!(self.innermost(), Some(Waiting::Two(_, false))) => {
+            Some(b',') if matches!(self.innermost(), Some(Waiting::Two(_, false) | Waiting::Bound(0 | 1))) => {
                 self.settle();
                 self.rules.close();
                 self.rules.open();
                 self.take(1);
-                if let Some(Waiting::Two(_, second)) = self.waiting.last_mut() {
-                    *second = true;
+                match self.waiting.last_mut() {
+                    Some(Waiting::Two(_, second)) => *second = true,
+                    Some(Waiting::Bound(commas)) => *commas += 1,
+                    _ => {}
                 }
                 return Ok(NextToken::Operand);
             }
@@ -278,7 +282,11 @@ impl<'s, R: Rules> Reader<'s, R> {
                 self.height -= 1;
                 Some(Op::Binary(binary))
             }
-            Some(Waiting::Two(_, false)) if group => return Err(Kind::MissingComma),
+            Some(Waiting::Bound(2)) if group => {
+                self.height -= 2;
+                Some(Op::Bound)
+            }
+            Some(Waiting::Two(_, false) | Waiting::Bound(_)) if group => return Err(Kind::MissingComma),
             _ => return Err(Kind::UnclosedBracket),
         };
         self.waiting.pop();

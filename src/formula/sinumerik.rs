@@ -6,7 +6,8 @@
 //! `R1>5 AND R2<3` compares R1 with `5 AND R2` and the outcome with 3.
 //!
 //! What is not documented has no value that is known (NaN): comparisons of numbers that differ by less than one part in 1e9 (the control
-//! compares REAL with a relative tolerance), TRUNC that near to a whole number, ROUND of a negative half, DIV, MOD and bits of fractions.
+//! compares REAL with a relative tolerance), TRUNC that near to a whole number, ROUNDUP of a negative fraction, DIV, MOD and bits of
+//! fractions, BOUND with its limits exchanged. ROUND of a negative half is away from zero in nc-gcode-interpreter (CEAD).
 use crate::code::{Binary, Comparison, Formula};
 use crate::infix::{Reader, Rules, operator_word, read};
 use crate::{FormulaError, FormulaErrorKind as Kind};
@@ -15,7 +16,7 @@ use trunnion_syntax::TextRange;
 mod operands;
 mod values;
 
-pub(crate) use values::{binary, unary};
+pub(crate) use values::{binary, bound, unary};
 
 /// Reads the expression that begins at the start of `range`, as far as it extends: the formula, and one past its last byte. Variables are
 /// queried by number (`R5`) or by name in lower case; elements of fields of one dimension by name and index, others by the name with `[`, unknown

@@ -75,7 +75,7 @@ impl<'d> Iso<'d> {
                 None
             }
         };
-        if self.core.effects.wanted() && words.has_content {
+        if self.core.effects.wanted() && (self.refused_text(block) | words.has_content) {
             self.collect(
                 block,
                 (&codes, &words),
@@ -203,6 +203,10 @@ impl<'d> Iso<'d> {
             self.length_after_return(words.axes.given | words.axes.unread);
         }
         self.called_cycle(codes, words, &block, &mut motion, report);
+        if self.core.dialect.quirks.declares_names() {
+            self.memory.own.scope.moved |= motion.is_some() || !self.memory.out.is_empty();
+            crate::sinumerik::one_block(codes, words, report);
+        }
         self.spindle_after(&block);
         if words.forgets_all {
             self.core.losses += 1;

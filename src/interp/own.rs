@@ -6,55 +6,20 @@
 mod field;
 mod named;
 mod prepared;
+mod sort;
+mod strings;
 mod view;
 mod words;
 
 use crate::Argument;
 use crate::flow::Transfer;
-use field::{Field, rounded};
+use field::Field;
+pub(crate) use sort::Sort;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::FormulaErrorKind;
 use trunnion_syntax::{Call, TextRange};
 use view::{View, Why};
-
-/// The type of a variable in DEF.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sort {
-    Real,
-    Int,
-    Bool,
-    /// A string, frame, axis or array: its value is not followed.
-    Other,
-}
-
-impl Sort {
-    /// From the name of a type.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        let known = [
-            ("REAL", Self::Real),
-            ("INT", Self::Int),
-            ("BOOL", Self::Bool),
-            ("CHAR", Self::Other),
-            ("STRING", Self::Other),
-            ("AXIS", Self::Other),
-            ("FRAME", Self::Other),
-        ];
-        let stem = name.split('[').next().unwrap_or_default();
-        let found = known.iter().find(|(known, _)| stem.eq_ignore_ascii_case(known))?;
-        Some(found.1)
-    }
-
-    /// What a variable holds when a value is written to it; `None`: unknown.
-    fn takes(self, value: f64) -> Option<f64> {
-        match self {
-            Self::Real => Some(value),
-            Self::Int => rounded(value).filter(|value| value.abs() < 2_147_483_648.0),
-            Self::Bool => Some(f64::from(u8::from(value != 0.0))),
-            Self::Other => None,
-        }
-    }
-}
 
 /// The variables that a program declares. Names are in lower case.
 #[derive(Clone, Debug, Default)]
@@ -62,6 +27,9 @@ pub(crate) struct Scope {
     pub(crate) sorts: HashMap<Box<str>, Sort>,
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
+    strings: strings::Strings,
+    /// A block has moved an axis, so that the definitions are over.
+    pub(crate) moved: bool,
     /// Variables of the type FRAME; `None`: what they hold is not known.
     pub(crate) frames: BTreeMap<Box<str>, Option<crate::sinumerik::FrameValue>>,
 }
@@ -162,6 +130,7 @@ impl Own {
         self.scope.values.clear();
         self.scope.frames.values_mut().for_each(|frame| *frame = None);
         self.lose_fields();
+        self.lose_texts();
     }
     fn known(&self) -> BTreeMap<Box<str>, f64> {
         let parameters = (self.parameters.iter()).map(|(number, value)| (format!("r{number}").into(), *value));
@@ -239,6 +208,7 @@ impl Own {
         if self.scope.fields.contains_key(&key) {
             self.assign_element(&key, "", None);
         }
+        self.forget_text(&key);
         let (values, value) = match self.scope.sorts.get(&key) {
             Some(sort) => (&mut self.scope.values, value.and_then(|value| sort.takes(value))),
             // declared elsewhere: it may be an INT
@@ -256,12 +226,11 @@ impl Own {
         self.scope.sorts.insert(name.as_str().into(), sort);
         self.assign(&name, value);
     }
-    /// `DEF REAL A, B=3`: everything after DEF.
-    pub(crate) fn define(&mut self, text: &str) {
-        let Some((kind, names)) = text.trim().split_once(char::is_whitespace) else {
-            return;
-        };
-        let Some(sort) = Sort::named(kind) else { return };
+    /// `DEF REAL A, B=3`: everything after DEF. Returns a name that is defined already.
+    pub(crate) fn define(&mut self, text: &str) -> Option<String> {
+        let (kind, names) = text.trim().split_once(char::is_whitespace)?;
+        let sort = Sort::named(kind)?;
+        let mut twice = None;
         for one in arguments(names) {
             let (name, value) = match one.split_once('=') {
                 None => (one, Some(0.0)),
@@ -270,6 +239,8 @@ impl Own {
             if !named::is_variable_name(name.split('[').next().unwrap_or(name).trim()) {
                 continue;
             }
+            let stem = name.split('[').next().unwrap_or(name).trim();
+            twice = twice.or_else(|| self.is_declared(stem).then(|| stem.to_ascii_uppercase()));
             if kind.eq_ignore_ascii_case("FRAME") && !name.contains('[') {
                 let name = name.trim().to_ascii_lowercase();
                 let is_plain = value.is_some() && !one.contains('=');
@@ -280,12 +251,16 @@ impl Own {
                 self.define_field(sort, one)
             } else {
                 self.declare(name, sort, value);
+                if kind.get(..6).is_some_and(|kind| kind.eq_ignore_ascii_case("STRING")) {
+                    self.declare_string(kind, name, one.split_once('=').map(|(_, text)| text));
+                }
                 value.is_some() && sort != Sort::Other
             };
             if let (Some((name, text)), false) = (one.split_once('='), known) {
                 self.note_text(name.split('[').next().unwrap_or(name), text);
             }
         }
+        twice
     }
     /// `EXTERN GROOVE(REAL)`: everything after EXTERN.
     pub(crate) fn declare_subprogram(&mut self, text: &str) {

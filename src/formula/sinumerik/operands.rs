@@ -113,6 +113,7 @@ fn function(name: &str) -> Option<Waiting> {
         "atan2" => Waiting::Two(Binary::Atan2, false),
         "minval" => Waiting::Two(Binary::Minimum, false),
         "maxval" => Waiting::Two(Binary::Maximum, false),
+        "bound" => Waiting::Bound(0),
         _ => return None,
     })
 }

@@ -73,6 +73,10 @@ fn priorities_are_the_control_s() {
         ("POT(3)+ABS(-1)", 10.0),
         ("TRUNC(-2.7)", -2.0),
         ("ROUND(2.5)", 3.0),
+        ("ROUND(-2.5)", -3.0),
+        ("ROUND(-2.4)", -2.0),
+        ("BOUND(1, R2+1, 7)*10+BOUND(1,3,-7)", 31.0),
+        ("BOUND(1, MINVAL(9,3), BOUND(0,5,2))", 2.0),
         ("ROUNDUP(2.1)", 3.0),
         ("MINVAL(3, R2)+MAXVAL(3,R2)", 5.0),
         ("SIN(30)", 0.5),
@@ -100,7 +104,19 @@ fn an_expression_ends_where_its_language_does() {
     ] {
         assert_eq!(value(text).map(|found| found.1).as_deref(), Ok(rest), "{text}");
     }
-    for text in ["", "R1+", "(R1", "R1+)", "ATAN2(1)", "'X12'", "* 2", "R[1", "NAME[1"] {
+    for text in [
+        "",
+        "R1+",
+        "(R1",
+        "R1+)",
+        "ATAN2(1)",
+        "BOUND(1,2)",
+        "BOUND(1,2,3,4)",
+        "'X12'",
+        "* 2",
+        "R[1",
+        "NAME[1",
+    ] {
         assert!(value(text).is_err(), "{text}");
     }
     assert_eq!(value("1/0"), Err(FormulaErrorKind::DivisionByZero));
@@ -117,7 +133,8 @@ fn what_is_not_documented_is_not_known() {
         "OWN(1,(2),\")\")",
         "\"N\"<<10",
         "1<<2",
-        "ROUND(-2.5)",
+        "BOUND(3, 1, 2)",
+        "BOUND(1, R9, 2)",
         "0.1+0.2 == 0.3",
         "0.1+0.2 > 0.3",
         "1.5 DIV 1",

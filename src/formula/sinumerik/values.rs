@@ -65,11 +65,19 @@ pub(crate) fn unary(operation: Unary, x: f64) -> f64 {
         Unary::Not => f64::from(u8::from(x == 0.0)),
         Unary::BitNot if x.fract() == 0.0 => -x - 1.0,
         Unary::CutOff if !is_near(x, nearest) => x.trunc() + 0.0,
-        Unary::RoundHalf if x >= 0.0 || x.fract() != -0.5 => (x + 0.5).floor() + 0.0,
+        Unary::RoundHalf => nearest + 0.0,
         Unary::TruthNot => truth(x).map_or(f64::NAN, |x| f64::from(u8::from(!x))),
         Unary::NearestWhole if !is_near(x.abs().fract(), 0.5) && x.abs().fract() != 0.5 => nearest + 0.0,
         Unary::WholeBelow if x >= 0.0 && (x == nearest || !is_near(x, nearest)) => x.floor(),
         Unary::RoundUp if x >= 0.0 && !is_near(x, nearest) || x == nearest => x.ceil(),
         _ => f64::NAN,
     }
+}
+
+/// BOUND: the value, or the limit that it is beyond.
+pub(crate) fn bound(least: f64, most: f64, x: f64) -> f64 {
+    if x.is_nan() || least.is_nan() || most.is_nan() || least > most {
+        return f64::NAN;
+    }
+    x.clamp(least, most)
 }

@@ -6,6 +6,50 @@ use crate::words::Words;
 use crate::{FaultKind, Feed, FeedMode, MotionKind};
 use trunnion_syntax::TextRange;
 
+/// Coarse pitches of metric threads: nominal diameter and pitch, mm. Source: ISO 261:1998, table 2.
+const COARSE: [(f64, f64); 23] = [
+    (3.0, 0.5),
+    (3.5, 0.6),
+    (4.0, 0.7),
+    (4.5, 0.75),
+    (5.0, 0.8),
+    (6.0, 1.0),
+    (7.0, 1.0),
+    (8.0, 1.25),
+    (9.0, 1.25),
+    (10.0, 1.5),
+    (11.0, 1.5),
+    (12.0, 1.75),
+    (14.0, 2.0),
+    (16.0, 2.0),
+    (18.0, 2.5),
+    (20.0, 2.5),
+    (22.0, 2.5),
+    (24.0, 3.0),
+    (27.0, 3.0),
+    (30.0, 3.5),
+    (36.0, 4.0),
+    (42.0, 4.5),
+    (48.0, 5.0),
+];
+
+/// The pitch of a thread, mm: PIT, or that of the metric thread that MPIT names by its diameter (8 is M8); `None`: neither is known, or they
+/// differ.
+fn pitch_of(written: Option<f64>, size: Given) -> Option<f64> {
+    let written = written?.abs();
+    let size = size.or_zero()?.abs();
+    let named = COARSE
+        .iter()
+        .find(|(diameter, _)| *diameter == size)
+        .map(|coarse| coarse.1);
+    match (written > 0.0, size != 0.0) {
+        (true, false) => Some(written),
+        (false, true) => named,
+        (true, true) => named.filter(|named| (named - written).abs() <= 1e-9),
+        (false, false) => None,
+    }
+}
+
 impl Iso<'_> {
     /// The feed that a cycle goes down with.
     pub(super) fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
@@ -20,31 +64,27 @@ impl Iso<'_> {
                 feed
             }
             Sort::Tap => {
-                // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
-                let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
-                    (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
-                        let mm = match unit_of_pitch as i64 {
-                            0 => Some(pitch * unit),
-                            1 => Some(pitch),
-                            3 => Some(pitch * 25.4),
-                            _ => None,
-                        };
-                        mm.map(f64::abs).filter(|mm| *mm > 0.0)
-                    }
-                    _ => None,
-                };
+                let written = call.number(8).or_zero().zip(call.number(13).or_zero());
+                let written = written.map(|(pitch, unit_of_pitch)| match unit_of_pitch {
+                    0.0 => pitch * unit,
+                    1.0 => pitch,
+                    // threads per inch
+                    2.0 if pitch != 0.0 => 25.4 / pitch,
+                    3.0 => pitch * 25.4,
+                    _ if pitch == 0.0 => 0.0,
+                    _ => f64::NAN,
+                });
+                let pitch = pitch_of(written, call.number(7));
                 if pitch.is_none() {
                     let what = format!("{}: the pitch", call.id);
                     report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 }
                 pitch.map_or(Feed::Unknown, Feed::PerRevolution)
             }
-            // ENC 1: F gives the lead; else PIT does, and MPIT names a thread
+            // ENC 1: F gives the lead
             Sort::FloatingTap if call.number(8).or_zero() != Some(1.0) => {
-                let lead = match (call.number(9).or_zero(), call.number(10)) {
-                    (Some(0.0), Given::Number(pitch)) if pitch != 0.0 => Some((pitch * unit).abs()),
-                    _ => None,
-                };
+                let written = call.number(10).or_zero().map(|pitch| pitch * unit);
+                let lead = pitch_of(written, call.number(9));
                 if lead.is_none() {
                     let what = format!("{}: the pitch", call.id);
                     report.fault(TextRange::default(), FaultKind::NotModelled { what });

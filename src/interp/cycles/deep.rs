@@ -14,9 +14,12 @@ const MOST_STEPS: usize = 10_000;
 const TINY: f64 = 1e-9;
 /// How far chip breaking lifts the tool where _VRT is zero, mm.
 const LIFT: f64 = 1.0;
-/// How far above the last depth rapid ends where _DIS1 is zero, mm; for holes up to the depth [`SHALLOW`].
+/// How far above the last depth rapid ends where _DIS1 is zero, mm, for holes up to the depth [`SHALLOW`].
 const ABOVE: f64 = 0.6;
 const SHALLOW: f64 = 30.0;
+/// For deeper ones it is this part of the depth, and no more than [`MOST_ABOVE`], mm.
+const PART_ABOVE: f64 = 1.0 / 50.0;
+const MOST_ABOVE: f64 = 7.0;
 
 /// What a call says about its steps; lengths in mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +61,8 @@ impl Pecks {
             0.0 => None,
             1.0 if above > 0.0 => Some(above),
             1.0 if metric && (begin - bottom) <= SHALLOW => Some(ABOVE),
+            // between both, the sources do not say whether the clearance belongs to the depth
+            1.0 if metric && total > SHALLOW => Some((total * PART_ABOVE).min(MOST_ABOVE)),
             _ => return Err(depths.len()),
         };
         let lift = match lift {

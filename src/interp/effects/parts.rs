@@ -4,7 +4,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind};
-use trunnion_syntax::{Block, Item};
+use trunnion_syntax::{Block, Item, SyntaxErrorKind, TextRange};
 
 impl Iso<'_> {
     /// A return to a reference point: which point it is, and that it is a return. Where no axis is named the machine decides which move.
@@ -72,6 +72,24 @@ impl Iso<'_> {
             let words = vec![Argument::text("", &crate::canonical_text(&rest))];
             self.core.effects.add(block, Effect::Event(words));
         }
+    }
+
+    /// A block with text that belongs to no word: the control refuses it, or takes it in a way that is not known. True: it has such text.
+    pub(crate) fn refused_text(&mut self, view: &Block<'_>) -> bool {
+        let (program, range) = (view.program(), view.range());
+        let errors = program.errors();
+        let from = errors.partition_point(|error| error.range.end <= range.start);
+        let mut here = errors[from..].iter().take_while(|error| error.range.start < range.end);
+        // what follows a comment inside a comment has its own error
+        let refused = here.any(|error| error.kind != SyntaxErrorKind::NestedComment);
+        if refused {
+            let start = view.number().map_or(range.start, |number| number.end.max(range.start));
+            let text = program.text(TextRange::new(start, range.end.max(start)));
+            let words = vec![Argument::text("", &crate::canonical_text(&text))];
+            let block = self.core.main_block(view.id());
+            self.core.effects.add(block, Effect::Unmodelled(words));
+        }
+        refused
     }
 
     /// Parameters of the block that neither its codes nor the active codes read. The machine, or a macro that a code calls, may read them.

@@ -1,5 +1,6 @@
 //! Names with indices that a formula does not read itself: elements of fields of two and three dimensions (`A[1,2]`), and variables of the
-//! control (`$P_EP[X]`). They are evaluated first, and stand in the text of the formula as one name each, so that all places stay.
+//! control (`$P_EP[X]`). They are evaluated first, and stand in the text of the formula as one name each, so that all places stay; so do
+//! comparisons of texts.
 use super::{Own, arguments};
 
 /// Indices inside indices.
@@ -44,16 +45,41 @@ fn closed(text: &[u8], open: usize) -> Option<usize> {
     None
 }
 
+/// Puts a name into the place of a part of the text; `None`: the part is shorter than the name.
+fn replace(out: &mut [u8], elements: &mut Vec<Element>, (from, to): (usize, usize), value: Option<f64>) -> Option<()> {
+    let mark = format!("__e{}", elements.len());
+    if mark.len() > to - from {
+        return None;
+    }
+    let name = String::from_utf8_lossy(&out[from..to]).to_ascii_uppercase();
+    out[from..to].fill(b'_');
+    out[from..from + mark.len()].copy_from_slice(mark.as_bytes());
+    elements.push(Element { name, value });
+    Some(())
+}
+
 impl Own {
     /// The text with all such names replaced, and their values; `None`: there are none.
     pub(super) fn prepared(&self, text: &[u8], from: usize, nested: u32) -> Option<(Vec<u8>, Vec<Element>)> {
-        if self.is_task || !text[from.min(text.len())..].contains(&b'[') || nested >= DEEPEST {
+        let rest = &text[from.min(text.len())..];
+        let has_texts = !self.is_task && (self.has_strings() || rest.contains(&b'"'));
+        if self.is_task || !(has_texts || rest.contains(&b'[')) || nested >= DEEPEST {
             return None;
         }
         let mut out = text.to_vec();
         let mut elements = Vec::new();
         let (mut at, mut deep) = (from, 0u32);
+        // the text or a bracket begins
+        let mut begins = true;
         while at < text.len() {
+            let first = begins && has_texts;
+            begins = text[at] == b'(' || begins && text[at] == b' ';
+            if let Some((end, holds)) = first.then(|| self.compared(text, at)).flatten() {
+                let value = holds.map(|holds| f64::from(u8::from(holds)));
+                replace(&mut out, &mut elements, (at, end), value)?;
+                at = end;
+                continue;
+            }
             match text[at] {
                 b';' => break,
                 b']' => {
@@ -77,14 +103,7 @@ impl Own {
                     let name = String::from_utf8_lossy(&text[at..end]).to_ascii_lowercase();
                     let inside = String::from_utf8_lossy(&text[open + 1..after - 1]).into_owned();
                     if let Some(Evaluated(value)) = self.indexed(&name, &inside, nested + 1) {
-                        let mark = format!("__e{}", elements.len());
-                        if mark.len() > after - at {
-                            return None;
-                        }
-                        out[at..after].fill(b'_');
-                        out[at..at + mark.len()].copy_from_slice(mark.as_bytes());
-                        let shown = String::from_utf8_lossy(&text[at..after]).to_ascii_uppercase();
-                        elements.push(Element { name: shown, value });
+                        replace(&mut out, &mut elements, (at, after), value)?;
                         at = after;
                     } else {
                         deep += 1;

@@ -24,7 +24,8 @@ impl Own {
     /// How many entries of lists that grow with the program a clone copies.
     pub(crate) fn copied(&self) -> usize {
         let scope = &self.scope;
-        let declared = scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len();
+        let declared =
+            scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len() + scope.strings.len();
         let values = self.parameters.len() + self.others.len() + self.texts.len() + self.before_loss.len();
         let task = self
             .task

@@ -1,8 +1,8 @@
 //! Words that write and read the variables of a Sinumerik program.
-use crate::FaultKind;
 use crate::reader::Reader;
 use crate::values::READINGS;
 use crate::words::{Number, Reading, WordValue};
+use crate::{FaultKind, Refusal};
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
@@ -76,7 +76,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             if number.is_none() {
                 own.note_text(name, &text);
             }
+            let joined = own.text_for(name, &text);
             own.assign(name, number);
+            own.put_text(name, joined);
         }
     }
 
@@ -84,7 +86,21 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     pub(crate) fn own_declaration(&mut self, code: &Code, range: TextRange) {
         let text = self.text(range);
         match (&mut self.own, code.id.as_str()) {
-            (Some(own), "DEF") => own.define(text.get(3..).unwrap_or_default()),
+            (Some(own), "DEF") => {
+                if let Some(name) = own.define(text.get(3..).unwrap_or_default()) {
+                    let what = format!("{name}: the program defines it twice");
+                    (self.report)(range, FaultKind::NotModelled { what });
+                }
+                if own.scope.moved {
+                    let kind = FaultKind::Rejected {
+                        refusal: Refusal::Structure,
+                        message: "DEF after a motion: variables are defined before the first block that moves"
+                            .to_owned(),
+                        alarm: None,
+                    };
+                    (self.report)(range, kind);
+                }
+            }
             (Some(own), "DEFINE") => {
                 let rest = text.get(6..).unwrap_or_default().trim();
                 let (name, means) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));

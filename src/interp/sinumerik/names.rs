@@ -2,7 +2,7 @@
 use trunnion_flow::Key;
 
 /// Statements of the flow that this run follows.
-const STATEMENTS: [&[u8]; 19] = [
+const STATEMENTS: [&[u8]; 21] = [
     b"IF",
     b"ELSE",
     b"ENDIF",
@@ -22,6 +22,8 @@ const STATEMENTS: [&[u8]; 19] = [
     b"GOTOS",
     b"CASE",
     b"RET",
+    b"CALL",
+    b"PCALL",
 ];
 
 /// Whether a name begins a statement of the flow.

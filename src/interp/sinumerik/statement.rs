@@ -1,6 +1,6 @@
 //! Reads one statement of the flow, decides it with the known values, and returns what it requests.
 use super::text::Text;
-use crate::flow::{Back, Index, Label, Transfer};
+use crate::flow::{Back, Calling, Index, Label, Transfer, With};
 use crate::own::Own;
 use crate::{FaultKind, Refusal};
 use trunnion_flow::{Key, Search};
@@ -45,6 +45,7 @@ impl Statement<'_> {
             "CASE" => self.case()?,
             "REPEAT" if self.text.is_at_end() => Transfer::Open(true),
             "REPEAT" | "REPEATB" => self.repeat(&keyword)?,
+            "CALL" | "PCALL" => self.call(from, &keyword)?,
             "RET" => {
                 let range = self.text.range(from, from + 3);
                 Transfer::Return(Back { label: None, range })
@@ -59,6 +60,34 @@ impl Statement<'_> {
         };
         self.end()?;
         Ok(transfer)
+    }
+
+    /// `CALL "GROOVE"`, `CALL NAME` of a variable of the type STRING, `PCALL GROOVE(1,2)`. Paths and parts of programs are not followed.
+    fn call(&mut self, from: usize, keyword: &str) -> Result<Transfer, Trouble> {
+        let at = self.text.at();
+        let (name, arguments) = if keyword == "CALL" {
+            match self.own.joined(self.text.bytes(), at) {
+                Some((Ok(name), end)) => {
+                    self.text.go_to(end);
+                    (name, None)
+                }
+                _ => (String::new(), None),
+            }
+        } else {
+            (self.text.word(), self.text.in_brackets())
+        };
+        let plain = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        let range = self.text.range(from, self.text.bytes().len());
+        if name.is_empty() || !plain || !self.text.is_at_end() {
+            let what = format!("{keyword}: which program it calls");
+            return Err((range, FaultKind::NotModelled { what }));
+        }
+        Ok(Transfer::Call(Calling {
+            program: super::names::program_key(&name),
+            times: 1,
+            range,
+            with: With::Sinumerik(super::With::read(arguments.as_deref(), self.own)),
+        }))
     }
 
     /// Nothing may follow a statement.
@@ -160,49 +189,26 @@ impl Statement<'_> {
         Ok(Some(Transfer::Jump(label, search)))
     }
 
-    /// `"N"<<R10`: texts and whole numbers behind the first text of a target.
-    fn join(&mut self, name: &mut String) -> Result<(), Trouble> {
-        loop {
-            let at = self.text.at();
-            if !self.text.bytes()[at..].starts_with(b"<<") {
-                return Ok(());
-            }
-            self.text.go_to(at + 2);
-            if let Some(text) = self.text.quoted() {
-                name.push_str(&text.trim().to_ascii_uppercase());
-                continue;
-            }
-            let from = self.text.at();
-            let mut deep = 0;
-            let inside = |byte: &&u8| {
-                deep += i32::from(matches!(byte, b'[' | b'(')) - i32::from(matches!(byte, b']' | b')'));
-                deep > 0 || !(byte.is_ascii_whitespace() || **byte == b'<')
-            };
-            let end = from + self.text.bytes()[from..].iter().take_while(inside).count();
-            let operand = String::from_utf8_lossy(&self.text.bytes()[from..end]).into_owned();
-            self.text.go_to(end);
-            let number = self
-                .own
-                .value(&operand)
-                .filter(|value| value.fract() == 0.0 && value.abs() < 1e9);
-            let Some(number) = number else {
-                let what = format!("`{operand}`, a part of the target of a jump: no whole number is known for it");
-                return not_decided(self.text.range(from, end), what);
-            };
-            name.push_str(&(number as i64).to_string());
-        }
-    }
-
     /// A label, `N100`, `100`, or either as a string.
     fn target(&mut self) -> Result<Label, Trouble> {
         let from = self.text.at();
-        let quoted = self.text.quoted();
-        let is_text = quoted.is_some();
-        self.text.eat(b':');
-        let mut name = quoted.map_or_else(|| self.text.word(), |text| text.trim().to_ascii_uppercase());
-        if is_text {
-            self.join(&mut name)?;
-        }
+        let joined = self.own.joined(self.text.bytes(), from);
+        let is_text = joined.is_some();
+        let name = match joined {
+            Some((Ok(text), end)) => {
+                self.text.go_to(end);
+                text.trim().to_ascii_uppercase()
+            }
+            Some((Err((from, to)), _)) => {
+                let part = String::from_utf8_lossy(&self.text.bytes()[from..to]).into_owned();
+                let what = format!("`{part}`, a part of the target of a jump: no text or whole number is known for it");
+                return not_decided(self.text.range(from, to), what);
+            }
+            None => {
+                self.text.eat(b':');
+                self.text.word()
+            }
+        };
         let end = self.text.at();
         let range = self.text.range(from, end);
         if name.is_empty() || matches!(self.text.bytes().get(end), Some(b'<' | b'[' | b'$')) {

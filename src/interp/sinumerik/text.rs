@@ -99,15 +99,15 @@ impl Text {
         there
     }
 
-    /// A string in quotation marks, without them.
-    pub(crate) fn quoted(&mut self) -> Option<String> {
+    /// What is between the brackets at this point, up to the last one that closes.
+    pub(crate) fn in_brackets(&mut self) -> Option<String> {
         let from = self.at();
-        if self.bytes.get(from) != Some(&b'"') {
+        if self.bytes.get(from) != Some(&b'(') {
             return None;
         }
-        let length = self.bytes[from + 1..].iter().position(|&byte| byte == b'"')?;
-        self.at = from + length + 2;
-        Some(String::from_utf8_lossy(&self.bytes[from + 1..from + 1 + length]).into_owned())
+        let length = self.bytes[from..].iter().rposition(|&byte| byte == b')')?;
+        self.at = from + length + 1;
+        Some(String::from_utf8_lossy(&self.bytes[from + 1..from + length]).into_owned())
     }
 
     /// Takes a whole number with its sign.

@@ -93,14 +93,21 @@ impl<'d> Iso<'d> {
         }
         if let Some(range) = own.statement.take() {
             let beside = !only(1 << (b'N' - b'A'), codes, words);
-            self.sinumerik_statement(block, range, beside, report);
+            self.sinumerik_statement(block, range, beside, words, report);
         } else if own.called.is_some() || own.called_by_number.is_some() {
             self.sinumerik_call(block, codes, words, report);
         }
     }
 
     #[cold]
-    fn sinumerik_statement(&mut self, block: &Block<'_>, range: TextRange, beside: bool, report: &mut Report<'_>) {
+    fn sinumerik_statement(
+        &mut self,
+        block: &Block<'_>,
+        range: TextRange,
+        beside: bool,
+        words: &mut Words,
+        report: &mut Report<'_>,
+    ) {
         let (dialect, program, at) = (self.core.dialect, block.program(), block.id().0);
         let file = self.flow.file();
         let again = self.flow.trail.as_ref().is_some_and(|trail| trail.course.is_again(at));
@@ -123,10 +130,19 @@ impl<'d> Iso<'d> {
         for (range, kind) in std::mem::take(&mut statement.remarks) {
             report.fault(range, kind);
         }
-        let pending = asked.unwrap_or_else(|(range, kind)| {
-            report.fault(range, kind);
-            Transfer::End
-        });
+        let pending = match asked {
+            Ok(transfer) => transfer,
+            Err((range, kind @ FaultKind::NotModelled { .. })) => {
+                // what it calls may do anything, and the program goes on after it
+                report.fault(range, kind);
+                (words.declares, words.forgets_all) = (false, true);
+                return self.memory.own.lose();
+            }
+            Err((range, kind)) => {
+                report.fault(range, kind);
+                Transfer::End
+            }
+        };
         self.memory.own.pending = Some(pending);
     }
 

@@ -122,7 +122,8 @@ fn what_a_cycle_does_not_tell_is_unknown() {
     for (text, told) in [
         ("CYCLE83(10,0,3,-20,,,,2,0,0,1,0)", "the steps in the hole"),
         ("CYCLE83(10,0,3,-20,,-5,5,2,0,0,1,2)", "the steps in the hole"),
-        ("CYCLE83(10,0,3,-40,,-5,5,2,0,0,1,1)", "the steps in the hole"),
+        // from RFP 29 mm, from the level above it 32: which of both the limit of 30 mm means is not sourced
+        ("CYCLE83(10,0,3,-29,,,5,2,0,0,1,1)", "the steps in the hole"),
         (
             "CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0,0,0,0,0,0,0,1,12)",
             "the steps in the hole",
@@ -131,7 +132,7 @@ fn what_a_cycle_does_not_tell_is_unknown() {
             "CYCLE84(10,0,3,-20,,0,3,0,1.5,0,300,300,0,1,0,1,2,1)",
             "the steps in the hole",
         ),
-        ("CYCLE84(10,0,3,-20,,0,3,8)", "the pitch"),
+        ("CYCLE84(10,0,3,-20,,0,3,8.2)", "the pitch"),
         ("CYCLE81(10,0,3,R7)", "without known levels"),
         ("CYCLE81(-10,0,3,-20)", "RTP -10 is not above RFP 0"),
         ("CYCLE81(10,0,3,-20,,0,1)", "numbers that select other meanings"),
@@ -248,6 +249,9 @@ fn cycle83_breaks_the_chip_or_leaves_the_hole() {
     );
     // _DIS1 and _VRT
     assert!(cycle("CYCLE83(10,0,3,-40,,,20,0,0,0,1,1,0,0,0,0,2)").contains(&"R X0 Y0 Z-18".to_owned()));
+    // without _DIS1 a fiftieth of a depth above 30 mm, at most 7 mm
+    assert!(cycle("CYCLE83(10,0,3,-40,,,20,0,0,0,1,1)").contains(&"R X0 Y0 Z-19.2".to_owned()));
+    assert!(cycle("CYCLE83(10,0,3,-400,,,200,0,0,0,1,1)").contains(&"R X0 Y0 Z-193".to_owned()));
     assert!(cycle("CYCLE83(10,0,3,-9,,,5,0,0,0,1,0,0,0,1.5)").contains(&"R X0 Y0 Z-3.5".to_owned()));
 }
 
@@ -301,4 +305,34 @@ fn rows_of_holes_run_the_cycle_of_mcall() {
     }
     let got = faults("sinumerik-840d", &format!("{HEAD}HOLES2(0,0,10,0,120,4)\n"));
     assert!(got.iter().any(|fault| fault.contains("61106")), "{got:?}");
+}
+
+/// The pitch by its unit, or by the thread that MPIT names.
+#[test]
+fn cycle84_reads_the_pitch_in_each_form() {
+    let pitch = |size_and_pitch: &str, unit: &str| {
+        let call = format!("CYCLE84(10,0,3,-20,,0,3,{size_and_pitch},0,500,500,,{unit})");
+        let fed = cycle(&call).into_iter().find(|line| line.starts_with("L X0 Y0 Z-20"));
+        fed.map(|line| line.trim_start_matches("L X0 Y0 Z-20").trim().to_owned())
+    };
+    for (numbers, unit, feed) in [
+        (",1.25", "", "F1.25/rev"),
+        (",1.25", "1", "F1.25/rev"),
+        (",20", "2", "F1.27/rev"),
+        (",0.05", "3", "F1.27/rev"),
+        ("8,", "", "F1.25/rev"),
+        ("8,0", "1", "F1.25/rev"),
+        ("8,1.25", "1", "F1.25/rev"),
+        ("-24,", "", "F3/rev"),
+    ] {
+        assert_eq!(pitch(numbers, unit).as_deref(), Some(feed), "{numbers} {unit}");
+    }
+    for (numbers, unit) in [("8,1", "1"), ("8.2,", ""), (",", ""), (",0", "2"), (",1", "4")] {
+        let call = format!("{HEAD}CYCLE84(10,0,3,-20,,0,3,{numbers},0,500,500,,{unit})\n");
+        let told = faults("sinumerik-840d", &call);
+        assert!(
+            told.iter().any(|fault| fault.contains("the pitch")),
+            "{numbers} {unit}: {told:?}"
+        );
+    }
 }

@@ -236,15 +236,15 @@ fn the_holes_are_those_of_the_other_control() {
             _ => runs.push((1, kinds)),
         }
     }
-    // the Sinumerik, then Klartext. Not known by name: back into a hole deeper than 30 mm without _DIS1 (CYCLE83), the steps of CYCLE84 with
-    // _VARI and of 209, and how 202 gets off the wall. The Sinumerik program writes some steps one by one.
+    // the Sinumerik, then Klartext. Not known by name: the steps of CYCLE84 with _VARI and of 209, and how 202 gets
+    // off the wall. The Sinumerik program writes some steps one by one.
     let same = |way: Way, out: Out| [(way, out); 2];
     assert_eq!(
         runs,
         [
             (10, same(Way::OneStroke, Out::Rapid)),
             (10, same(Way::ChipsBroken, Out::Rapid)),
-            (8, [(Way::NotKnown, Out::Rapid), (Way::Cleared, Out::Rapid)]),
+            (8, same(Way::Cleared, Out::Rapid)),
             (10, same(Way::ChipsBrokenAndCleared, Out::Rapid)),
             (10, same(Way::OneStroke, Out::Feed)),
             (20, same(Way::NotKnown, Out::Feed)),

@@ -62,6 +62,7 @@ mod sinumerik_frames;
 mod sinumerik_paths;
 mod sinumerik_settings;
 mod sinumerik_splines;
+mod sinumerik_texts;
 mod sinumerik_traces;
 mod sinumerik_values;
 mod steady;

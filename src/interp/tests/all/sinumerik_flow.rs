@@ -35,7 +35,7 @@ pub(crate) fn clean(source: &str) -> Vec<String> {
 }
 
 /// Where X comes to, block for block.
-fn places(source: &str) -> Vec<String> {
+pub(crate) fn places(source: &str) -> Vec<String> {
     let end = |line: String| line.trim_start_matches("R X").to_owned();
     clean(source).into_iter().map(end).collect()
 }
@@ -215,7 +215,7 @@ fn what_depends_on_the_unknown_is_not_decided() {
         ("CASE R5 OF 1 GOTOF LA\nLA: M30\n", "2 `R5` not decided: R5"),
         ("FOR R1=1 TO R5\nX2\nENDFOR\nM30\n", "2 `R5` not decided: R5"),
         (
-            "DEF STRING[8] GOAL\nGOTOF GOAL\nM30\n",
+            "DEF INT GOAL\nGOTOF GOAL\nM30\n",
             "3 `GOAL` not decided: GOAL: the target of a jump in a variable",
         ),
         (
@@ -232,9 +232,13 @@ fn what_depends_on_the_unknown_is_not_decided() {
             "3 `GOTOF LA` not decided: other words in",
         ),
     ] {
-        let got = said(&format!("G0 X1\n{source}"));
+        let source = match source.split_once('\n') {
+            Some((first, rest)) if first.starts_with("DEF") => format!("{first}\nG0 X1\n{rest}"),
+            _ => format!("G0 X1\n{source}"),
+        };
+        let got = said(&source);
         assert!(got.len() == 1 && got[0].starts_with(what), "{source}: {got:?}");
-        assert_eq!(lines(SINUMERIK, &format!("G0 X1\n{source}")), ["R X1"], "{source}");
+        assert_eq!(lines(SINUMERIK, &source), ["R X1"], "{source}");
     }
     assert_eq!(
         said("G0\nIF R[-1]>0 GOTOF LA\nLA: M30\n"),
@@ -306,4 +310,47 @@ fn ten_thousand_nested_branches_need_no_stack() {
     assert_eq!(places(&source), ["1"]);
     let unclosed = format!("R1=1\nG0\n{}X1\nM30\n", "WHILE R1\n".repeat(depth));
     assert_eq!(said(&unclosed).len(), 1);
+}
+
+#[test]
+fn definitions_come_first_and_a_block_has_five_m_functions() {
+    assert_eq!(said("DEF REAL AA=1\nG0 X1\nM30\n"), [""; 0]);
+    assert_eq!(
+        said("G0 X1\nDEF REAL AA=1\nX=AA\nM30\n"),
+        ["2 `DEF REAL AA=1` Structure "]
+    );
+    for twice in ["DEF INT AB=5, AB=6", "DEF INT AB\nDEF REAL CD, AB"] {
+        let told = said(&format!("{twice}\nG0 X1\nM30\n"));
+        assert!(
+            told.len() == 1 && told[0].contains("AB: the program defines it twice"),
+            "{told:?}"
+        );
+    }
+    // a subprogram has definitions of its own
+    assert_eq!(
+        said("G0 X1\nSUB\nM30\n%_N_SUB_SPF\nDEF REAL AA=1\nX=AA\nM17\n"),
+        [""; 0]
+    );
+    assert_eq!(said("G0 X1 M3 M7 M8 M40 M42\nM30\n").len(), 0);
+    assert_eq!(said("G0 X1 M3 M7 M8 M40 M42 M43\nM30\n"), ["1 `M43` Other "]);
+}
+
+#[test]
+fn a_frame_word_stands_alone() {
+    for text in ["TRANS X5 Y2", "N5 ROT RPL=30", "SCALE X2 Y2", "TRANS", "AROT Z=R1"] {
+        assert_eq!(said(&format!("R1=5\nG0 X1\n{text}\nM30\n")), [""; 0], "{text}");
+    }
+    for text in [
+        "TRANS X5 F100",
+        "ROT RPL=30 S500",
+        "G17 ROT RPL=30",
+        "TRANS X5 M8",
+        "MIRROR X0 T1",
+    ] {
+        let told = said(&format!("G0 X1\n{text}\nM30\n"));
+        assert!(
+            told.iter().any(|told| told.starts_with("2 ") && told.contains("Other")),
+            "{text}: {told:?}"
+        );
+    }
 }

@@ -30,13 +30,30 @@ pub(crate) fn zeroed(text: &str) -> Vec<(Motion, [f64; 9])> {
     sink.0
 }
 
+/// The program: the definitions of `text`, the head, what follows.
+fn program(text: &str) -> String {
+    let follows = |line: &&str| !line.starts_with("DEF ");
+    let at = text
+        .split_inclusive('\n')
+        .take_while(|line| !follows(line))
+        .map(str::len)
+        .sum();
+    let (definitions, rest) = text.split_at(at);
+    let newline = if at == 0 || definitions.ends_with('\n') {
+        ""
+    } else {
+        "\n"
+    };
+    format!("{definitions}{newline}{HEAD}{rest}")
+}
+
 /// The lines of the motions after the first.
 fn after(text: &str) -> Vec<String> {
-    lines("sinumerik-840d", &format!("{HEAD}{text}"))[1..].to_vec()
+    lines("sinumerik-840d", &program(text))[1..].to_vec()
 }
 
 fn trouble(text: &str) -> Vec<String> {
-    let mut found = faults("sinumerik-840d", &format!("{HEAD}{text}"));
+    let mut found = faults("sinumerik-840d", &program(text));
     found.retain(|fault| !fault.contains("ToolLengthUnset"));
     found
 }
@@ -110,7 +127,7 @@ fn a_loop_until_a_position_is_reached() {
 fn framed(text: &str) -> String {
     let text = format!("{text}\nX2 Y1 Z0\nTRANS\nX0 Y0 Z0");
     assert_eq!(trouble(&text), [""; 0], "{text}");
-    let (motion, zero) = zeroed(&format!("{HEAD}{text}\n"))[1];
+    let (motion, zero) = zeroed(&format!("{}\n", program(&text)))[1];
     let end = motion.end.xyz().expect("a known end");
     let place = [end.x + zero[0], end.y + zero[1], end.z + zero[2]];
     format!("{} {} {}", number(place[0]), number(place[1]), number(place[2]))
@@ -169,7 +186,7 @@ fn frames_that_are_not_known_make_positions_unknown() {
         let text = format!("{text}\nX1 Y1");
         assert!(!trouble(&text).is_empty(), "{text}");
         assert!(
-            run_text("sinumerik-840d", &format!("{HEAD}{text}\n")).motions[1]
+            run_text("sinumerik-840d", &format!("{}\n", program(&text))).motions[1]
                 .end
                 .xyz()
                 .is_none(),
@@ -231,7 +248,7 @@ fn variables_that_are_named_like_addresses() {
 #[test]
 fn splines_have_known_ends() {
     let ends = |text: &str| -> Vec<(bool, Option<[f64; 3]>)> {
-        let log = run_text("sinumerik-840d", &format!("{HEAD}{text}\n"));
+        let log = run_text("sinumerik-840d", &format!("{}\n", program(&text)));
         let moves = log.motions[1..].iter();
         moves
             .map(|motion| (motion.kind == MotionKind::Unknown, motion.end.xyz().map(Into::into)))
@@ -314,7 +331,8 @@ fn cycle840_taps_with_a_floating_chuck() {
     assert_eq!(trouble(text), [""; 0]);
     // ENC 1: the lead is that of F
     assert!(after("S500 M3\nG0 Z10\nCYCLE840(10,0,2,-12,,0,4,3,1)")[2].starts_with("L X0 Y0 Z-12 F100"));
-    assert!(trouble("S500 M3\nG0 Z10\nCYCLE840(10,0,2,-12,,0,4,3,0,8)")[0].contains("the pitch"));
+    assert!(trouble("S500 M3\nG0 Z10\nCYCLE840(10,0,2,-12,,0,4,3,0,8.2)")[0].contains("the pitch"));
+    assert!(after("S500 M3\nG0 Z10\nCYCLE840(10,0,2,-12,,0,4,3,0,8)")[2].starts_with("L X0 Y0 Z-12 F1.25/rev"));
     assert!(trouble("G0 Z10\nCYCLE840(10,0,2,-12,,0,4,3,0,0,1,2)")[0].contains("CYCLE840"));
 }
 

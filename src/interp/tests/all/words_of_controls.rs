@@ -45,11 +45,14 @@ fn a_code_with_a_value_is_no_variable() {
         // they leave coordinates as they are
         ("ADIS=0.5\nG1 X30 Z1", &["L X30 Y0 Z1 F100"], ""),
         ("G642 CTOL=0.5\nG1 X30 Z1", &["L X30 Y0 Z1 F100"], ""),
-        // variables of the program
-        ("DEF REAL TOFFL\nTOFFL=3\nG1 X=TOFFL Z1", &["L X3 Y0 Z1 F100"], ""),
-        ("DEF REAL WIDTH\nWIDTH=3\nG1 X=WIDTH Z1", &["L X3 Y0 Z1 F100"], ""),
     ];
     check("sinumerik-840d", SINUMERIK, rows);
+    // variables of the program
+    let rows: &[Row] = &[
+        ("TOFFL=3\nG1 X=TOFFL Z1", &["L X3 Y0 Z1 F100"], ""),
+        ("WIDTH=3\nG1 X=WIDTH Z1", &["L X3 Y0 Z1 F100"], ""),
+    ];
+    check("sinumerik-840d", &format!("DEF REAL TOFFL, WIDTH\n{SINUMERIK}"), rows);
 }
 
 #[test]

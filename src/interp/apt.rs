@@ -28,6 +28,10 @@ pub(crate) struct AptState {
     pub(crate) rapid: bool,
     /// RAPID had words that are not understood: which motions are rapids is not known from here on.
     pub(crate) rapid_unread: bool,
+    /// The last direction of SPINDL is CCLW.
+    pub(crate) counter_clockwise: bool,
+    /// COOLNT/MIST came after the last FLOOD.
+    pub(crate) mist: bool,
     /// What F means and mm per unit, as the last FEDRAT with a unit says.
     pub(crate) feed_unit: Option<(FeedMode, f64)>,
     /// CIRCLE: the next GOTO is the end of this arc.
@@ -148,6 +152,20 @@ impl Apt<'_> {
     /// Runs one APT record.
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         self.frame_remarks(block, sink);
+        let refused = self
+            .core
+            .effects
+            .wanted()
+            .then(|| crate::effects::refused(block))
+            .flatten();
+        let has_record = block.record().is_some();
+        if let Some(effect) = refused {
+            let block = self.core.main_block(block.id());
+            self.core.effects.add(block, effect);
+            if !has_record {
+                self.core.emit_effects(sink);
+            }
+        }
         let Some(record) = block.record() else { return };
         self.core.last_content = Some(block.id());
         let mut has_other_effects = false;

@@ -10,9 +10,7 @@ use crate::{Motion, MotionKind};
 use trunnion_syntax::{Block, Record};
 
 /// Records that have no effect on the machine.
-const NEUTRAL: [&str; 8] = [
-    "PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "TOOLNO", "MULTAX",
-];
+const NEUTRAL: [&str; 7] = ["PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "MULTAX"];
 
 impl Apt<'_> {
     /// What a record sets, before its motion.
@@ -33,12 +31,23 @@ impl Apt<'_> {
                 let to: Vec<Argument> = is_on.then(|| Argument::code("on")).into_iter().collect();
                 effects.add(block, Effect::set(key, to));
             }
-            if !(off || mist || flood) {
+            // which coolant comes back is the post-processor's choice
+            let again = args.has(program, "ON") && self.kept.mist;
+            self.kept.mist = (self.kept.mist || mist) && !args.has(program, "FLOOD");
+            if !(off || mist || flood) || again {
                 let words = vec![Argument::text("COOLNT", &written_record(record, view))];
                 effects.add(block, Effect::Unmodelled(words));
             }
         } else if record.is("SPINDL") {
             let still = args.has(program, "OFF") || args.numbers().first() == Some(&0.0);
+            // without a direction it is the post-processor that chooses between the last one and clockwise
+            let counter = args.has(program, "CCLW");
+            let says = counter || args.has(program, "CLW");
+            if !says && !still && self.kept.counter_clockwise {
+                let words = vec![Argument::text("SPINDL", &written_record(record, view))];
+                effects.add(block, Effect::Unmodelled(words));
+            }
+            self.kept.counter_clockwise = counter || self.kept.counter_clockwise && !says;
             let to = if args.has(program, "LOCK") || args.has(program, "ORIENT") {
                 vec![Argument::text("M19", &written_record(record, view))]
             } else if still {
@@ -68,7 +77,7 @@ impl Apt<'_> {
             let surface = args.has(program, "SFM") || args.has(program, "SMM");
             let mode: Vec<Argument> = surface.then(|| Argument::code("G96")).into_iter().collect();
             effects.add(block, Effect::set("speed mode", mode));
-        } else if record.is("LOADTL") || record.is("LOAD") && args.has(program, "TOOL") {
+        } else if record.is("LOADTL") || record.is("TOOLNO") || record.is("LOAD") && args.has(program, "TOOL") {
             if let Some(&number) = args.numbers().first() {
                 effects.add(block, Effect::set("tool prepared", [Argument::number("T", number)]));
                 effects.add(block, Effect::set("tool in use", [Argument::number("T", number)]));
@@ -112,7 +121,7 @@ impl Apt<'_> {
             self.core.effects.add(block, Effect::set("circle", []));
         }
         let held = [
-            "GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "STOP", "OPSTOP", "FINI", "END",
+            "GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "TOOLNO", "STOP", "OPSTOP", "FINI", "END",
         ];
         let unknown = motion.is_some_and(|motion| {
             matches!(
@@ -125,7 +134,9 @@ impl Apt<'_> {
         ];
         let known = held.iter().chain(&modelled).chain(&NEUTRAL).any(|name| record.is(name));
         let cutcom = record.is("CUTCOM") || record.is("CYCLE");
-        if has_other_effects || unknown || !known || cutcom {
+        // what is neither a number nor a word is not read
+        let odd = known && !NEUTRAL.iter().any(|name| record.is(name)) && Args::new(record).odd;
+        if has_other_effects || unknown || !known || cutcom || odd {
             let block = self.core.main_block(view.id());
             let words = vec![Argument::text("", &written_record(record, view))];
             self.core.effects.add(block, Effect::Unmodelled(words));

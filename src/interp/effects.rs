@@ -28,6 +28,7 @@ use sort::{
 };
 use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
+pub(crate) use unread::refused;
 use unread::{ends_unknown, has_unread};
 
 /// Whether a fault means that its block does more than its motions and the modal state contain.
@@ -219,7 +220,7 @@ impl Iso<'_> {
         if words.speed.is_given() && !limits && !dwell_reads(codes, "S") {
             self.speed_effects(words, block);
         } else {
-            self.kept_cutting_speed(block);
+            self.kept_speed(codes, block);
         }
         if words.tool.is_given() {
             // the word counts beside the tool where it says more: T0101
@@ -298,7 +299,7 @@ impl Iso<'_> {
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
         let unclear = words.p.number().is_some_and(|p| p.has_point) && self.core.dialect.quirks.macros == Macros::Fanuc
             || words.feed.is_given() && !self.core.dialect.quirks.user_names();
-        let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
+        let ambiguous = ambiguous || (codes.iter().any(dwell) || self.dwells_in_hole(words)) && unclear;
         if ambiguous {
             self.core.effects.ambiguous_number(block);
         }

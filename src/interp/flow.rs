@@ -151,9 +151,11 @@ impl Flow {
         trail.map_or_else(Vec::new, |trail| trail.course.frames(chain))
     }
 
-    /// Common variables of Macro B that keep their values when the program ends.
-    pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
-        self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.kept())
+    /// Common variables of Macro B that keep their values when the program ends, from the number `first` on.
+    pub(crate) fn outliving(&self, first: u32) -> Vec<(String, f64)> {
+        self.deep
+            .as_ref()
+            .map_or_else(Vec::new, |deep| deep.variables.kept(first))
     }
 
     /// All variables of Macro B that have a value.

@@ -197,6 +197,13 @@ impl<'d> Iso<'d> {
         self.length_travels(words, &block, report);
         let open = self.core.state.length.is_open();
         let returned = open.then(|| self.after_return(words, &block, report));
+        for found in codes.iter().filter(|found| found.code.id.starts_with("ORI")) {
+            match found.code.id.as_str() {
+                "ORIMKS" => self.memory.own.machine_vectors = true,
+                "ORIWKS" => self.memory.own.machine_vectors = false,
+                _ => {}
+            }
+        }
         let mut motion = self.motion(codes, returned.flatten().as_ref().unwrap_or(words), &block, report);
         self.memory.length_base = None;
         if block.machine_coordinates {

@@ -28,6 +28,7 @@ mod scaling;
 mod seen;
 mod sentence;
 mod shape;
+mod stray;
 mod tool;
 mod trans_datum;
 mod values;
@@ -106,6 +107,8 @@ pub(crate) struct Memory {
     other_point: bool,
     /// The last block was a rapid.
     was_rapid: bool,
+    /// The block that runs has FMAX and an arc.
+    rapid_arc: bool,
     /// PLANE ... STAY: the angles in Q120 to Q122 have not been gone to.
     angles_wait: Option<crate::Posture>,
     waiting: Option<corner::Waiting>,
@@ -251,7 +254,7 @@ impl<'d> Klartext<'d> {
             return Request::Next;
         }
         self.core.last_content = Some(block);
-        self.memory.unfollowed = false;
+        (self.memory.unfollowed, self.memory.rapid_arc) = (false, false);
         let text = sentence.text();
         let mut other = false;
         let request = {

@@ -21,6 +21,10 @@ impl Iso<'_> {
             let what = "a tool vector and words of rotary axes in one block: which of them turn the tool".to_owned();
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             self.core.unknown_orientation()
+        } else if words.vector.any() && self.memory.own.machine_vectors && self.memory.frames.active {
+            let what = "ORIMKS: a tool vector in the axes of the machine, in a frame of the program".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            self.core.unknown_orientation()
         } else if words.vector.any() {
             if self.core.state.tool_axis.tcp() {
                 self.vector(&words.vector, false, report, words)

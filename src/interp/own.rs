@@ -99,6 +99,8 @@ pub(crate) struct Own {
     pub(crate) plane_letters: [u8; 3],
     /// The number of the spindle to which S and M3 belong, where it is known.
     pub(crate) main_spindle: Option<u32>,
+    /// ORIMKS: tool vectors are in the axes of the machine.
+    pub(crate) machine_vectors: bool,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
 }

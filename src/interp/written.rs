@@ -2,7 +2,7 @@
 //! and expressions with the known variables in them replaced.
 use crate::Argument;
 use crate::words::{WordValue, Words};
-use trunnion_dialect::{Dialect, Role};
+use trunnion_dialect::{Action, Code, Dialect, Role};
 use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 
 /// Which words of a block count.
@@ -26,7 +26,8 @@ pub(crate) fn written(view: &Block<'_>, run: &impl Values, words: &Words, keep: 
                 }
             }
             Item::Call(call) => {
-                let known = run.dialect().name(&text(call.name)).is_some();
+                let code = run.dialect().name(&text(call.name));
+                let known = code.is_some_and(|code| !is_not_followed(code));
                 if !(keep == Keep::BesideMotion && known) {
                     found.push(call_argument(
                         &packed(&text(call.name)),
@@ -53,8 +54,12 @@ fn is_held(run: &impl Values, view: &Block<'_>, word: &Word) -> bool {
         Address::Indexed(..) | Address::Named(_) => named_role(run, view, word),
     };
     match role {
-        Some(Role::G) => tenths.is_some_and(|tenths| run.dialect().g(tenths).is_some()),
-        Some(Role::M) => tenths.is_some_and(|tenths| run.dialect().m(tenths).is_some()),
+        Some(Role::G) => tenths
+            .and_then(|tenths| run.dialect().g(tenths))
+            .is_some_and(|code| !is_not_followed(code)),
+        Some(Role::M) => tenths
+            .and_then(|tenths| run.dialect().m(tenths))
+            .is_some_and(|code| !is_not_followed(code)),
         Some(role) => {
             is_geometry(role)
                 || matches!(
@@ -64,6 +69,11 @@ fn is_held(run: &impl Values, view: &Block<'_>, word: &Word) -> bool {
         }
         None => false,
     }
+}
+
+/// Whether neither a motion nor a setting holds what a code does.
+fn is_not_followed(code: &Code) -> bool {
+    matches!(code.action, Action::NotFollowed | Action::SubprogramCall)
 }
 
 fn is_geometry(role: Role) -> bool {

@@ -45,6 +45,8 @@ impl Args {
                         args.words[args.word_count] = range;
                         args.before[args.word_count] = args.count;
                         args.word_count += 1;
+                    } else {
+                        args.odd = true;
                     }
                     range
                 }

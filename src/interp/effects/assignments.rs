@@ -223,6 +223,12 @@ pub(crate) fn unknown_assignment(run: &Iso<'_>, view: &Block<'_>, words: &Words)
                     && run.memory.own.held(&name).is_none()
                     && (run.memory.own.is_declared(&stem(view, &word)) || unknown())
             }
+            // a variable of the program with one letter: DEF REAL Q
+            Address::Letter(letter) if run.core.dialect.quirks.user_names() => {
+                let name = char::from(letter).to_string();
+                let assigned = run.memory.own.is_declared(&name) && !matches!(word.value, Value::Number(_));
+                assigned && run.memory.own.held(&name).is_none()
+            }
             _ => unknown(&view.program().text(word.range)),
         },
         Item::Call(call) => unknown(&view.program().text(call.range)),

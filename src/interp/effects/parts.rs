@@ -4,7 +4,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind};
-use trunnion_syntax::{Block, Item, SyntaxErrorKind, TextRange};
+use trunnion_syntax::{Block, Item};
 
 impl Iso<'_> {
     /// A return to a reference point: which point it is, and that it is a return. Where no axis is named the machine decides which move.
@@ -74,22 +74,13 @@ impl Iso<'_> {
         }
     }
 
-    /// A block with text that belongs to no word: the control refuses it, or takes it in a way that is not known. True: it has such text.
+    /// A block that the control refuses; false: it has none of such text.
     pub(crate) fn refused_text(&mut self, view: &Block<'_>) -> bool {
-        let (program, range) = (view.program(), view.range());
-        let errors = program.errors();
-        let from = errors.partition_point(|error| error.range.end <= range.start);
-        let mut here = errors[from..].iter().take_while(|error| error.range.start < range.end);
-        // what follows a comment inside a comment has its own error
-        let refused = here.any(|error| error.kind != SyntaxErrorKind::NestedComment);
-        if refused {
-            let start = view.number().map_or(range.start, |number| number.end.max(range.start));
-            let text = program.text(TextRange::new(start, range.end.max(start)));
-            let words = vec![Argument::text("", &crate::canonical_text(&text))];
-            let block = self.core.main_block(view.id());
-            self.core.effects.add(block, Effect::Unmodelled(words));
-        }
-        refused
+        let Some(effect) = super::unread::refused(view) else {
+            return false;
+        };
+        self.core.effects.add(self.core.main_block(view.id()), effect);
+        true
     }
 
     /// Parameters of the block that neither its codes nor the active codes read. The machine, or a macro that a code calls, may read them.

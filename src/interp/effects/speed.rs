@@ -1,8 +1,10 @@
 //! S as it is compared: under constant cutting speed in m/min, whichever the unit is.
 use super::sort::said;
+use crate::codes::Found;
 use crate::iso::Iso;
 use crate::words::{WordValue, Words};
 use crate::{Argument, Effect, Reach};
+use trunnion_dialect::Action;
 use trunnion_syntax::BlockId;
 
 /// mm per unit of lengths while no S of G96 was given in another one.
@@ -26,8 +28,24 @@ impl Iso<'_> {
         self.core.effects.add(block, Effect::set("speed", [to]));
     }
 
-    /// The unit is another one than that in which S of G96 was given: whether its number or its speed stays is not known.
-    pub(super) fn kept_cutting_speed(&mut self, block: BlockId) {
+    /// A block without S. G96 after G97, or G97 after G96: which speed it goes on with is not in the program. And where the unit is another one than
+    /// that in which S of G96 was given, it is not known whether its number or its speed stays.
+    pub(super) fn kept_speed(&mut self, codes: &[Found<'_>], block: BlockId) {
+        let switches = |found: &&Found<'_>| {
+            matches!(
+                found.code.action,
+                Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed
+            )
+        };
+        if let Some(found) = codes.iter().find(switches) {
+            let before = self.core.effects.settings().get("speed mode");
+            let before = before
+                .and_then(|to| to.first())
+                .map_or("G97", |first| first.name.as_ref());
+            if before != found.code.id {
+                self.core.effects.add(block, Effect::left("speed"));
+            }
+        }
         if !self.core.state.spindle.surface_speed() {
             return;
         }

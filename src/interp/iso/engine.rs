@@ -7,8 +7,9 @@ use crate::engine::Engine;
 use crate::flow::Flow;
 use crate::frames::OffsetValues;
 use crate::memory::Memory;
+use crate::words::Words;
 use crate::written::Values;
-use trunnion_dialect::{Dialect, Language};
+use trunnion_dialect::{Action, Dialect, Language};
 use trunnion_syntax::{BlockId, Program};
 
 /// The engine of all controls whose programs are blocks of words: Fanuc, Haas, grbl, ISO 6983, Sinumerik, Okuma.
@@ -123,9 +124,26 @@ impl<'d> Engine<'d> for Iso<'d> {
         self.flow.variable(text)
     }
     fn outliving(&self) -> Vec<(String, f64)> {
-        let mut kept = self.flow.outliving();
+        let mut kept = self.flow.outliving(self.first_kept());
         kept.extend(self.memory.own.parameters());
         kept
+    }
+}
+
+impl Iso<'_> {
+    /// The first common variable that keeps its value when the program ends: where it is not known which do, all count.
+    fn first_kept(&self) -> u32 {
+        if self.core.dialect.quirks.macros == trunnion_dialect::Macros::Fanuc {
+            500
+        } else {
+            100
+        }
+    }
+
+    /// A drilling cycle is in effect, and P is the dwell at its bottom.
+    pub(crate) fn dwells_in_hole(&self, words: &Words) -> bool {
+        let macros = self.core.dialect.quirks.macros == trunnion_dialect::Macros::Fanuc;
+        macros && words.p.number().is_some() && self.core.state.motion.is_some_and(Action::is_hole_cycle)
     }
 }
 

@@ -49,7 +49,11 @@ impl Klartext<'_> {
         };
         let (first_is_rapid, first_feed) = (self.memory.was_rapid, self.last_feed());
         let (found, _, end) = self.contour_words(words, polar, report);
-        let feed = self.core.feed(MotionKind::Linear, Default::default, report);
+        let feed = if self.memory.rapid_arc {
+            Feed::Unknown
+        } else {
+            self.core.feed(MotionKind::Linear, Default::default, report)
+        };
         let side = match self.core.state.compensation {
             41 => 1.0,
             42 => -1.0,
@@ -75,7 +79,8 @@ impl Klartext<'_> {
             normal: self.plane_normal(),
             length: mm(found.length).filter(|_| !scaled),
             radius: mm(found.radius.filter(|_| found.compensation != Some(0))).filter(|_| !scaled),
-            angle_deg: found.centre_angle.flatten(),
+            // CCA is positive
+            angle_deg: found.centre_angle.flatten().filter(|angle| *angle > 0.0),
             side,
             first_is_rapid: first_is_rapid && !whole,
             first_feed: if whole { feed } else { first_feed },
@@ -95,7 +100,10 @@ impl Klartext<'_> {
     ) -> (PathWords, Position, Position) {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
-        self.take_feed(found.feed, report);
+        self.memory.rapid_arc = self.take_feed(found.feed, report);
+        if self.memory.rapid_arc {
+            self.not_modelled_once("FMAX in APPR or DEP: which parts of the path are rapids", report);
+        }
         if let Some(compensation) = found.compensation {
             self.core.state.compensation = compensation;
             if compensation != 0 && !std::mem::replace(&mut self.core.compensation_reported, true) {
@@ -234,7 +242,9 @@ impl Klartext<'_> {
                 Form::Tangent => vec![(from + tangent * length?, None)],
                 Form::Normal => return None,
                 Form::Circle => {
-                    let (radius, angle) = (radius.filter(|_| side != 0.0)?, found.centre_angle.flatten()?);
+                    // CCA is positive
+                    let angle = found.centre_angle.flatten().filter(|angle| *angle > 0.0)?;
+                    let radius = radius.filter(|_| side != 0.0)?;
                     let centre = from + inward * radius;
                     let turn = side * angle.to_radians() * radius.signum();
                     let to = centre + rotate(&normal, turn, &(from - centre));

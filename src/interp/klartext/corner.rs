@@ -108,8 +108,9 @@ impl Klartext<'_> {
                         let said = self.said(word.value, report);
                         feed = Some(said.map_or(Feed::Unknown, |feed| Feed::PerMinute(feed * unit)));
                     }
-                    _ => unread = true,
+                    _ => (feed, unread) = (Some(Feed::Unknown), true),
                 },
+                b"FMAX" | b"FAUTO" | b"FU" | b"FZ" => (feed, unread) = (Some(Feed::Unknown), true),
                 b"" => {}
                 _ => unread = true,
             }

@@ -195,6 +195,9 @@ impl Klartext<'_> {
         match at.out {
             Some(feed) => {
                 let odd = hole.cycle == 202 && hole.direction.is_none_or(|direction| direction != 0.0);
+                if odd {
+                    self.not_modelled_once("cycle 202: how it gets off the wall (Q214)", report);
+                }
                 let kind = if odd { MotionKind::Unknown } else { linear(feed) };
                 self.level(kind, Some(at.clear), feed, report);
             }

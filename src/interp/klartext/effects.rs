@@ -28,13 +28,22 @@ impl Klartext<'_> {
         if first.is("TOOL") {
             self.tool_effects(words.clone(), block);
         } else if first.is("STOP") {
-            after.push(Effect::Event(vec![Argument::code("STOP")]));
+            // no source says whether the spindle stops
+            after.extend([Effect::Event(vec![Argument::code("STOP")]), Effect::left("spindle")]);
         } else if first.is("CYCL") || first.is("CYCLE") {
             unmodelled |= self.cycle_effects(text, block);
         } else if first.is("TRANS") && words.clone().next().is_some_and(|word| word.is("DATUM")) {
             // a shift is in the motions; a form that is not followed has said so
-        } else if let Said::Parameter(..) = first.value {
-            // values are compared where they are used; those that outlive the program at its end
+        } else if let Said::Parameter(_, target) = first.value {
+            // known values are compared where they are used; those that outlive the program at its end
+            unmodelled |= !first.name().is_empty() || !self.memory.parameters.is_known(target);
+        } else if first.is("FN") {
+            // `FN 1: Q5 = ...`
+            let target = words.clone().find_map(|word| match word.value {
+                Said::Parameter(_, target) if word.name().is_empty() => Some(target),
+                _ => None,
+            });
+            unmodelled |= target.is_some_and(|target| !self.memory.parameters.is_known(target));
         } else if !HELD.contains(&name.as_str()) && !is_words(&name) {
             unmodelled = true;
         }
@@ -90,7 +99,7 @@ impl Klartext<'_> {
                 after.push(Effect::set("mist coolant", []));
             }
             0 => after.extend(stop()),
-            1 => after.push(Effect::Event(vec![Argument::code("M1")])),
+            1 => after.extend([Effect::Event(vec![Argument::code("M1")]), Effect::left("spindle")]),
             6 => after.extend([Effect::Event(vec![Argument::code("M6")]), Effect::left("spindle")]),
             _ => {}
         }
@@ -166,6 +175,8 @@ impl Klartext<'_> {
             effects.add(block, Effect::set("tool prepared", [tool.clone()]));
             effects.add(block, Effect::set("tool in use", [tool]));
             effects.add(block, Effect::Event(vec![Argument::code("tool change")]));
+            // whether the spindle stops where the tool is in it already is left to the machine
+            effects.add(block, Effect::left("spindle"));
         }
         if kind.is("DEF") {
             return self.definition_effects(kind.value, words, block);
@@ -186,6 +197,7 @@ impl Klartext<'_> {
                 _ => {}
             }
         }
+        deltas.sort_by(|a, b| a.name.cmp(&b.name));
         if kind.is("CALL") {
             effects.add(block, Effect::set("tool deltas", deltas));
         }

@@ -124,7 +124,12 @@ impl Klartext<'_> {
             }
         };
         self.scale_parallel_axes(words, &mut end, report);
+        self.memory.rapid_arc = rapid && !matches!(kind, MotionKind::Rapid);
+        if self.memory.rapid_arc {
+            self.not_modelled_once("FMAX beside an arc: how fast it is", report);
+        }
         self.go(kind, from, end, words, report);
+        self.memory.rapid_arc = false;
     }
 
     pub(crate) fn straight(&mut self, rapid: bool) -> MotionKind {
@@ -202,7 +207,11 @@ impl Klartext<'_> {
         if self.memory.other_point {
             end.known &= !LINEAR;
         }
-        let feed = self.core.feed(kind, TextRange::default, report);
+        let feed = if self.memory.rapid_arc {
+            Feed::Unknown
+        } else {
+            self.core.feed(kind, TextRange::default, report)
+        };
         let mut motion = self.core.motion_in_frame(kind, [start, end], orientation, feed, report);
         motion.says_way |= words.incremental | unread(words) | ways.shortest;
         motion.says_way |= words.given & !motion.end.known;

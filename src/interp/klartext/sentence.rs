@@ -27,6 +27,9 @@ impl Klartext<'_> {
         let Some(first) = words.next() else {
             return Request::Next;
         };
+        if let Some(place) = super::stray::stray(text) {
+            self.unknown_word(text, place, report);
+        }
         match first.name() {
             b"L" => self.path_block(Path::Line, &mut words, report),
             b"LN" => self.path_block(Path::Vectors, &mut words, report),
@@ -77,15 +80,8 @@ impl Klartext<'_> {
             }
             // a misspelt statement: TOL CALL
             name if is_statement(name) && first.value == Said::Nothing => {
-                self.memory.unfollowed = true;
-                let whole = report.whole();
-                let plain = whole.end - whole.start == words.text.len() as u32;
-                let start = if plain {
-                    whole.start + first.start as u32
-                } else {
-                    whole.start
-                };
-                report.fault(TextRange::new(start, whole.end), FaultKind::UnknownWord);
+                let end = words.text.len();
+                self.unknown_word(words.text, (first.start, end), report);
             }
             // a block of words alone: M3, X+10 R0 F100
             _ => {
@@ -107,6 +103,19 @@ impl Klartext<'_> {
         } else {
             Request::Next
         }
+    }
+
+    /// A part of a block that its statement does not have.
+    fn unknown_word(&mut self, text: &[u8], (from, to): (usize, usize), report: &mut Report<'_>) {
+        self.memory.unfollowed = true;
+        let whole = report.whole();
+        // where nothing is left out of the text, its bytes are those of the file
+        let range = if whole.end - whole.start == text.len() as u32 {
+            TextRange::new(whole.start + from as u32, whole.start + to as u32)
+        } else {
+            whole
+        };
+        report.fault(range, FaultKind::UnknownWord);
     }
 
     fn begin(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {

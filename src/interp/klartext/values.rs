@@ -29,6 +29,14 @@ impl Parameters {
     pub(crate) fn get(&self, parameter: Parameter) -> Value {
         self.numbers.get(&parameter).copied().flatten()
     }
+    /// Whether its number or text is known.
+    pub(crate) fn is_known(&self, parameter: Parameter) -> bool {
+        if parameter.kind == Kind::Text {
+            self.text(parameter).is_some()
+        } else {
+            self.get(parameter).is_some()
+        }
+    }
     pub(crate) fn set(&mut self, parameter: Parameter, value: Value) {
         let value = value.filter(|value| value.is_finite());
         if self.numbers.insert(parameter, value) != Some(value) || value.is_none() {

@@ -165,9 +165,10 @@ impl Variables {
         let value = value.filter(|value| !value.is_nan())?;
         Some(crate::Argument::number(name.to_owned(), value))
     }
-    /// #500 to #999 with their values, as far as they are known: they keep their values after the program ends (Series 30i operator's manual, custom macro).
-    pub(crate) fn kept(&self) -> Vec<(String, f64)> {
-        let kept = self.common.range(500..).filter(|_| !self.lost);
+    /// Those from `first` on with their values, as far as they are known: they keep their values after the program ends. Fanuc: #500 to #999
+    /// (Series 30i operator's manual, custom macro); Haas: all common ones (Haas mill operator's manual, macro variables).
+    pub(crate) fn kept(&self, first: u32) -> Vec<(String, f64)> {
+        let kept = self.common.range(first..).filter(|_| !self.lost);
         kept.filter_map(|(number, held)| Some((format!("#{number}"), (*held)?)))
             .filter(|(_, value)| !value.is_nan())
             .collect()

@@ -135,9 +135,14 @@ impl Steps<'_> {
         }
     }
 
-    /// A word along X, Y, Z, U, V or W in mm, so that inches say the same; `None`: it is no plain number, or no such word.
-    fn in_mm(&self, axis: u8, word: &Word) -> Option<String> {
-        let axis = AxisLetter::new(axis).filter(|axis| !(3..6).contains(&axis.0))?;
+    /// A word along X, Y, Z, U, V or W in mm, so that inches say the same; in a cycle of holes also Q, R, I and J, which are lengths there.
+    /// `None`: it is no plain number, or no such word.
+    fn in_mm(&self, letter: u8, word: &Word) -> Option<String> {
+        let axis = AxisLetter::new(letter).filter(|axis| !(3..6).contains(&axis.0));
+        let in_hole = self.in_hole() && matches!(letter, b'Q' | b'R' | b'I' | b'J');
+        if axis.is_none() && !in_hole {
+            return None;
+        }
         let Value::Number(number) = word.value else { return None };
         // without a decimal point a parameter of the control may decide what it means
         let text = self.input.program.text(word.value_range);
@@ -147,7 +152,12 @@ impl Steps<'_> {
         }
         // inches have more digits than a word
         let mm = (mm * 1e9).round() / 1e9 + 0.0;
-        Some(format!("{}{mm}", char::from(AXIS_LETTERS[usize::from(axis.0)])))
+        Some(format!("{}{mm}", char::from(letter)))
+    }
+
+    /// Whether a cycle of holes runs.
+    fn in_hole(&self) -> bool {
+        self.state().motion.is_some_and(|motion| motion.is_hole_cycle())
     }
 
     fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {
@@ -197,7 +207,8 @@ impl Steps<'_> {
                 if !said.wanted {
                     return;
                 }
-                match self.in_mm(letter, word).filter(|_| axis == letter && !lost.kind) {
+                let is_read = !lost.kind || self.in_hole();
+                match self.in_mm(letter, word).filter(|_| axis == letter && is_read) {
                     Some(plain) => said.words.push(plain),
                     None => said.whole(text, counts),
                 }

@@ -158,6 +158,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
+    /// S of G96 is in feet per minute where lengths are in inches (LinuxCNC user manual, G96).
+    fn cutting_speed(&mut self, speed: f64, unit: f64) {
+        let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
+        let speed = Some(speed * metres).filter(|speed| speed.is_finite());
+        self.core.state.spindle.set_cutting_speed(speed);
+    }
+
     pub(super) fn modal(&mut self, call: &Canon, at: At, state: &State) {
         let unit = state.units.mm();
         self.report_unknown_shift(call, at);
@@ -186,18 +193,20 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {
-                self.core.state.spindle.switch(turn != SpindleTurn::Stop);
+                let spindle = &mut self.core.state.spindle;
+                spindle.switch(turn != SpindleTurn::Stop);
+                // switched on, it takes S of G96 in the unit of now (LinuxCNC, emccanon.cc: START_SPINDLE_CLOCKWISE)
+                if turn != SpindleTurn::Stop && spindle.surface_speed() && spindle.speed_programmed() {
+                    self.cutting_speed(state.speed[0], unit);
+                }
             }
             Canon::Spindle(spindle, turn) if turn != SpindleTurn::Stop => self.further_spindle(spindle, at),
             Canon::SpindleSpeed(0, speed) => {
-                let spindle = &mut self.core.state.spindle;
-                let speed = Some(speed).filter(|speed| speed.is_finite());
-                if spindle.surface_speed() {
-                    // S is in feet per minute where lengths are in inches (LinuxCNC user manual, G96)
-                    let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
-                    spindle.set_cutting_speed(speed.map(|speed| speed * metres));
+                if self.core.state.spindle.surface_speed() {
+                    self.cutting_speed(speed, unit);
                 } else {
-                    spindle.set_rpm(speed);
+                    let speed = Some(speed).filter(|speed| speed.is_finite());
+                    self.core.state.spindle.set_rpm(speed);
                 }
             }
             Canon::SelectTool(number) => {

@@ -298,7 +298,11 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
     if let Some(other) = row.lengths.iter().find(|length| !row.words.contains(length.get_ref())) {
         return error(
             other.span(),
-            format!("`{}`: `{}` of `lengths` is not among its `words`", id.get_ref(), other.get_ref()),
+            format!(
+                "`{}`: `{}` of `lengths` is not among its `words`",
+                id.get_ref(),
+                other.get_ref()
+            ),
         );
     }
     let own = row.source.map(|own| (own.span(), own.into_inner()));

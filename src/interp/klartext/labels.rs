@@ -14,7 +14,8 @@ pub(super) fn no_label(key: &Key) -> FaultKind {
 
 /// The lines of the first label and of another.
 fn doubled_label(key: &Key, [first, other]: [u32; 2]) -> FaultKind {
-    let message = |name: &str| format!("the program has label {name} more than once: in line {first} and in line {other}");
+    let message =
+        |name: &str| format!("the program has label {name} more than once: in line {first} and in line {other}");
     refused_label(message, key)
 }
 
@@ -74,7 +75,10 @@ impl Klartext<'_> {
 
 /// As [`named`], without reading a file that has none.
 fn labels_of(program: &Program) -> Vec<(Key, u32)> {
-    let has = program.source().windows(3).any(|word| word.eq_ignore_ascii_case(b"LBL"));
+    let has = program
+        .source()
+        .windows(3)
+        .any(|word| word.eq_ignore_ascii_case(b"LBL"));
     if has { named(program) } else { Vec::new() }
 }
 

@@ -362,6 +362,9 @@ fn a_spindle_that_starts_takes_the_cutting_speed_in_the_unit_of_now() {
         let text = format!("G20 G94\nG96 D9000 S300 M3\n{between}\nG1 X1 F10\n");
         let state = run_bytes("linuxcnc", text.as_bytes(), &Setup::default()).1.state;
         let found = state.and_then(|state| state.spindle.cutting_speed_m_min());
-        assert!(found.is_some_and(|found| (found - wanted).abs() < 1e-9), "{between}: {found:?}");
+        assert!(
+            found.is_some_and(|found| (found - wanted).abs() < 1e-9),
+            "{between}: {found:?}"
+        );
     }
 }

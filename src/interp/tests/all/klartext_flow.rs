@@ -32,7 +32,7 @@ fn a_label_that_the_program_has_twice_is_told_without_a_call() {
         assert!(found[0].starts_with("7: ") && found[0].contains(&wanted), "{found:?}");
         assert_eq!(found.len(), 1, "{found:?}");
         // the run of the blocks goes on, so that other mistakes are found as well
-        assert_eq!(lines(NAME, &program(&twice)), ["R X1", "R X2"]);
+        assert_eq!(lines(NAME, &program(&twice)), ["R X1", "L X2"]);
         // three times: each place with the first
         let found = of_labels(&format!("{twice}LBL {label}\n"));
         assert_eq!(found.len(), 2, "{found:?}");
@@ -40,7 +40,10 @@ fn a_label_that_the_program_has_twice_is_told_without_a_call() {
         // a call ends the run, and says why
         let found = of_labels(&format!("CALL LBL {label}\n{twice}"));
         assert_eq!(found.len(), 2, "{found:?}");
-        assert!(found.iter().all(|fault| fault.contains("in line 5 and in line 8")), "{found:?}");
+        assert!(
+            found.iter().all(|fault| fault.contains("in line 5 and in line 8")),
+            "{found:?}"
+        );
     }
     for once in ["LBL 0\nLBL 0\n", "LBL 1\nLBL 2\nLBL \"1\"\n", "LBL 5\n; LBL 5\n"] {
         assert_eq!(of_labels(once), [""; 0], "{once}");
@@ -60,13 +63,27 @@ fn a_called_program_with_a_label_twice_is_told_with_its_path() {
     let told: Vec<String> = log.faults.iter().map(|fault| format!("{:?}", fault.kind)).collect();
     let told: Vec<&String> = told.iter().filter(|fault| fault.contains("Label")).collect();
     assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].contains("sub/S: the program has label 3 more than once: in line 2 and in line 4"), "{told:?}");
-    assert_eq!(log.faults.iter().find(|fault| format!("{fault:?}").contains("Label")).map(|fault| fault.block.0), Some(2));
+    assert!(
+        told[0].contains("sub/S: the program has label 3 more than once: in line 2 and in line 4"),
+        "{told:?}"
+    );
+    assert_eq!(
+        log.faults
+            .iter()
+            .find(|fault| format!("{fault:?}").contains("Label"))
+            .map(|fault| fault.block.0),
+        Some(2)
+    );
 }
 
 /// The target of a jump moves to X9.
 fn jumps(before: &str, question: &str) -> Vec<String> {
-    lines(NAME, &program(&format!("{before}{question} GOTO LBL 5\nL X+1 R0 FMAX\nLBL 5\nL X+9 R0 FMAX\n")))
+    lines(
+        NAME,
+        &program(&format!(
+            "{before}{question} GOTO LBL 5\nL X+1 R0 FMAX\nLBL 5\nL X+9 R0 FMAX\n"
+        )),
+    )
 }
 
 #[test]
@@ -81,8 +98,15 @@ fn a_jump_asks_whether_a_parameter_is_defined() {
         ("QS2 = \"\"\n", "+QS2"),
     ] {
         assert_eq!(jumps(before, &format!("FN 9: IF {asked} IS DEFINED")), over, "{before}");
-        assert_eq!(jumps(before, &format!("FN 9: IF {asked} IS UNDEFINED")), through, "{before}");
-        assert_eq!(of_labels(&format!("{before}FN 9: IF {asked} IS UNDEFINED GOTO LBL 9\n")), [""; 0]);
+        assert_eq!(
+            jumps(before, &format!("FN 9: IF {asked} IS UNDEFINED")),
+            through,
+            "{before}"
+        );
+        assert_eq!(
+            of_labels(&format!("{before}FN 9: IF {asked} IS UNDEFINED GOTO LBL 9\n")),
+            [""; 0]
+        );
     }
     // a label that is missing, and a name as the target
     let found = of_labels("Q1 = 3\nFN 9: IF +Q1 IS DEFINED GOTO LBL 7\n");
@@ -95,23 +119,45 @@ fn a_jump_asks_whether_a_parameter_is_defined() {
 fn where_it_is_not_known_whether_a_parameter_is_defined_the_jump_is_unknown_by_name() {
     for (blocks, reason) in [
         ("FN 9: IF +Q1 IS DEFINED GOTO LBL 5", "whether Q1 is defined"),
-        ("FN 9: IF +Q1 IS UNDEFINED GOTO LBL 5", "Q1: the program does not set its value"),
+        (
+            "FN 9: IF +Q1 IS UNDEFINED GOTO LBL 5",
+            "Q1: the program does not set its value",
+        ),
         ("FN 9: IF QS1 IS UNDEFINED GOTO LBL 5", "whether QS1 is defined"),
-        ("FN 18: SYSREAD Q1 = ID20 NR5\nFN 9: IF +Q1 IS DEFINED GOTO LBL 5", "FN 18: SYSREAD Q1"),
-        ("Q1 = 3\nCALL PGM GONE\nFN 9: IF +Q1 IS DEFINED GOTO LBL 5", "whether Q1 is defined"),
+        (
+            "FN 18: SYSREAD Q1 = ID20 NR5\nFN 9: IF +Q1 IS DEFINED GOTO LBL 5",
+            "FN 18: SYSREAD Q1",
+        ),
+        (
+            "Q1 = 3\nCALL PGM GONE\nFN 9: IF +Q1 IS DEFINED GOTO LBL 5",
+            "whether Q1 is defined",
+        ),
         ("Q1 = 3\nFN 10: IF +Q1 IS DEFINED GOTO LBL 5", "FN 10 with IS DEFINED"),
     ] {
         let text = program(&format!("{blocks}\nLBL 5\n"));
         let found = faults(NAME, &text);
         assert!(
-            found.iter().any(|fault| fault.contains("NotDecided") && fault.contains(reason)),
+            found
+                .iter()
+                .any(|fault| fault.contains("NotDecided") && fault.contains(reason)),
             "{blocks}: {found:?}"
         );
-        assert!(!found.iter().any(|fault| fault.contains("Rejected")), "{blocks}: {found:?}");
+        assert!(
+            !found.iter().any(|fault| fault.contains("Rejected")),
+            "{blocks}: {found:?}"
+        );
     }
-    for wrong in ["IF +Q1 IS GOTO LBL 5", "IF +3 IS DEFINED GOTO LBL 5", "IF +Q1 IS DEFINED LBL 5", "IF +Q1 IS DEFINED GOTO"] {
+    for wrong in [
+        "IF +Q1 IS GOTO LBL 5",
+        "IF +3 IS DEFINED GOTO LBL 5",
+        "IF +Q1 IS DEFINED LBL 5",
+        "IF +Q1 IS DEFINED GOTO",
+    ] {
         let found = faults(NAME, &program(&format!("Q1 = 3\nFN 9: {wrong}\nLBL 5\n")));
-        assert!(found.iter().any(|fault| fault.contains("Rejected")), "{wrong}: {found:?}");
+        assert!(
+            found.iter().any(|fault| fault.contains("Rejected")),
+            "{wrong}: {found:?}"
+        );
     }
 }
 
@@ -127,7 +173,10 @@ fn after_a_program_that_is_missing_each_transformation_must_be_set_again() {
         "PLANE RESET STAY\n",
     ];
     let ends = |back: &[&str]| {
-        let text = program(&format!("L X+0 Y+0 Z+0 R0 FMAX\nCALL PGM GONE\n{}L X+1 Y+2 Z+3 FMAX\n", back.concat()));
+        let text = program(&format!(
+            "L X+0 Y+0 Z+0 R0 FMAX\nCALL PGM GONE\n{}L X+1 Y+2 Z+3 FMAX\n",
+            back.concat()
+        ));
         run_text(NAME, &text).motions.last().and_then(|motion| motion.end.xyz())
     };
     assert!(ends(&back).is_some());
@@ -141,7 +190,9 @@ fn after_a_program_that_is_missing_each_transformation_must_be_set_again() {
     added[2] = "CYCL DEF 10.0 R\nCYCL DEF 10.1 IROT+0\n";
     assert_eq!(ends(&added), None);
     // cycle 12 calls a program as well
-    let text = program("L X+0 Y+0 Z+0 R0 FMAX\nCYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM GONE\nCYCL CALL\nL X+1 Y+2 Z+3 FMAX\n");
+    let text = program(
+        "L X+0 Y+0 Z+0 R0 FMAX\nCYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM GONE\nCYCL CALL\nL X+1 Y+2 Z+3 FMAX\n",
+    );
     let last = run_text(NAME, &text).motions.pop().expect("a line");
     assert_eq!(last.end.xyz(), None);
     assert!(faults(NAME, &text).iter().any(|fault| fault.contains("cycle 12")));
@@ -181,7 +232,11 @@ fn a_colon_parts_a_word_from_its_value() {
         let text = program(&format!("TOOL DEF 5 L+50 R+4\n{call}\n{at}"));
         let motions = run_text(NAME, &text).motions;
         let motion = motions.last().expect("a line");
-        assert!((motion.tool_length_mm - 50.2).abs() < 1e-9, "{call}: {}", motion.tool_length_mm);
+        assert!(
+            (motion.tool_length_mm - 50.2).abs() < 1e-9,
+            "{call}: {}",
+            motion.tool_length_mm
+        );
         assert_eq!(motion.spindle_rpm, Some(2000.0), "{call}");
     }
 }

@@ -295,7 +295,8 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
             format!("`{}`: describe in one line what the code does", id.get_ref()),
         );
     }
-    if let Some(other) = row.lengths.iter().find(|length| !row.words.contains(length.get_ref())) {
+    let mut lengths = row.lengths.iter().flatten();
+    if let Some(other) = lengths.find(|length| !row.words.contains(length.get_ref())) {
         return error(
             other.span(),
             format!(
@@ -316,7 +317,9 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
         kind: CodeKind::Name,
         group: row.group.map(Spanned::into_inner),
         words: row.words,
-        lengths: row.lengths.into_iter().map(Spanned::into_inner).collect(),
+        lengths: row
+            .lengths
+            .map(|lengths| lengths.into_iter().map(Spanned::into_inner).collect()),
         action: row.action,
         path: row.path,
         feed: row.feed.map(crate::schema::FeedRow::action),

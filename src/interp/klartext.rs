@@ -206,9 +206,13 @@ impl<'d> Klartext<'d> {
         self.core.declare(program);
         if !self.core.state.ended {
             let request = self.run_block(program, block, sink);
-            if !matches!(request, Request::Next) {
-                self.core.forget_everything();
-                self.memory.parameters.lose();
+            match request {
+                Request::Next => {}
+                Request::Program(_) => self.call_is_not_followed(),
+                _ => {
+                    self.core.forget_everything();
+                    self.memory.parameters.lose();
+                }
             }
         }
     }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 use trunnion_dialect::Role;
 use trunnion_interp::{
-    AXIS_LETTERS, AxisLetter, ChainId, Feed, ModalState, Motion, MotionKind, Swivel, canonical_text,
+    AXIS_LETTERS, AxisLetter, ChainId, Feed, FeedMode, ModalState, Motion, MotionKind, Swivel, canonical_text,
 };
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Value, Word};
 
@@ -155,6 +155,17 @@ impl Steps<'_> {
         Some(format!("{}{mm}", char::from(letter)))
     }
 
+    /// F of a cycle of holes in mm; `None`: it is no plain number, or counts otherwise.
+    fn feed_in_mm(&self, letter: u8, word: &Word) -> Option<String> {
+        let Value::Number(number) = word.value else { return None };
+        let feed = &self.state().feed;
+        if letter != b'F' || !self.in_hole() || feed.mode() == FeedMode::InverseTime {
+            return None;
+        }
+        let mm = (number.to_f64() * feed.unit_mm() * 1e9).round() / 1e9;
+        Some(format!("F{mm}"))
+    }
+
     /// Whether a cycle of holes runs.
     fn in_hole(&self) -> bool {
         self.state().motion.is_some_and(|motion| motion.is_hole_cycle())
@@ -188,7 +199,13 @@ impl Steps<'_> {
         }
         match letter {
             b'H' if !dialect.quirks.diameter => {}
-            b'F' | b'E' if lost.feed || lost.kind => said.whole(text, lost.feed),
+            b'F' | b'E' if lost.feed || lost.kind => match self.feed_in_mm(letter, word) {
+                Some(plain) => {
+                    said.counts |= lost.feed;
+                    said.add(|| plain);
+                }
+                None => said.whole(text, lost.feed),
+            },
             b'N' | b'O' | b'S' | b'T' | b'D' | b'F' | b'E' => {}
             _ => {
                 // increments of a lathe

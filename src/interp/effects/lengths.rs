@@ -30,7 +30,7 @@ fn may_read_unit(codes: &[&&Found<'_>], event: &[Argument]) -> bool {
 /// The letters of a code that are lengths: those that its table names, and what cycles that stop, turn or couple the spindle read. Q of a thread is an
 /// angle, its K a lead; Q, I and J of boring say how far the tool moves away from the wall (Fanuc Series 30i operator's manual, G73, G74, G76, G84, G87).
 fn length_letters(code: &Code) -> u32 {
-    let named = code.lengths.iter().filter_map(|name| match name.as_bytes() {
+    let named = code.lengths.iter().flatten().filter_map(|name| match name.as_bytes() {
         [letter @ b'A'..=b'Z'] => Some(letter_bit(*letter)),
         _ => None,
     });
@@ -53,7 +53,7 @@ fn says_lengths(codes: &[&&Found<'_>], event: &[Argument]) -> bool {
         Value::Number(_) => found.code.words.iter().any(|word| *word == argument.name),
         Value::Text(_) => false,
     };
-    !found.code.lengths.is_empty() && event.iter().all(is_said)
+    found.code.lengths.is_some() && event.iter().all(is_said)
 }
 
 impl Iso<'_> {

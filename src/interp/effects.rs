@@ -118,11 +118,12 @@ impl Iso<'_> {
             self.core.effects.add(block, Effect::set("radius offset", to));
             free &= !letter_bit(b'D');
         }
-        let rest: Vec<Argument> = if words.flow {
+        let mut rest: Vec<Argument> = if words.flow {
             Vec::new()
         } else {
             arguments(words, free).collect()
         };
+        self.hole_words_in_mm(view, &mut rest);
         self.reference_effects(codes, words, block);
         self.mirrored_compensation(block);
         if opaque.is_empty() && !rest.is_empty() {
@@ -304,6 +305,7 @@ impl Iso<'_> {
                 Keep::All
             };
             let mut arguments = written(view, self, words, keep);
+            self.hole_words_in_mm(view, &mut arguments);
             // the cycle that runs after each motion
             arguments.extend(
                 self.memory

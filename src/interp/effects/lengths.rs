@@ -3,8 +3,9 @@ use super::sort::{arguments, letter_bit};
 use crate::codes::Found;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, Value};
+use crate::{Argument, FeedMode, Value};
 use trunnion_dialect::{Action, Code};
+use trunnion_syntax::{Address, Block};
 
 /// Whether the numbers of a data entry are lengths where they are not angles: work offsets, and offsets of tools.
 fn in_lengths(codes: &[&&Found<'_>], words: &Words) -> bool {
@@ -87,6 +88,32 @@ impl Iso<'_> {
                 && let Some(mm) = self.length_word(words, letter)
             {
                 *value = mm;
+            }
+        }
+    }
+
+    /// Words in a cycle of holes that are lengths and feeds, in mm: those with a decimal point, since a parameter of the control may decide what a number
+    /// without one means.
+    pub(super) fn hole_words_in_mm(&self, view: &Block<'_>, arguments: &mut [Argument]) {
+        let state = &self.core.state;
+        let unit_mm = state.coordinates.unit_mm();
+        if unit_mm == 1.0 || !state.motion.is_some_and(Action::is_hole_cycle) {
+            return;
+        }
+        for argument in arguments {
+            let (&[letter], Value::Number(value)) = (argument.name.as_bytes(), &mut argument.value) else {
+                continue;
+            };
+            let factor = match letter {
+                b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W' | b'R' | b'Q' | b'I' | b'J' => unit_mm,
+                b'F' if state.feed.mode() != FeedMode::InverseTime => state.feed.unit_mm(),
+                _ => continue,
+            };
+            let mut same = view
+                .words()
+                .filter(|word| matches!(word.address, Address::Letter(of) if of.eq_ignore_ascii_case(&letter)));
+            if same.all(|word| view.program().text(word.value_range).contains('.')) {
+                *value *= factor;
             }
         }
     }

@@ -158,11 +158,24 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// S of G96 is in feet per minute where lengths are in inches (LinuxCNC user manual, G96).
-    fn cutting_speed(&mut self, speed: f64, unit: f64) {
-        let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
-        let speed = Some(speed * metres).filter(|speed| speed.is_finite());
-        self.core.state.spindle.set_cutting_speed(speed);
+    /// S; that of G96 is in feet per minute where lengths are in inches (LinuxCNC user manual, G96).
+    fn spindle_speed(&mut self, speed: f64, unit: f64) {
+        let spindle = &mut self.core.state.spindle;
+        let speed = Some(speed).filter(|speed| speed.is_finite());
+        if spindle.surface_speed() {
+            let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
+            spindle.set_cutting_speed(speed.map(|speed| speed * metres));
+        } else {
+            spindle.set_rpm(speed);
+        }
+    }
+
+    /// A spindle that is switched on takes S of G96 in the unit of now (LinuxCNC, emccanon.cc: START_SPINDLE_CLOCKWISE).
+    fn speed_of_start(&mut self, turn: SpindleTurn, state: &State) {
+        let spindle = &self.core.state.spindle;
+        if turn != SpindleTurn::Stop && spindle.surface_speed() && spindle.speed_programmed() {
+            self.spindle_speed(state.speed[0], state.units.mm());
+        }
     }
 
     pub(super) fn modal(&mut self, call: &Canon, at: At, state: &State) {
@@ -193,21 +206,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {
-                let spindle = &mut self.core.state.spindle;
-                spindle.switch(turn != SpindleTurn::Stop);
-                // switched on, it takes S of G96 in the unit of now (LinuxCNC, emccanon.cc: START_SPINDLE_CLOCKWISE)
-                if turn != SpindleTurn::Stop && spindle.surface_speed() && spindle.speed_programmed() {
-                    self.cutting_speed(state.speed[0], unit);
-                }
+                self.core.state.spindle.switch(turn != SpindleTurn::Stop);
+                self.speed_of_start(turn, state);
             }
             Canon::Spindle(spindle, turn) if turn != SpindleTurn::Stop => self.further_spindle(spindle, at),
             Canon::SpindleSpeed(0, speed) => {
-                if self.core.state.spindle.surface_speed() {
-                    self.cutting_speed(speed, unit);
-                } else {
-                    let speed = Some(speed).filter(|speed| speed.is_finite());
-                    self.core.state.spindle.set_rpm(speed);
-                }
+                self.spindle_speed(speed, unit);
             }
             Canon::SelectTool(number) => {
                 let number = u32::try_from(number).ok();

@@ -295,6 +295,17 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
             format!("`{}`: describe in one line what the code does", id.get_ref()),
         );
     }
+    let mut lengths = row.lengths.iter().flatten();
+    if let Some(other) = lengths.find(|length| !row.words.contains(length.get_ref())) {
+        return error(
+            other.span(),
+            format!(
+                "`{}`: `{}` of `lengths` is not among its `words`",
+                id.get_ref(),
+                other.get_ref()
+            ),
+        );
+    }
     let own = row.source.map(|own| (own.span(), own.into_inner()));
     if let Some((span, text)) = &own
         && text.trim().is_empty()
@@ -306,6 +317,9 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
         kind: CodeKind::Name,
         group: row.group.map(Spanned::into_inner),
         words: row.words,
+        lengths: row
+            .lengths
+            .map(|lengths| lengths.into_iter().map(Spanned::into_inner).collect()),
         action: row.action,
         path: row.path,
         feed: row.feed.map(crate::schema::FeedRow::action),

@@ -24,6 +24,8 @@ pub struct Code {
     pub group: Option<String>,
     /// Addresses the code reads in addition to the axes.
     pub words: Vec<String>,
+    /// Those of them that are lengths in the unit of the program, where the table says that of its words.
+    pub lengths: Option<Vec<String>>,
     /// What it does.
     pub action: Action,
     /// What it demands at the end of a block; `None`: it is no mode of path control, or the sources leave it open.

@@ -138,6 +138,7 @@ pub(crate) struct CodeRow {
     pub(crate) feed: Option<FeedRow>,
     #[serde(default)]
     pub(crate) words: Vec<String>,
+    pub(crate) lengths: Option<Vec<Spanned<String>>>,
     pub(crate) doc: Spanned<String>,
     pub(crate) source: Option<Spanned<String>>,
     #[serde(default)]

@@ -20,7 +20,6 @@ use assignments::{
     comments, declarations, named_effects, named_words, reads_machine_position, system_assignment, unknown_assignment,
 };
 pub(crate) use collected::{Effects, Settings};
-use lengths::{in_lengths, may_read_unit, to_mm};
 pub use situation::Situation;
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
@@ -120,11 +119,12 @@ impl Iso<'_> {
             self.core.effects.add(block, Effect::set("radius offset", to));
             free &= !letter_bit(b'D');
         }
-        let rest: Vec<Argument> = if words.flow {
+        let mut rest: Vec<Argument> = if words.flow {
             Vec::new()
         } else {
             arguments(words, free).collect()
         };
+        self.hole_words_in_mm(view, &mut rest);
         self.reference_effects(codes, words, block);
         self.mirrored_compensation(block);
         if opaque.is_empty() && !rest.is_empty() {
@@ -172,13 +172,7 @@ impl Iso<'_> {
         if coordinates {
             event.retain(|argument| argument.name.len() > 1);
             event.extend(all_arguments(words));
-            if in_lengths(&alone, words) {
-                for argument in &mut event {
-                    to_mm(argument, self.core.state.coordinates.unit_mm());
-                }
-            } else if self.core.state.coordinates.unit_mm() != 1.0 && may_read_unit(&alone, &event) {
-                event.push(Argument::number("mm per unit", self.core.state.coordinates.unit_mm()));
-            }
+            self.in_one_unit(&alone, words, &mut event);
             if self.core.state.coordinates.incremental() {
                 event.push(Argument::code("incremental"));
             }
@@ -201,7 +195,7 @@ impl Iso<'_> {
                     Action::ThreadRepeatCycle => crate::unused::letters(found.code),
                     _ => letter_bit(b'Q') | letter_bit(b'I') | letter_bit(b'J'),
                 };
-                to.extend(arguments(words, letters));
+                to.extend(self.arguments_in_mm(found.code, words, letters));
                 // the first block of G76 only sets data for the second
                 let data = found.code.action == Action::ThreadRepeatCycle && !words.axes.any();
                 let key = if data { "cycle data" } else { "cycle" };
@@ -312,6 +306,7 @@ impl Iso<'_> {
                 Keep::All
             };
             let mut arguments = written(view, self, words, keep);
+            self.hole_words_in_mm(view, &mut arguments);
             // the cycle that runs after each motion
             arguments.extend(
                 self.memory

@@ -107,6 +107,8 @@ pub(crate) struct Memory {
     other_point: bool,
     /// The last block was a rapid.
     was_rapid: bool,
+    /// TOOL CALL has given DL, DR or DR2 that is not 0.
+    deltas: bool,
     /// The block that runs has FMAX and an arc.
     rapid_arc: bool,
     /// PLANE ... STAY: the angles in Q120 to Q122 have not been gone to.
@@ -209,9 +211,13 @@ impl<'d> Klartext<'d> {
         self.core.declare(program);
         if !self.core.state.ended {
             let request = self.run_block(program, block, sink);
-            if !matches!(request, Request::Next) {
-                self.core.forget_everything();
-                self.memory.parameters.lose();
+            match request {
+                Request::Next => {}
+                Request::Program(_) => self.call_is_not_followed(),
+                _ => {
+                    self.core.forget_everything();
+                    self.memory.parameters.lose();
+                }
             }
         }
     }

@@ -177,6 +177,17 @@ pub(crate) fn packed(text: &str) -> String {
         .collect()
 }
 
+/// The call of a cycle of holes: what is left out between its parentheses counts as 0.
+pub(crate) fn hole_call_argument(name: &str, text: &str) -> Argument {
+    let Some((before, inside)) = text.trim_end().strip_suffix(')').and_then(|text| text.split_once('(')) else {
+        return call_argument(name, text);
+    };
+    let parts = crate::own::arguments(inside).into_iter();
+    let parts = parts.map(|part| if part.parse() == Ok(0.0) { "" } else { part });
+    let joined = parts.collect::<Vec<_>>().join(",");
+    call_argument(name, &format!("{before}({})", joined.trim_end_matches(',')))
+}
+
 /// The text of a block without comments, blanks and block number, in upper case, its numbers in one spelling.
 pub fn canonical_text(text: &str) -> String {
     let mut depth = 0;

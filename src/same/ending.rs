@@ -1,5 +1,5 @@
 //! The state that two programs leave when they end.
-use crate::process::unlike;
+use crate::process::{unlike, unlike_in_motions};
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{FaultKind, same_number};
@@ -81,6 +81,12 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
     if let Some(found) = unlike(before.process(), after.process(), false) {
         let what = format!("{} at the end differs: {} and {}", found.key, found.from, found.to);
         return if found.is_unknown { unknown(what) } else { nowhere(what) };
+    }
+    if let Some(found) = unlike_in_motions(before.process(), after.process()) {
+        return unknown(format!(
+            "{} at the end differs, and it is unknown whether the control resets it: {} and {}",
+            found.key, found.from, found.to
+        ));
     }
     let (zero, other) = (before.state().zero.values(), after.state().zero.values());
     let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();

@@ -3,7 +3,7 @@
 //! Both run block by block. After each block with content, every motion, effect and fault, and the whole modal state, must be
 //! equal. A number that is unknown equals another unknown number: both texts have the same words, so both are unknown for the same reason.
 use crate::item::Item;
-use crate::process::{Process, stops, unlike};
+use crate::process::{Process, stops, unlike, unlike_in_motions};
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
 use std::collections::{BTreeSet, VecDeque};
@@ -239,7 +239,7 @@ fn item_difference(
     if settled.as_ref().is_some_and(known) {
         return None;
     }
-    if unlike(was, is, false).is_some() {
+    if unlike(was, is, false).is_some() || unlike_in_motions(was, is).is_some() {
         return Some("a setting differs");
     }
     *settled = Some((Arc::clone(was), Arc::clone(is)));

@@ -1,9 +1,10 @@
 //! Two things that programs do apart from motions.
 use crate::Claim;
 use crate::item::{Item, Sort};
-use crate::process::{shown, stops, unlike};
+use crate::process::{shown, stops, unlike, unlike_in_motions};
 use crate::sentences::at;
 use crate::verdict::Verdict;
+use trunnion_interp::{Argument, Value};
 
 /// Whether they are the same, with everything that is in effect.
 pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
@@ -75,6 +76,18 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
             Verdict::Differs(place(what))
         });
     }
+    if let Some(found) = unlike_in_motions(process, other_process)
+        && !claim.across
+        && (*sort == Sort::Unmodelled || words.iter().any(names_place))
+    {
+        return Err(Verdict::Unknown(place(format!(
+            "{} differs at `{}`, which may read it: {} and {}",
+            found.key,
+            shown(words),
+            found.from,
+            found.to
+        ))));
+    }
     if stops(words) && process.message() != other_process.message() {
         return Err(Verdict::Unknown(place(format!(
             "the operator message at the stop differs: {} and {}",
@@ -83,4 +96,9 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
         ))));
     }
     Ok(())
+}
+
+/// Whether a word may give a coordinate or a speed.
+fn names_place(word: &Argument) -> bool {
+    !matches!(word.value, Value::Nothing) && !word.name.starts_with(['M', 'T', 'S', 'H', 'D', 'P'])
 }

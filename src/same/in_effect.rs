@@ -3,9 +3,9 @@ use crate::Claim;
 use crate::cut::feed_is_a_pitch;
 use crate::item::Step;
 use crate::motions::motion_difference;
-use crate::process::unlike;
+use crate::process::{unlike, unlike_in_motions};
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::{MotionKind, Orientation, same_number};
+use trunnion_interp::{Feed, MotionKind, Orientation, same_number};
 
 /// What must be in effect in both programs, whatever the kinds of the two motions.
 pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
@@ -42,6 +42,10 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
     } else {
         unlike(&was.process, &is.process, claim.across)
     };
+    let modal = modal.or_else(|| {
+        let open = is_open(was) || is_open(is);
+        unlike_in_motions(&was.process, &is.process).filter(|_| open && !claim.across)
+    });
     let found = match (moving, modal) {
         (Some(moving), Some(modal)) if modal.is_unknown => Some(moving),
         (moving, modal) => modal.or(moving),
@@ -63,6 +67,13 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
         );
     }
     Ok(())
+}
+
+/// Whether where a motion ends or how fast it is depends on more than is known.
+fn is_open(step: &Step) -> bool {
+    let motion = &step.motion;
+    let lost = matches!(motion.kind, MotionKind::Unknown | MotionKind::Arc(None));
+    lost || step.said.is_some() || motion.is_feed() && motion.feed == Feed::Unknown
 }
 
 /// With another length in effect the tip of the tool is elsewhere, whatever is programmed. APT programs the tip itself.

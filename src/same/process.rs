@@ -174,11 +174,31 @@ impl Process {
             .keys()
             .chain(other.settings.keys().filter(|key| !self.settings.contains_key(*key)));
         let idle = self.spindle_is_stopped() && other.spindle_is_stopped();
-        keys.filter(|key| *key != MESSAGE && self.get(key) != other.get(key))
+        keys.filter(|key| *key != MESSAGE && !is_in_motions(key) && self.get(key) != other.get(key))
             .filter(|key| !(idle && (key.starts_with("speed") && !key.contains('$'))))
             .map(|key| (key.as_ref(), shown(self.get(key)), shown(other.get(key))))
             .collect()
     }
+}
+
+/// Whether motions hold what a setting does to them: along which axes F is measured, whether X is a diameter.
+fn is_in_motions(key: &str) -> bool {
+    key == "feed group" || key.starts_with("feed radius ") || key == "diameter"
+}
+
+/// The first setting that differs among those that motions hold: it matters where a motion is not known, and where something else reads it.
+pub(crate) fn unlike_in_motions(was: &Process, is: &Process) -> Option<Unlike> {
+    if std::ptr::eq(was, is) {
+        return None;
+    }
+    let mut keys = was.settings.keys().chain(is.settings.keys());
+    let key = keys.find(|key| is_in_motions(key) && was.get(key) != is.get(key))?;
+    Some(Unlike {
+        key: key.to_string(),
+        from: shown(was.get(key)),
+        to: shown(is.get(key)),
+        is_unknown: true,
+    })
 }
 
 /// The first setting that differs and matters; `shared`: only those that APT and G code share.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 use trunnion_dialect::Role;
 use trunnion_interp::{
-    AXIS_LETTERS, AxisLetter, ChainId, Feed, ModalState, Motion, MotionKind, Swivel, canonical_text,
+    AXIS_LETTERS, AxisLetter, ChainId, Feed, FeedMode, ModalState, Motion, MotionKind, Swivel, canonical_text,
 };
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Value, Word};
 
@@ -135,9 +135,14 @@ impl Steps<'_> {
         }
     }
 
-    /// A word along X, Y, Z, U, V or W in mm, so that inches say the same; `None`: it is no plain number, or no such word.
-    fn in_mm(&self, axis: u8, word: &Word) -> Option<String> {
-        let axis = AxisLetter::new(axis).filter(|axis| !(3..6).contains(&axis.0))?;
+    /// A word along X, Y, Z, U, V or W in mm, so that inches say the same; in a cycle of holes also Q, R, I and J, which are lengths there.
+    /// `None`: it is no plain number, or no such word.
+    fn in_mm(&self, letter: u8, word: &Word) -> Option<String> {
+        let axis = AxisLetter::new(letter).filter(|axis| !(3..6).contains(&axis.0));
+        let in_hole = self.in_hole() && matches!(letter, b'Q' | b'R' | b'I' | b'J');
+        if axis.is_none() && !in_hole {
+            return None;
+        }
         let Value::Number(number) = word.value else { return None };
         // without a decimal point a parameter of the control may decide what it means
         let text = self.input.program.text(word.value_range);
@@ -147,7 +152,23 @@ impl Steps<'_> {
         }
         // inches have more digits than a word
         let mm = (mm * 1e9).round() / 1e9 + 0.0;
-        Some(format!("{}{mm}", char::from(AXIS_LETTERS[usize::from(axis.0)])))
+        Some(format!("{}{mm}", char::from(letter)))
+    }
+
+    /// F of a cycle of holes in mm; `None`: it is no plain number, or counts otherwise.
+    fn feed_in_mm(&self, letter: u8, word: &Word) -> Option<String> {
+        let Value::Number(number) = word.value else { return None };
+        let feed = &self.state().feed;
+        if letter != b'F' || !self.in_hole() || feed.mode() == FeedMode::InverseTime {
+            return None;
+        }
+        let mm = (number.to_f64() * feed.unit_mm() * 1e9).round() / 1e9;
+        Some(format!("F{mm}"))
+    }
+
+    /// Whether a cycle of holes runs.
+    fn in_hole(&self) -> bool {
+        self.state().motion.is_some_and(|motion| motion.is_hole_cycle())
     }
 
     fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {
@@ -178,7 +199,13 @@ impl Steps<'_> {
         }
         match letter {
             b'H' if !dialect.quirks.diameter => {}
-            b'F' | b'E' if lost.feed || lost.kind => said.whole(text, lost.feed),
+            b'F' | b'E' if lost.feed || lost.kind => match self.feed_in_mm(letter, word) {
+                Some(plain) => {
+                    said.counts |= lost.feed;
+                    said.add(|| plain);
+                }
+                None => said.whole(text, lost.feed),
+            },
             b'N' | b'O' | b'S' | b'T' | b'D' | b'F' | b'E' => {}
             _ => {
                 // increments of a lathe
@@ -197,7 +224,8 @@ impl Steps<'_> {
                 if !said.wanted {
                     return;
                 }
-                match self.in_mm(letter, word).filter(|_| axis == letter && !lost.kind) {
+                let is_read = !lost.kind || self.in_hole();
+                match self.in_mm(letter, word).filter(|_| axis == letter && is_read) {
                     Some(plain) => said.words.push(plain),
                     None => said.whole(text, counts),
                 }

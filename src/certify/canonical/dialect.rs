@@ -33,7 +33,7 @@ record! {
 
 record! {
     Code {
-        id = 1, kind = 2, group = 3, words = 4, action = 5, owner = 6, path = 7, feed = 8,
+        id = 1, kind = 2, group = 3, words = 4, action = 5, owner = 6, path = 7, feed = 8, lengths = 9,
     } without {
         doc, source,
     }

@@ -18,7 +18,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound where the run reaches the jump.
+//! Sound where the run reaches the jump. A label that a Klartext program has twice is reported without a jump to it, too: the control refuses the
+//! program when it is loaded.
 //!
 //! # Sources
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.

@@ -52,6 +52,8 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
         NoStance::RotaryOffset(axis) => rotary_offset(*axis, lost, out),
         NoStance::TurnsSpent(most) => turns_spent(*most, lost, out),
         NoStance::HeldElsewhere { axis, value, held } => held_elsewhere(*axis, [*value, *held], lost, out),
+        // a feed motion is `tilted-plane-misaligned`
+        NoStance::PlaneMisaligned(_) if !motion.is_feed() => misaligned(lost, out),
         _ => {}
     }
 }
@@ -76,6 +78,16 @@ fn turns_spent(most: u64, lost: &LegView<'_>, out: &mut Reporter<'_>) {
                 "together these turns take more than {most} pieces of 2 deg, half of `[limits] steps`; posture, speeds and deviation are not checked here"
             ))
             .help("divide the program, or raise `[limits] steps` in trunnion.toml (--max-steps)");
+    });
+}
+
+/// A rapid in a tilted plane before the tool is perpendicular to it.
+fn misaligned(lost: &LegView<'_>, out: &mut Reporter<'_>) {
+    out.unknown(lost, Merge::once(hash("misaligned")), |draft| {
+        draft
+            .say("end position of this rapid is unknown: the tool is not perpendicular to the tilted plane")
+            .note("X Y Z are coordinates of the tilted plane; while the tool is not perpendicular to it, the axes are not followed")
+            .help("turn the tool perpendicular to the plane first (G53.1, PLANE ... TURN or MOVE, or CYCLE800 with a direction)");
     });
 }
 

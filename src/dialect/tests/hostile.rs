@@ -133,6 +133,11 @@ fn groups_documentation_and_sources() {
         "the source is empty",
         "\"\"",
     );
+    refused_with(
+        "[codes]\nG187 = { action = \"path-mode\", words = [\"P\"], lengths = [\"E\"], doc = \"x\" }\n",
+        "`E` of `lengths` is not among its `words`",
+        "\"E\"",
+    );
     refused_with("[groups]\n\"Big Group\" = \"x\"\n", "lower-case", "Big Group");
 }
 

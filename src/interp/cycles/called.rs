@@ -129,7 +129,7 @@ impl Iso<'_> {
             if !block.modal_call && self.hole_row(found, &numbers, words, report) {
                 return;
             }
-            let said = crate::written::call_argument(&found.code.id, &crate::written::resolved(self, &text));
+            let said = crate::written::hole_call_argument(&found.code.id, &crate::written::resolved(self, &text));
             let call = HoleCall::new(&found.code.id, numbers, said).filter(|_| !words.axes.any());
             let Some(call) = call else {
                 not_modelled(found, report);

@@ -5,7 +5,7 @@ use crate::words::Words;
 use crate::written::{Keep, Values, full_name, named_role, names, packed, resolved, stem, written};
 use crate::{Argument, Effect, Reach, canonical_text};
 use trunnion_dialect::{Action, CodeKind, Role};
-use trunnion_syntax::{Address, Block, BlockId, Item, Value};
+use trunnion_syntax::{Address, Block, BlockId, Item, Value, Word};
 
 /// What words written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`; before them the number of the block, where it counts.
 pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId) {
@@ -50,11 +50,15 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
                     _ => full.clone(),
                 };
                 let auxiliary = stem.starts_with('H') && stem[1..].bytes().all(|byte| byte.is_ascii_digit());
-                effects.push(if auxiliary {
-                    Effect::Event(vec![argument(full)])
+                if auxiliary {
+                    effects.push(Effect::Event(vec![argument(full)]));
+                } else if depends_on_unknown(run, view, &word) {
+                    // two texts may have one value
+                    effects.push(Effect::Unmodelled(vec![argument(full)]));
+                    effects.push(Effect::left(key));
                 } else {
-                    Effect::set(key, [argument(full)])
-                });
+                    effects.push(Effect::set(key, [argument(full)]));
+                }
             }
             None if run
                 .core
@@ -77,6 +81,22 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
         let reach = if of_axis { Reach::Place } else { effect.usual_reach() };
         run.core.effects.add_with(block, effect, reach);
     }
+}
+
+/// Whether the value of a word is a formula with variables of the program whose values are not known.
+fn depends_on_unknown(run: &Iso<'_>, view: &Block<'_>, word: &Word) -> bool {
+    if matches!(word.value, Value::Number(_)) {
+        return false;
+    }
+    let text = view.program().text(word.value_range);
+    let of_program = |name: &str| {
+        let parameter = name.strip_prefix('R').unwrap_or_default();
+        let is_parameter = !parameter.is_empty() && parameter.bytes().all(|byte| byte.is_ascii_digit());
+        run.memory.own.is_declared(name) || is_parameter
+    };
+    let text = text.to_ascii_uppercase();
+    let mut names = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    run.core.dialect.quirks.declares_names() && run.value(&text).is_none() && names.any(of_program)
 }
 
 /// The comments of a block, for codes that read them.

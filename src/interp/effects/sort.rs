@@ -2,7 +2,7 @@
 use crate::codes::Found;
 use crate::tools::Chosen;
 use crate::words::{WordValue, Words};
-use crate::written::call_argument;
+use crate::written::{call_argument, hole_call_argument};
 use crate::{Argument, Value};
 use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::Block;
@@ -215,7 +215,11 @@ pub(super) fn chosen(tool: &Chosen) -> Argument {
 /// The code as it is compared: a name with what stands between its parentheses.
 pub(super) fn name_of(found: &Found<'_>, view: &Block<'_>) -> Argument {
     if found.code.kind == CodeKind::Name && found.with_arguments {
-        call_argument(&found.code.id, &view.program().text(found.range))
+        let text = view.program().text(found.range);
+        match found.code.action {
+            Action::HoleCall => hole_call_argument(&found.code.id, &text),
+            _ => call_argument(&found.code.id, &text),
+        }
     } else {
         Argument::code(found.code.id.clone())
     }

@@ -81,6 +81,13 @@ impl Klartext<'_> {
         self.flow.selected = plain.then(|| text.trim_matches('"').to_owned());
     }
 
+    /// What a program does that is not there is unknown.
+    pub(super) fn call_is_not_followed(&mut self) {
+        self.core.forget_everything();
+        self.memory.parameters.lose();
+        self.lose_system();
+    }
+
     pub(crate) fn undecided(what: &str, report: &mut Report<'_>) -> Request {
         report.fault(TextRange::default(), FaultKind::NotDecided { what: what.to_owned() });
         Request::Stop

@@ -2,12 +2,12 @@
 //!
 //! `CALL LBL n` runs the blocks from the label to LBL 0; with REP m the section from the label to the call runs m times more; a called program
 //! ends with END PGM, M2 or M30, and what it has shifted and turned stays. Source: TNC 640 user's manual, subprograms and program sections.
-use super::labels::{doubled_label, files, labels, named, no_label};
+use super::labels::{files, labels, no_label};
 use super::words::Parameter;
 use super::{Klartext, values::Value};
 use crate::flow::through::Through;
 use crate::{Fault, FaultKind, Frame, Sink};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::Arc;
 use trunnion_flow::{BlockBudget, Called, Course, Ends, Index, Key, Library, PendingCall, Search};
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -49,8 +49,8 @@ pub(crate) struct Flow {
     finished: bool,
     pub(super) library: Library,
     labels: HashMap<u16, Arc<Index<()>>>,
-    /// Labels that a file has more than once.
-    doubled: HashSet<(u16, Key)>,
+    /// Labels that a file has more than once, with the lines of two of them.
+    pub(super) doubled: HashMap<u16, HashMap<Key, [u32; 2]>>,
     /// Sections that are being repeated: file, block of the call, depth, and how often still.
     repeats: HashMap<(u16, u32, usize), u32>,
     turns: u64,
@@ -61,7 +61,18 @@ pub(crate) struct Flow {
 impl Klartext<'_> {
     /// What the program says as a whole, before its first block.
     fn begin_once(&mut self, main: &Program, sink: &mut impl Sink) {
-        if !std::mem::replace(&mut self.flow.begun, true) && self.core.effects.wanted() {
+        if std::mem::replace(&mut self.flow.begun, true) {
+            return;
+        }
+        for (block, kind) in self.doubled_labels(0, main) {
+            sink.fault(Fault {
+                place: None,
+                block,
+                range: main.block(block).range(),
+                kind,
+            });
+        }
+        if self.core.effects.wanted() {
             self.head_effects(main);
             self.core.emit_effects(sink);
         }
@@ -209,9 +220,9 @@ impl Klartext<'_> {
             });
         };
         if let Request::Jump(key) | Request::Call(key) | Request::Repeat(key, _) = &request
-            && self.is_doubled(key, program)
+            && let Some(refused) = self.refused_target(key)
         {
-            tell(doubled_label(key));
+            tell(refused);
             return Request::Stop;
         }
         match request {
@@ -313,9 +324,7 @@ impl Klartext<'_> {
                     alarm: None,
                     caller: None,
                 });
-                self.core.forget_everything();
-                self.memory.parameters.lose();
-                self.lose_system();
+                self.call_is_not_followed();
                 Request::Next
             }
             Ok(_) if self.flow.course.depth() >= self.core.setup.limits.depth as usize => {
@@ -323,6 +332,7 @@ impl Klartext<'_> {
                 Request::Stop
             }
             Ok(file) => {
+                self.doubled_in_called(file).into_iter().for_each(&mut *tell);
                 let locals = self.memory.parameters.take_locals();
                 self.enter(file, 0, Level::Program(locals), program, called, from);
                 Request::Next
@@ -358,19 +368,6 @@ impl Klartext<'_> {
         });
         self.flow.next = start;
         self.core.called_at = (file != 0).then_some(self.flow.course.place().main);
-    }
-
-    /// Whether the file has a label more than once, which the control refuses.
-    fn is_doubled(&mut self, key: &Key, program: &Program) -> bool {
-        let file = self.flow.course.place().file;
-        if !self.flow.labels.contains_key(&file) {
-            self.target(key, program);
-            let mut seen = HashSet::new();
-            let doubled = named(program).into_iter().filter(|(key, _)| !seen.insert(key.clone()));
-            let doubled: Vec<_> = doubled.map(|(key, _)| (file, key)).collect();
-            self.flow.doubled.extend(doubled);
-        }
-        self.flow.doubled.contains(&(file, key.clone()))
     }
 
     fn target(&mut self, key: &Key, program: &Program) -> Option<u32> {

@@ -8,6 +8,7 @@ use super::words::{Kind, Parameter, Said, Words};
 use crate::core::Report;
 use crate::frames::sin_cos_degrees;
 use crate::{FaultKind, Refusal};
+use trunnion_flow::Key;
 use trunnion_geometry::math::atan2;
 use trunnion_syntax::TextRange;
 
@@ -227,7 +228,7 @@ impl Klartext<'_> {
         };
         let relation = words.next();
         if relation.is_some_and(|word| word.is("IS")) {
-            return Self::undecided("whether a parameter is defined", report);
+            return self.jump_if_defined(number, first, words, report);
         }
         let second = match relation.map(|word| word.value) {
             Some(Said::Nothing) => {
@@ -259,10 +260,46 @@ impl Klartext<'_> {
             },
             _ => return Self::undecided("the values of a jump", report),
         };
+        Self::jump_where(holds, key, report)
+    }
+
+    fn jump_where(holds: bool, key: Option<Key>, report: &mut Report<'_>) -> Request {
         match (holds, key) {
             (false, _) => Request::Next,
             (true, Some(key)) => Request::Jump(key),
             (true, None) => Self::undecided("to which label the program jumps", report),
         }
+    }
+
+    /// `FN 9: IF +Q1 IS DEFINED GOTO LBL 3`, after IS.
+    fn jump_if_defined(
+        &mut self,
+        number: u32,
+        first: Said<'_>,
+        words: &mut Words<'_>,
+        report: &mut Report<'_>,
+    ) -> Request {
+        let wanted = if words.takes_word("DEFINED") {
+            Some(true)
+        } else {
+            words.takes_word("UNDEFINED").then_some(false)
+        };
+        let goes = words.takes_word("GOTO");
+        let target = words.find(|word| word.is("LBL")).filter(|_| goes);
+        let (Some(wanted), Said::Parameter(_, parameter), Some(target)) = (wanted, first, target) else {
+            let message = format!("FN {number} with IS is IF, a parameter, IS DEFINED or IS UNDEFINED, GOTO LBL");
+            Self::rejected(Refusal::Syntax, message, report);
+            return Request::Stop;
+        };
+        if number != 9 {
+            // the question belongs to FN 9: what another number makes of it is in no source
+            return Self::undecided(&format!("FN {number} with IS DEFINED or IS UNDEFINED"), report);
+        }
+        let Some(is_defined) = self.memory.parameters.is_defined(parameter) else {
+            let cause = self.memory.parameters.cause(parameter);
+            return Self::undecided(&format!("whether {parameter} is defined ({cause})"), report);
+        };
+        let key = self.key(target.value, words, report);
+        Self::jump_where(is_defined == wanted, key, report)
     }
 }

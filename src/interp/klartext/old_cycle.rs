@@ -84,8 +84,7 @@ impl Klartext<'_> {
             }
             12 => {
                 Self::not_modelled("cycle 12: the program that it calls", report);
-                self.core.forget_everything();
-                self.memory.parameters.lose();
+                self.call_is_not_followed();
             }
             number => {
                 self.not_modelled_once(&format!("cycle {number}: its path"), report);

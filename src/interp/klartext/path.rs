@@ -109,6 +109,10 @@ impl Klartext<'_> {
         }
         let mut end = from;
         self.place(words, &mut end);
+        if path == Path::Vectors && self.memory.deltas && !self.core.state.tool_axis.tcp() {
+            self.not_modelled_once("LN with DL, DR or DR2 without TCPM: the shift along the normal", report);
+            end.known &= !LINEAR;
+        }
         let kind = match path {
             Path::None | Path::Line | Path::Vectors => self.straight(rapid),
             Path::AboutPole => self.about_pole(&from, &end, words, report),

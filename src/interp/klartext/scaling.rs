@@ -215,7 +215,7 @@ impl Klartext<'_> {
 
     /// Whether coordinates of words are turned, mirrored or scaled, or perhaps are.
     pub(super) fn is_shaped(&self) -> bool {
-        let perhaps = [Reason::Rotation, Reason::Scale, Reason::AxisScale];
+        let perhaps = [Reason::Rotation, Reason::Mirror, Reason::Scale, Reason::AxisScale];
         let lost = self.memory.lost;
         !self.memory.frames.shape.is_identity() || perhaps.into_iter().any(|reason| lost.has(reason))
     }
@@ -230,16 +230,19 @@ impl Klartext<'_> {
         self.memory.scales.moved |= self.memory.frames.shape.scaling.is_some();
     }
 
-    /// A program that is not there may have set a datum and a plane, and ended what is scaled.
+    /// A program that is not there may leave a datum, a plane, a rotation, a mirror image and scalings: what it shifts and turns stays after its end.
+    /// Each is unknown until the program sets it again.
     pub(super) fn lose_system(&mut self) {
-        self.lose(Reason::Datum);
-        self.lose(Reason::Plane);
-        if self.memory.scales.whole.is_some() {
-            self.lose(Reason::Scale);
-        }
-        if self.memory.scales.by_axis() {
-            self.memory.scales.open = XYZ;
-            self.lose(Reason::AxisScale);
+        self.memory.scales.open = XYZ;
+        for reason in [
+            Reason::Datum,
+            Reason::Plane,
+            Reason::Rotation,
+            Reason::Mirror,
+            Reason::Scale,
+            Reason::AxisScale,
+        ] {
+            self.lose(reason);
         }
     }
 

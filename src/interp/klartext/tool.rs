@@ -5,7 +5,7 @@ use super::words::{Said, Words};
 use crate::arc::plane_axes;
 use crate::core::Report;
 use crate::tools::Chosen;
-use crate::{FaultKind, LengthOf, Refusal, TcpMistake, Tool, ToolLength};
+use crate::{FaultKind, LengthOf, Position, Refusal, TcpMistake, Tool, ToolLength};
 use trunnion_dialect::Plane;
 use trunnion_syntax::TextRange;
 
@@ -111,6 +111,7 @@ impl Klartext<'_> {
             }
         };
         let (mut axis, mut delta, mut feed) = (None, None, None);
+        let mut deltas = chosen.is_none() && self.memory.deltas;
         for word in words.by_ref() {
             match word.name() {
                 b"X" => axis = Some(Plane::Yz),
@@ -128,10 +129,15 @@ impl Klartext<'_> {
                     self.not_modelled_once(what, report);
                     feed = Some(None);
                 }
-                b"DL" => delta = Some(self.said(word.value, report)),
+                b"DL" => {
+                    delta = Some(self.said(word.value, report));
+                    deltas |= delta != Some(Some(0.0));
+                }
+                b"DR" | b"DR2" => deltas |= word.value != Said::Number(0.0),
                 _ => {}
             }
         }
+        self.memory.deltas = deltas;
         match axis {
             Some(plane) => {
                 self.core.state.coordinates.set_plane(plane);
@@ -177,8 +183,18 @@ impl Klartext<'_> {
     fn change_length(&mut self, delta: Option<f64>) {
         let unit = self.core.state.coordinates.unit_mm();
         let of = LengthOf::Tool(self.core.state.tool.number());
+        let before = self.core.state.length;
         self.set_length_and_delta(delta.map(|delta| delta * unit), of);
-        self.core.forget_linear();
+        if self.is_plain() {
+            self.stands_at(&Position::default(), &before);
+        } else {
+            self.core.forget_linear();
+        }
+    }
+
+    /// Whether the length of the tool acts along an axis of the coordinates.
+    fn is_plain(&self) -> bool {
+        !self.core.state.tool_axis.tcp() && self.memory.frames.tilt.is_none()
     }
 
     fn change_tool(&mut self, chosen: Chosen, delta: Option<f64>, report: &mut Report<'_>) {
@@ -186,7 +202,7 @@ impl Klartext<'_> {
             report.fault(TextRange::default(), FaultKind::TcpState(TcpMistake::ToolChange));
         }
         // the change may move the linear axes; M128 ends with it
-        let plain = !self.core.state.tool_axis.tcp() && self.memory.frames.tilt.is_none();
+        let plain = self.is_plain();
         let declared = self.core.setup.control.tool_change.filter(|_| plain);
         let before = self.core.state.length;
         self.load_tool(chosen, delta, report);
@@ -243,7 +259,7 @@ impl Klartext<'_> {
     }
 
     /// The axes that have a value are at that place in machine coordinates, the others stay; the tool may be longer or shorter than before.
-    fn stands_at(&mut self, place: &crate::Position, before: &ToolLength) {
+    fn stands_at(&mut self, place: &Position, before: &ToolLength) {
         let zero = self.core.state.zero.values();
         let length = self.core.state.length;
         let grows = length.mm().unwrap_or(0.0) - before.mm().unwrap_or(0.0);

@@ -37,6 +37,11 @@ impl Parameters {
             self.get(parameter).is_some()
         }
     }
+    /// Whether a parameter is defined; `None`: not known. Where the program has given it no known value, one from a program before may be left in it.
+    pub(crate) fn is_defined(&self, parameter: Parameter) -> Option<bool> {
+        let has_value = self.get(parameter).is_some() || self.text(parameter).is_some();
+        has_value.then_some(true)
+    }
     pub(crate) fn set(&mut self, parameter: Parameter, value: Value) {
         let value = value.filter(|value| value.is_finite());
         if self.numbers.insert(parameter, value) != Some(value) || value.is_none() {

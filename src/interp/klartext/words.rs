@@ -296,12 +296,15 @@ impl<'t> Words<'t> {
             at += 1;
         }
         self.at = at;
-        // `DR2+0,1`
-        if word.name() == b"DR" && self.peek() == Some(b'2') && matches!(self.text.get(self.at + 1), Some(b'+' | b'-'))
-        {
+        // `DR2+0,1`, `DR2:+0,1`
+        let sign = self.text.get(self.at + 1);
+        if word.name() == b"DR" && self.peek() == Some(b'2') && matches!(sign, Some(b'+' | b'-' | b':')) {
             word.name[2] = b'2';
             word.length = 3;
             self.at += 1;
+        }
+        if self.peek() == Some(b':') && self.value_after_colon(word) {
+            return;
         }
         let mut ahead = self.clone();
         ahead.blanks();
@@ -313,6 +316,20 @@ impl<'t> Words<'t> {
             word.value = value;
             *self = ahead;
         }
+    }
+
+    /// `DR2:+0,5`: a colon between a keyword and its value.
+    fn value_after_colon(&mut self, word: &mut Word<'t>) -> bool {
+        let mut ahead = self.clone();
+        ahead.at += 1;
+        ahead.blanks();
+        let value = ahead.value();
+        let is_value = !matches!(value, Said::Nothing | Said::Sign(_));
+        if is_value {
+            word.value = value;
+            *self = ahead;
+        }
+        is_value
     }
 }
 
@@ -363,6 +380,11 @@ mod tests {
         assert_eq!(words("C DR+ F889")[1], ("DR".into(), Said::Sign(false)));
         assert_eq!(words("TOOL CALL \"MH10\" Z DL+0 DR2-0,1")[2].1, Said::Text(b"MH10"));
         assert_eq!(words("DR2-0,1")[0], ("DR2".into(), Said::Number(-0.1)));
+        assert_eq!(words("DR2:-0,1 DL:Q5 DR:+1").len(), 3);
+        assert_eq!(words("DR2:-0,1")[0], ("DR2".into(), Said::Number(-0.1)));
+        assert_eq!(words("DL:Q108 Z")[0], ("DL".into(), q(108)));
+        // a colon that parts no value is a word of its own, as in a path
+        assert_eq!(words("TNC:\\P")[1].0, ":");
         assert_eq!(words("X1.2.3")[0].1, Said::Bad);
         assert_eq!(
             words("F AUTO"),

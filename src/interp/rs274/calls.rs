@@ -158,6 +158,26 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
+    /// S; that of G96 is in feet per minute where lengths are in inches (LinuxCNC user manual, G96).
+    fn spindle_speed(&mut self, speed: f64, unit: f64) {
+        let spindle = &mut self.core.state.spindle;
+        let speed = Some(speed).filter(|speed| speed.is_finite());
+        if spindle.surface_speed() {
+            let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
+            spindle.set_cutting_speed(speed.map(|speed| speed * metres));
+        } else {
+            spindle.set_rpm(speed);
+        }
+    }
+
+    /// A spindle that is switched on takes S of G96 in the unit of now (LinuxCNC, emccanon.cc: START_SPINDLE_CLOCKWISE).
+    fn speed_of_start(&mut self, turn: SpindleTurn, state: &State) {
+        let spindle = &self.core.state.spindle;
+        if turn != SpindleTurn::Stop && spindle.surface_speed() && spindle.speed_programmed() {
+            self.spindle_speed(state.speed[0], state.units.mm());
+        }
+    }
+
     pub(super) fn modal(&mut self, call: &Canon, at: At, state: &State) {
         let unit = state.units.mm();
         self.report_unknown_shift(call, at);
@@ -187,18 +207,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::StopSync => self.calls.synced = None,
             Canon::Spindle(0, turn) => {
                 self.core.state.spindle.switch(turn != SpindleTurn::Stop);
+                self.speed_of_start(turn, state);
             }
             Canon::Spindle(spindle, turn) if turn != SpindleTurn::Stop => self.further_spindle(spindle, at),
             Canon::SpindleSpeed(0, speed) => {
-                let spindle = &mut self.core.state.spindle;
-                let speed = Some(speed).filter(|speed| speed.is_finite());
-                if spindle.surface_speed() {
-                    // S is in feet per minute where lengths are in inches (LinuxCNC user manual, G96)
-                    let metres = if unit == 1.0 { 1.0 } else { METRES_PER_FOOT };
-                    spindle.set_cutting_speed(speed.map(|speed| speed * metres));
-                } else {
-                    spindle.set_rpm(speed);
-                }
+                self.spindle_speed(speed, unit);
             }
             Canon::SelectTool(number) => {
                 let number = u32::try_from(number).ok();

@@ -13,6 +13,11 @@ const MOST_M: usize = 5;
 /// Letters of words that a frame does not read.
 const FOREIGN: &[u8] = b"DFHST";
 
+/// `CYCLE81(...)`; MCALL before it is part of the call.
+fn is_cycle(found: &Found<'_>) -> bool {
+    found.with_arguments && (found.code.id.starts_with("CYCLE") || found.code.id.starts_with("HOLES"))
+}
+
 fn is_frame(found: &Found<'_>) -> bool {
     matches!(found.code.action, Action::ProgrammableShift | Action::ProgrammableFrame)
         && found.code.kind == CodeKind::Name
@@ -35,6 +40,18 @@ pub(crate) fn one_block(codes: &[Found<'_>], words: &Words, report: &mut Report<
         refuse(last.range, format!("more than {MOST_M} M functions in a block"));
     }
     let beside = FOREIGN.iter().any(|letter| words.letters & (1 << (letter - b'A')) != 0);
+    if let Some(cycle) = codes.iter().find(|found| is_cycle(found)) {
+        let others = codes
+            .iter()
+            .filter(|found| !is_cycle(found) && found.code.id != "MCALL");
+        if beside || others.count() > 0 {
+            let message = format!(
+                "other words beside {}: a cycle is called in a block of its own",
+                cycle.code.id
+            );
+            refuse(cycle.range, message);
+        }
+    }
     if let Some(frame) = codes
         .iter()
         .find(|found| is_frame(found))

@@ -57,6 +57,13 @@ fn three_mistakes_of_flow_are_found() {
             "heidenhain-klartext",
             "missing-label",
             Status::Fail,
+            "LBL 7\nL X+40\nLBL 7\n",
+            "LBL 7\nL X+40\nLBL 8\n",
+        ),
+        (
+            "heidenhain-klartext",
+            "missing-label",
+            Status::Fail,
             "FN 9: IF +1 EQU +1 GOTO LBL \"END\"\nL X+40\n",
             "FN 9: IF +1 EQU +2 GOTO LBL \"END\"\nL X+40\nLBL \"END\"\n",
         ),

@@ -345,3 +345,26 @@ fn what_is_known_of_a_position_is_a_number() {
         assert!(known(&motion.start) && known(&motion.end), "{motion:?}");
     }
 }
+
+/// A spindle that is switched on takes S of G96 in the unit of then: 300 feet per minute, then 300 m/min.
+#[test]
+fn a_spindle_that_starts_takes_the_cutting_speed_in_the_unit_of_now() {
+    let (feet, metres) = (91.44, 300.0);
+    for (between, wanted) in [
+        ("", feet),
+        ("G21", feet),
+        ("G21\nM3", metres),
+        ("G21\nM4", metres),
+        ("G21\nM5\nM3\nG20", metres),
+        ("G21\nM3\nG20\nM3", feet),
+        ("G21\nS200 M3", 200.0),
+    ] {
+        let text = format!("G20 G94\nG96 D9000 S300 M3\n{between}\nG1 X1 F10\n");
+        let state = run_bytes("linuxcnc", text.as_bytes(), &Setup::default()).1.state;
+        let found = state.and_then(|state| state.spindle.cutting_speed_m_min());
+        assert!(
+            found.is_some_and(|found| (found - wanted).abs() < 1e-9),
+            "{between}: {found:?}"
+        );
+    }
+}

@@ -28,6 +28,7 @@ mod haas_planes;
 mod hand_parts;
 mod klartext;
 mod klartext_axis_scaling;
+mod klartext_flow;
 mod klartext_more;
 mod klartext_scaling;
 mod length_change;

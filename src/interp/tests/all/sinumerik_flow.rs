@@ -340,6 +340,15 @@ fn a_frame_word_stands_alone() {
     for text in ["TRANS X5 Y2", "N5 ROT RPL=30", "SCALE X2 Y2", "TRANS", "AROT Z=R1"] {
         assert_eq!(said(&format!("R1=5\nG0 X1\n{text}\nM30\n")), [""; 0], "{text}");
     }
+    assert_eq!(
+        said("F100 S5 M3\nG0 X1 Z9\nMCALL CYCLE81(10,0,2,-5)\nX2\nMCALL\nM30\n"),
+        [""; 0]
+    );
+    let told = said("F100 S5 M3\nG0 X1 Z9\nCYCLE81(10,0,2,-5) M8 F33\nM30\n");
+    assert!(
+        told.iter().any(|told| told.starts_with("3 ") && told.contains("Other")),
+        "{told:?}"
+    );
     for text in [
         "TRANS X5 F100",
         "ROT RPL=30 S500",

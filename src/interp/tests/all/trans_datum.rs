@@ -6,6 +6,9 @@ const LINE: &str = "L X+1 Y+2 Z+3 R0";
 const SHIFT: &str = "TRANS DATUM AXIS X+10 Y+20 Z+30\n";
 const RESET: &str = "TRANS DATUM RESET\n";
 const TABLE: &str = "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 #5\n";
+/// No rotation, no mirror image and no scaling.
+const SQUARE: &str = "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+0\nCYCL DEF 8.0 M\nCYCL DEF 8.1\nCYCL DEF 11.0 S\nCYCL DEF 11.1 SCL1\n\
+                      CYCL DEF 26.0 S\nCYCL DEF 26.1 X1 Y1 Z1\n";
 /// A place a b c of this plane is c, b, -a outside.
 const PLANE: &str = "PLANE SPATIAL SPA+0 SPB+90 SPC+0 STAY\n";
 
@@ -113,7 +116,7 @@ fn one_axis_taken_back_leaves_the_shift_of_a_table() {
             None,
             "{shift}"
         );
-        let all = format!("{shift}{}PLANE RESET STAY\n{LINE}", back(&["X", "Y", "Z"]));
+        let all = format!("{shift}{SQUARE}{}PLANE RESET STAY\n{LINE}", back(&["X", "Y", "Z"]));
         assert_eq!(last(&all), Some([1.0, 2.0, 3.0]), "{shift}");
     }
 }

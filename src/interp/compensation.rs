@@ -8,6 +8,7 @@ mod element;
 mod lost;
 mod nose;
 mod select;
+mod unmeasured;
 
 use crate::core::Report;
 use crate::frames::XYZ;
@@ -51,6 +52,8 @@ pub(crate) struct Compensation {
     pub(crate) stage: Stage,
     /// 1: left of the path, -1: right, before mirroring.
     pub(crate) side: f64,
+    /// With a radius that is zero or not known.
+    pub(crate) unmeasured: unmeasured::Unmeasured,
     /// mm.
     pub(crate) radius: f64,
     /// From the centre of the tool to the point that motions move, Z and X on a lathe, mm.
@@ -66,6 +69,10 @@ pub(crate) struct Compensation {
     /// Motions that can be emitted now.
     pub(crate) ready: Vec<PendingMotion>,
 }
+
+const PLANE_CHANGES: &str = "the plane changes during cutter compensation: cancel it with G40 first";
+const STARTS_WITH_ARC: &str = "cutter compensation starts with an arc: start it with a straight motion";
+const ENDS_WITH_ARC: &str = "cutter compensation ends with an arc: end it with a straight motion";
 
 /// So many motions without a path in the plane wait for the next corner: controls read a few blocks ahead.
 const MOST_BETWEEN: usize = 10_000;
@@ -133,11 +140,7 @@ impl Iso<'_> {
             self.lose("part of the path is unknown", report);
         }
         if pending.1.coordinates.plane() != plane && now != 0 && self.memory.compensation.stage == Stage::On {
-            self.reject(
-                "the plane changes during cutter compensation: cancel it with G40 first",
-                "plane-change",
-                report,
-            );
+            self.reject(PLANE_CHANGES, "plane-change", report);
             self.lose("the plane changes", report);
         }
         let cancels = now == 0;
@@ -180,11 +183,7 @@ impl Iso<'_> {
     fn start(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         self.memory.compensation.stage = Stage::On;
         if element.is_arc() {
-            self.reject(
-                "cutter compensation starts with an arc: start it with a straight motion",
-                "arc-start-or-cancel",
-                report,
-            );
+            self.reject(STARTS_WITH_ARC, "arc-start-or-cancel", report);
             self.lose("it starts with an arc", report);
             self.mark_lost(&mut pending);
             self.memory.compensation.ready.push(pending);
@@ -343,11 +342,7 @@ impl Iso<'_> {
             return;
         };
         if element.is_arc() {
-            self.reject(
-                "cutter compensation ends with an arc: end it with a straight motion",
-                "arc-start-or-cancel",
-                report,
-            );
+            self.reject(ENDS_WITH_ARC, "arc-start-or-cancel", report);
         }
         let ready = moved(&pending, element, from, element.end).filter(|_| !element.is_arc());
         self.memory.compensation.ready.push(ready.unwrap_or(pending));

@@ -293,7 +293,7 @@ impl Iso<'_> {
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
         let unclear = words.p.number().is_some_and(|p| p.has_point) && self.core.dialect.quirks.macros == Macros::Fanuc
             || words.feed.is_given() && !self.core.dialect.quirks.user_names();
-        let ambiguous = ambiguous || (codes.iter().any(dwell) || self.dwells_in_hole(words)) && unclear;
+        let ambiguous = ambiguous || codes.iter().any(dwell) && unclear || self.dwells_in_hole(words);
         if ambiguous {
             self.core.effects.ambiguous_number(block);
         }

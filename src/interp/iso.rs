@@ -205,15 +205,13 @@ impl<'d> Iso<'d> {
             }
         }
         let mut motion = self.motion(codes, returned.flatten().as_ref().unwrap_or(words), &block, report);
+        self.judge_unmeasured(motion.as_ref(), report);
         self.memory.length_base = None;
         if block.machine_coordinates {
             self.length_after_return(words.axes.given | words.axes.unread);
         }
         self.called_cycle(codes, words, &block, &mut motion, report);
-        if self.core.dialect.quirks.declares_names() {
-            self.memory.own.scope.moved |= motion.is_some() || !self.memory.out.is_empty();
-            crate::sinumerik::one_block(codes, words, report);
-        }
+        self.block_rules(codes, words, report);
         self.spindle_after(&block);
         if words.forgets_all {
             self.core.losses += 1;

@@ -28,8 +28,6 @@ pub(crate) struct Scope {
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
     strings: strings::Strings,
-    /// A block has moved an axis, so that the definitions are over.
-    pub(crate) moved: bool,
     /// Variables of the type FRAME; `None`: what they hold is not known.
     pub(crate) frames: BTreeMap<Box<str>, Option<crate::sinumerik::FrameValue>>,
 }

@@ -9,7 +9,6 @@
 //! ```gcode fanuc-30i mikron-ucp710
 //! N10 G0 X0. Y0. Z50. A0. C0.
 //! N20 G68.2 X0. Y0. Z0. I0. J30. K0.
-//! N30 G0 X0. Y0. Z20.
 //! N40 G1 Z5. F500.
 //! ;   ^^^^^^^^^^^^ tilted-plane-misaligned: the tool is 30 deg off the normal of the tilted plane
 //! N50 G69

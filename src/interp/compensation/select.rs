@@ -45,6 +45,9 @@ impl<'d> Iso<'d> {
         }
         match self.cutter_radius(d) {
             Some(0.0) => {
+                if d != Some(0) {
+                    self.begin_unmeasured();
+                }
                 self.memory.compensation.stage = Stage::Off;
                 self.core.state.beside = Beside::Computed;
             }
@@ -66,6 +69,7 @@ impl<'d> Iso<'d> {
                 report.fault(found.range, FaultKind::NotModelled { what });
             }
             None => {
+                self.begin_unmeasured();
                 self.memory.compensation.stage = Stage::Off;
                 self.core.state.beside = Beside::Radius;
                 if !std::mem::replace(&mut self.core.compensation_reported, true) {

@@ -140,10 +140,12 @@ impl Iso<'_> {
         }
     }
 
-    /// A drilling cycle is in effect, and P is the dwell at its bottom.
+    /// A drilling cycle is in effect, and the dwell at its bottom has a decimal point, which Fanuc's P does not take.
     pub(crate) fn dwells_in_hole(&self, words: &Words) -> bool {
         let macros = self.core.dialect.quirks.macros == trunnion_dialect::Macros::Fanuc;
-        macros && words.p.number().is_some() && self.core.state.motion.is_some_and(Action::is_hole_cycle)
+        macros
+            && words.p.number().is_some_and(|p| p.has_point)
+            && self.core.state.motion.is_some_and(Action::is_hole_cycle)
     }
 }
 

@@ -1,12 +1,19 @@
 //! Numbers that may not be negative, or have no decimal point.
 use crate::Refusal;
-use crate::codes::BlockCodes;
+use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
 use trunnion_dialect::Macros;
 
 impl Iso<'_> {
+    /// How much a block of a Sinumerik takes.
+    pub(super) fn block_rules(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
+        if self.core.dialect.quirks.declares_names() {
+            crate::sinumerik::one_block(codes, words, report);
+        }
+    }
+
     /// S, T, H, D, and the time of a dwell: a Fanuc refuses a minus there (alarm PS0006, illegal use of the minus sign). P of a dwell takes no
     /// decimal point on a Fanuc (FANUC Series 30i operator's manual B-63944EN, Dwell (G04): X takes one).
     pub(super) fn signs(&self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) {

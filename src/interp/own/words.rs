@@ -1,8 +1,8 @@
 //! Words that write and read the variables of a Sinumerik program.
+use crate::FaultKind;
 use crate::reader::Reader;
 use crate::values::READINGS;
 use crate::words::{Number, Reading, WordValue};
-use crate::{FaultKind, Refusal};
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
@@ -90,15 +90,6 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 if let Some(name) = own.define(text.get(3..).unwrap_or_default()) {
                     let what = format!("{name}: the program defines it twice");
                     (self.report)(range, FaultKind::NotModelled { what });
-                }
-                if own.scope.moved {
-                    let kind = FaultKind::Rejected {
-                        refusal: Refusal::Structure,
-                        message: "DEF after a motion: variables are defined before the first block that moves"
-                            .to_owned(),
-                        alarm: None,
-                    };
-                    (self.report)(range, kind);
                 }
             }
             (Some(own), "DEFINE") => {

@@ -196,3 +196,38 @@ fn the_blocks_of_motions_stay_theirs() {
         assert_eq!(pair[0].end, pair[1].start, "each begins where the one before ends");
     }
 }
+
+/// What does not depend on the radius is told where that is zero or not declared.
+#[test]
+fn mistakes_without_a_radius() {
+    let told = |source: &str, setup: &Setup| {
+        let faults = run(source, setup).1;
+        faults
+            .into_iter()
+            .filter(|fault| fault.contains("Compensation"))
+            .collect::<Vec<_>>()
+    };
+    let unknown = Setup::default();
+    for setup in [&setup(0.0), &unknown, &setup(4.0)] {
+        for (source, what) in [
+            (
+                "G0 X0. Y0. Z0.\nG41 D1 G2 X10. Y10. R10. F100.\nX20. Y0 R10.\nG40 G1 X0.\nM30\n",
+                "starts with an arc",
+            ),
+            (
+                "G0 X0. Y0. Z0.\nG41 D1 G1 X10. F100.\nX20.\nG40 G2 X30. Y10. R10.\nM30\n",
+                "ends with an arc",
+            ),
+            (
+                "G0 X0. Y0. Z0.\nG41 D1 G1 X10. F100.\nX20.\nG18\nX30.\nG17\nG40 G1 X0. Y-9.\nM30\n",
+                "the plane changes",
+            ),
+        ] {
+            let found = told(source, setup);
+            assert!(found.len() == 1 && found[0].contains(what), "{source}: {found:?}");
+        }
+        let good =
+            "G0 X0. Y0. Z0.\nG41 D1 G1 X10. F100.\nX20.\nG2 X30. Y10. R10.\nG1 Y20.\nG40 G1 X0.\nG2 X5. Y5. R9.\nM30\n";
+        assert_eq!(told(good, setup), [""; 0]);
+    }
+}

@@ -313,12 +313,7 @@ fn ten_thousand_nested_branches_need_no_stack() {
 }
 
 #[test]
-fn definitions_come_first_and_a_block_has_five_m_functions() {
-    assert_eq!(said("DEF REAL AA=1\nG0 X1\nM30\n"), [""; 0]);
-    assert_eq!(
-        said("G0 X1\nDEF REAL AA=1\nX=AA\nM30\n"),
-        ["2 `DEF REAL AA=1` Structure "]
-    );
+fn a_name_is_defined_once_and_a_block_has_five_m_functions() {
     for twice in ["DEF INT AB=5, AB=6", "DEF INT AB\nDEF REAL CD, AB"] {
         let told = said(&format!("{twice}\nG0 X1\nM30\n"));
         assert!(
@@ -326,11 +321,6 @@ fn definitions_come_first_and_a_block_has_five_m_functions() {
             "{told:?}"
         );
     }
-    // a subprogram has definitions of its own
-    assert_eq!(
-        said("G0 X1\nSUB\nM30\n%_N_SUB_SPF\nDEF REAL AA=1\nX=AA\nM17\n"),
-        [""; 0]
-    );
     assert_eq!(said("G0 X1 M3 M7 M8 M40 M42\nM30\n").len(), 0);
     assert_eq!(said("G0 X1 M3 M7 M8 M40 M42 M43\nM30\n"), ["1 `M43` Other "]);
 }

@@ -24,20 +24,7 @@ impl Apt<'_> {
             effects.add(block, effect);
         }
         if record.is("COOLNT") {
-            let off = args.has(program, "OFF");
-            let mist = args.has(program, "MIST") && !off;
-            let flood = !off && (args.has(program, "FLOOD") || args.has(program, "ON") || args.words().is_empty());
-            for (key, is_on) in [("mist coolant", mist), ("flood coolant", flood)] {
-                let to: Vec<Argument> = is_on.then(|| Argument::code("on")).into_iter().collect();
-                effects.add(block, Effect::set(key, to));
-            }
-            // which coolant comes back is the post-processor's choice
-            let again = args.has(program, "ON") && self.kept.mist;
-            self.kept.mist = (self.kept.mist || mist) && !args.has(program, "FLOOD");
-            if !(off || mist || flood) || again {
-                let words = vec![Argument::text("COOLNT", &written_record(record, view))];
-                effects.add(block, Effect::Unmodelled(words));
-            }
+            self.coolant_effects(record, &args, view);
         } else if record.is("SPINDL") {
             let still = args.has(program, "OFF") || args.numbers().first() == Some(&0.0);
             // without a direction it is the post-processor that chooses between the last one and clockwise
@@ -104,6 +91,27 @@ impl Apt<'_> {
             effects.add(block, Effect::Event(vec![Argument::code("M1")]));
         } else if record.is("FINI") || record.is("END") {
             effects.add(block, Effect::End(vec![Argument::code("FINI")]));
+        }
+    }
+
+    /// COOLNT.
+    fn coolant_effects(&mut self, record: &Record<'_>, args: &Args, view: &Block<'_>) {
+        let program = view.program();
+        let block = self.core.main_block(view.id());
+        let effects = &mut self.core.effects;
+        let off = args.has(program, "OFF");
+        let mist = args.has(program, "MIST") && !off;
+        let flood = !off && (args.has(program, "FLOOD") || args.has(program, "ON") || args.words().is_empty());
+        for (key, is_on) in [("mist coolant", mist), ("flood coolant", flood)] {
+            let to: Vec<Argument> = is_on.then(|| Argument::code("on")).into_iter().collect();
+            effects.add(block, Effect::set(key, to));
+        }
+        // which coolant comes back is the post-processor's choice
+        let again = args.has(program, "ON") && self.kept.mist;
+        self.kept.mist = (self.kept.mist || mist) && !args.has(program, "FLOOD");
+        if !(off || mist || flood) || again {
+            let words = vec![Argument::text("COOLNT", &written_record(record, view))];
+            effects.add(block, Effect::Unmodelled(words));
         }
     }
 

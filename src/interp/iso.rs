@@ -176,11 +176,6 @@ impl<'d> Iso<'d> {
         if words.letters & self.judged_letters() != 0 {
             self.unused_words(codes, words, &block, report);
         }
-        self.memory.corners.word = words
-            .corner
-            .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
-            .filter(|_| !block.takes_coordinates)
-            .map(|(letter, number)| (letter, number.value * self.core.state.coordinates.unit_mm()));
         self.corner_word(words, &block);
         if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
@@ -197,13 +192,7 @@ impl<'d> Iso<'d> {
         self.length_travels(words, &block, report);
         let open = self.core.state.length.is_open();
         let returned = open.then(|| self.after_return(words, &block, report));
-        for found in codes.iter().filter(|found| found.code.id.starts_with("ORI")) {
-            match found.code.id.as_str() {
-                "ORIMKS" => self.memory.own.machine_vectors = true,
-                "ORIWKS" => self.memory.own.machine_vectors = false,
-                _ => {}
-            }
-        }
+        self.vectors_of_machine(codes);
         let mut motion = self.motion(codes, returned.flatten().as_ref().unwrap_or(words), &block, report);
         self.judge_unmeasured(motion.as_ref(), report);
         self.memory.length_base = None;

@@ -1,4 +1,5 @@
 //! The tool's orientation: rotary words or a programmed vector.
+use crate::codes::Found;
 use crate::core::ROTARY;
 use crate::core::Report;
 use crate::iso::Iso;
@@ -8,6 +9,17 @@ use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 
 impl Iso<'_> {
+    /// ORIMKS and ORIWKS of a Sinumerik: whether tool vectors are in the axes of the machine.
+    pub(crate) fn vectors_of_machine(&mut self, codes: &[Found<'_>]) {
+        for found in codes.iter().filter(|found| found.code.id.starts_with("ORI")) {
+            match found.code.id.as_str() {
+                "ORIMKS" => self.memory.own.machine_vectors = true,
+                "ORIWKS" => self.memory.own.machine_vectors = false,
+                _ => {}
+            }
+        }
+    }
+
     /// The orientation of a motion, from the vector or the rotary words of its block; else it stays as it is.
     pub(crate) fn orientation(&mut self, words: &Words, report: &mut Report<'_>) -> Orientation {
         let is_arc = matches!(

@@ -53,6 +53,11 @@ impl Iso<'_> {
 
     /// CHF, CHR, RND of the block, or RNDM.
     pub(crate) fn corner_word(&mut self, words: &Words, block: &BlockCodes) {
+        self.memory.corners.word = words
+            .corner
+            .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
+            .filter(|_| !block.takes_coordinates)
+            .map(|(letter, number)| (letter, number.value * self.core.state.coordinates.unit_mm()));
         let rounding = self.memory.own.contour.rounding;
         self.memory.corners.feed = self.memory.own.contour.corner_feed;
         if rounding == 0.0 && !self.memory.own.path.any() || block.takes_coordinates {

@@ -248,7 +248,7 @@ fn variables_that_are_named_like_addresses() {
 #[test]
 fn splines_have_known_ends() {
     let ends = |text: &str| -> Vec<(bool, Option<[f64; 3]>)> {
-        let log = run_text("sinumerik-840d", &format!("{}\n", program(&text)));
+        let log = run_text("sinumerik-840d", &format!("{}\n", program(text)));
         let moves = log.motions[1..].iter();
         moves
             .map(|motion| (motion.kind == MotionKind::Unknown, motion.end.xyz().map(Into::into)))

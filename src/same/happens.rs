@@ -29,23 +29,7 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
     };
     let place = |what: String| at(Some(was), Some(is), what);
     if sort != other_sort || words != other_words {
-        // each language ends its programs with its own words
-        if *sort == Sort::End && *other_sort == Sort::End && claim.across {
-            return Ok(());
-        }
-        let what = format!("one does `{}`, the other `{}`", shown(words), shown(other_words));
-        if (*sort == Sort::Switch) != (*other_sort == Sort::Switch) {
-            return Err(Verdict::Unknown(place(format!(
-                "{what}: the machine left the spindle in a state that is not known"
-            ))));
-        }
-        return Err(if *sort == Sort::Unmodelled || *other_sort == Sort::Unmodelled {
-            Verdict::Unknown(place(format!(
-                "{what}: their effect is not modelled, and the words differ"
-            )))
-        } else {
-            Verdict::Differs(place(what))
-        });
+        return other_words_than(was, is, claim);
     }
     if claim.path_only {
         return Ok(());
@@ -96,6 +80,39 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
         ))));
     }
     Ok(())
+}
+
+/// Two that say different things.
+fn other_words_than(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
+    let (
+        Item::Happens { sort, words, .. },
+        Item::Happens {
+            sort: other_sort,
+            words: other_words,
+            ..
+        },
+    ) = (was, is)
+    else {
+        return Ok(());
+    };
+    let place = |what: String| at(Some(was), Some(is), what);
+    // each language ends its programs with its own words
+    if *sort == Sort::End && *other_sort == Sort::End && claim.across {
+        return Ok(());
+    }
+    let what = format!("one does `{}`, the other `{}`", shown(words), shown(other_words));
+    if (*sort == Sort::Switch) != (*other_sort == Sort::Switch) {
+        return Err(Verdict::Unknown(place(format!(
+            "{what}: the machine left the spindle in a state that is not known"
+        ))));
+    }
+    Err(if *sort == Sort::Unmodelled || *other_sort == Sort::Unmodelled {
+        Verdict::Unknown(place(format!(
+            "{what}: their effect is not modelled, and the words differ"
+        )))
+    } else {
+        Verdict::Differs(place(what))
+    })
 }
 
 /// Whether a word may give a coordinate or a speed.

@@ -168,7 +168,7 @@ impl Steps<'_> {
 
     /// Whether a cycle of holes runs.
     fn in_hole(&self) -> bool {
-        self.state().motion.is_some_and(|motion| motion.is_hole_cycle())
+        self.state().motion.is_some_and(trunnion_dialect::Action::is_hole_cycle)
     }
 
     fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {

@@ -155,6 +155,7 @@ fn travels_codes_and_notations() {
         owner: Owner::Control,
         path: None,
         feed: None,
+        lengths: None,
     };
     assert_eq!(hex(&code), CODE);
     let lex = LexOptions {

@@ -198,6 +198,14 @@ mod tests {
     use crate::fixture::assert_drawn;
 
     #[test]
+    fn a_rapid_in_a_plane_on_which_the_tool_does_not_stand() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG0 X0 Y0 Z20\n;^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nCYCLE800()\nM30\n",
+        );
+    }
+
+    #[test]
     fn an_offset_in_a_rotary_axis_is_told_once_under_tcp() {
         let text = "G55\nTRAORI\nG1 X10 Y10 Z0 A0 C0 F1000\nX20\n";
         let dialect = trunnion_dialect::builtin("sinumerik-840d").unwrap();

@@ -91,7 +91,7 @@ mod tests {
     fn a_swivel_cycle_without_direction_turns_nothing() {
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG0 X0 Y0 Z20\nG1 Z5 F500\n;^^^^^^^^^ tilted-plane-misaligned: the tool is 30 deg\nCYCLE800()\nM30\n",
+            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG1 Z5 F500\n;^^^^^^^^^ tilted-plane-misaligned: the tool is 30 deg\nCYCLE800()\nM30\n",
         );
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",

@@ -3,7 +3,7 @@
 use crate::steps::Steps;
 use std::fmt::Write as _;
 use std::sync::Arc;
-use trunnion_dialect::Role;
+use trunnion_dialect::{Action, Role};
 use trunnion_interp::{
     AXIS_LETTERS, AxisLetter, ChainId, Feed, FeedMode, ModalState, Motion, MotionKind, Swivel, canonical_text,
 };
@@ -139,7 +139,9 @@ impl Steps<'_> {
     /// `None`: it is no plain number, or no such word.
     fn in_mm(&self, letter: u8, word: &Word) -> Option<String> {
         let axis = AxisLetter::new(letter).filter(|axis| !(3..6).contains(&axis.0));
-        let in_hole = self.in_hole() && matches!(letter, b'Q' | b'R' | b'I' | b'J');
+        // J of a tap counts how many times faster it goes out
+        let taps = matches!(self.state().motion, Some(Action::TapCycle | Action::TapLeftCycle));
+        let in_hole = self.in_hole() && (matches!(letter, b'Q' | b'R') || matches!(letter, b'I' | b'J') && !taps);
         if axis.is_none() && !in_hole {
             return None;
         }
@@ -168,7 +170,7 @@ impl Steps<'_> {
 
     /// Whether a cycle of holes runs.
     fn in_hole(&self) -> bool {
-        self.state().motion.is_some_and(trunnion_dialect::Action::is_hole_cycle)
+        self.state().motion.is_some_and(Action::is_hole_cycle)
     }
 
     fn word(&self, word: &Word, lost: &Lost, said: &mut Said) {

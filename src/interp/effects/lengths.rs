@@ -100,12 +100,15 @@ impl Iso<'_> {
         if unit_mm == 1.0 || !state.motion.is_some_and(Action::is_hole_cycle) {
             return;
         }
+        let taps = matches!(state.motion, Some(Action::TapCycle | Action::TapLeftCycle));
         for argument in arguments {
             let (&[letter], Value::Number(value)) = (argument.name.as_bytes(), &mut argument.value) else {
                 continue;
             };
             let factor = match letter {
-                b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W' | b'R' | b'Q' | b'I' | b'J' => unit_mm,
+                b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W' | b'R' | b'Q' => unit_mm,
+                // J of a tap counts how many times faster it goes out
+                b'I' | b'J' if !taps => unit_mm,
                 b'F' if state.feed.mode() != FeedMode::InverseTime => state.feed.unit_mm(),
                 _ => continue,
             };

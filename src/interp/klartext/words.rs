@@ -303,7 +303,8 @@ impl<'t> Words<'t> {
             word.length = 3;
             self.at += 1;
         }
-        if self.peek() == Some(b':') && self.value_after_colon(word) {
+        let corrects = matches!(word.name(), b"DL" | b"DR" | b"DR2");
+        if corrects && self.peek() == Some(b':') && self.value_after_colon(word) {
             return;
         }
         let mut ahead = self.clone();
@@ -318,7 +319,7 @@ impl<'t> Words<'t> {
         }
     }
 
-    /// `DR2:+0,5`: a colon between a keyword and its value.
+    /// `DR2:+0,5`: a colon between a correction of the tool and its value.
     fn value_after_colon(&mut self, word: &mut Word<'t>) -> bool {
         let mut ahead = self.clone();
         ahead.at += 1;

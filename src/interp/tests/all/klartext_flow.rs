@@ -226,7 +226,7 @@ fn a_colon_parts_a_word_from_its_value() {
     for call in [
         "TOOL CALL 5 Z S2000 DL+0,2 DR2+0,5",
         "TOOL CALL 5 Z S2000 DL+0.2 DR2:+0.5",
-        "TOOL CALL 5 Z S:2000 DL:+0,2 DR2:0,5",
+        "TOOL CALL 5 Z S2000 DL:+0,2 DR2:0,5",
         "Q1 = 0,2\nTOOL CALL 5 Z S2000 DL:+Q1 DR2: +0,5",
     ] {
         let text = program(&format!("TOOL DEF 5 L+50 R+4\n{call}\n{at}"));
@@ -239,4 +239,6 @@ fn a_colon_parts_a_word_from_its_value() {
         );
         assert_eq!(motion.spindle_rpm, Some(2000.0), "{call}");
     }
+    // other words have no colon
+    assert!(!faults(NAME, &program("L X:+1 Y+2 Z+3 R0 FMAX\n")).is_empty());
 }

@@ -10,8 +10,14 @@ pub(crate) fn refused(view: &Block<'_>) -> Option<Effect> {
     let errors = program.errors();
     let from = errors.partition_point(|error| error.range.end <= range.start);
     let mut here = errors[from..].iter().take_while(|error| error.range.start < range.end);
-    // what follows a comment inside a comment has its own error
-    let is_wrong = here.any(|error| error.kind != SyntaxErrorKind::NestedComment);
+    // what follows a comment inside a comment has its own error, and nothing follows a statement that the end of the file continues
+    let is_harmless = |kind| {
+        matches!(
+            kind,
+            SyntaxErrorKind::NestedComment | SyntaxErrorKind::DanglingContinuation
+        )
+    };
+    let is_wrong = here.any(|error| !is_harmless(error.kind));
     let is_control = |byte: &u8| byte.is_ascii_control() && !matches!(byte, b'\t' | b'\r' | b'\n');
     if !is_wrong && !program.bytes(range).iter().any(is_control) {
         return None;

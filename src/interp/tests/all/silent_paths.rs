@@ -98,3 +98,39 @@ fn what_stays_at_another_preset_is_named() {
             .any(|fault| fault.contains("NotModelled"))
     );
 }
+
+/// A tool vector in machine axes, an LN block whose tool is corrected, an arc that turns back, an arc in rapid.
+#[test]
+fn what_no_source_settles_is_named() {
+    let told = |dialect: &str, text: &str, what: &str| {
+        let faults = faults(dialect, text);
+        faults.iter().any(|fault| fault.contains(what))
+    };
+    let vector = |words: &str| {
+        format!("G71 G17 G90 G54 G94\nG0 X0 Y0 Z50 A0 C0\nTRAORI\n{words}\nG1 X3 Y2 Z1 A3=0 B3=0 C3=1 F100\nM30\n")
+    };
+    assert!(told("sinumerik-840d", &vector("ORIMKS\nROT X20"), "ORIMKS"));
+    for known in ["ORIMKS", "ORIWKS\nROT X20", "ORIMKS\nORIWKS\nROT X20"] {
+        assert!(!told("sinumerik-840d", &vector(known), "ORIMKS"), "{known}");
+    }
+    let klartext = |words: &str| format!("BEGIN PGM A MM\nL X+0 Y+0 Z+10 R0 FMAX\n{words}\nM30\nEND PGM A MM\n");
+    for (words, what) in [
+        (
+            "TOOL CALL 1 Z S1000 F500 DR+0.5\nL X+0 Y+0 Z+10 R0 FMAX M3\nLN X+5 Y+0 Z+5 NX+1 NY+0 NZ+0 F100",
+            "LN with DL, DR or DR2",
+        ),
+        ("CC X+5 Y+0\nC X+10 Y+0 DR+ FMAX", "FMAX beside an arc"),
+        ("L X+10 F200\nL X+10 Y+10 RL\nDEP CT CCA-90 R5", "DEP: its words"),
+    ] {
+        assert!(told("heidenhain-klartext", &klartext(words), what), "{words}");
+    }
+    for (words, what) in [
+        (
+            "TOOL CALL 1 Z S1000 F500\nL X+0 Y+0 Z+10 R0 FMAX M3\nLN X+5 Y+0 Z+5 NX+1 NY+0 NZ+0 F100",
+            "LN with DL, DR or DR2",
+        ),
+        ("L X+10 F200\nL X+10 Y+10 RL\nDEP CT CCA90 R5", "DEP: its words"),
+    ] {
+        assert!(!told("heidenhain-klartext", &klartext(words), what), "{words}");
+    }
+}

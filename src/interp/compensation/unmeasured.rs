@@ -37,10 +37,11 @@ impl Iso<'_> {
         let [first, second, _] = crate::arc::plane_axes(plane);
         let moves = |motion: &&Motion| {
             let is_path = matches!(motion.kind, MotionKind::Linear | MotionKind::Rapid | MotionKind::Arc(_));
-            is_path
-                && [first, second]
-                    .iter()
-                    .any(|axis| motion.start.get(*axis) != motion.end.get(*axis))
+            let goes_on = [first, second]
+                .iter()
+                .any(|axis| motion.start.get(*axis) != motion.end.get(*axis));
+            // a full circle ends where it begins
+            is_path && (goes_on || matches!(motion.kind, MotionKind::Arc(_)))
         };
         let Some(motion) = motion.filter(moves) else { return };
         self.memory.compensation.unmeasured = match (begins, on) {

@@ -90,8 +90,9 @@ fn depends_on_unknown(run: &Iso<'_>, view: &Block<'_>, word: &Word) -> bool {
     }
     let text = view.program().text(word.value_range);
     let of_program = |name: &str| {
-        let parameter = name.strip_prefix('R').unwrap_or_default();
-        let is_parameter = !parameter.is_empty() && parameter.bytes().all(|byte| byte.is_ascii_digit());
+        // `R5`, and the R of `R[5]`
+        let digits = name.strip_prefix('R');
+        let is_parameter = digits.is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
         run.memory.own.is_declared(name) || is_parameter
     };
     let text = text.to_ascii_uppercase();

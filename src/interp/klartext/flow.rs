@@ -64,7 +64,7 @@ impl Klartext<'_> {
         if std::mem::replace(&mut self.flow.begun, true) {
             return;
         }
-        for (block, kind) in self.doubled_labels(0, main) {
+        for (block, kind) in self.doubled_labels(0, main, None) {
             sink.fault(Fault {
                 place: None,
                 block,

@@ -12,17 +12,23 @@ pub(super) fn no_label(key: &Key) -> FaultKind {
     refused_label(|name| format!("the program has no label {name}"), key)
 }
 
-/// The lines of the first label and of another.
-fn doubled_label(key: &Key, [first, other]: [u32; 2]) -> FaultKind {
+/// The lines of the first label and of another; the path of the file, where it is one that is called.
+fn doubled_label(key: &Key, [first, other]: [u32; 2], path: Option<&str>) -> FaultKind {
+    let of = path.map_or_else(String::new, |path| format!("{path}: "));
     let message =
-        |name: &str| format!("the program has label {name} more than once: in line {first} and in line {other}");
+        |name: &str| format!("{of}the program has label {name} more than once: in line {first} and in line {other}");
     refused_label(message, key)
 }
 
 impl Klartext<'_> {
     /// What the control refuses a file for when it is loaded: labels that it has more than once, each with the block of the other one. Only the first
     /// time for each file.
-    pub(super) fn doubled_labels(&mut self, file: u16, program: &Program) -> Vec<(BlockId, FaultKind)> {
+    pub(super) fn doubled_labels(
+        &mut self,
+        file: u16,
+        program: &Program,
+        path: Option<&str>,
+    ) -> Vec<(BlockId, FaultKind)> {
         if self.flow.doubled.contains_key(&file) {
             return Vec::new();
         }
@@ -35,7 +41,7 @@ impl Klartext<'_> {
                 }
                 Entry::Occupied(entry) => {
                     let lines = [entry.get() + 1, block + 1];
-                    found.push((BlockId(block), doubled_label(&key, lines)));
+                    found.push((BlockId(block), doubled_label(&key, lines, path)));
                     doubled.entry(key).or_insert(lines);
                 }
             }
@@ -49,27 +55,15 @@ impl Klartext<'_> {
         let Some(called) = self.flow.library.file(file) else {
             return Vec::new();
         };
-        let found = self.doubled_labels(file, &called.program).into_iter();
-        let in_file = |(_, kind)| match kind {
-            FaultKind::Rejected {
-                refusal,
-                message,
-                alarm,
-            } => FaultKind::Rejected {
-                refusal,
-                message: format!("{}: {message}", called.path),
-                alarm,
-            },
-            other => other,
-        };
-        found.map(in_file).collect()
+        let found = self.doubled_labels(file, &called.program, Some(&*called.path));
+        found.into_iter().map(|(_, kind)| kind).collect()
     }
 
     /// Why a label of the file that runs leads nowhere, where it has it more than once.
     pub(super) fn refused_target(&self, key: &Key) -> Option<FaultKind> {
         let file = self.flow.course.place().file;
         let lines = self.flow.doubled.get(&file)?.get(key)?;
-        Some(doubled_label(key, *lines))
+        Some(doubled_label(key, *lines, None))
     }
 }
 

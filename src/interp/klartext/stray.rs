@@ -13,7 +13,7 @@ const PLAIN: [&str; 18] = [
     "BEGIN", "SEL", "TRANS",
 ];
 
-/// Words of TOOL CALL and TOOL DEF (interface of the TNC 640 and older controls, tool call).
+/// Words of TOOL CALL and TOOL DEF: those that [`super::tool`] reads, and the letters of further tool axes.
 const OF_TOOLS: [&str; 16] = [
     "X", "Y", "Z", "U", "V", "W", "S", "VC", "F", "FU", "FZ", "DL", "DR", "DR2", "L", "R",
 ];

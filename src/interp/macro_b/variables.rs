@@ -166,7 +166,8 @@ impl Variables {
         Some(crate::Argument::number(name.to_owned(), value))
     }
     /// Those from `first` on with their values, as far as they are known: they keep their values after the program ends. Fanuc: #500 to #999
-    /// (Series 30i operator's manual, custom macro); Haas: all common ones (Haas mill operator's manual, macro variables).
+    /// (Series 30i operator's manual, custom macro); Haas: #100 to #149 are kept too (zappettiniconsulting.com, Haas system variables), so
+    /// that all common ones count.
     pub(crate) fn kept(&self, first: u32) -> Vec<(String, f64)> {
         let kept = self.common.range(first..).filter(|_| !self.lost);
         kept.filter_map(|(number, held)| Some((format!("#{number}"), (*held)?)))

@@ -88,7 +88,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         match (&mut self.own, code.id.as_str()) {
             (Some(own), "DEF") => {
                 if let Some(name) = own.define(text.get(3..).unwrap_or_default()) {
-                    let what = format!("{name}: the program defines it twice");
+                    let what = format!("{name}: the program defines it twice (rename one of them)");
                     (self.report)(range, FaultKind::NotModelled { what });
                 }
             }

@@ -23,7 +23,7 @@ fn is_frame(found: &Found<'_>) -> bool {
         && found.code.kind == CodeKind::Name
 }
 
-/// Reports a block with more M functions than the control takes, and one with a frame word and other words.
+/// Reports a block with more M functions than the control takes, and other words beside a frame word or a cycle.
 pub(crate) fn one_block(codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
     let mut refuse = |range: TextRange, message: String| {
         let kind = FaultKind::Rejected {
@@ -37,7 +37,10 @@ pub(crate) fn one_block(codes: &[Found<'_>], words: &Words, report: &mut Report<
     if functions.clone().count() > MOST_M
         && let Some(last) = functions.max_by_key(|found| found.range.start)
     {
-        refuse(last.range, format!("more than {MOST_M} M functions in a block"));
+        refuse(
+            last.range,
+            format!("more than {MOST_M} M functions in a block: write the others into the next block"),
+        );
     }
     let beside = FOREIGN.iter().any(|letter| words.letters & (1 << (letter - b'A')) != 0);
     if let Some(cycle) = codes.iter().find(|found| is_cycle(found)) {

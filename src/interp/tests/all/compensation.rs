@@ -197,7 +197,7 @@ fn the_blocks_of_motions_stay_theirs() {
     }
 }
 
-/// What does not depend on the radius is told where that is zero or not declared.
+/// Mistakes that do not depend on the radius are reported where it is zero or not declared.
 #[test]
 fn mistakes_without_a_radius() {
     let told = |source: &str, setup: &Setup| {
@@ -212,6 +212,10 @@ fn mistakes_without_a_radius() {
         for (source, what) in [
             (
                 "G0 X0. Y0. Z0.\nG41 D1 G2 X10. Y10. R10. F100.\nX20. Y0 R10.\nG40 G1 X0.\nM30\n",
+                "starts with an arc",
+            ),
+            (
+                "G0 X0. Y0. Z0.\nG41 D1 G2 I5. F100.\nG1 X20.\nG40 G1 X0.\nM30\n",
                 "starts with an arc",
             ),
             (

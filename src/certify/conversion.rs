@@ -23,6 +23,7 @@ mod reason;
 mod track;
 mod words;
 mod zero_names;
+mod zeros_apart;
 
 pub use crate::curve::{great_circle, joint_bend};
 pub use ask::{Ask, Asked, Coolant, Own, Why, asked_in};
@@ -39,6 +40,7 @@ pub(crate) use reason::turns_spent;
 pub use track::{Track, carried, rotary};
 pub use words::{moved_axes, same_words};
 pub use zero_names::ZeroNames;
+pub use zeros_apart::holds_with_zeros_apart;
 
 #[cfg(test)]
 mod tests;

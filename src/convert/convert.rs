@@ -10,7 +10,8 @@ use crate::{Options, Post, Refused, Target};
 use std::cell::OnceCell;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
-    Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on, read,
+    Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on,
+    holds_with_zeros_apart, read,
 };
 use trunnion_dialect::Dialect;
 use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks, LengthOf};
@@ -63,11 +64,12 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             "the state at the start of an excerpt cannot be given for a LinuxCNC program: write it into the program",
         ));
     }
-    let reading = read(&Run {
+    let run = Run {
         text: &text,
         machine,
         ..*source
-    });
+    };
+    let reading = read(&run);
     understood(&reading, options).and_then(|()| held(&reading, source.setup))?;
     let setting = Setting::new(target, options)?;
     // clamps are closed and opened again for the target machine
@@ -101,8 +103,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     } = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm, axis_deg);
     let (proof, turned, travel, told) = prove(
-        source,
-        (&reading, machine),
+        (&reading, &run),
         &setting,
         (&written, &moved),
         &outs,
@@ -298,8 +299,7 @@ pub(crate) fn wording(program: &Program, fault: &Fault) -> String {
 }
 
 fn prove(
-    source: &Source<'_>,
-    before: (&Reading, Option<&Machine>),
+    (reading, source): (&Reading, &Run<'_>),
     setting: &Setting<'_>,
     (text, moved): (&str, &[u32]),
     outs: &[Out],
@@ -310,13 +310,14 @@ fn prove(
     let mut setup = source.setup.clone();
     // codes of the builder of the target machine
     Machine::tell(setting.machine, &mut setup.control);
-    let after = read(&Run {
+    let run = Run {
         text: text.as_bytes(),
         dialect: setting.dialect,
         machine,
         setup: &setup,
         assume: Assume::default(),
-    });
+    };
+    let after = read(&run);
     held(&after, source.setup)?;
     if let Some(error) = after.program.errors().first() {
         let (line, column) = LineIndex::new(text.as_bytes()).line_column(text.as_bytes(), error.range.start);
@@ -334,7 +335,11 @@ fn prove(
         dropped,
         meanings: &meanings,
     };
-    let proof = converted_on(before, (&after, machine), &parts, claim, &terms).map_err(|outcome| {
+    let proof = converted_on((reading, source.machine), (&after, machine), &parts, claim, &terms).and_then(|proof| {
+        holds_with_zeros_apart([(reading, source), (&after, &run)], &parts, claim, &terms)?;
+        Ok(proof)
+    });
+    let proof = proof.map_err(|outcome| {
         let why = match outcome {
             Outcome::Refuted(witness) => witness.to_string(),
             Outcome::Unknown(gap) => gap.to_string(),

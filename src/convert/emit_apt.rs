@@ -203,6 +203,7 @@ fn plain_record(event: &Event) -> Option<String> {
         | Event::Path(_)
         | Event::Tool(_)
         | Event::SpindleOn(..)
+        | Event::Speed(_)
         | Event::WorkOffset(_)
         | Event::Motion(_) => return None,
         Event::Coolant(coolant) => format!(

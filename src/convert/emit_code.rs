@@ -42,6 +42,8 @@ pub(crate) struct Writer<'a> {
     /// A plane other than G17 is in effect, for an arc.
     pub(crate) off_plane: bool,
     pub(crate) zero: [f64; 9],
+    /// Whether it is declared; `None`: none was written yet.
+    zero_declared: Option<bool>,
     /// Klartext is written.
     pub(crate) klartext: bool,
 }
@@ -83,6 +85,7 @@ impl<'a> Writer<'a> {
             coolant_outside: false,
             off_plane: false,
             zero: [0.0; 9],
+            zero_declared: None,
             klartext: setting.klartext(),
         }
     }
@@ -269,8 +272,14 @@ impl<'a> Writer<'a> {
         })?;
         let declared = self.setup.work_offsets.iter();
         let mut declared = declared.filter(|offset| offset.name.eq_ignore_ascii_case(name));
-        self.zero = declared.next().map_or([0.0; 9], |offset| offset.values);
-        self.forget_coordinates();
+        let declared = declared.next().map(|offset| offset.values);
+        // both are taken as 0: an axis that does not move is not written, and has the position that it has on the control
+        let by_assumption = self.zero_declared == Some(false) && declared.is_none();
+        self.zero_declared = Some(declared.is_some());
+        self.zero = declared.unwrap_or([0.0; 9]);
+        if !by_assumption {
+            self.forget_coordinates();
+        }
         Ok(())
     }
 
@@ -310,6 +319,10 @@ impl<'a> Writer<'a> {
                     speed(*rpm),
                 );
                 self.template(key, block, |name| (name == "speed").then(|| rpm.clone()))
+            }
+            Event::Speed(rpm) => {
+                let rpm = speed(*rpm);
+                self.template("spindle-speed", block, |name| (name == "speed").then(|| rpm.clone()))
             }
             Event::SpindleOff => self.template("spindle-stop", block, |_| None),
             Event::Coolant(coolant) => self.coolant(*coolant, block),

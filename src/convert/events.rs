@@ -43,6 +43,7 @@ pub(crate) fn job(
             ..Job::default()
         },
         spindle: Spindle::Unknown,
+        speed: None,
         keeps_coolant: program.options().format == Format::Apt || dialect.quirks.rs274(),
         flowing: Vec::new(),
         tool: None,
@@ -96,6 +97,8 @@ struct EventCollector<'p> {
     post: Option<&'p Post>,
     job: Job,
     spindle: Spindle,
+    /// The speed that was written last, 1/min.
+    speed: Option<f64>,
     /// Neither a stop nor a tool change ends the coolant in the original.
     keeps_coolant: bool,
     /// The coolants that the original has switched on.
@@ -197,6 +200,9 @@ impl EventCollector<'_> {
         let turns = ran.counter_clockwise.unwrap_or(false);
         for index in first..ran.motions {
             let motion = &reading.motions[index].motion;
+            if motion.is_feed() && motion.spindle_on.is_none() {
+                self.speed(motion.spindle_rpm, block);
+            }
             self.spindle(motion.spindle_on, motion.spindle_rpm, turns, block)?;
             self.job.push(Event::Motion(index), block);
         }
@@ -240,6 +246,7 @@ impl EventCollector<'_> {
             if target.is_some_and(|dialect| !dialect.quirks.tool_word.changes()) {
                 self.spindle = Spindle::Unknown;
             }
+            self.speed = None;
             self.job.push(Event::Tool(number), block);
             self.flow_again(block);
             self.job.tool_mut(number);
@@ -289,8 +296,17 @@ impl EventCollector<'_> {
                 Spindle::Off | Spindle::Unknown => Event::SpindleOff,
             };
             self.job.push(event, block);
+            self.speed = rpm.filter(|_| on == Some(true)).or(self.speed);
         }
         Ok(())
+    }
+
+    /// A cut runs where it is not known whether the spindle turns: after a stop, or without M3. The speed is that of the program.
+    fn speed(&mut self, rpm: Option<f64>, block: BlockId) {
+        if let Some(speed) = rpm.filter(|_| rpm != self.speed) {
+            self.speed = rpm;
+            self.job.push(Event::Speed(speed), block);
+        }
     }
 }
 

@@ -16,6 +16,8 @@ pub(crate) enum Event {
     Tool(u32),
     /// The spindle turns: counter-clockwise, and its speed, 1/min.
     SpindleOn(bool, f64),
+    /// Its speed, 1/min, where it is not known whether it turns.
+    Speed(f64),
     /// It stops.
     SpindleOff,
     Coolant(Coolant),

@@ -55,6 +55,7 @@ const TEMPLATES: &[(&str, &[&str])] = &[
     ("tool-change", &["tool"]),
     ("spindle-clockwise", &["speed"]),
     ("spindle-counter-clockwise", &["speed"]),
+    ("spindle-speed", &["speed"]),
     ("spindle-stop", &[]),
     ("coolant-flood", &[]),
     ("coolant-mist", &[]),

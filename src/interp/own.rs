@@ -8,13 +8,14 @@ mod named;
 mod prepared;
 mod sort;
 mod strings;
+mod text_functions;
 mod view;
 mod words;
 
 use crate::Argument;
 use crate::flow::Transfer;
 use field::Field;
-pub(crate) use sort::Sort;
+pub(crate) use sort::{Sort, is_of_text};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::FormulaErrorKind;
@@ -251,11 +252,11 @@ impl Own {
                 self.define_field(sort, one)
             } else {
                 self.declare(name, sort, value);
-                if kind.get(..6).is_some_and(|kind| kind.eq_ignore_ascii_case("STRING")) {
-                    self.declare_string(kind, name, one.split_once('=').map(|(_, text)| text));
-                }
                 value.is_some() && sort != Sort::Other
             };
+            if is_of_text(kind) {
+                self.declare_string(kind, name, one.split_once('=').map(|(_, text)| text));
+            }
             if let (Some((name, text)), false) = (one.split_once('='), known) {
                 self.note_text(name.split('[').next().unwrap_or(name), text);
             }

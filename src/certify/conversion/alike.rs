@@ -29,11 +29,13 @@ impl Proof<'_> {
         if !fits {
             return self.refute(is, "the kind of motion differs".to_owned());
         }
+        // where it is not known whether the spindle turns, a cut may run at the speed
         let rpm = |posed: &Posed| {
-            posed
-                .motion
-                .spindle_rpm
-                .filter(|_| posed.motion.spindle_on == Some(true))
+            let may_turn = match posed.motion.spindle_on {
+                None => old.motion.is_feed(),
+                Some(on) => on,
+            };
+            posed.motion.spindle_rpm.filter(|_| may_turn)
         };
         let same_speed = match (rpm(old), rpm(new)) {
             (Some(was), Some(is)) => (was - is).abs() <= 5e-4,

@@ -1,6 +1,9 @@
 //! The certificate of a conversion: which motions belong together, under which terms, and what was found. Both texts are read again to make it and to
 //! check it; the converter is not asked.
-use super::{Ask, Assume, ConversionClaim, ConversionProof, Coolant, Part, Run, Terms, converted_on, read};
+use super::{
+    Ask, Assume, ConversionClaim, ConversionProof, Coolant, Part, Run, Terms, converted_on, holds_with_zeros_apart,
+    read,
+};
 use crate::certificate::other_text;
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
@@ -165,20 +168,21 @@ pub fn certify_conversion(
     let (after_setup, after_library) = Recorder::wrap(&setup);
     let [before_machine, after_machine] = conversion.machines;
     let after_machine = after_machine.filter(|_| told.read_on_machine);
-    let before = read(&Run {
+    let before_run = Run {
         text: conversion.texts[0],
         dialect: conversion.dialects[0],
         machine: before_machine,
         setup: &before_setup,
         assume: told.assume,
-    });
-    let after = read(&Run {
+    };
+    let after_run = Run {
         text: conversion.texts[1],
         dialect: conversion.dialects[1],
         machine: after_machine,
         setup: &after_setup,
         assume: Assume::default(),
-    });
+    };
+    let (before, after) = (read(&before_run), read(&after_run));
     for (reading, which) in [(&before, "original"), (&after, "converted")] {
         if reading.given_up.is_some() {
             let why =
@@ -199,6 +203,12 @@ pub fn certify_conversion(
     let proof = converted_on(
         (&before, before_machine),
         (&after, after_machine),
+        &told.parts,
+        claim,
+        &terms,
+    )?;
+    holds_with_zeros_apart(
+        [(&before, &before_run), (&after, &after_run)],
         &told.parts,
         claim,
         &terms,

@@ -29,7 +29,7 @@
 //! * docs/contract.md#unknown-positions
 use crate::place::code_range;
 use crate::prelude::*;
-use trunnion_interp::{AXIS_LETTERS, MotionKind};
+use trunnion_interp::{AXIS_LETTERS, MotionKind, Swivel};
 use trunnion_machine::NoStance;
 
 pub(super) const RULE: Body = Body::sound(
@@ -43,7 +43,10 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
         return singular(lost, out);
     }
     // programs begin with rapids before every axis is positioned
-    let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
+    let nowhere = || {
+        let retracts = motion.tilt.swivel == Swivel::AxesLost;
+        lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0 || retracts
+    };
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
     }
@@ -203,6 +206,16 @@ mod tests {
             "gcode sinumerik-840d mikron-ucp710",
             "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG0 X0 Y0 Z20\n;^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nCYCLE800()\nM30\n",
         );
+    }
+
+    #[test]
+    fn a_turn_that_retracts_before_the_axes_are_positioned() {
+        for text in [
+            "G0 X0 Y0 Z50\nCYCLE800(1,\"\",0,57,0,0,0,10,0,0,0,0,0,-1,0)\n;^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nG0 X3 Y2 Z1\nM30\n",
+            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(1,\"\",0,57,0,0,0,10,0,0,0,0,0,-1,0)\n;^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nG0 X3 Y2 Z1\nM30\n",
+        ] {
+            assert_drawn("gcode sinumerik-840d mikron-ucp710", text);
+        }
     }
 
     #[test]

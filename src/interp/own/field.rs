@@ -1,5 +1,5 @@
 //! Fields of one to three dimensions: `DEF REAL A[3,2]=SET(1,2,3)`. SET fills row by row and keeps what it leaves out, REP repeats one value
-//! (Sinumerik 840D sl Programming Manual, Job Planning, fields). Fields of texts, axes and frames are not followed.
+//! (Sinumerik 840D sl Programming Manual, Job Planning, fields). Fields of axes and frames are not followed; those of texts: [`super::strings`].
 use super::{Own, Scope, Sort, arguments};
 
 /// A longer field is not followed.
@@ -230,7 +230,7 @@ impl Own {
 }
 
 /// Whether a list repeats its value (REP), and the text between its parentheses; `None`: it is no list.
-fn list(text: &str) -> Option<(bool, &str)> {
+pub(super) fn list(text: &str) -> Option<(bool, &str)> {
     let (name, inside) = text.trim().split_once('(')?;
     let inside = inside.strip_suffix(')')?;
     match name.trim().to_ascii_uppercase().as_str() {

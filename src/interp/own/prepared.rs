@@ -1,6 +1,8 @@
 //! Names with indices that a formula does not read itself: elements of fields of two and three dimensions (`A[1,2]`), and variables of the
 //! control (`$P_EP[X]`). They are evaluated first, and stand in the text of the formula as one name each, so that all places stay; so do
-//! comparisons of texts.
+//! comparisons of texts, and functions of them that give a number (`STRLEN(NAME)`).
+use super::strings::inside_of;
+use super::text_functions::is_of_number;
 use super::{Own, arguments};
 
 /// Indices inside indices.
@@ -94,6 +96,11 @@ impl Own {
                     let end = at + text[at..].iter().take_while(|byte| is_name(**byte)).count();
                     let blanks = text[end..].iter().take_while(|byte| **byte == b' ').count();
                     let open = end + blanks;
+                    if let Some((after, value)) = self.counted(text, (at, end), open) {
+                        replace(&mut out, &mut elements, (at, after), value)?;
+                        at = after;
+                        continue;
+                    }
                     if text.get(open) != Some(&b'[') {
                         at = end;
                         continue;
@@ -114,6 +121,16 @@ impl Own {
             }
         }
         (!elements.is_empty()).then_some((out, elements))
+    }
+
+    /// A function of a text that gives a number: where it ends and its value, if that is known.
+    fn counted(&self, text: &[u8], name: (usize, usize), open: usize) -> Option<(usize, Option<f64>)> {
+        if text.get(open) != Some(&b'(') {
+            return None;
+        }
+        let name = String::from_utf8_lossy(&text[name.0..name.1]).to_ascii_lowercase();
+        let (inside, after) = is_of_number(&name).then(|| inside_of(text, open)).flatten()?;
+        Some((after, self.number_of_text(&name, &inside)))
     }
 
     /// The value of a name with indices that is evaluated here; `None`: the formula reads it itself.

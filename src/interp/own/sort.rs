@@ -7,8 +7,14 @@ pub(crate) enum Sort {
     Real,
     Int,
     Bool,
-    /// A string, frame, axis or array: its value is not followed.
+    /// A string, frame, axis or array: no number.
     Other,
+}
+
+/// Whether a type of DEF or PROC holds texts: `STRING[20]`, CHAR.
+pub(crate) fn is_of_text(kind: &str) -> bool {
+    let stem = kind.split('[').next().unwrap_or_default().trim();
+    ["STRING", "CHAR"].iter().any(|known| stem.eq_ignore_ascii_case(known))
 }
 
 impl Sort {

@@ -25,7 +25,7 @@ impl Own {
     pub(crate) fn copied(&self) -> usize {
         let scope = &self.scope;
         let declared =
-            scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len() + scope.strings.len();
+            scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len() + self.texts_held();
         let values = self.parameters.len() + self.others.len() + self.texts.len() + self.before_loss.len();
         let task = self
             .task

@@ -70,7 +70,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let number = self.value_of(word);
         let text = self.text(word.value_range);
         if let Some(own) = &mut self.own {
-            if number.is_none() && own.assign_list(name, &text) {
+            if number.is_none() && (own.assign_list(name, &text) || own.assign_texts(name, &text)) {
                 return;
             }
             if number.is_none() {

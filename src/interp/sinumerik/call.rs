@@ -3,7 +3,7 @@ use super::saved::Saved;
 use crate::Sink;
 use crate::flow::{Back, Running};
 use crate::iso::Iso;
-use crate::own::{Own, Scope, Sort, arguments};
+use crate::own::{Own, Scope, Sort, arguments, is_of_text};
 use crate::{Fault, FaultKind, Refusal};
 use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value, Word};
 
@@ -17,6 +17,8 @@ struct Argument {
     is_left_out: bool,
     /// `None`: it is not known.
     value: Option<f64>,
+    /// The text that it is, if it is one that is known.
+    text: Option<Box<str>>,
     /// The variable that it is, if it is one.
     variable: Option<Box<str>>,
 }
@@ -35,6 +37,7 @@ impl With {
         let read = |text: &str| Argument {
             is_left_out: text.is_empty(),
             value: own.value(text),
+            text: own.text_argument(text),
             variable: is_variable(text).then(|| text.to_ascii_lowercase().into()),
         };
         let text = text.map(str::trim).filter(|text| !text.is_empty());
@@ -96,6 +99,8 @@ pub(crate) fn too_deep(levels: usize, limit: usize) -> Option<FaultKind> {
 struct Parameter {
     name: Box<str>,
     sort: Sort,
+    /// The type and the first text, where it holds a text: `STRING[20]`.
+    of_text: Option<(Box<str>, Option<Box<str>>)>,
     initial: Option<f64>,
     by_reference: bool,
     /// A field: the number of elements in each dimension, `None` where PROC leaves it open.
@@ -151,19 +156,28 @@ impl Proc {
                 words.remove(0);
             }
             let kind = words.first().and_then(|word| Sort::named(word)).unwrap_or(Sort::Other);
+            let of_text = words
+                .first()
+                .filter(|word| is_of_text(word) && words.len() == 2 && !words[1].contains('['));
+            let first = match text.split_once('=') {
+                Some((_, value)) => own.text_argument(value),
+                None => Some("".into()),
+            };
+            let of_text = of_text.map(|kind| ((*kind).into(), first));
             let (name, sizes) = match words.concat().split_once('[') {
-                Some((_, index)) => {
+                Some((_, index)) if of_text.is_none() => {
                     let name = words.get(1).copied().unwrap_or_default();
                     let index = index.strip_suffix(']').unwrap_or_default();
                     let size = |text: &str| own.value(text).map(|size| size as usize);
                     (name, Some(arguments(index).into_iter().map(size).collect()))
                 }
-                None => (words.last().copied().unwrap_or_default(), None),
+                _ => (words.last().copied().unwrap_or_default(), None),
             };
             let stem = name.split('[').next().unwrap_or_default();
             Parameter {
                 name: stem.to_ascii_lowercase().into(),
                 sort: kind,
+                of_text,
                 initial,
                 by_reference,
                 sizes,
@@ -256,6 +270,10 @@ impl Iso<'_> {
                 Sort::Other
             } else {
                 own.declare(&parameter.name, parameter.sort, value);
+                if let Some((kind, first)) = &parameter.of_text {
+                    let text = written.map_or(first, |argument| &argument.text);
+                    own.hand_text(kind, &parameter.name, text.as_deref());
+                }
                 parameter.sort
             };
             if let (true, Some(variable)) = (parameter.by_reference, variable) {
@@ -274,7 +292,7 @@ impl Iso<'_> {
         own.levels = own.levels.saturating_sub(1);
         own.in_modal = level.in_modal;
         for (here, there) in &level.references {
-            if !own.copy_back(&used, here, there) {
+            if !own.copy_back(&used, here, there) && !own.copy_text_back(&used, here, there) {
                 own.assign(there, used.value(here));
             }
         }

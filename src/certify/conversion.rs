@@ -40,7 +40,7 @@ pub(crate) use reason::turns_spent;
 pub use track::{Track, carried, rotary};
 pub use words::{moved_axes, same_words};
 pub use zero_names::ZeroNames;
-pub use zeros_apart::holds_with_zeros_apart;
+pub use zeros_apart::{holds_with_zeros_apart, left_behind};
 
 #[cfg(test)]
 mod tests;

@@ -5,17 +5,18 @@ use crate::events::{job, refusal};
 use crate::job::Job;
 use crate::plan::{Out, Planner};
 use crate::setting::Setting;
+use crate::swaps::{control_swaps, swaps_are_allowed};
 use crate::travel::{Beyond, Travel, travel, zeros_declared};
 use crate::{Options, Post, Refused, Target};
 use std::cell::OnceCell;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
-    Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Told, Why, converted_on,
-    holds_with_zeros_apart, read,
+    Ask, Assume, ConversionClaim, ConversionProof, Own, Reading, Run, Terms, Told, Why, converted_on,
+    holds_with_zeros_apart, left_behind, read,
 };
 use trunnion_dialect::Dialect;
 use trunnion_interp::{AllClampCodes, Fault, FaultKind, Lacks, LengthOf};
-use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
+use trunnion_machine::Machine;
 use trunnion_syntax::{BlockId, Format, LineIndex, Program};
 
 /// A program that is to be converted, with all it is read with.
@@ -38,6 +39,8 @@ pub struct Converted {
     pub renamed_offset: Option<(String, String)>,
     /// Lines of cuts whose feed per revolution became a feed per minute at the speed that is programmed.
     pub feeds_per_minute: Vec<u32>,
+    /// The first line with G41 or G42: the radius of the tool, as declared, is in the path that is written.
+    pub radius_in_path: Option<u32>,
     /// Tools whose length the original compensates, where the target compensates none: the operator sets the zero of Z with each.
     pub set_by_hand: Vec<u32>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
@@ -100,7 +103,13 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let (outs, swaps) = planner.plan(&job)?;
     let Written {
         text: written, moved, ..
-    } = setting.write(&reading, &job, &outs, source.setup, options)?;
+    } = setting.write(
+        &reading,
+        &job,
+        (&outs, &left_behind(&reading, &run)),
+        source.setup,
+        options,
+    )?;
     let claim = setting.claim(options, tolerance_mm, axis_deg);
     let (proof, turned, travel, told) = prove(
         (&reading, &run),
@@ -128,6 +137,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         set_by_hand: set_by_hand(&reading, &job, setting.post),
         renamed_offset: job.renamed_offset,
         feeds_per_minute: crate::feeds::per_minute(&reading, &outs, line),
+        radius_in_path: crate::feeds::compensated(&reading, source.dialect).map(line),
         swaps: swaps
             .iter()
             .map(|&index| line(reading.motions[index].motion.block))
@@ -161,29 +171,6 @@ fn set_by_hand(reading: &Reading, job: &Job, post: Option<&Post>) -> Vec<u32> {
         .map(|(number, _)| *number)
         .filter(|&number| number > 0)
         .collect()
-}
-
-/// Refuses a conversion in which the control takes another posture inside a cut, unless the user allows it.
-fn swaps_are_allowed(
-    turned: &[usize],
-    reading: &Reading,
-    setting: &Setting<'_>,
-    options: &Options,
-) -> Result<(), Refused> {
-    if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
-        let block = reading.motions[index].motion.block;
-        let message = format!(
-            "in this cut the control {} ({} such places in all): retract there, or add --allow-swap",
-            if setting.vectors {
-                "turns to the other posture for the vector"
-            } else {
-                "moves the tool axis along a great circle past the pole, where the machine cannot turn to the posture at the end"
-            },
-            turned.len()
-        );
-        return Err(Refused::at(&reading.program, block, message));
-    }
-    Ok(())
 }
 
 /// The text; where INSERT is to be a remark, every such record becomes one of the same length.
@@ -368,38 +355,4 @@ fn prove(
 /// Whether X of a program counts diameters.
 fn diameters(dialect: &Dialect, machine: Option<&Machine>) -> bool {
     dialect.quirks.diameter || machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.extra.diameter))
-}
-
-/// Original motions in whose cut a control that reads vectors turns to the other posture, as rule branch-swap measures it, or in which
-/// one that moves the tool axis along a great circle would have to away from the pole, which no machine can.
-fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>, vectors: bool) -> Vec<usize> {
-    let Some(machine) = machine else { return Vec::new() };
-    let swaps_in = |posed: &Posed| {
-        let Some(leg) = posed.leg.as_ref().filter(|_| posed.motion.is_feed()) else {
-            return false;
-        };
-        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
-            return false;
-        };
-        let torn = start.branch * end.branch < 0
-            && leg.pole_angle_min > POLE_TOLERANCE
-            && posed.tip_words()
-            && rotary_turns(machine, leg).is_none();
-        torn || vectors && leg.rotary_excess > machine.tolerances.swap_excess
-    };
-    let (mut swaps, mut was, mut is) = (Vec::new(), 0, 0);
-    for part in parts {
-        let (before, count) = match part {
-            Part::Moves(count) => (1, *count as usize),
-            Part::Words => (1, 1),
-            Part::Left => (1, 0),
-            Part::Added(count) => (0, *count as usize),
-        };
-        if before == 1 && after.motions[is..is + count].iter().any(swaps_in) {
-            swaps.push(was);
-        }
-        was += before;
-        is += count;
-    }
-    swaps
 }

@@ -42,8 +42,10 @@ pub(crate) struct Writer<'a> {
     /// A plane other than G17 is in effect, for an arc.
     pub(crate) off_plane: bool,
     pub(crate) zero: [f64; 9],
-    /// Whether it is declared; `None`: none was written yet.
-    zero_declared: Option<bool>,
+    /// Axes that the motion at hand must not name, bits from X: see [`trunnion_certify::conversion::left_behind`].
+    pub(crate) stays: u16,
+    /// The same of each motion.
+    pub(crate) all_stay: &'a [u16],
     /// Klartext is written.
     pub(crate) klartext: bool,
 }
@@ -59,7 +61,7 @@ pub(crate) struct Written {
 
 impl<'a> Writer<'a> {
     pub(crate) fn new(
-        reading: &'a Reading,
+        (reading, all_stay): (&'a Reading, &'a [u16]),
         post: &'a Post,
         setting: &'a Setting<'a>,
         options: &'a Options,
@@ -85,7 +87,8 @@ impl<'a> Writer<'a> {
             coolant_outside: false,
             off_plane: false,
             zero: [0.0; 9],
-            zero_declared: None,
+            stays: 0,
+            all_stay,
             klartext: setting.klartext(),
         }
     }
@@ -272,14 +275,8 @@ impl<'a> Writer<'a> {
         })?;
         let declared = self.setup.work_offsets.iter();
         let mut declared = declared.filter(|offset| offset.name.eq_ignore_ascii_case(name));
-        let declared = declared.next().map(|offset| offset.values);
-        // both are taken as 0: an axis that does not move is not written, and has the position that it has on the control
-        let by_assumption = self.zero_declared == Some(false) && declared.is_none();
-        self.zero_declared = Some(declared.is_some());
-        self.zero = declared.unwrap_or([0.0; 9]);
-        if !by_assumption {
-            self.forget_coordinates();
-        }
+        self.zero = declared.next().map_or([0.0; 9], |offset| offset.values);
+        self.forget_coordinates();
         Ok(())
     }
 
@@ -347,6 +344,7 @@ impl<'a> Writer<'a> {
     }
 
     fn motion(&mut self, out: &Out, index: usize, block: BlockId) -> Result<(), Refused> {
+        self.stays = self.stays_in(index, block)?;
         match out {
             Out::Left => Ok(()),
             Out::Words { known, led, length } => self.plain_rapid(known, (*led, *length), block),

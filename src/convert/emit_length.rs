@@ -5,7 +5,28 @@ use crate::{OrientationWords, Refused};
 use trunnion_interp::LengthOf;
 use trunnion_syntax::{BlockId, Format};
 
+/// Coordinates that differ by less are the same, mm.
+const SAME_MM: f64 = 1e-6;
+
 impl Writer<'_> {
+    /// Axes that a motion must not name, bits from X. Refused where one of them moves: no word says where to.
+    pub(crate) fn stays_in(&self, index: usize, block: BlockId) -> Result<u16, Refused> {
+        let stays = self.all_stay.get(index).copied().unwrap_or(0);
+        let motion = &self.reading.motions[index].motion;
+        if let (1.., Some(start), Some(end)) = (stays, motion.start.xyz(), motion.end.xyz())
+            && let Some(axis) =
+                (0..3).find(|axis| stays & 1 << axis != 0 && (end[*axis] - start[*axis]).abs() > SAME_MM)
+        {
+            let message = format!(
+                "where {} is after the change of the zero point depends on values that nobody declares: declare the zero points in [work_offsets], or \
+                 program X, Y and Z after the change",
+                crate::emit_code::WORDS[axis]
+            );
+            return Err(self.refuse(Some(block), message));
+        }
+        Ok(stays)
+    }
+
     /// Tool centre point control on, or the tool's length.
     pub(crate) fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
         if self.ready {

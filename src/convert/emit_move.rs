@@ -47,6 +47,9 @@ impl Writer<'_> {
         let mut words: Vec<String> = self.modal.change("motion", code.to_owned()).into_iter().collect();
         let mut turns = 0;
         for (axis, value) in known {
+            if self.stays & 1 << axis != 0 {
+                continue;
+            }
             let text = if (3..6).contains(axis) {
                 number(*value, self.post.angle, self.post.point)
             } else {
@@ -103,7 +106,8 @@ impl Writer<'_> {
         let turns = self.coordinates(one, axis, &mut words);
         if words.len() == before {
             // nothing changes: a word makes it a motion
-            words.push(format!("X{}", self.length(one.xyz.x)));
+            let axis = (0..3).find(|axis| self.stays & 1 << axis == 0).unwrap_or(0);
+            words.push(format!("{}{}", WORDS[axis], self.length(one.xyz[axis])));
         }
         if let Some((arc, axis)) = arc.zip(axis) {
             self.arc_words(&arc, axis, &mut words);
@@ -122,6 +126,9 @@ impl Writer<'_> {
         let mut turns = 0;
         for (axis, word) in WORDS.into_iter().enumerate().take(3) {
             let text = format!("{word}{}", self.signed(self.length(one.xyz[axis])));
+            if self.stays & 1 << axis != 0 {
+                continue;
+            }
             if arc_axis.is_some_and(|normal| normal != axis) {
                 // the plane's coordinates are always there
                 self.modal.forget(word);

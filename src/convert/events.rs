@@ -1,4 +1,5 @@
 //! Events of a program: what its blocks contain apart from motions, in the order the control runs them.
+use crate::events_spindle::Spindle;
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Post, Refused};
 use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why, ZeroNames};
@@ -83,22 +84,13 @@ pub(crate) fn job(
     Ok(job)
 }
 
-/// The last command to the spindle.
-#[derive(Clone, Copy, PartialEq)]
-enum Spindle {
-    Unknown,
-    Off,
-    /// Counter-clockwise, and its speed.
-    On(bool, f64),
-}
-
-struct EventCollector<'p> {
-    program: &'p Program,
+pub(crate) struct EventCollector<'p> {
+    pub(crate) program: &'p Program,
     post: Option<&'p Post>,
-    job: Job,
-    spindle: Spindle,
+    pub(crate) job: Job,
+    pub(crate) spindle: Spindle,
     /// The speed that was written last, 1/min.
-    speed: Option<f64>,
+    pub(crate) speed: Option<f64>,
     /// Neither a stop nor a tool change ends the coolant in the original.
     keeps_coolant: bool,
     /// The coolants that the original has switched on.
@@ -277,36 +269,6 @@ impl EventCollector<'_> {
             self.job.push(Event::WorkOffset(written), block);
         }
         Ok(())
-    }
-
-    fn spindle(&mut self, on: Option<bool>, rpm: Option<f64>, turns: bool, block: BlockId) -> Result<(), Refused> {
-        let wanted = match (on, rpm) {
-            (None, _) => return Ok(()),
-            (Some(false), _) => Spindle::Off,
-            (Some(true), Some(rpm)) => Spindle::On(turns, rpm),
-            (Some(true), None) => {
-                let message = "the spindle turns at an unknown speed (none is programmed, or a cutting speed is)";
-                return Err(Refused::at(self.program, block, message));
-            }
-        };
-        if self.spindle != wanted {
-            self.spindle = wanted;
-            let event = match wanted {
-                Spindle::On(ccw, rpm) => Event::SpindleOn(ccw, rpm),
-                Spindle::Off | Spindle::Unknown => Event::SpindleOff,
-            };
-            self.job.push(event, block);
-            self.speed = rpm.filter(|_| on == Some(true)).or(self.speed);
-        }
-        Ok(())
-    }
-
-    /// A cut runs where it is not known whether the spindle turns: after a stop, or without M3. The speed is that of the program.
-    fn speed(&mut self, rpm: Option<f64>, block: BlockId) {
-        if let Some(speed) = rpm.filter(|_| rpm != self.speed) {
-            self.speed = rpm;
-            self.job.push(Event::Speed(speed), block);
-        }
     }
 }
 

@@ -1,8 +1,9 @@
-//! Cuts whose feed does not mean the same in the output.
+//! What does not mean the same in the output: feeds that followed the spindle, and a tool radius that the control compensated.
 use crate::plan::Out;
 use trunnion_certify::conversion::Reading;
+use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::Feed;
-use trunnion_syntax::BlockId;
+use trunnion_syntax::{Address, BlockId, Value};
 
 /// Lines of the original: see [`crate::Converted::feeds_per_minute`].
 pub(crate) fn per_minute(reading: &Reading, outs: &[Out], line: impl Fn(BlockId) -> u32) -> Vec<u32> {
@@ -17,4 +18,18 @@ pub(crate) fn per_minute(reading: &Reading, outs: &[Out], line: impl Fn(BlockId)
         .collect();
     lines.dedup();
     lines
+}
+
+/// The first block that ran with G41 or G42. The output has the path of the tool's centre without them.
+pub(crate) fn compensated(reading: &Reading, dialect: &Dialect) -> Option<BlockId> {
+    let compensates = |block: &BlockId| {
+        reading.program.block(*block).words().any(|word| {
+            let (Address::Letter(b'G'), Value::Number(number)) = (word.address, word.value) else {
+                return false;
+            };
+            let code = dialect.g((number.to_f64() * 10.0).round() as u32);
+            code.is_some_and(|code| matches!(code.action, Action::CompensationLeft | Action::CompensationRight))
+        })
+    };
+    reading.blocks.iter().map(|ran| ran.block).find(compensates)
 }

@@ -16,6 +16,7 @@ mod emit_move;
 mod events;
 mod events_apt;
 mod events_klartext;
+mod events_spindle;
 mod feeds;
 mod job;
 mod meanings;
@@ -30,6 +31,7 @@ mod posture;
 mod refuse;
 mod sample;
 mod setting;
+mod swaps;
 mod template;
 mod travel;
 

@@ -184,7 +184,7 @@ impl<'a> Setting<'a> {
         &self,
         reading: &Reading,
         job: &Job,
-        outs: &[Out],
+        (outs, stays): (&[Out], &[u16]),
         setup: &Setup,
         options: &Options,
     ) -> Result<Written, Refused> {
@@ -195,7 +195,7 @@ impl<'a> Setting<'a> {
                 clamping: Clamping::default(),
             });
         };
-        let write = |clamping| Writer::new(reading, post, self, options, setup, clamping).write(job, outs);
+        let write = |clamping| Writer::new((reading, stays), post, self, options, setup, clamping).write(job, outs);
         let written = write(Clamping::default())?;
         let codes = self.clamp_codes();
         if codes == AllClampCodes::default() {

@@ -26,6 +26,15 @@ fn per_minute(name: &str, converted: &Converted) -> Option<String> {
     })
 }
 
+/// Cutter radius compensation that the control does not do any more.
+fn radius(name: &str, converted: &Converted) -> Option<String> {
+    let line = converted.radius_in_path?;
+    Some(format!(
+        "{name}: the program that was written has no radius compensation (line {line}: G41 or G42): the declared radius is in its path, and a radius or \
+         wear that is entered at the control has no effect"
+    ))
+}
+
 /// Tools whose length the output does not compensate.
 fn by_hand(name: &str, converted: &Converted) -> Option<String> {
     let tools: Vec<String> = converted.set_by_hand.iter().map(|tool| format!("T{tool}")).collect();
@@ -83,6 +92,7 @@ pub(crate) fn summary(name: &str, converted: &Converted) -> Vec<String> {
     lines.extend(renamed(name, converted));
     lines.extend(by_hand(name, converted));
     lines.extend(per_minute(name, converted));
+    lines.extend(radius(name, converted));
     if !converted.swaps.is_empty() {
         let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
@@ -158,6 +168,7 @@ pub(super) fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &C
         "left_out": left_out,
         "renamed_offset": converted.renamed_offset.as_ref().map(|(was, now)| json!({ "was": was, "now": now })),
         "feeds_per_minute_lines": converted.feeds_per_minute,
+        "radius_in_path_line": converted.radius_in_path,
         "set_z_zero_for_tools": converted.set_by_hand,
         "swap_lines": converted.swaps,
         "beyond_travel": beyond,

@@ -21,3 +21,4 @@ mod round;
 mod shifts;
 mod support;
 mod unsafe_gaps;
+mod zeros;

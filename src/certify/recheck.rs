@@ -13,7 +13,7 @@ use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{FaultKind, Library, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Refit, Steps, Verdict, compare, only_by_chance, undeclared, unrelated};
+use trunnion_same::{Input, Refit, Steps, Verdict, compare, only_by_chance, says_otherwise, undeclared, unrelated};
 use trunnion_syntax::{LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
@@ -202,9 +202,14 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
             claim,
             ..question
         });
-        if let Err(Outcome::Refuted(found)) = again {
-            let place = found.line.map_or_else(String::new, |line| format!("line {line}: "));
-            return Err(Outcome::unknown_at(found.line, place + &only_by_chance(&unset)));
+        let line = match again {
+            Err(Outcome::Refuted(found)) => Some(found.line),
+            Err(Outcome::Unknown(gap)) if says_otherwise(&gap.to_string()) => Some(gap.line),
+            _ => None,
+        };
+        if let Some(line) = line {
+            let place = line.map_or_else(String::new, |line| format!("line {line}: "));
+            return Err(Outcome::unknown_at(line, place + &only_by_chance(&unset)));
         }
     }
     Ok(proved)

@@ -9,7 +9,8 @@ use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
 use trunnion_interp::FaultKind;
 use trunnion_same::{
-    Claim, Difference, Input, Near, Steps, Stop, Verdict, only_by_chance, run_alike, undeclared, unrelated,
+    Claim, Difference, Input, Near, Steps, Stop, Verdict, only_by_chance, run_alike, says_otherwise, undeclared,
+    unrelated,
 };
 use trunnion_syntax::BlockId;
 
@@ -159,11 +160,12 @@ fn by_chance(pair: &Pair<'_>, claim: &Claim, mut near: Near, unset: &[FaultKind]
         [(pair.before, before), (pair.after, after)].map(|(input, setup)| Steps::new(Input { setup, ..input }));
     let [one, other] = &mut sides;
     match trunnion_same::compare(one, other, claim, &mut near) {
-        Verdict::Differs(found) => Some(Difference {
+        Verdict::Unknown(found) if !says_otherwise(&found.what) => None,
+        Verdict::Differs(found) | Verdict::Unknown(found) => Some(Difference {
             what: only_by_chance(unset),
             ..found
         }),
-        Verdict::Same | Verdict::Unknown(_) => None,
+        Verdict::Same => None,
     }
 }
 

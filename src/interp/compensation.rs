@@ -66,6 +66,8 @@ pub(crate) struct Compensation {
     held: Option<Box<Held>>,
     /// Motions without a path in the plane, after the held one.
     between: Vec<PendingMotion>,
+    /// Blocks after the held motion that move nothing: M, S, F or G codes alone.
+    still_blocks: usize,
     /// Motions that can be emitted now.
     pub(crate) ready: Vec<PendingMotion>,
 }
@@ -215,6 +217,7 @@ impl Iso<'_> {
     fn follow(&mut self, mut pending: PendingMotion, element: Element, report: &mut Report<'_>) {
         let offset = self.side() * self.memory.compensation.radius;
         let Some(held) = self.memory.compensation.held.take() else {
+            self.memory.compensation.still_blocks = 0;
             // after a start-up that was already emitted
             self.memory.compensation.held = Some(Box::new(Held {
                 from: element.start,
@@ -251,7 +254,8 @@ impl Iso<'_> {
                 let tip = self.memory.compensation.tip;
                 let starts = !held.leads;
                 held.element.shift(&mut ready.0, tip, [starts, true]);
-                let unsure = self.memory.compensation.between.len() > 1;
+                let still = std::mem::take(&mut self.memory.compensation.still_blocks);
+                let unsure = self.memory.compensation.between.len() + still > 1;
                 self.release(ready, &held.element, element::add(join.end, tip, 1.0), unsure, report);
                 let mut from = join.end;
                 for next in join.links {
@@ -289,7 +293,8 @@ impl Iso<'_> {
     ) {
         let between = std::mem::take(&mut self.memory.compensation.between);
         if unsure {
-            let what = "cutter radius compensation: a corner after several motions out of the plane".to_owned();
+            let what =
+                "cutter radius compensation: a corner after several blocks that do not move in the plane".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             element.forget(&mut pending.0.end);
         }
@@ -305,8 +310,23 @@ impl Iso<'_> {
         }
     }
 
+    /// A block that moves nothing, while a motion waits for the next one: a control reads only a few blocks ahead (Fanuc Series 15i operator's
+    /// manual, 14.4.3: M, S, T and dwell in blocks of their own count). Other languages count other blocks.
+    pub(crate) fn note_still_block(&mut self, block: &trunnion_syntax::Block<'_>) {
+        let says = |word: trunnion_syntax::Word| {
+            matches!(
+                word.address,
+                trunnion_syntax::Address::Letter(b'M' | b'S' | b'T' | b'F' | b'G')
+            )
+        };
+        if self.memory.compensation.held.is_some() && !self.core.dialect.quirks.declares_names() {
+            self.memory.compensation.still_blocks += usize::from(block.words().any(says));
+        }
+    }
+
     /// The last motion of the contour ends beside its end.
     fn settle(&mut self, report: &mut Report<'_>) -> Option<Point> {
+        self.memory.compensation.still_blocks = 0;
         let held = self.memory.compensation.held.take()?;
         let offset = self.side() * self.memory.compensation.radius;
         let end = if held.leads {

@@ -158,6 +158,13 @@ impl Flow {
             .map_or_else(Vec::new, |deep| deep.variables.kept(first))
     }
 
+    /// Those from `first` on that are vacant.
+    pub(crate) fn vacant(&self, first: u32) -> Vec<String> {
+        self.deep
+            .as_ref()
+            .map_or_else(Vec::new, |deep| deep.variables.vacant(first).collect())
+    }
+
     /// All variables of Macro B that have a value.
     pub(crate) fn all_variables(&self) -> Vec<crate::Argument> {
         self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.all())

@@ -73,6 +73,8 @@ pub(crate) struct Frames {
     pub(crate) local: [f64; 9],
     /// Offset of all zero points, written by G10 L2 P0.
     pub(crate) external: [f64; 9],
+    /// Axes in which the program has written it, bits as in [`crate::Position::known`].
+    pub(crate) external_written: u16,
     /// Declared offset of a lathe's tool.
     pub(crate) turret: [f64; 9],
     /// Work offsets that the program has written, by name.

@@ -5,7 +5,8 @@
 use crate::Claim;
 use crate::begin::{begin_alike, may_be_part, way_is_open};
 use crate::curve::{self, Curve};
-use crate::cut::{cut, is_idle, may_be_cut};
+use crate::cut::{blocks_count, cut, is_idle, may_be_cut};
+use crate::elsewhere::same_elsewhere;
 use crate::ending::{at_end, stopped};
 use crate::exact;
 use crate::happens::happens;
@@ -132,6 +133,7 @@ fn walk(
         return Ok(());
     }
     stopped(before, after)?;
+    same_elsewhere(before, after)?;
     if !claim.path_only && !claim.across {
         at_end(before, after)?;
     }
@@ -232,12 +234,17 @@ fn pair(
                 }
             }
             held(was, is, claim)?;
+            if claim.cuts {
+                open_blocks(was, is, false)?;
+            }
             if claim.cuts && !ends_together(was, is, claim) {
                 if let Some(off) = cut(is, was, claim) {
+                    open_blocks(was, is, true)?;
                     judge.cut(off);
                     return Ok(Paired::FirstInPart);
                 }
                 if let Some(off) = cut(was, is, claim) {
+                    open_blocks(was, is, true)?;
                     judge.cut(off);
                     return Ok(Paired::SecondInPart);
                 }
@@ -256,6 +263,17 @@ fn pair(
         _ => return Err(only_one(Some(was), Some(is))),
     }
     Ok(Paired::Both)
+}
+
+/// Undecided, where the number of blocks counts: [`blocks_count`].
+fn open_blocks(was: &Step, is: &Step, is_cut: bool) -> Result<(), Verdict> {
+    blocks_count(was, is, is_cut).map_or(Ok(()), |what| {
+        Err(Verdict::Unknown(Difference {
+            before: Some(was.motion.block),
+            after: Some(is.motion.block),
+            what,
+        }))
+    })
 }
 
 /// A line of the program before and the motion that takes its place, alone or with others.

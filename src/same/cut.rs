@@ -9,7 +9,23 @@ const STANDS: f64 = 1e-9;
 
 /// Whether a motion moves nothing and takes no time: a block that repeats the position before it.
 pub(crate) fn is_idle(step: &Step) -> bool {
-    step.may_repeat && step.said.is_none() && stays(step)
+    step.may_repeat && step.said.is_none() && stays(step) && !runs_beside(step)
+}
+
+/// Whether the tool runs beside the programmed path by an amount that is not computed: how a corner is cut depends on all blocks around it.
+fn runs_beside(step: &Step) -> bool {
+    step.motion.undeclared.beside != 0
+}
+
+/// Why two motions cannot be compared where one program has a block that the other has not, and the tool runs beside the programmed path by
+/// an amount that nobody declares.
+pub(crate) fn blocks_count(was: &Step, is: &Step, is_cut: bool) -> Option<String> {
+    let beside = runs_beside(was) || runs_beside(is);
+    (beside && (is_cut || stays(was) != stays(is))).then(|| {
+        "one of them makes this path in more blocks under cutter radius compensation, and the radius is not declared: how the control cuts the corners \
+         depends on the blocks"
+            .to_owned()
+    })
 }
 
 /// Whether a motion repeats the position before it, after something that may have moved the machine.

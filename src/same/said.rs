@@ -17,6 +17,15 @@ const ALL: u16 = 0x1ff;
 /// Between what a block says and the values that are not known.
 const ENDS: char = '\n';
 
+/// How the reason begins where two blocks say different things.
+const SAY_OTHERWISE: &str = "where it ends or how fast is unknown, and the blocks say different things";
+
+/// Whether a comparison is undecided because two blocks with unknown results say different things: where the same programs were the same with
+/// other values of what nobody declares, these values decide.
+pub fn says_otherwise(why: &str) -> bool {
+    why.contains(SAY_OTHERWISE)
+}
+
 /// Why two blocks may do different things where the result is not known; `None` where they say the same.
 pub(crate) fn unlike(was: Option<&str>, is: Option<&str>) -> Option<String> {
     if was == is {
@@ -27,7 +36,7 @@ pub(crate) fn unlike(was: Option<&str>, is: Option<&str>) -> Option<String> {
         "where both end is unknown, and it depends on other blocks that differ".to_owned()
     } else {
         let [was, is] = words.map(|words| words.map_or("nothing unknown".to_owned(), |words| format!("`{words}`")));
-        format!("where it ends or how fast is unknown, and the blocks say different things: {was} and {is}")
+        format!("{SAY_OTHERWISE}: {was} and {is}")
     };
     Some(what)
 }
@@ -80,7 +89,12 @@ impl Steps<'_> {
         {
             return None;
         }
-        let mut counts = Said::default();
+        // F of a thread whose lead changes: the feed is not known, but what it begins with is
+        let begins_with = self.state().feed.value().filter(|_| lost.feed);
+        let mut counts = Said {
+            counts: begins_with.is_some(),
+            ..Said::default()
+        };
         if !lost.kind {
             self.collect(motion, &lost, &mut counts);
             if !counts.counts {
@@ -92,6 +106,9 @@ impl Steps<'_> {
             ..Said::default()
         };
         self.collect(motion, &lost, &mut said);
+        if let Some(feed) = begins_with {
+            said.words.push(format!("modal F{feed}"));
+        }
         Some(said.told(motion, self.state()))
     }
 

@@ -1,6 +1,7 @@
 //! A program as a stream of what it does: only the steps of the current block are kept.
 use crate::actions::Actions;
 use crate::counted::Counted;
+use crate::elsewhere::Elsewhere;
 use crate::ending::ends;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
@@ -52,6 +53,8 @@ pub(crate) struct Run<'a> {
     /// Faults, if they are requested.
     faults: Option<Vec<Fault>>,
     pub(crate) zeros: Zeros,
+    /// The first thing that is not modelled and may run other lines.
+    pub(crate) elsewhere: Elsewhere,
     /// Effects with their numbers in the run, if they are requested.
     log: Option<Vec<(u32, Placed)>>,
 }
@@ -91,6 +94,9 @@ impl Sink for Run<'_> {
         let Placed { block, effect, reach } = effect;
         if matches!(effect, Effect::Unmodelled(_)) || reach == Reach::Everything {
             self.actions.add(Actions::OPEN);
+        }
+        if let Effect::Unmodelled(words) = &effect {
+            self.elsewhere.note(block, words);
         }
         self.wait(self.count, block, Waits::Effect(effect, reach));
     }
@@ -155,6 +161,7 @@ impl<'a> Steps<'a> {
                 missing: Vec::new(),
                 faults: None,
                 zeros: Zeros::default(),
+                elsewhere: Elsewhere::default(),
                 log: None,
             },
             ready: VecDeque::new(),
@@ -255,11 +262,6 @@ impl<'a> Steps<'a> {
         std::mem::take(&mut self.ready)
     }
 
-    /// The modal state now.
-    pub fn state(&self) -> &ModalState {
-        self.interpreter.state()
-    }
-
     /// Runs the next block; `None` at the end.
     pub fn advance(&mut self) -> Option<BlockId> {
         if self.over {
@@ -321,6 +323,7 @@ impl<'a> Steps<'a> {
             step.starts_anew = self.since.starts_anew(&step.motion);
             step.may_repeat = self.since.motion(&step.motion, &step.held);
             step.said = self.said(&step.motion);
+            self.run.elsewhere.note_said(&step);
             if !Arc::ptr_eq(&step.process, &self.run.process) {
                 step.process = Arc::clone(&self.run.process);
             }

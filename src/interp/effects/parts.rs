@@ -89,10 +89,17 @@ impl Iso<'_> {
         if opaque || self.core.dialect.quirks.declares_names() {
             return 0;
         }
+        // knots and weights of a curve that is not modelled, in blocks of their own
+        let is_open = matches!(self.core.state.motion, Some(Action::NotModelled));
+        let in_force = if is_open && !words.axes.any() {
+            0
+        } else {
+            self.read_in_force(words, taken)
+        };
         let read = codes
             .iter()
             .filter(|found| !(found.code.kind == CodeKind::M && found.code.action == Action::NoMotion))
-            .fold(self.read_in_force(words, taken), |read, found| {
+            .fold(in_force, |read, found| {
                 read | if found.code.kind == CodeKind::M {
                     crate::unused::letters(found.code)
                 } else {

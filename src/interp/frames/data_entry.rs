@@ -124,7 +124,10 @@ impl<'d> Iso<'d> {
         };
         let mut zero = match &name {
             Some(name) => self.offset_values(name).unwrap_or_default(),
-            None => OffsetValues::declared(self.memory.frames.external),
+            None => OffsetValues {
+                values: self.memory.frames.external,
+                known: self.memory.frames.external_written,
+            },
         };
         for (axis, kept) in zero.values.iter_mut().enumerate() {
             if let Some(value) = self.axis_value(words, axis) {
@@ -140,6 +143,7 @@ impl<'d> Iso<'d> {
             self.store_offset(&name, zero);
         } else {
             self.memory.frames.external = zero.values;
+            self.memory.frames.external_written = zero.known;
             self.refresh_zero();
         }
     }

@@ -128,6 +128,10 @@ impl<'d> Engine<'d> for Iso<'d> {
         kept.extend(self.memory.own.parameters());
         kept
     }
+    fn outliving_texts(&self) -> Vec<(String, String)> {
+        let vacant = self.flow.vacant(self.first_kept()).into_iter();
+        vacant.map(|name| (name, "no value (vacant)".to_owned())).collect()
+    }
 }
 
 impl Iso<'_> {

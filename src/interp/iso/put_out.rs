@@ -62,6 +62,9 @@ impl Iso<'_> {
             faults: &mut |fault| sink.fault(fault),
         };
         let out = std::mem::take(&mut self.memory.out);
+        if out.is_empty() && motion.is_none() {
+            self.note_still_block(block);
+        }
         let mut on = Vec::new();
         for motion in out.iter().chain(motion) {
             self.round_corner(motion, &mut on, &mut report);

@@ -218,7 +218,8 @@ impl Known<'_> {
     fn offset(&self, number: u32) -> Option<f64> {
         let (name, axis) = offset_of(number)?;
         let value = match name {
-            None => self.frames.external[axis],
+            // nothing declares it
+            None => (self.frames.external_written & (1 << axis) != 0).then_some(self.frames.external[axis])?,
             Some(name) => {
                 let zero = self.frames.offset_values(&name, self.setup)?;
                 (zero.known & (1 << axis) != 0).then_some(zero.values[axis])?
@@ -270,6 +271,7 @@ impl Iso<'_> {
         let Some((name, axis)) = offset_of(number) else { return };
         let Some(name) = name else {
             self.memory.frames.external[axis] = value;
+            self.memory.frames.external_written |= 1 << axis;
             return self.refresh_zero();
         };
         let mut zero = self.offset_values(&name).unwrap_or_default();

@@ -174,6 +174,11 @@ impl Variables {
             .filter(|(_, value)| !value.is_nan())
             .collect()
     }
+    /// The common variables from `first` on that are vacant since the program, or the setup, has left them so.
+    pub(crate) fn vacant(&self, first: u32) -> impl Iterator<Item = String> {
+        let kept = self.common.range(first..).filter(|_| !self.lost);
+        kept.filter_map(|(number, held)| held.is_none().then(|| format!("#{number}")))
+    }
     /// A named variable.
     pub(crate) fn named(&self, name: &str) -> Option<f64> {
         if self.lost {

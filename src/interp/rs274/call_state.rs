@@ -25,8 +25,6 @@ pub(super) struct CallState {
     pub(super) set_here: bool,
     /// It was reported that no G5.3 has ended the spline.
     pub(super) spline_said: bool,
-    /// The program has set the shift of G92, or cleared it: what the program before left no longer counts.
-    pub(super) g92_known: bool,
     pub(super) tool_offset: Pose,
     /// The block in which each line begins, where that is not its number.
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,

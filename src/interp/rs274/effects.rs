@@ -29,14 +29,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             let speed = Canon::SpindleSpeed(*spindle, speed.copied().unwrap_or(f64::NAN));
             self.effect_of_call(&speed, at, state);
         }
-        if matches!(call, Canon::G92Offset(_)) && !self.calls.g92_known {
-            self.calls.g92_known = self.has_code(at, |tenths| matches!(tenths, 520 | 920..=923));
-            if self.has_code(at, |tenths| matches!(tenths, 921 | 922)) {
-                let block = self.block(at);
-                let effect = Effect::set("G92 of the program before", [Argument::code("cleared")]);
-                self.core.effects.add(block, effect);
-                self.hand_on();
-            }
+        // also after a G92 of the program, which shifts the axes that it names and leaves the rest
+        if matches!(call, Canon::G92Offset(_)) && self.has_code(at, |tenths| matches!(tenths, 921 | 922)) {
+            let block = self.block(at);
+            let effect = Effect::set("G92 of the program before", [Argument::code("cleared")]);
+            self.core.effects.add(block, effect);
+            self.hand_on();
         }
         if let Canon::G92Offset(offset) = call
             && Shift::metric(offset, state.units.mm()).map(f64::to_bits) != self.calls.g92.map(f64::to_bits)

@@ -178,7 +178,9 @@ pub fn attempt_at(
     wanted: impl Fn(&Place) -> bool,
     known: &Known,
 ) -> Attempt {
-    if let Err(reason) = known.runs_straight(program, settings) {
+    if rewrite.changes_motions()
+        && let Err(reason) = known.runs_straight(program, settings)
+    {
         return Attempt::whole(program, Change::Refused(reason.clone()));
     }
     let proposal = match rewrite.propose(program, settings, options, known) {

@@ -186,6 +186,11 @@ impl Rewrite {
         (self.proposes)(program, settings, options, known)
     }
 
+    /// Whether it changes motions, so that a program in which one word drives several has no place for it. New block numbers change none.
+    pub(crate) fn changes_motions(&self) -> bool {
+        self.name != "renumber"
+    }
+
     /// What it reads and writes, where it does so in G code only and the program is Klartext.
     pub fn only_in_g_code(&self, program: &Program) -> Option<&'static str> {
         self.writes.filter(|_| program.options().format == Format::Klartext)

@@ -16,7 +16,8 @@ use crate::sentences::only_one;
 use crate::steps::Steps;
 use crate::unit::{other_unit_event, other_unit_settings, unit_of_stores};
 use crate::verdict::{Difference, Verdict};
-use trunnion_dialect::Action;
+use trunnion_dialect::{Action, Plane};
+use trunnion_geometry::Vec3;
 use trunnion_interp::{AXIS_LETTERS, ChainId, Feed, Motion, MotionKind, Tilt, same_number};
 
 /// What a comparison has found.
@@ -58,7 +59,7 @@ pub fn compare_changed(before: &mut Steps<'_>, after: &mut Steps<'_>, change: &C
         names_rotary: names_rotary(before.input()),
         turns_parts: before.input().dialect.quirks.diameter,
         y_seen: false,
-        keeps_length: change.keeps(before.input().setup.length_along()),
+        along: before.input().setup.length_along(),
         drills: false,
         last: None,
         apart: Apart::default(),
@@ -110,8 +111,8 @@ struct Walk<'c> {
     turns_parts: bool,
     /// Y has moved, or was somewhere else than on the axis of the spindle.
     y_seen: bool,
-    /// A tool length shifts both programs alike.
-    keeps_length: bool,
+    /// The direction in which a tool length shifts, while the plane is XY.
+    along: [f64; 3],
     /// A drilling cycle is active: its steps add up several words.
     drills: bool,
     /// The motion before.
@@ -332,8 +333,17 @@ impl Walk<'_> {
             || last.motion.undeclared.set_here != before.motion.undeclared.set_here;
         let length = last.held.length_of != before.held.length_of
             || !same_number(last.motion.tool_length_mm, before.motion.tool_length_mm);
-        if other || length && !self.keeps_length {
+        let usual = before.held.plane == Plane::Xy && last.held.plane == Plane::Xy;
+        if other || length && !usual {
             self.stands = [Stands::Open; 3];
+        } else if length && !self.change.keeps(self.along) {
+            // the axes along which a length shifts the program before, or the one after
+            let turned = self.change.direction(&Vec3::from(self.along));
+            for (axis, stands) in self.stands.iter_mut().enumerate() {
+                if self.along[axis] != 0.0 || turned[axis] != 0.0 {
+                    *stands = Stands::Open;
+                }
+            }
         }
     }
 

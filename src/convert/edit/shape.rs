@@ -148,7 +148,12 @@ impl Work<'_> {
         let here = said.here;
         let words: Vec<(Word, Kind)> = said.words().collect();
         said.understood(
-            |code| fine(code) || matches!(code.action, Action::PositionSet) && words.is_empty(),
+            |code| {
+                fine(code)
+                    || matches!(code.action, Action::PositionSet) && words.is_empty()
+                    // the drilling cycles of LinuxCNC, which its own interpreter runs
+                    || code.action == Action::CannedCycle && self.dialect.quirks.rs274() && code.id != "G87"
+            },
             NOT_KNOWN,
         )?;
         self.codes(said)?;
@@ -179,6 +184,8 @@ impl Work<'_> {
             return self.on_the_way(said, &words);
         }
         let pecks = matches!(here.is.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
+        // which of its own cycles runs, and with that clearance, LinuxCNC knows
+        let pecks = pecks || said.drills() && self.dialect.quirks.rs274();
         if pecks && self.size() != 1.0 {
             return said.refuse(
                 words[0].0.range,

@@ -32,7 +32,15 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
     /// A name at the start of a block: `OPART` begins a program.
     pub(crate) fn task_label(&mut self, range: TextRange) {
-        if self.dialect.quirks.user_task() && matches!(self.program.bytes(range).first(), Some(b'O' | b'o')) {
+        let begins = |letters: &[u8]| {
+            self.program
+                .bytes(range)
+                .first()
+                .is_some_and(|first| letters.contains(first))
+        };
+        let quirks = &self.dialect.quirks;
+        // `:50` is O50 on a control with Macro B
+        if quirks.user_task() && begins(b"Oo") || quirks.macro_b() && begins(b":") {
             self.words.program_number = Some(range);
         }
     }

@@ -224,3 +224,44 @@ fn an_edit_holds_with_blocks_run_and_skipped() {
         "several switches",
     );
 }
+
+/// A tool length acts along Z alone: X and Y stay where the rapid before it has put them.
+#[test]
+fn a_tool_length_after_the_first_rapid_does_not_hinder_a_scale() {
+    let (head, tail) = ("G21 G17 G90 G40 G80 G94\nT1 M6\nG54 S3000 M3\n", "G0 Z75.\nM30\n");
+    let scale = Edit::Shape(Shape::Scale(1.5));
+    becomes(
+        "fanuc-30i",
+        &format!(
+            "{head}G0 X1. Y1.\nG43 H1 Z50.\nZ2.\nG1 Z-1. F200.\nX20.\n{}",
+            tail.replace("75.", "50.")
+        ),
+        scale,
+        &format!("{head}G0 X1.5 Y1.5\nG43 H1 Z75.\nZ3.\nG1 Z-1.5 F200.\nX30.\n{tail}"),
+    );
+    // in G18 the length acts along Y
+    refused(
+        "fanuc-30i",
+        &format!("{head}G18\nG0 X1. Y1.\nG43 H1 Z50.\nG1 Z-1. F200.\nX20.\n{tail}"),
+        scale,
+        "where this cut begins",
+    );
+}
+
+#[test]
+fn the_drilling_cycles_of_linuxcnc_are_moved() {
+    let head = "G90 G17 G40 G49 G80 G21 G94\nT1 M6\nG54\nS3000 M3\nG0 X1 Y1\nG43 H1 Z50\n";
+    for cycle in [
+        "G98 G81 X5 Y5 Z-5 R2 F100",
+        "G98 G83 X5 Y5 Z-5 R2 Q1 F100",
+        "G98 G82 X5 Y5 Z-5 R2 P1 F100",
+    ] {
+        let source = format!("{head}{cycle}\nX9\nG80\nG0 Z50\nM30\n");
+        let wanted = source.replace("X1 ", "X2 ").replace("X5", "X6").replace("X9", "X10");
+        becomes("linuxcnc", &source, shift(1.0, 0.0, 0.0), &wanted);
+        refused("linuxcnc", &source, Edit::Shape(Shape::Scale(2.0)), "clearance");
+    }
+    let source = format!("{head}G98 G81 X5 Y5 Z-5 R2 F100\nG80\nG0 Z50\nM30\n");
+    let wanted = source.replace("Z50", "Z51").replace("Z-5 R2", "Z-4 R3");
+    becomes("linuxcnc", &source, shift(0.0, 0.0, 1.0), &wanted);
+}

@@ -143,6 +143,25 @@ fn heights_between_wait_for_the_corner() {
     assert_eq!(motions[2..5], ["L X25 Y-5", "L X25 Y-5 Z-1", "L X25 Y20 Z-1"]);
 }
 
+/// Blocks that move nothing count as those that move only Z do: with two of them a control may not see the corner.
+#[test]
+fn blocks_that_move_nothing_make_a_corner_unknown() {
+    let corner = |between: &str| {
+        let source = format!("G0 X0. Y0. Z0.\nG41 D1 G1 X10. Y0. F100.\nY20.\n{between}X30.\nG40 X50.\nM30\n");
+        run(&source, &setup(10.0)).1
+    };
+    for few in ["", "M8\n", "(A COMMENT)\nM8\n(ANOTHER)\n", "#1=1\n#2=2\n"] {
+        assert_eq!(corner(few), [""; 0], "{few}");
+    }
+    for many in ["M8\nM9\n", "S900\nG4 P100\n", "M8\nZ-1.\n", "T2\nM8\nM3\n"] {
+        let said = corner(many);
+        assert!(
+            said.len() == 1 && said[0].contains("do not move in the plane"),
+            "{many}: {said:?}"
+        );
+    }
+}
+
 #[test]
 fn tools_that_do_not_fit() {
     // an inner arc of radius 4 for a tool of radius 5

@@ -52,6 +52,15 @@ fn a_jump_back_to_the_program_number_does_not_end_the_program() {
     }
 }
 
+/// `:50` is O50: what comes after it is another program.
+#[test]
+fn a_colon_begins_a_program_as_o_does() {
+    for number in ["O50", ":50", ":0050"] {
+        let source = format!("%\n:1\nG0X1.\n{number}\nG0X9.\nM30\n%\n");
+        assert_eq!(lines(FANUC, &source), ["R X1"], "{number}");
+    }
+}
+
 #[test]
 fn loops_nest_three_deep_and_numbers_are_used_again() {
     let source = "#1=0\nWHILE[#1LT2]DO1\n#2=0\nWHILE[#2LT2]DO2\n#3=0\nWHILE[#3LT2]DO3\nG0X[#1*100+#2*10+#3]\n#3=#3+1\nEND3\n#2=#2+1\nEND2\n\

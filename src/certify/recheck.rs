@@ -203,20 +203,17 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
             ..question
         });
         let line = match again {
-            Err(Outcome::Refuted(found)) => Some(found.line),
-            Err(Outcome::Unknown(gap)) if says_otherwise(&gap.to_string()) => Some(gap.line),
-            _ => None,
+            Err(Outcome::Refuted(found)) => found.line,
+            Err(Outcome::Unknown(gap)) if says_otherwise(&gap.to_string()) => gap.line,
+            _ => return Ok(proved),
         };
-        if let Some(line) = line {
-            let place = line.map_or_else(String::new, |line| format!("line {line}: "));
-            return Err(Outcome::unknown_at(line, place + &only_by_chance(&unset)));
-        }
+        let place = line.map_or_else(String::new, |line| format!("line {line}: "));
+        return Err(Outcome::unknown_at(line, place + &only_by_chance(&unset)));
     }
     Ok(proved)
 }
 
-/// What of a claim must hold with any values of what nobody declares. `None`: nothing, as only numbers of coordinates differ, or these values are
-/// claimed to be zero.
+/// What of a claim must hold with any values of what nobody declares. `None`: nothing, as these values are claimed to be zero.
 fn claim_for_all(claim: &Claim) -> Option<Claim> {
     match claim {
         Claim::ClearRapids { assumed_zeros, .. } | Claim::InsertedRetracts { assumed_zeros, .. } if *assumed_zeros => {

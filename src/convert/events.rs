@@ -1,4 +1,5 @@
 //! Events of a program: what its blocks contain apart from motions, in the order the control runs them.
+use crate::comments::{LONGEST_COMMENT, comment, pieces};
 use crate::events_spindle::Spindle;
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Post, Refused};
@@ -211,7 +212,14 @@ impl EventCollector<'_> {
 
     fn say(&mut self, events: Vec<Event>, block: BlockId) {
         for event in events {
-            self.job.push(event, block);
+            match event {
+                Event::Comment(text) if text.len() > LONGEST_COMMENT => {
+                    for part in pieces(&text) {
+                        self.job.push(Event::Comment(part), block);
+                    }
+                }
+                event => self.job.push(event, block),
+            }
         }
     }
 
@@ -270,18 +278,6 @@ impl EventCollector<'_> {
         }
         Ok(())
     }
-}
-
-/// A comment as an event; machine-readable marks and comments about another dialect are left out.
-pub(crate) fn comment(text: &str) -> Option<Event> {
-    let text = text.trim();
-    let lower = text.to_ascii_lowercase();
-    let ours = lower.strip_prefix("trunnion:").map(str::trim_start);
-    let other = ours.is_some_and(|rest| !rest.starts_with("allow"));
-    if text.is_empty() || other || text.starts_with("->") || text.starts_with('*') || text.starts_with("$PATH") {
-        return None;
-    }
-    Some(Event::Comment(text.to_owned()))
 }
 
 /// Requests that move nothing and are written, as comments, messages or the title.

@@ -1,6 +1,7 @@
 //! What an APT record contains apart from motions.
 use crate::Options;
-use crate::events::{BlockEvents, Cannot, comment};
+use crate::comments::comment;
+use crate::events::{BlockEvents, Cannot};
 use crate::job::Event;
 use trunnion_syntax::{AptArg, Block, Record};
 

@@ -1,5 +1,6 @@
 //! What a Klartext block contains apart from motions.
-use crate::events::{BlockEvents, Cannot, comment};
+use crate::comments::comment;
+use crate::events::{BlockEvents, Cannot};
 use trunnion_interp::{SentenceWord, sentence_words};
 use trunnion_syntax::Block;
 

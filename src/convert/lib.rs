@@ -4,6 +4,7 @@
 //! proved within tolerance is refused with reason and place. *It never proves itself.*
 mod cl;
 mod clamps;
+mod comments;
 mod convert;
 mod edit;
 mod emit;

@@ -107,6 +107,26 @@ impl Apt<'_> {
         }
     }
 
+    /// The radius of a CIRCLE whose arc is known: as written, else the distance from the centre to where the tool is.
+    pub(crate) fn circle_radius_mm(&self, args: &Args) -> Option<f64> {
+        let unit = self.core.state.coordinates.unit_mm();
+        let numbers = args.numbers();
+        if args.odd || !args.words().is_empty() || !matches!(numbers.len(), 6 | 7 | 11) {
+            return None;
+        }
+        let axis = Vec3::new(numbers[3], numbers[4], numbers[5]).try_normalize(f64::MIN_POSITIVE)?;
+        if let Some(radius) = numbers.get(6) {
+            return Some(radius * unit);
+        }
+        let centre = self
+            .kept
+            .frame
+            .point(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit);
+        let from = self.core.state.position.xyz()? - centre;
+        let axis = self.kept.frame.vector(axis);
+        Some((from - axis * from.dot(&axis)).norm())
+    }
+
     /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends. NX writes eleven numbers: two
     /// tolerances, the diameter of the tool and its corner radius follow, which do not change the arc.
     pub(crate) fn circle(&mut self, args: &Args, report: &mut Report<'_>) {

@@ -19,11 +19,6 @@ pub(crate) fn ends(kind: &FaultKind) -> Option<String> {
 }
 
 impl Steps<'_> {
-    /// The modal state now.
-    pub fn state(&self) -> &trunnion_interp::ModalState {
-        self.interpreter.state()
-    }
-
     /// Why the run ended in a block that does more than is kept, if it did.
     pub(crate) fn given_up(&self) -> Option<String> {
         let stop = self.stop().filter(|_| self.run.given_up);

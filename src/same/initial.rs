@@ -87,6 +87,15 @@ impl Initial {
     }
 }
 
+impl crate::Steps<'_> {
+    /// An excerpt: what is in effect before its first block. `feed` in mm/min.
+    pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
+        let state = self.interpreter.state_mut();
+        state.tool_axis.set_tcp(state.tool_axis.tcp() || tcp);
+        state.feed.set(feed.or(state.feed.value()));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Initial;

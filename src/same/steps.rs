@@ -230,11 +230,9 @@ impl<'a> Steps<'a> {
         self.run.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// An excerpt: what is in effect before its first block. `feed` in mm/min.
-    pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
-        let state = self.interpreter.state_mut();
-        state.tool_axis.set_tcp(state.tool_axis.tcp() || tcp);
-        state.feed.set(feed.or(state.feed.value()));
+    /// The modal state now.
+    pub fn state(&self) -> &ModalState {
+        self.interpreter.state()
     }
 
     /// Whether motions are held back until a later one is known.

@@ -15,6 +15,14 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
         if matches!(word.address, Address::Letter(_)) {
             continue;
         }
+        // `S1=500 M1=3`: words of the main spindle, as S500 M3 are
+        if let Address::Indexed(letter @ (b'S' | b'M'), index) = word.address
+            && run.core.dialect.quirks.declares_names()
+            && (index == 0 || run.memory.own.main_spindle == Some(u32::from(index)))
+            && !run.memory.own.is_declared(&format!("{}{index}", char::from(letter)))
+        {
+            continue;
+        }
         let stem = stem(view, &word);
         if stem.starts_with('#') {
             continue;

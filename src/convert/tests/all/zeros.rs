@@ -1,4 +1,4 @@
-//! Zero points that nobody declares, and the speed of a spindle of which it is not known whether it turns.
+//! Zero points that nobody declares, comments that are long, and the speed of a spindle of which it is not known whether it turns.
 use crate::support::{refusal, text, to};
 use trunnion_convert::Options;
 
@@ -73,4 +73,22 @@ fn a_speed_after_a_stop_or_without_m3_is_written() {
     assert!(written.contains("S700"), "{written}");
     let refused = refusal(to((source, "fanuc-30i", ""), "apt", "", &Options::default()));
     assert!(!refused.message.is_empty());
+}
+
+/// No control reads a block of any length.
+#[test]
+fn a_long_comment_is_written_in_pieces() {
+    let long = "WORD ".repeat(130);
+    let body = format!("({long})\n({})\nG1 Z-1. F100.\nM5", "X".repeat(300));
+    for target in [
+        "sinumerik-840d",
+        "okuma-osp",
+        "linuxcnc",
+        "haas-ngc",
+        "heidenhain-klartext",
+    ] {
+        let written = written(&body, target, "");
+        assert!(written.lines().all(|line| line.len() <= 150), "{target}: {written}");
+        assert_eq!(written.matches("WORD").count(), 130, "{target}: {written}");
+    }
 }

@@ -204,7 +204,7 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
         });
         let line = match again {
             Err(Outcome::Refuted(found)) => found.line,
-            Err(Outcome::Unknown(gap)) if says_otherwise(&gap.to_string()) => gap.line,
+            Err(Outcome::Unknown(gap)) if proved.motions.unknown > 0 && says_otherwise(&gap.to_string()) => gap.line,
             _ => return Ok(proved),
         };
         let place = line.map_or_else(String::new, |line| format!("line {line}: "));

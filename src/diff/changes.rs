@@ -131,7 +131,8 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     }
     if verdict == Verdict::Same {
         let unset: Vec<_> = sides.iter_mut().flat_map(undeclared).collect();
-        verdict = by_chance(pair, &claim, near, &unset).map_or(verdict, Verdict::Unknown);
+        let open = sides.iter().any(Steps::has_open_motion);
+        verdict = by_chance(pair, &claim, &unset, open).map_or(verdict, Verdict::Unknown);
     }
     if verdict == Verdict::Same || only_cut_short(&verdict, &sides) {
         let mut found = Found::new(verdict);
@@ -148,7 +149,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
 }
 
 /// Where two programs are the same only because of values that nobody declares.
-fn by_chance(pair: &Pair<'_>, claim: &Claim, mut near: Near, unset: &[FaultKind]) -> Option<Difference> {
+fn by_chance(pair: &Pair<'_>, claim: &Claim, unset: &[FaultKind], open: bool) -> Option<Difference> {
     if pair.before.program.source() == pair.after.program.source() {
         return None;
     }
@@ -159,8 +160,9 @@ fn by_chance(pair: &Pair<'_>, claim: &Claim, mut near: Near, unset: &[FaultKind]
     let mut sides =
         [(pair.before, before), (pair.after, after)].map(|(input, setup)| Steps::new(Input { setup, ..input }));
     let [one, other] = &mut sides;
-    match trunnion_same::compare(one, other, claim, &mut near) {
-        Verdict::Unknown(found) if !says_otherwise(&found.what) => None,
+    let [mm, deg] = [claim.mm, claim.deg];
+    match trunnion_same::compare(one, other, claim, &mut Near { mm, deg }) {
+        Verdict::Unknown(found) if !(open && says_otherwise(&found.what)) => None,
         Verdict::Differs(found) | Verdict::Unknown(found) => Some(Difference {
             what: only_by_chance(unset),
             ..found

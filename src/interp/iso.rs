@@ -114,12 +114,15 @@ impl<'d> Iso<'d> {
     }
 
     /// Whether a block belongs to the contour of the turning cycle before it, which has run it.
+    pub(crate) fn passes_over(&self, block: BlockId) -> bool {
+        let contour = self.memory.passed_over;
+        contour.is_some_and(|(from, to)| from < block.0 && block.0 <= to)
+    }
+
+    /// The same; behind it the contour is forgotten.
     #[cold]
     fn is_passed_over(&mut self, block: BlockId) -> bool {
-        let over = self
-            .memory
-            .passed_over
-            .is_some_and(|(from, to)| from < block.0 && block.0 <= to);
+        let over = self.passes_over(block);
         if !over {
             self.memory.passed_over = None;
         }

@@ -138,6 +138,14 @@ impl<'d> Interpreter<'d> {
         matches!(&self.engine, Engines::Iso(engine) if !engine.is_straight())
     }
 
+    /// Whether a block belongs to the contour of the turning cycle before it.
+    pub fn passes_over(&self, block: BlockId) -> bool {
+        match &self.engine {
+            Engines::Iso(engine) => engine.passes_over(block),
+            Engines::Apt(_) | Engines::Klartext(_) | Engines::Ngc(_) => false,
+        }
+    }
+
     /// Whether LinuxCNC's own engine runs.
     pub fn is_linuxcnc(&self) -> bool {
         matches!(self.engine, Engines::Ngc(_))

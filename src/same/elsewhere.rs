@@ -4,28 +4,50 @@ use crate::item::Step;
 use crate::process::shown;
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::{Argument, canonical_text};
+use std::collections::BTreeSet;
+use trunnion_interp::{Argument, Interpreter, canonical_text};
 use trunnion_syntax::{BlockId, Item};
 
-/// The first thing that is not modelled and may run other lines: its block, and its words.
+/// What depends on lines that no run has reached, or on values that nobody knows.
 #[derive(Default)]
-pub(crate) struct Elsewhere(Option<(BlockId, String)>);
+pub(crate) struct Elsewhere {
+    /// The first thing that is not modelled and may run other lines: its block, and its words.
+    first: Option<(BlockId, String)>,
+    /// Blocks of the contours of turning cycles.
+    passed: BTreeSet<BlockId>,
+    /// Not everything is known of some motion, whose words are compared instead.
+    open: bool,
+}
 
 impl Elsewhere {
     /// Something that is not modelled.
     pub(crate) fn note(&mut self, block: BlockId, words: &[Argument]) {
-        if self.0.is_none() && names_place(words) {
-            self.0 = Some((block, shown(words)));
+        if self.first.is_none() && names_place(words) {
+            self.first = Some((block, shown(words)));
         }
     }
 
     /// A motion of which not everything is known.
     pub(crate) fn note_said(&mut self, step: &Step) {
-        if let (Some(said), None) = (&step.said, &self.0)
-            && in_text(said)
-        {
-            self.0 = Some((step.motion.block, said.lines().next().unwrap_or_default().to_owned()));
+        let Some(said) = &step.said else { return };
+        self.open = true;
+        if self.first.is_none() && in_text(said) {
+            self.first = Some((step.motion.block, said.lines().next().unwrap_or_default().to_owned()));
         }
+    }
+
+    /// A block of the contour of a turning cycle: the cycle has run it, or given it up.
+    pub(crate) fn note_passed(&mut self, run: &Interpreter<'_>, block: BlockId) {
+        if run.passes_over(block) {
+            self.passed.insert(block);
+        }
+    }
+}
+
+impl Steps<'_> {
+    /// Whether not everything is known of some motion, so that the words of its block were compared.
+    pub fn has_open_motion(&self) -> bool {
+        self.run.elsewhere.open
     }
 }
 
@@ -59,14 +81,15 @@ fn not_run(steps: &Steps<'_>) -> Vec<String> {
     let says = |item: &Item| !matches!(item, Item::Comment(_) | Item::Percent(_));
     let blocks = (0..program.block_count() as u32).map(BlockId);
     blocks
-        .filter(|block| !steps.has_run(*block) && program.block(*block).items().any(|item| says(&item)))
+        .filter(|block| !steps.has_run(*block) || steps.run.elsewhere.passed.contains(block))
+        .filter(|block| program.block(*block).items().any(|item| says(&item)))
         .map(|block| canonical_text(&program.text(program.block(block).range())))
         .collect()
 }
 
 /// Undecided, where something that is not modelled may run lines that differ.
 pub(crate) fn same_elsewhere(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    let [was, is] = [before, after].map(|steps| steps.run.elsewhere.0.as_ref());
+    let [was, is] = [before, after].map(|steps| steps.run.elsewhere.first.as_ref());
     let Some((_, name)) = was.or(is) else {
         return Ok(());
     };

@@ -285,6 +285,7 @@ impl<'a> Steps<'a> {
             && let Some(word) = self.ran.get_mut(block.0 as usize / 64)
         {
             *word |= 1 << (block.0 % 64);
+            self.run.elsewhere.note_passed(&self.interpreter, block);
         }
         let (mut missing, mut own_locals) = (false, false);
         for block in std::mem::take(&mut self.run.missing) {

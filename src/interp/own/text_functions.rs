@@ -2,6 +2,7 @@
 //! manual leaves open stays unknown: the answer where nothing is found, a part behind the end, letters that differ in size alone, and
 //! the format of a fraction.
 use super::{Own, arguments};
+use std::fmt::Write as _;
 
 /// Whether a function gives a text. `name` in lower case.
 pub(super) fn is_of_text(name: &str) -> bool {
@@ -86,10 +87,10 @@ impl Own {
                     if width > 1000 {
                         return None;
                     }
-                    out += &format!("{:>width$}", &text[..text.len().min(most)]);
+                    let _ = write!(out, "{:>width$}", &text[..text.len().min(most)]);
                 }
-                (b'D', "") => out += &format!("{:.0}", whole()?),
-                (b'X', "") => out += &format!("{:X}", whole().filter(|value| *value >= 0.0)? as u64),
+                (b'D', "") => drop(write!(out, "{:.0}", whole()?)),
+                (b'X', "") => drop(write!(out, "{:X}", whole().filter(|value| *value >= 0.0)? as u64)),
                 _ => return None,
             }
             out += &part[letter + 1..];

@@ -321,6 +321,7 @@ impl Klartext<'_> {
     fn define_cycle(&mut self, cycle: u32, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
         // a new cycle ends M89
         self.memory.runs_after_each = false;
+        self.memory.cycle_unit = self.core.state.coordinates.unit_mm();
         if cycle >= 200 {
             self.memory.cycle = self.read_cycle(cycle, words, report);
         } else {

@@ -31,6 +31,7 @@ mod klartext_axis_scaling;
 mod klartext_flow;
 mod klartext_more;
 mod klartext_scaling;
+mod klartext_units;
 mod length_change;
 mod macro_calls;
 mod macro_flow;

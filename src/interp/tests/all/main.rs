@@ -62,6 +62,7 @@ mod sinumerik_feed;
 mod sinumerik_flow;
 mod sinumerik_frames;
 mod sinumerik_paths;
+mod sinumerik_refused;
 mod sinumerik_settings;
 mod sinumerik_splines;
 mod sinumerik_texts;

@@ -1,6 +1,6 @@
 //! Reads one statement of the flow, decides it with the known values, and returns what it requests.
 use super::text::Text;
-use crate::flow::{Back, Calling, Index, Label, Transfer, With};
+use crate::flow::{Back, Index, Label, Transfer};
 use crate::own::Own;
 use crate::{FaultKind, Refusal};
 use trunnion_flow::{Key, Search};
@@ -62,34 +62,6 @@ impl Statement<'_> {
         Ok(transfer)
     }
 
-    /// `CALL "GROOVE"`, `CALL NAME` of a variable of the type STRING, `PCALL GROOVE(1,2)`. Paths and parts of programs are not followed.
-    fn call(&mut self, from: usize, keyword: &str) -> Result<Transfer, Trouble> {
-        let at = self.text.at();
-        let (name, arguments) = if keyword == "CALL" {
-            match self.own.joined(self.text.bytes(), at) {
-                Some((Ok(name), end)) => {
-                    self.text.go_to(end);
-                    (name, None)
-                }
-                _ => (String::new(), None),
-            }
-        } else {
-            (self.text.word(), self.text.in_brackets())
-        };
-        let plain = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
-        let range = self.text.range(from, self.text.bytes().len());
-        if name.is_empty() || !plain || !self.text.is_at_end() {
-            let what = format!("{keyword}: which program it calls");
-            return Err((range, FaultKind::NotModelled { what }));
-        }
-        Ok(Transfer::Call(Calling {
-            program: super::names::program_key(&name),
-            times: 1,
-            range,
-            with: With::Sinumerik(super::With::read(arguments.as_deref(), self.own)),
-        }))
-    }
-
     /// Nothing may follow a statement.
     fn end(&mut self) -> Result<(), Trouble> {
         if self.text.is_at_end() {
@@ -116,7 +88,13 @@ impl Statement<'_> {
                 };
                 Err((self.text.rest(), kind))
             }
-            Err(error) => not_decided(self.text.rest(), format!("an expression that cannot be read: {error}")),
+            Err(error) => {
+                let text = String::from_utf8_lossy(&self.text.bytes()[from..]).into_owned();
+                match crate::own::without_value(&error, &text) {
+                    Some(kind) => Err((self.text.rest(), kind)),
+                    None => not_decided(self.text.rest(), format!("an expression that cannot be read: {error}")),
+                }
+            }
         }
     }
 

@@ -1,5 +1,13 @@
 //! Sinumerik: blocks at which the control stops, and blocks whose effect no source decides: each has a finding.
 use crate::sinumerik_calls::run;
+use crate::sinumerik_flow::SINUMERIK;
+use crate::support::run_bytes;
+use trunnion_interp::{FaultKind, Refusal, Setup};
+
+fn kinds_of(source: &str) -> Vec<FaultKind> {
+    let log = run_bytes(SINUMERIK, source.as_bytes(), &Setup::default()).1;
+    log.faults.into_iter().map(|fault| fault.kind).collect()
+}
 
 /// Whether MCALL acts inside a cycle, or after it, no source says; the drilling cycle of MCALL runs at each hole of a row.
 #[test]
@@ -30,5 +38,90 @@ fn a_cycle_that_is_called_while_mcall_is_active_is_not_decided() {
     ] {
         let (_, said) = run(&format!("{head}{text}X9\nM30\n"));
         assert!(!said.iter().any(|said| said.contains("MCALL")), "{text}: {said:?}");
+    }
+}
+
+/// The control stops at the block that computes it, whether or not anything reads the variable.
+#[test]
+fn arithmetic_without_a_value_is_refused_where_it_stands() {
+    for (text, why) in [
+        ("R1=1/0", "division by zero in `1/0`"),
+        ("R1=5 MOD 0", "division by zero in `5 MOD 0`"),
+        ("R1=5 DIV (R2-R2)", "division by zero"),
+        ("R1=SQRT(-1)", "square root of a negative number"),
+        ("R1=LN(0)", "LN of zero"),
+        ("R1=2*ASIN(2)", "ASIN of a number outside"),
+        ("R1=ACOS(-1.5)", "ACOS of a number outside"),
+        ("A1=1/R2", "division by zero"),
+        ("F1[1]=1/R2", "division by zero"),
+        ("F1[0]=SET(1,1/R2)", "division by zero"),
+        ("IF 1/R2>3 GOTOF LA", "division by zero"),
+    ] {
+        let kinds = kinds_of(&format!("DEF REAL A1, F1[3]\nR2=0\n{text}\nLA: G0 X5\nM30\n"));
+        let refused = kinds.iter().filter(|kind| {
+            matches!(kind, FaultKind::Rejected { refusal: Refusal::Expression, message, .. } if message.contains(why))
+        });
+        assert_eq!(refused.count(), 1, "{text}: {kinds:?}");
+    }
+    let defined = kinds_of("DEF REAL A1=1/0, B1=SQRT(4)\nG0 X=B1\nM30\n");
+    assert_eq!(defined.len(), 1, "{defined:?}");
+    // the variable has no value then
+    let (_, said) = run("R1=1/0\nG0 X=R1\nM30\n");
+    assert!(
+        said[0].starts_with("1 `R1=1/0` Expression") && said[1].starts_with("2 `R1`"),
+        "{said:?}"
+    );
+}
+
+/// What is not known may have a value with which it has a result.
+#[test]
+fn arithmetic_of_unknown_operands_is_no_fault() {
+    for text in [
+        "R1=R5/0",
+        "R1=1/R5",
+        "R1=SQRT(R5)",
+        "R1=R5 MOD 0",
+        "R1=LN($AA_IM[X]-1)",
+        "R1=SQRT(4)/2",
+    ] {
+        let (_, said) = run(&format!("{text}\nG0 X5\nM30\n"));
+        assert_eq!(said, [""; 0], "{text}");
+    }
+}
+
+#[test]
+fn what_a_variable_does_not_hold_is_named() {
+    for (text, what) in [
+        ("DEF INT AB[2]\nAB[5]=3", "AB[5]: the field has no such element"),
+        ("DEF INT AB[2]\nR1=2\nAB[R1]=3", "AB[R1]: the field has no such element"),
+        ("DEF REAL AB[2]\nAB[-1]=3", "no such element"),
+        ("DEF REAL AB[2,2]\nAB[1]=3", "has 2 dimensions"),
+        ("DEF REAL AB[2]\nAB[2]=SET(1)", "no such element"),
+        ("DEF STRING[5] AB[2]\nAB[2]=\"A\"", "no such element"),
+        (
+            "DEF INT A1[2]=SET(1,2,3)",
+            "A1: `SET(1,2,3)` does not fit into the field of 2 elements",
+        ),
+        ("DEF INT A1[2]\nA1[0]=SET(1,2,3)", "does not fit"),
+        ("DEF INT A1[2]\nA1[1]=SET(1,2)", "does not fit"),
+        ("DEF INT A1[2]=REP(1,3)", "does not fit"),
+        ("DEF INT A1=5000000000", "A1: 5000000000 is outside of the range of INT"),
+        ("DEF INT A1\nA1=-3EX9", "outside of the range of INT"),
+        ("DEF INT A1[2]\nA1[1]=3000000000", "outside of the range of INT"),
+        ("DEF INT A1[2]=SET(1,3000000000)", "outside of the range of INT"),
+        ("R[-1]=5", "there is no R parameter with the number -1"),
+    ] {
+        let (_, said) = run(&format!("{text}\nG0 X5\nM30\n"));
+        assert_eq!(said.len(), 1, "{text}: {said:?}");
+        assert!(said[0].contains(what), "{text}: {said:?}");
+    }
+    for text in [
+        "DEF INT AB[2]\nAB[1]=3\nAB[0]=SET(1,2)\nAB[R9]=4",
+        "DEF INT AB[2,3]=SET(1,2,3,4,5,6)\nAB[1,2]=7\nAB[0,1]=REP(2,3)",
+        "DEF STRING[5] AB[2]\nAB[1]=\"A\"\nAB[1,0]=\"B\"",
+        "DEF INT A1=2147483647\nDEF REAL B1=5000000000",
+    ] {
+        let (_, said) = run(&format!("{text}\nG0 X5\nM30\n"));
+        assert_eq!(said, [""; 0], "{text}");
     }
 }

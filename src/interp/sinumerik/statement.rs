@@ -36,11 +36,11 @@ impl Statement<'_> {
         let transfer = match keyword.as_str() {
             "IF" => return self.branch(),
             "WHILE" => Transfer::Open(self.condition()?),
-            "UNTIL" if self.condition()? => Transfer::Next,
+            "UNTIL" if self.condition()? => self.passes_end(),
             "UNTIL" | "ENDLOOP" | "ENDWHILE" | "ENDFOR" => Transfer::Close,
             "LOOP" => Transfer::Open(true),
             "ELSE" => Transfer::Leave,
-            "ENDIF" => Transfer::Next,
+            "ENDIF" => self.passes_end(),
             "FOR" => self.count()?,
             "CASE" => self.case()?,
             "REPEAT" if self.text.is_at_end() => Transfer::Open(true),
@@ -60,6 +60,15 @@ impl Statement<'_> {
         };
         self.end()?;
         Ok(transfer)
+    }
+
+    /// The end of a structure that is left: without its beginning the structure is broken, as it is for the others.
+    fn passes_end(&mut self) -> Transfer {
+        let (_, block) = self.place;
+        match (self.index)().loops.closed_by(block) {
+            Some(_) => Transfer::Next,
+            None => Transfer::Close,
+        }
     }
 
     /// Nothing may follow a statement.

@@ -125,3 +125,19 @@ fn what_a_variable_does_not_hold_is_named() {
         assert_eq!(said, [""; 0], "{text}");
     }
 }
+
+#[test]
+fn an_end_without_its_beginning_breaks_the_structure() {
+    for text in ["UNTIL 1", "ENDIF", "UNTIL 0", "ELSE", "ENDLOOP", "ENDFOR", "ENDWHILE"] {
+        let (motions, said) = run(&format!("G0 X1\n{text}\nX2\nM30\n"));
+        let word = text.split(' ').next().unwrap_or_default();
+        assert_eq!(said.len(), 1, "{text}: {said:?}");
+        assert!(
+            said[0].starts_with("2 `") && said[0].contains("Structure"),
+            "{word}: {said:?}"
+        );
+        assert_eq!(motions, ["R X1"], "{text}");
+    }
+    let (_, said) = run("R1=1\nREPEAT\nIF R1\nR1=0\nENDIF\nUNTIL R1==0\nG0 X2\nM30\n");
+    assert_eq!(said, [""; 0]);
+}

@@ -141,3 +141,38 @@ fn an_end_without_its_beginning_breaks_the_structure() {
     let (_, said) = run("R1=1\nREPEAT\nIF R1\nR1=0\nENDIF\nUNTIL R1==0\nG0 X2\nM30\n");
     assert_eq!(said, [""; 0]);
 }
+
+#[test]
+fn numbers_that_begin_with_zero_are_not_negative() {
+    for text in [
+        "D-1",
+        "S-100",
+        "T-1",
+        "T=-1 M6",
+        "LIMS=-5",
+        "G96 S100 LIMS=-5",
+        "R1=-3\nS=R1 M3",
+        "G96 S-100",
+    ] {
+        let kinds = kinds_of(&format!("G0 X1\n{text}\nX2\nM30\n"));
+        let refused = kinds.iter().filter(|kind| {
+            matches!(
+                kind,
+                FaultKind::Rejected {
+                    refusal: Refusal::Number,
+                    ..
+                }
+            )
+        });
+        assert_eq!(refused.count(), 1, "{text}: {kinds:?}");
+    }
+    let dwell = kinds_of("G0 X1\nG4 S-2\nM30\n");
+    assert_eq!(dwell.len(), 1, "{dwell:?}");
+    for text in ["D0", "T0", "S0", "LIMS=0", "H-3"] {
+        let kinds = kinds_of(&format!("G0 X1\n{text}\nM30\n"));
+        assert!(
+            !kinds.iter().any(|kind| matches!(kind, FaultKind::Rejected { .. })),
+            "{text}: {kinds:?}"
+        );
+    }
+}

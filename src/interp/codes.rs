@@ -271,7 +271,12 @@ impl<'d> Iso<'d> {
                 let alone = block.count == 1 && !words.forgets_all;
                 let ends = found.code.kind == CodeKind::Name && !found.with_arguments && alone;
                 self.memory.own.modal = None;
-                if ends {
+                if ends && words.has_values {
+                    let what = "words beside MCALL without a cycle or a program".to_owned();
+                    report.fault(found.range, FaultKind::NotModelled { what });
+                    block.not_modelled = true;
+                    self.cycle_off(found.code);
+                } else if ends {
                     self.cycle_off(found.code);
                 } else if block.hole_call.is_some() {
                     block.modal_call = true;

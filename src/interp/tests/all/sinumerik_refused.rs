@@ -176,3 +176,25 @@ fn numbers_that_begin_with_zero_are_not_negative() {
         );
     }
 }
+
+#[test]
+fn two_times_of_a_dwell_and_words_beside_mcall_are_named() {
+    let (motions, said) = run("G0 X1\nS500 M3\nG4 F1 S2\nM30\n");
+    assert_eq!(motions, ["R X1", "D? X1"]);
+    assert!(said.len() == 1 && said[0].contains("a dwell with F and S"), "{said:?}");
+    let (motions, said) = run("G0 X1\nS500 M3\nG4 F1\nG4 S5\nM30\n");
+    assert_eq!(motions, ["R X1", "D1 X1", "D0.6 X1"]);
+    assert_eq!(said, [""; 0]);
+    for words in ["X5", "F200", "R1=5", "X5 Y6"] {
+        let text = format!("G17 G0 X1 Y1 Z9 F100 S500 M3\nMCALL CYCLE81(10,0,2,-5)\nMCALL {words}\nG0 Z7\nM30\n");
+        let (motions, said) = run(&text);
+        assert!(
+            said.len() == 1 && said[0].contains("words beside MCALL"),
+            "{words}: {said:?}"
+        );
+        let known = motions.iter().any(|line| line.contains("X5"));
+        assert!(!known, "{words}: {motions:?}");
+    }
+    let (_, said) = run("G17 G0 X1 Y1 Z9 F100 S500 M3\nMCALL CYCLE81(10,0,2,-5)\nN20 MCALL\nG0 X5\nM30\n");
+    assert_eq!(said, [""; 0]);
+}

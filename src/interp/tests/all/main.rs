@@ -30,6 +30,7 @@ mod klartext;
 mod klartext_axis_scaling;
 mod klartext_flow;
 mod klartext_more;
+mod klartext_refused;
 mod klartext_scaling;
 mod klartext_units;
 mod length_change;

@@ -1,0 +1,73 @@
+//! HEIDENHAIN Klartext: sentences at which the control stops, and sentences whose effect no source decides: each has a finding.
+use crate::klartext::{NAME, program};
+use crate::support::{faults, lines, run_bytes};
+use trunnion_interp::{FaultKind, Refusal, Setup};
+
+fn refused(blocks: &str, sort: Refusal) -> Vec<String> {
+    let log = run_bytes(NAME, program(blocks).as_bytes(), &Setup::default()).1;
+    let messages = log.faults.into_iter().filter_map(|fault| match fault.kind {
+        FaultKind::Rejected { refusal, message, .. } if refusal == sort => Some(message),
+        _ => None,
+    });
+    messages.collect()
+}
+
+/// Faults apart from the length of the tool.
+fn told(blocks: &str) -> Vec<String> {
+    let mut found = faults(NAME, &program(blocks));
+    found.retain(|fault| !fault.contains("ToolLengthUnset"));
+    found
+}
+
+/// Whether or not anything reads the parameter.
+#[test]
+fn arithmetic_without_a_value_is_refused_where_it_stands() {
+    for (text, why) in [
+        ("FN 4: Q1 = +5 DIV +0", "division by zero in FN 4"),
+        ("Q3 = 0\nFN 4: Q1 = +5 DIV +Q3", "division by zero"),
+        ("FN 5: Q2 = SQRT -4", "square root of a negative number in FN 5"),
+        ("Q1 = 5 / 0", "division by zero in the formula of Q1"),
+        ("Q1 = 2 * SQRT ( 3 - 4 )", "square root"),
+        ("Q1 = SQRT -4", "square root"),
+        ("Q1 = LN 0", "logarithm of zero"),
+        ("Q1 = ASIN 2", "ASIN of a number outside"),
+        ("QL1 = - ACOS ( 1.5 )", "ACOS of a number outside"),
+    ] {
+        let found = refused(&format!("{text}\nL X+5 FMAX\n"), Refusal::Expression);
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        assert!(found[0].contains(why), "{text}: {found:?}");
+    }
+    assert_eq!(lines(NAME, &program("Q1 = 5 / 0\nL X+Q1 FMAX\n")), ["R -"]);
+    // what is not known may have a value with which it has a result
+    for text in [
+        "FN 4: Q1 = +Q9 DIV +0",
+        "FN 5: Q2 = SQRT +Q9",
+        "Q1 = Q9 / 0",
+        "Q1 = 5 / Q9",
+        "FN 4: Q1 = +6 DIV +2",
+    ] {
+        assert_eq!(told(&format!("{text}\nL X+5 FMAX\n")), [""; 0], "{text}");
+    }
+}
+
+#[test]
+fn text_after_the_values_of_a_function_is_named() {
+    for text in [
+        "FN 0: Q1 = +3 Q2 = +4",
+        "FN 1: Q1 = +3 + +4 + +5",
+        "FN 5: Q1 = SQRT +4 X",
+        "FN 4: Q1 = +6 DIV +2 F100",
+    ] {
+        let found = told(&format!("{text}\nL X+5 FMAX\n"));
+        assert!(
+            found.len() == 1 && found[0].contains("after the values of FN"),
+            "{text}: {found:?}"
+        );
+        assert_eq!(
+            lines(NAME, &program(&format!("{text}\nL X+Q1 FMAX\n"))),
+            ["R -"],
+            "{text}"
+        );
+    }
+    assert_eq!(told("FN 0: Q1 = +3 ; depth\nL X+Q1 FMAX\n"), [""; 0]);
+}

@@ -6,6 +6,7 @@ mod approach;
 mod arcs;
 mod axial;
 mod calls;
+mod contradiction;
 mod corner;
 mod datum;
 mod drill;

@@ -99,6 +99,7 @@ impl Klartext<'_> {
         let (mut feed, mut unread) = (None, false);
         let mut value = first;
         for word in words.by_ref() {
+            unread |= feed.is_some() && word.name().starts_with(b"F");
             match word.name() {
                 b"R" if letter == Some(b'R') => value = word.value,
                 // it ends with the corner (iTNC 530 60642x-03, p. 232)

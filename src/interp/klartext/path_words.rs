@@ -66,6 +66,15 @@ impl PathWords {
     pub(crate) fn codes(&self) -> &[u32] {
         &self.codes[..self.code_count]
     }
+    /// F, FMAX and the like say the feed once: of two of them no source says which one counts.
+    fn take_feed(&mut self, feed: FeedSaid, report: &mut Report<'_>) {
+        if feed != FeedSaid::Nothing && self.feed != FeedSaid::Nothing {
+            report.fault(TextRange::default(), FaultKind::RepeatedWord);
+            self.feed = FeedSaid::Value(None);
+        } else if feed != FeedSaid::Nothing {
+            self.feed = feed;
+        }
+    }
     pub(crate) fn has(&self, code: u32) -> bool {
         self.codes().contains(&code)
     }
@@ -164,13 +173,20 @@ impl Klartext<'_> {
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
             b"F" => {
                 let feed = self.feed_word(word, words, report);
-                *(if own_feed { &mut found.own_feed } else { &mut found.feed }) = feed;
+                if own_feed {
+                    found.own_feed = feed;
+                } else {
+                    found.take_feed(feed, report);
+                }
             }
             b"FMAX" if own_feed => found.own_feed = FeedSaid::Rapid,
-            b"FMAX" => found.feed = FeedSaid::Rapid,
-            b"FAUTO" => found.feed = FeedSaid::Auto,
-            b"FU" => found.feed = FeedSaid::PerTurn(self.said(word.value, report)),
-            b"FZ" => found.feed = FeedSaid::PerTooth,
+            b"FMAX" => found.take_feed(FeedSaid::Rapid, report),
+            b"FAUTO" => found.take_feed(FeedSaid::Auto, report),
+            b"FU" => {
+                let feed = self.said(word.value, report);
+                found.take_feed(FeedSaid::PerTurn(feed), report);
+            }
+            b"FZ" => found.take_feed(FeedSaid::PerTooth, report),
             b"RL" => found.compensation = Some(41),
             b"RR" => found.compensation = Some(42),
             b"R" => match word.value {

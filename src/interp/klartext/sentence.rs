@@ -256,6 +256,7 @@ impl Klartext<'_> {
 
     /// Codes that act before the block's motion.
     pub(crate) fn codes_before(&mut self, words: &PathWords, report: &mut Report<'_>) {
+        self.contradicting_codes(words, report);
         for &code in words.codes() {
             match code {
                 3 | 4 | 13 | 14 => self.core.state.spindle.switch(true),
@@ -330,6 +331,10 @@ impl Klartext<'_> {
                 }
                 _ => {}
             }
+        }
+        if Self::spindle_is_unclear(words) {
+            self.core.state.spindle.switch(true);
+            self.core.state.spindle.leave_to_machine();
         }
     }
 

@@ -46,7 +46,8 @@ fn arithmetic_without_a_value_is_refused_where_it_stands() {
         "Q1 = 5 / Q9",
         "FN 4: Q1 = +6 DIV +2",
     ] {
-        assert_eq!(told(&format!("{text}\nL X+5 FMAX\n")), [""; 0], "{text}");
+        let found = refused(&format!("{text}\nL X+5 FMAX\n"), Refusal::Expression);
+        assert_eq!(found, [""; 0], "{text}");
     }
 }
 
@@ -70,4 +71,61 @@ fn text_after_the_values_of_a_function_is_named() {
         );
     }
     assert_eq!(told("FN 0: Q1 = +3 ; depth\nL X+Q1 FMAX\n"), [""; 0]);
+}
+
+#[test]
+fn codes_that_exclude_each_other_are_named() {
+    for codes in [
+        "M3 M4", "M4 M3", "M13 M4", "M14 M3", "M13 M14", "M3 M5", "M5 M13", "M8 M9", "M9 M13", "M7 M9",
+    ] {
+        for block in [format!("L X+5 F100 {codes}"), codes.to_owned()] {
+            let found = told(&format!("{block}\n"));
+            assert!(
+                found.len() == 1 && found[0].contains("in one block"),
+                "{block}: {found:?}"
+            );
+        }
+    }
+    for codes in ["M3 M8", "M13 M8", "M3 M13", "M5 M9", "M7 M8", "M3 M91"] {
+        let found = told(&format!("L X+5 F100 {codes}\n"));
+        assert!(
+            !found.iter().any(|found| found.contains("in one block")),
+            "{codes}: {found:?}"
+        );
+    }
+    let log = run_bytes(
+        NAME,
+        program("L X+0 F100 M3\nL X+5 M3 M4\nL X+6\n").as_bytes(),
+        &Setup::default(),
+    )
+    .1;
+    assert_eq!(log.state.expect("a run").spindle.on(), None);
+}
+
+#[test]
+fn two_feeds_of_one_block_are_refused() {
+    for feeds in [
+        "FMAX F100",
+        "F100 FMAX",
+        "F100 F200",
+        "F100 FAUTO",
+        "FU0.1 F100",
+        "F MAX F100",
+    ] {
+        let blocks = format!("L X+5 {feeds}\n");
+        let found = told(&blocks);
+        assert!(
+            found.len() == 1 && found[0].contains("RepeatedWord"),
+            "{feeds}: {found:?}"
+        );
+        assert_eq!(lines(NAME, &program(&blocks)), ["L X5"], "{feeds}");
+    }
+    // the second F of a block may be that of M128
+    for feeds in ["F100", "FMAX", "F F100", "F100 M128 F500", "M128 F500 F100"] {
+        let found = told(&format!("L X+5 {feeds}\n"));
+        assert!(
+            !found.iter().any(|found| found.contains("RepeatedWord")),
+            "{feeds}: {found:?}"
+        );
+    }
 }

@@ -300,9 +300,8 @@ impl Klartext<'_> {
             .map(|word| word.value)
             .filter(|said| !matches!(said, Said::Nothing | Said::Sign(_)))
             .last();
-        let seconds = said
-            .and_then(|said| self.said(said, report))
-            .filter(|seconds| *seconds >= 0.0);
+        let seconds = said.and_then(|said| self.said(said, report));
+        let seconds = Self::from_zero("the time of a dwell", seconds, report);
         self.dwell(seconds, report);
     }
 

@@ -177,7 +177,8 @@ impl Klartext<'_> {
         };
         match kind {
             Some(word) if word.is("TIME") => {
-                let seconds = self.said(said, report).filter(|seconds| *seconds >= 0.0);
+                let seconds = self.said(said, report);
+                let seconds = Self::from_zero("the time of a dwell", seconds, report);
                 self.dwell(seconds, report);
             }
             Some(word) if word.is("REV") => {

@@ -129,3 +129,37 @@ fn two_feeds_of_one_block_are_refused() {
         );
     }
 }
+
+#[test]
+fn numbers_that_begin_with_zero_are_not_negative() {
+    for (text, name) in [
+        ("TOOL CALL 1 Z S-5", "S is negative"),
+        ("TOOL CALL 1 Z S500 F-5", "F is negative"),
+        ("TOOL CALL -1 Z", "the number of the tool is negative"),
+        ("Q1 = -1\nTOOL CALL Q1 Z", "the number of the tool is negative"),
+        ("TOOL DEF -1 L+5 R+2", "the number of the tool is negative"),
+        ("RND R-1", "R of RND is negative"),
+        ("RND -1", "R of RND is negative"),
+        (
+            "CYCL DEF 9.0 DWELL\nCYCL DEF 9.1 DWELL -2",
+            "the time of a dwell is negative",
+        ),
+        ("FUNCTION DWELL TIME -2", "the time of a dwell is negative"),
+    ] {
+        let found = refused(&format!("L X+0 Y+0 F100\nL X+5\n{text}\nL Y+9\n"), Refusal::Number);
+        assert!(found.len() == 1 && found[0].contains(name), "{text}: {found:?}");
+    }
+    for text in [
+        "TOOL CALL 1 Z S0",
+        "TOOL CALL 0 Z",
+        "RND R1",
+        "TOOL DEF 0",
+        "FUNCTION DWELL TIME 0",
+    ] {
+        let found = refused(&format!("L X+0 Y+0 F100\nL X+5\n{text}\nL Y+9\n"), Refusal::Number);
+        assert_eq!(found, [""; 0], "{text}");
+    }
+    // the corner is unknown, and so are its ends
+    let found = lines(NAME, &program("L X+0 Y+0 Z+0 F100\nL X+5\nRND R-1\nL Y+9\n"));
+    assert!(!found.iter().any(|line| line == "L X5 Y0 Z0 F100"), "{found:?}");
+}

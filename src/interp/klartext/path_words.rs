@@ -137,8 +137,15 @@ impl Klartext<'_> {
         found
     }
 
-    /// F with a number, MAX or AUTO.
+    /// F with a number, MAX or AUTO; FMAX, FAUTO, FU, FZ.
     fn feed_word(&mut self, word: &Word<'_>, words: &mut Words<'_>, report: &mut Report<'_>) -> FeedSaid {
+        match word.name() {
+            b"FMAX" => return FeedSaid::Rapid,
+            b"FAUTO" => return FeedSaid::Auto,
+            b"FU" => return FeedSaid::PerTurn(self.said(word.value, report)),
+            b"FZ" => return FeedSaid::PerTooth,
+            _ => {}
+        }
         match word.value {
             Said::Nothing if words.takes_word("MAX") => FeedSaid::Rapid,
             Said::Nothing if words.takes_word("AUTO") => FeedSaid::Auto,
@@ -171,22 +178,14 @@ impl Klartext<'_> {
             [letter] if names_axis(*letter, word, found) => {}
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
-            b"F" => {
+            b"F" | b"FMAX" | b"FAUTO" | b"FU" | b"FZ" => {
                 let feed = self.feed_word(word, words, report);
-                if own_feed {
+                if own_feed && matches!(word.name(), b"F" | b"FMAX") {
                     found.own_feed = feed;
                 } else {
                     found.take_feed(feed, report);
                 }
             }
-            b"FMAX" if own_feed => found.own_feed = FeedSaid::Rapid,
-            b"FMAX" => found.take_feed(FeedSaid::Rapid, report),
-            b"FAUTO" => found.take_feed(FeedSaid::Auto, report),
-            b"FU" => {
-                let feed = self.said(word.value, report);
-                found.take_feed(FeedSaid::PerTurn(feed), report);
-            }
-            b"FZ" => found.take_feed(FeedSaid::PerTooth, report),
             b"RL" => found.compensation = Some(41),
             b"RR" => found.compensation = Some(42),
             b"R" => match word.value {

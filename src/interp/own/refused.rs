@@ -14,8 +14,8 @@ fn quoted(text: &str) -> String {
     }
 }
 
-fn not_modelled(what: String) -> Option<FaultKind> {
-    Some(FaultKind::NotModelled { what })
+fn not_modelled(what: String) -> FaultKind {
+    FaultKind::NotModelled { what }
 }
 
 /// The fault of an expression that has no value; `None`: it cannot be read, which is no matter of its value.
@@ -32,7 +32,7 @@ pub(crate) fn without_value(error: &Kind, text: &str) -> Option<FaultKind> {
             alarm: None,
         }),
         // what the control then holds is not documented
-        Kind::Infinite | Kind::Undefined => not_modelled(format!("{error} in {}", quoted(text))),
+        Kind::Infinite | Kind::Undefined => Some(not_modelled(format!("{error} in {}", quoted(text)))),
         _ => None,
     }
 }
@@ -92,7 +92,7 @@ impl Own {
             let value = values.first().copied().flatten()?;
             return (super::whole(value).is_none())
                 .then(|| format!("{}: there is no R parameter with the number {value}", name()))
-                .and_then(not_modelled);
+                .map(not_modelled);
         }
         let (sizes, further) = match (self.form_of(stem), self.sizes_of_texts(stem)) {
             (Some((_, sizes)), _) => (sizes, 0),
@@ -102,7 +102,11 @@ impl Own {
         };
         let count = indices.len();
         if count < sizes.len() || count > sizes.len() + further {
-            return not_modelled(format!("{}: the field has {} dimensions", name(), sizes.len()));
+            return Some(not_modelled(format!(
+                "{}: the field has {} dimensions",
+                name(),
+                sizes.len()
+            )));
         }
         let is_inside =
             |(value, size): (&Option<f64>, &usize)| value.is_none_or(|value| is_whole(value) && value < *size as f64);
@@ -114,7 +118,7 @@ impl Own {
                     name()
                 )
             })
-            .and_then(not_modelled)
+            .map(not_modelled)
     }
 
     /// What is wrong with a list that fills a field from an element on.
@@ -135,7 +139,7 @@ impl Own {
                 "{name}: {} does not fit into the field of {count} elements",
                 quoted(text)
             );
-            return not_modelled(what);
+            return Some(not_modelled(what));
         }
         let values = if repeats { &parts[..1] } else { &parts[..] };
         values.iter().filter(|part| !part.is_empty()).find_map(|part| {

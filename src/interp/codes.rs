@@ -231,6 +231,25 @@ impl<'d> Iso<'d> {
         self.core.forget_everything();
     }
 
+    /// MCALL followed by a cycle begins, MCALL alone ends; any other cycle is not modelled.
+    fn cycle_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        let alone = block.count == 1 && !words.forgets_all;
+        let ends = found.code.kind == CodeKind::Name && !found.with_arguments && alone;
+        self.memory.own.modal = None;
+        if ends && words.has_values {
+            let what = "words beside MCALL without a cycle or a program".to_owned();
+            report.fault(found.range, FaultKind::NotModelled { what });
+            block.not_modelled = true;
+        }
+        if ends {
+            self.cycle_off(found.code);
+        } else if block.hole_call.is_some() {
+            block.modal_call = true;
+        } else {
+            self.canned_cycle(found, block, report);
+        }
+    }
+
     fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         self.zero_in_compensation(found, words, report);
         match found.code.action {
@@ -266,19 +285,7 @@ impl<'d> Iso<'d> {
             Action::FrameChange if found.code.id == "G254" => self.dynamic_offset(found, words, block, report),
             Action::FrameChange => self.frame_change(found, words, block, report),
             Action::FrameLost => self.frame_lost(found, words, block, report),
-            Action::CannedCycle => {
-                // MCALL followed by a cycle begins, MCALL alone ends
-                let alone = block.count == 1 && !words.forgets_all;
-                let ends = found.code.kind == CodeKind::Name && !found.with_arguments && alone;
-                self.memory.own.modal = None;
-                if ends {
-                    self.cycle_off(found.code);
-                } else if block.hole_call.is_some() {
-                    block.modal_call = true;
-                } else {
-                    self.canned_cycle(found, block, report);
-                }
-            }
+            Action::CannedCycle => self.cycle_code(found, words, block, report),
             Action::CycleOff => self.cycle_off(found.code),
             Action::PointToPoint | Action::PointToPointRapid | Action::ContinuousPath => {
                 self.memory.travel = Travel::of(found.code.action).unwrap_or_default();

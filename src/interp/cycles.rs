@@ -24,6 +24,7 @@ pub(crate) use called::HoleCall;
 pub(crate) use data::{Hole, Stored};
 pub(crate) use pattern::Pattern;
 pub(crate) use repeat::{Kept, Repeated};
+pub(crate) use row::is_row;
 
 use crate::Argument;
 use crate::codes::{BlockCodes, Found, not_modelled};

@@ -1,5 +1,5 @@
 //! Dwells: G4 with the words that its code reads.
-use crate::codes::Found;
+use crate::codes::{Found, dwell_reads};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
@@ -12,7 +12,13 @@ impl Iso<'_> {
         if let Some(range) = self.whole_dwell(codes, words) {
             report.fault(range, FaultKind::AmbiguousDecimal);
         }
-        let said = self.dwell_seconds(codes, words);
+        let several =
+            dwell_reads(codes, "F") && words.feed.is_given() && dwell_reads(codes, "S") && words.speed.is_given();
+        if several {
+            let what = "a dwell with F and S: which of both times counts".to_owned();
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+        }
+        let said = self.dwell_seconds(codes, words).filter(|_| !several);
         let seconds = said.filter(|seconds| *seconds >= 0.0);
         let given = words.p.is_given() || words.feed.is_given() || words.speed.is_given() || words.axes.any();
         if said.is_none() && !given {

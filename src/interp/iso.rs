@@ -8,6 +8,7 @@ mod spindle;
 mod whole;
 
 pub(crate) use engine::Iso;
+pub(crate) use signs::below_zero;
 
 use crate::Sink;
 use crate::codes::{BlockCodes, Found};
@@ -186,6 +187,8 @@ impl<'d> Iso<'d> {
         self.spindle_before(words);
         if self.core.dialect.quirks.macro_b() {
             self.signs(words, &block, report);
+        } else if self.core.dialect.quirks.declares_names() {
+            self.numbers_from_zero(words, block.dwell, report);
         } else if block.dwell {
             self.dwell_sign(words, report);
         }

@@ -6,6 +6,7 @@ mod approach;
 mod arcs;
 mod axial;
 mod calls;
+mod contradiction;
 mod corner;
 mod datum;
 mod drill;
@@ -93,6 +94,8 @@ pub(crate) struct Memory {
     opened_cycle: Option<u32>,
     /// The cycle that CYCL CALL runs.
     cycle: hole::Cycle,
+    /// mm per unit of the program that defines it.
+    cycle_unit: f64,
     /// The points of PATTERN DEF.
     pattern: Option<Vec<Position>>,
     /// M89.

@@ -36,7 +36,12 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 (self.report)(word.range, FaultKind::NotModelled { what });
             }
             (Some(Role::FeedReference), _) => self.feed_reference(index, word),
-            (Some(role), _) => self.role_word(role, b' ', word),
+            (Some(role), _) => {
+                if stem.eq_ignore_ascii_case(b"LIMS") && self.value_of(word).is_some_and(|limit| limit < 0.0) {
+                    (self.report)(word.range, crate::iso::below_zero("LIMS"));
+                }
+                self.role_word(role, b' ', word);
+            }
             (None, Some(b',')) if self.corner(stem, word) => {}
             (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
             _ if variable && self.code_with_value(stem, word) => {}

@@ -6,15 +6,17 @@
 mod field;
 mod named;
 mod prepared;
+mod refused;
 mod sort;
 mod strings;
 mod text_functions;
 mod view;
 mod words;
 
-use crate::Argument;
 use crate::flow::Transfer;
+use crate::{Argument, FaultKind};
 use field::Field;
+pub(crate) use refused::without_value;
 pub(crate) use sort::{Sort, is_of_text};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -227,11 +229,13 @@ impl Own {
         self.scope.sorts.insert(name.as_str().into(), sort);
         self.assign(&name, value);
     }
-    /// `DEF REAL A, B=3`: everything after DEF. Returns a name that is defined already.
-    pub(crate) fn define(&mut self, text: &str) -> Option<String> {
-        let (kind, names) = text.trim().split_once(char::is_whitespace)?;
-        let sort = Sort::named(kind)?;
-        let mut twice = None;
+    /// `DEF REAL A, B=3`: everything after DEF. Returns what is wrong with it.
+    pub(crate) fn define(&mut self, text: &str) -> Vec<FaultKind> {
+        let mut wrong = Vec::new();
+        let Some((kind, names)) = text.trim().split_once(char::is_whitespace) else {
+            return wrong;
+        };
+        let Some(sort) = Sort::named(kind) else { return wrong };
         for one in arguments(names) {
             let (name, value) = match one.split_once('=') {
                 None => (one, Some(0.0)),
@@ -241,7 +245,11 @@ impl Own {
                 continue;
             }
             let stem = name.split('[').next().unwrap_or(name).trim();
-            twice = twice.or_else(|| self.is_declared(stem).then(|| stem.to_ascii_uppercase()));
+            if self.is_declared(stem) {
+                let name = stem.to_ascii_uppercase();
+                let what = format!("{name}: the program defines it twice (rename one of them)");
+                wrong.push(FaultKind::NotModelled { what });
+            }
             if kind.eq_ignore_ascii_case("FRAME") && !name.contains('[') {
                 let name = name.trim().to_ascii_lowercase();
                 let is_plain = value.is_some() && !one.contains('=');
@@ -254,14 +262,21 @@ impl Own {
                 self.declare(name, sort, value);
                 value.is_some() && sort != Sort::Other
             };
+            let given = one.split_once('=').map(|(_, given)| given);
+            wrong.extend(given.and_then(|given| {
+                if is_field {
+                    return self.list_misfit(&stem.to_ascii_lowercase(), 0, given);
+                }
+                self.misfit(name, given, value)
+            }));
             if is_of_text(kind) {
-                self.declare_string(kind, name, one.split_once('=').map(|(_, text)| text));
+                self.declare_string(kind, name, given);
             }
             if let (Some((name, text)), false) = (one.split_once('='), known) {
                 self.note_text(name.split('[').next().unwrap_or(name), text);
             }
         }
-        twice
+        wrong
     }
     /// `EXTERN GROOVE(REAL)`: everything after EXTERN.
     pub(crate) fn declare_subprogram(&mut self, text: &str) {
@@ -310,7 +325,12 @@ impl Own {
             unknown: RefCell::default(),
         };
         let end = end as usize;
-        let value = formula.eval(&view).map_err(|error| error.kind)?;
+        let value = match formula.eval(&view) {
+            Ok(value) => value,
+            // with another value of the operand that is not known it may have one
+            Err(_) if view.unknown.borrow().is_some() => f64::NAN,
+            Err(error) => return Err(error.kind),
+        };
         if !value.is_nan() {
             return Ok((Some(value), None, end));
         }

@@ -15,6 +15,7 @@ mod one_block;
 mod path;
 mod pole;
 mod polynomial;
+mod program_call;
 mod saved;
 mod spline;
 mod statement;

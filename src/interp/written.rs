@@ -18,7 +18,15 @@ pub(crate) enum Keep {
 pub(crate) fn written(view: &Block<'_>, run: &impl Values, words: &Words, keep: Keep) -> Vec<Argument> {
     let mut found = Vec::new();
     let text = |range: TextRange| view.program().text(range).into_owned();
+    let mut statement = String::new();
     for item in view.items() {
+        // a path after CALL is one name: its slashes and parts are no words of the block
+        let part = call_part(view, run, item).filter(|_| !statement.is_empty() || calls_program(view, run, item));
+        if let Some(part) = part {
+            statement.push_str(&part);
+            statement.push(' ');
+            continue;
+        }
         match item {
             Item::Word(word) => {
                 if !(keep == Keep::BesideMotion && is_held(run, view, &word)) {
@@ -39,8 +47,32 @@ pub(crate) fn written(view: &Block<'_>, run: &impl Values, words: &Words, keep: 
             Item::Skip(..) | Item::Comment(_) | Item::Percent(_) | Item::Label(_) => {}
         }
     }
+    if !statement.is_empty() {
+        found.push(Argument::text("", statement.trim_end()));
+    }
     found.sort_by(|a, b| a.name.cmp(&b.name));
     found
+}
+
+/// Whether an item begins a statement of a Sinumerik that calls a program by its path: CALL, PCALL.
+pub(crate) fn calls_program(view: &Block<'_>, run: &impl Values, item: Item) -> bool {
+    let Item::Call(call) = item else { return false };
+    let name = view.program().bytes(call.name);
+    run.dialect().quirks.declares_names()
+        && [&b"CALL"[..], b"PCALL"]
+            .iter()
+            .any(|known| name.eq_ignore_ascii_case(known))
+}
+
+/// The text of an item as a part of such a statement.
+fn call_part(view: &Block<'_>, run: &impl Values, item: Item) -> Option<String> {
+    let range = match item {
+        Item::Word(word) => word.range,
+        Item::Call(call) => call.range,
+        Item::Other(range) => range,
+        _ => return None,
+    };
+    Some(resolved(run, &view.program().text(range)))
 }
 
 /// Whether the motion of the block or a setting holds the word.

@@ -124,6 +124,9 @@ impl Iso<'_> {
         report: &mut Report<'_>,
     ) {
         if let Some(found) = block.hole_call.and_then(|at| codes.get(at)) {
+            if !block.modal_call && self.modal_call_unclear(found, report) {
+                return;
+            }
             let text = report.program.text(found.range);
             let numbers = self.call_numbers(&text);
             if !block.modal_call && self.hole_row(found, &numbers, words, report) {

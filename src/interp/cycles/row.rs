@@ -45,11 +45,12 @@ enum Places {
     Unknown,
 }
 
-impl Row {
-    fn is_called(id: &str) -> bool {
-        matches!(id, "HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802")
-    }
+/// Whether a cycle of this name is a row of holes.
+pub(crate) fn is_row(id: &str) -> bool {
+    matches!(id, "HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802")
+}
 
+impl Row {
     fn of(id: &str, numbers: &[Given], listed: Option<HolePlaces>) -> Option<Self> {
         if id == "CYCLE802" {
             return listed.and_then(|HolePlaces::Pairs| pairs(numbers)).map(Self::Listed);
@@ -224,7 +225,7 @@ impl Iso<'_> {
         words: &Words,
         report: &mut Report<'_>,
     ) -> bool {
-        if !Row::is_called(&found.code.id) {
+        if !is_row(&found.code.id) {
             return false;
         }
         if self.is_full() {

@@ -2,6 +2,7 @@
 use crate::codes::{BlockCodes, Found};
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::written::calls_program;
 use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::{Block, Item};
@@ -47,6 +48,10 @@ impl Iso<'_> {
         let mut after_slash = false;
         let mut rest = String::new();
         for item in view.items() {
+            if calls_program(view, self, item) {
+                // the slashes after it are those of a path
+                break;
+            }
             match item {
                 Item::Skip(level, range) => {
                     // the switch decides whether the block runs at all; a Sinumerik counts its levels from 0 (Programming Manual,

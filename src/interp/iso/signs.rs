@@ -1,10 +1,19 @@
 //! Numbers that may not be negative, or have no decimal point.
-use crate::Refusal;
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
+use crate::{FaultKind, Refusal};
 use trunnion_dialect::Macros;
+
+/// The fact that a number must be 0 or more.
+pub(crate) fn below_zero(name: &str) -> FaultKind {
+    FaultKind::Rejected {
+        refusal: Refusal::Number,
+        message: format!("{name} is negative: it must be 0 or more"),
+        alarm: None,
+    }
+}
 
 impl Iso<'_> {
     /// How much a block of a Sinumerik takes.
@@ -42,6 +51,19 @@ impl Iso<'_> {
             if negative && (name != "P" || block.dwell) {
                 let message = format!("{name} is negative: it must be 0 or more");
                 self.refuse(words, Refusal::Number, message, None, report);
+            }
+        }
+    }
+
+    /// S, T and D of a Sinumerik have no values below 0; neither has the time of a dwell.
+    pub(super) fn numbers_from_zero(&self, words: &Words, is_dwell: bool, report: &mut Report<'_>) {
+        if is_dwell {
+            self.dwell_sign(words, report);
+        }
+        let speed = Some(("S", words.speed)).filter(|_| !is_dwell);
+        for (name, value) in speed.into_iter().chain([("T", words.tool), ("D", words.edge)]) {
+            if let Some(number) = value.number().filter(|number| number.value < 0.0) {
+                report.fault(number.range, below_zero(name));
             }
         }
     }

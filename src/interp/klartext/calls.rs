@@ -1,13 +1,39 @@
 //! LBL, CALL and SEL: which label or program is meant.
 use super::Klartext;
 use super::flow::{Level, Request};
-use super::words::{Kind, Said, Words};
+use super::values::Value;
+use super::words::{Kind, Parameter, Said, Words};
 use crate::core::Report;
 use crate::{FaultKind, Refusal};
 use trunnion_flow::Key;
 use trunnion_syntax::TextRange;
 
+/// What belongs to a calling program alone.
+#[derive(Clone, Debug)]
+pub(crate) struct Caller {
+    locals: Vec<(Parameter, Value)>,
+    /// mm per unit of its lengths and of F: BEGIN PGM says them for one program.
+    units: [f64; 2],
+}
+
 impl Klartext<'_> {
+    /// What is kept while another program runs.
+    pub(super) fn caller(&mut self) -> Caller {
+        let state = &self.core.state;
+        Caller {
+            units: [state.coordinates.unit_mm(), state.feed.unit_mm()],
+            locals: self.memory.parameters.take_locals(),
+        }
+    }
+
+    /// A called program has ended. F stays: it is the same feed in the caller's unit.
+    pub(super) fn come_back(&mut self, caller: Caller) {
+        let [length, feed] = caller.units;
+        self.core.state.own_units(length, feed);
+        self.memory.parameters.put_locals(caller.locals);
+        self.core.state.ended = false;
+    }
+
     /// LBL: a label is passed; LBL 0 ends a subprogram.
     pub(crate) fn label(&mut self, value: Said<'_>, words: &mut Words<'_>) -> Request {
         let of_label = self

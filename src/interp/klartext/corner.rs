@@ -99,6 +99,7 @@ impl Klartext<'_> {
         let (mut feed, mut unread) = (None, false);
         let mut value = first;
         for word in words.by_ref() {
+            unread |= feed.is_some() && word.name().starts_with(b"F");
             match word.name() {
                 b"R" if letter == Some(b'R') => value = word.value,
                 // it ends with the corner (iTNC 530 60642x-03, p. 232)
@@ -126,8 +127,11 @@ impl Klartext<'_> {
             None
         } else if let Some(letter) = letter {
             let unit = self.core.state.coordinates.unit_mm();
-            let mm = self.said(value, report).map(|size| size.abs() * unit);
-            let mm = mm.and_then(|mm| self.scaled_size(name, mm, report));
+            let said = self.said(value, report);
+            let mm = Self::from_zero(if is_round { "R of RND" } else { "CHF" }, said, report);
+            let mm = mm
+                .map(|size| size * unit)
+                .and_then(|mm| self.scaled_size(name, mm, report));
             mm.map(|mm| Size { letter, mm })
         } else {
             let what = "CHF: what its length measures (declare [control] chamfer_length)";

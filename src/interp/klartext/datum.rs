@@ -300,9 +300,8 @@ impl Klartext<'_> {
             .map(|word| word.value)
             .filter(|said| !matches!(said, Said::Nothing | Said::Sign(_)))
             .last();
-        let seconds = said
-            .and_then(|said| self.said(said, report))
-            .filter(|seconds| *seconds >= 0.0);
+        let seconds = said.and_then(|said| self.said(said, report));
+        let seconds = Self::from_zero("the time of a dwell", seconds, report);
         self.dwell(seconds, report);
     }
 
@@ -321,6 +320,7 @@ impl Klartext<'_> {
     fn define_cycle(&mut self, cycle: u32, line: u32, words: &mut Words<'_>, report: &mut Report<'_>) {
         // a new cycle ends M89
         self.memory.runs_after_each = false;
+        self.memory.cycle_unit = self.core.state.coordinates.unit_mm();
         if cycle >= 200 {
             self.memory.cycle = self.read_cycle(cycle, words, report);
         } else {

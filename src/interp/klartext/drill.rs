@@ -42,12 +42,23 @@ impl Klartext<'_> {
         self.codes_after(&found);
     }
 
+    /// The cycle was defined in a program whose BEGIN PGM says another unit.
+    pub(super) fn cycle_has_other_unit(&self) -> bool {
+        let is_there = !matches!(self.memory.cycle, Cycle::None);
+        is_there && self.memory.cycle_unit != self.core.state.coordinates.unit_mm()
+    }
+
     /// Runs the cycle that is defined where the tool is.
     pub(crate) fn run_cycle(&mut self, report: &mut Report<'_>) {
         self.flush(report);
         let over = self.cycle_motions.over(self.core.setup.limits.blocks);
         if let Some(why) = over.filter(|_| !matches!(self.memory.cycle, Cycle::None)) {
             self.not_modelled_once(&why, report);
+            return self.work_unknown(report);
+        }
+        if self.cycle_has_other_unit() {
+            let what = "a cycle that a program in another unit defines: in which unit its values count";
+            self.not_modelled_once(what, report);
             return self.work_unknown(report);
         }
         match self.memory.cycle.clone() {

@@ -2,9 +2,9 @@
 //!
 //! `CALL LBL n` runs the blocks from the label to LBL 0; with REP m the section from the label to the call runs m times more; a called program
 //! ends with END PGM, M2 or M30, and what it has shifted and turned stays. Source: TNC 640 user's manual, subprograms and program sections.
+use super::Klartext;
+use super::calls::Caller;
 use super::labels::{files, labels, no_label};
-use super::words::Parameter;
-use super::{Klartext, values::Value};
 use crate::flow::through::Through;
 use crate::{Fault, FaultKind, Frame, Sink};
 use std::collections::HashMap;
@@ -36,8 +36,7 @@ pub(crate) enum Request {
 #[derive(Clone, Debug)]
 pub(crate) enum Level {
     Label,
-    /// Local parameters of the calling program.
-    Program(Vec<(Parameter, Value)>),
+    Program(Caller),
 }
 
 /// See the module.
@@ -190,10 +189,8 @@ impl Klartext<'_> {
             self.core.chain = call.chain;
             self.flow.next = call.back;
             self.core.called_at = (call.place.file != 0).then_some(call.place.main);
-            if let Level::Program(locals) = call.level {
-                self.memory.parameters.put_locals(locals);
-                self.core.state.ended = false;
-                return;
+            if let Level::Program(caller) = call.level {
+                return self.come_back(caller);
             }
         }
         self.core.proper_end = true;
@@ -333,8 +330,8 @@ impl Klartext<'_> {
             }
             Ok(file) => {
                 self.doubled_in_called(file).into_iter().for_each(&mut *tell);
-                let locals = self.memory.parameters.take_locals();
-                self.enter(file, 0, Level::Program(locals), program, called, from);
+                let caller = self.caller();
+                self.enter(file, 0, Level::Program(caller), program, called, from);
                 Request::Next
             }
         }

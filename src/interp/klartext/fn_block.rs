@@ -1,7 +1,7 @@
 //! FN 0 to FN 29, and assignments of formulas.
 use super::Klartext;
 use super::flow::Request;
-use super::formula::formula;
+use super::formula::{BY_ZERO, NEGATIVE_ROOT, formula};
 use super::reason::Reason;
 use super::values::Value;
 use super::words::{Kind, Parameter, Said, Words};
@@ -96,7 +96,13 @@ impl Klartext<'_> {
         }
         let cause = self.memory.parameters.cause_in(words.rest());
         match formula(&mut words, &self.memory.parameters) {
-            Ok(value) if words.rest().trim_ascii().is_empty() => {
+            Ok((_, Some(why))) if words.rest().trim_ascii().is_empty() => {
+                self.memory
+                    .parameters
+                    .set_from(target, None, Some(format!("{target}: {why}")));
+                Self::rejected(Refusal::Expression, format!("{why} in the formula of {target}"), report);
+            }
+            Ok((value, None)) if words.rest().trim_ascii().is_empty() => {
                 let own = || {
                     format!(
                         "{target}: the formula that sets it (a function before an operator needs brackets: its priority is not taken from a source)"
@@ -152,7 +158,12 @@ impl Klartext<'_> {
         };
         let cause = self.memory.parameters.cause_in(words.rest());
         let value = self.fn_value(number, words, report);
-        if let Some(value) = value {
+        let rest = words.rest().trim_ascii();
+        if value.is_some() && !rest.is_empty() {
+            self.memory.parameters.set(target, None);
+            let rest = String::from_utf8_lossy(rest).into_owned();
+            self.not_modelled_once(&format!("`{rest}` after the values of FN {number}"), report);
+        } else if let Some(value) = value {
             self.memory.parameters.set_from(target, value, cause);
         } else {
             self.memory.parameters.set(target, None);
@@ -177,6 +188,9 @@ impl Klartext<'_> {
                     Said::Nothing => self.operand(words, report)?,
                     said => self.said(said, report),
                 };
+                if number == 5 && value.is_some_and(|value| value < 0.0) {
+                    Self::rejected(Refusal::Expression, format!("{NEGATIVE_ROOT} in FN 5"), report);
+                }
                 Some(value.and_then(|value| match number {
                     5 => (value >= 0.0).then(|| value.sqrt()),
                     6 => Some(sin_cos_degrees(value).0),
@@ -201,6 +215,9 @@ impl Klartext<'_> {
                     }
                 };
                 let second = self.operand(words, report).filter(|_| taken)?;
+                if number == 4 && first.is_some() && second == Some(0.0) {
+                    Self::rejected(Refusal::Expression, format!("{BY_ZERO} in FN 4"), report);
+                }
                 Some(first.zip(second).and_then(|(a, b)| match number {
                     1 => Some(a + b),
                     2 => Some(a - b),

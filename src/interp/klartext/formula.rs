@@ -10,14 +10,15 @@ use trunnion_geometry::math::{acos, asin, atan2, exp, ln, pow};
 /// Parentheses inside parentheses.
 const DEEPEST: usize = 64;
 
-/// A formula at the place of `words`, up to what cannot continue it.
-pub(crate) fn formula(words: &mut Words<'_>, parameters: &Parameters) -> Result<Value, String> {
-    Formula {
+/// A formula at the place of `words`, up to what cannot continue it: its value, and why it has none where all of it is known.
+pub(crate) fn formula(words: &mut Words<'_>, parameters: &Parameters) -> Result<(Value, Option<&'static str>), String> {
+    let mut formula = Formula {
         words,
         parameters,
         depth: 0,
-    }
-    .sum()
+    };
+    let found = formula.sum()?;
+    Ok((found.value, found.stops))
 }
 
 struct Formula<'w, 't, 'p> {
@@ -27,8 +28,11 @@ struct Formula<'w, 't, 'p> {
 }
 
 /// An operand, and what is not taken from a source about it.
+#[derive(Default)]
 struct Operand {
     value: Value,
+    /// Why the control stops at it.
+    stops: Option<&'static str>,
     /// A function whose argument stands without parentheses, or a power: what an operator after it acts on.
     loose: bool,
     /// A power: what an operator before it acts on.
@@ -41,8 +45,35 @@ fn joined(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Op
     let value = first.value.zip(second.value).filter(|_| known);
     Operand {
         value: value.map(|(a, b)| of(a, b)).filter(|value| value.is_finite()),
+        // on what another order of the operators acts is not known
+        stops: first.stops.or(second.stops).filter(|_| known),
         loose: second.loose,
         power: false,
+    }
+}
+
+/// The same for a division.
+fn divided(first: &Operand, second: &Operand) -> Operand {
+    let mut found = joined(first, second, |a, b| a / b);
+    let by_zero = second.value == Some(0.0) && first.value.is_some() && !first.loose && !second.power;
+    if by_zero {
+        found.stops = Some(BY_ZERO);
+    }
+    found
+}
+
+/// What no control computes.
+pub(crate) const BY_ZERO: &str = "division by zero";
+pub(crate) const NEGATIVE_ROOT: &str = "square root of a negative number";
+
+/// Why a function has no value where its argument has one.
+fn undefined(name: &[u8]) -> Option<&'static str> {
+    match name {
+        b"SQRT" => Some(NEGATIVE_ROOT),
+        b"ASIN" => Some("ASIN of a number outside -1 to 1"),
+        b"ACOS" => Some("ACOS of a number outside -1 to 1"),
+        b"LN" | b"LOG" => Some("logarithm of zero or of a negative number"),
+        _ => None,
     }
 }
 
@@ -51,7 +82,7 @@ impl Formula<'_, '_, '_> {
         self.words.takes(byte)
     }
 
-    fn sum(&mut self) -> Result<Value, String> {
+    fn sum(&mut self) -> Result<Operand, String> {
         let mut first = self.product()?;
         loop {
             let minus = if self.next_is(b'+') {
@@ -59,7 +90,7 @@ impl Formula<'_, '_, '_> {
             } else if self.next_is(b'-') {
                 true
             } else {
-                return Ok(first.value);
+                return Ok(first);
             };
             let second = self.product()?;
             first = joined(&first, &second, |a, b| if minus { a - b } else { a + b });
@@ -77,7 +108,11 @@ impl Formula<'_, '_, '_> {
                 return Ok(first);
             };
             let second = self.power()?;
-            first = joined(&first, &second, |a, b| if divides { a / b } else { a * b });
+            first = if divides {
+                divided(&first, &second)
+            } else {
+                joined(&first, &second, |a, b| a * b)
+            };
         }
     }
 
@@ -93,6 +128,7 @@ impl Formula<'_, '_, '_> {
         let value = base.value.zip(exponent.value).filter(|_| known);
         Ok(Operand {
             value: value.map(|(a, b)| pow(a, b)).filter(|value| value.is_finite()),
+            stops: base.stops.or(exponent.stops).filter(|_| known),
             loose: true,
             power: true,
         })
@@ -127,16 +163,19 @@ impl Formula<'_, '_, '_> {
         let plain = |value| {
             Ok(Operand {
                 value,
-                loose: false,
-                power: false,
+                ..Operand::default()
             })
         };
         if self.next_is(b'(') {
-            let value = self.sum()?;
+            let Operand { value, stops, .. } = self.sum()?;
             if !self.next_is(b')') {
                 return Err("a parenthesis is not closed".to_owned());
             }
-            return plain(value);
+            return Ok(Operand {
+                value,
+                stops,
+                ..Operand::default()
+            });
         }
         self.words.blanks();
         match self.words.value() {
@@ -147,8 +186,8 @@ impl Formula<'_, '_, '_> {
                 let inner = self.operand()?;
                 return Ok(Operand {
                     value: inner.value.map(|value| if minus { -value } else { value }),
-                    loose: inner.loose,
                     power: false,
+                    ..inner
                 });
             }
             Said::Nothing | Said::Text(_) => {}
@@ -174,8 +213,11 @@ impl Formula<'_, '_, '_> {
         self.words.blanks();
         let closed = self.words.peek() == Some(b'(');
         let inner = self.operand()?;
+        let value = inner.value.and_then(function).filter(|value| value.is_finite());
+        let without = undefined(&name).filter(|_| inner.value.is_some() && value.is_none());
         Ok(Operand {
-            value: inner.value.and_then(function).filter(|value| value.is_finite()),
+            value,
+            stops: inner.stops.or(without),
             loose: !closed,
             power: false,
         })
@@ -223,7 +265,39 @@ mod tests {
         };
         parameters.set(q(1), Some(5.0));
         parameters.set(q(2), Some(-2.5));
-        formula(&mut Words::new(text.as_bytes()), &parameters)
+        formula(&mut Words::new(text.as_bytes()), &parameters).map(|found| found.0)
+    }
+
+    /// What is known to have no value, and what is not.
+    #[test]
+    fn formulas_at_which_the_control_stops() {
+        let stops = |text: &str| {
+            formula(&mut Words::new(text.as_bytes()), &Parameters::default())
+                .expect(text)
+                .1
+        };
+        for text in [
+            "1 / 0",
+            "SQRT -4",
+            "- SQRT ( 1 - 5 )",
+            "2 * ( 3 / ( 1 - 1 ) ) + Q9",
+            "LN 0",
+            "ASIN ( 2 )",
+            "SIN ( 1 / 0 )",
+        ] {
+            assert!(stops(text).is_some(), "{text}");
+        }
+        for text in [
+            "Q9 / 0",
+            "1 / Q9",
+            "SQRT Q9",
+            "SQRT -4 + 8",
+            "1 / 0 ^ 2",
+            "SQRT 4",
+            "TAN ( 90 )",
+        ] {
+            assert_eq!(stops(text), None, "{text}");
+        }
     }
 
     #[test]

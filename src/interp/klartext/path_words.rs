@@ -66,6 +66,15 @@ impl PathWords {
     pub(crate) fn codes(&self) -> &[u32] {
         &self.codes[..self.code_count]
     }
+    /// F, FMAX and the like say the feed once: of two of them no source says which one counts.
+    fn take_feed(&mut self, feed: FeedSaid, report: &mut Report<'_>) {
+        if feed != FeedSaid::Nothing && self.feed != FeedSaid::Nothing {
+            report.fault(TextRange::default(), FaultKind::RepeatedWord);
+            self.feed = FeedSaid::Value(None);
+        } else if feed != FeedSaid::Nothing {
+            self.feed = feed;
+        }
+    }
     pub(crate) fn has(&self, code: u32) -> bool {
         self.codes().contains(&code)
     }
@@ -128,8 +137,15 @@ impl Klartext<'_> {
         found
     }
 
-    /// F with a number, MAX or AUTO.
+    /// F with a number, MAX or AUTO; FMAX, FAUTO, FU, FZ.
     fn feed_word(&mut self, word: &Word<'_>, words: &mut Words<'_>, report: &mut Report<'_>) -> FeedSaid {
+        match word.name() {
+            b"FMAX" => return FeedSaid::Rapid,
+            b"FAUTO" => return FeedSaid::Auto,
+            b"FU" => return FeedSaid::PerTurn(self.said(word.value, report)),
+            b"FZ" => return FeedSaid::PerTooth,
+            _ => {}
+        }
         match word.value {
             Said::Nothing if words.takes_word("MAX") => FeedSaid::Rapid,
             Said::Nothing if words.takes_word("AUTO") => FeedSaid::Auto,
@@ -162,15 +178,14 @@ impl Klartext<'_> {
             [letter] if names_axis(*letter, word, found) => {}
             [letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, false, found, report),
             [b'I', letter] if AxisLetter::new(*letter).is_some() => self.axis(word, *letter, true, found, report),
-            b"F" => {
+            b"F" | b"FMAX" | b"FAUTO" | b"FU" | b"FZ" => {
                 let feed = self.feed_word(word, words, report);
-                *(if own_feed { &mut found.own_feed } else { &mut found.feed }) = feed;
+                if own_feed && matches!(word.name(), b"F" | b"FMAX") {
+                    found.own_feed = feed;
+                } else {
+                    found.take_feed(feed, report);
+                }
             }
-            b"FMAX" if own_feed => found.own_feed = FeedSaid::Rapid,
-            b"FMAX" => found.feed = FeedSaid::Rapid,
-            b"FAUTO" => found.feed = FeedSaid::Auto,
-            b"FU" => found.feed = FeedSaid::PerTurn(self.said(word.value, report)),
-            b"FZ" => found.feed = FeedSaid::PerTooth,
             b"RL" => found.compensation = Some(41),
             b"RR" => found.compensation = Some(42),
             b"R" => match word.value {

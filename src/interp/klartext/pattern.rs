@@ -41,7 +41,7 @@ impl Klartext<'_> {
         let along = self.axes()[2];
         let before = self.core.state.feed;
         let mut hole = match &self.memory.cycle {
-            Cycle::Hole(hole) => Some(hole.clone()),
+            Cycle::Hole(hole) if !self.cycle_has_other_unit() => Some(hole.clone()),
             _ => None,
         };
         let unit = self.core.state.coordinates.unit_mm();

@@ -177,7 +177,8 @@ impl Klartext<'_> {
         };
         match kind {
             Some(word) if word.is("TIME") => {
-                let seconds = self.said(said, report).filter(|seconds| *seconds >= 0.0);
+                let seconds = self.said(said, report);
+                let seconds = Self::from_zero("the time of a dwell", seconds, report);
                 self.dwell(seconds, report);
             }
             Some(word) if word.is("REV") => {
@@ -256,6 +257,7 @@ impl Klartext<'_> {
 
     /// Codes that act before the block's motion.
     pub(crate) fn codes_before(&mut self, words: &PathWords, report: &mut Report<'_>) {
+        self.contradicting_codes(words, report);
         for &code in words.codes() {
             match code {
                 3 | 4 | 13 | 14 => self.core.state.spindle.switch(true),
@@ -330,6 +332,10 @@ impl Klartext<'_> {
                 }
                 _ => {}
             }
+        }
+        if Self::spindle_is_unclear(words) {
+            self.core.state.spindle.switch(true);
+            self.core.state.spindle.leave_to_machine();
         }
     }
 

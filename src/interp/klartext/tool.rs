@@ -1,6 +1,7 @@
 //! TOOL CALL and TOOL DEF.
 use super::Klartext;
 use super::reason::Reason;
+use super::values::Value;
 use super::words::{Said, Words};
 use crate::arc::plane_axes;
 use crate::core::Report;
@@ -28,9 +29,10 @@ impl Klartext<'_> {
     fn tool_definition(&mut self, number: Said<'_>, words: &mut Words<'_>, report: &mut Report<'_>) {
         let number = match number {
             Said::Nothing => None,
-            said => self
-                .said(said, report)
-                .filter(|number| *number >= 0.0 && number.fract() == 0.0),
+            said => {
+                let number = self.said(said, report);
+                Self::from_zero("the number of the tool", number, report).filter(|number| number.fract() == 0.0)
+            }
         };
         let number = number.map(|number| number as u32);
         let (mut length, mut radius) = (None, None);
@@ -57,6 +59,16 @@ impl Klartext<'_> {
             (number, None) => self.core.state.tool.prepare(number),
             _ => {}
         }
+    }
+
+    /// A number that has no values below 0: such a one is refused, and what the control has then is not known.
+    pub(super) fn from_zero(name: &str, value: Value, report: &mut Report<'_>) -> Value {
+        let is_negative = value.is_some_and(|value| value < 0.0);
+        if is_negative {
+            let message = format!("{name} is negative: it must be 0 or more");
+            Self::rejected(Refusal::Number, message, report);
+        }
+        value.filter(|_| !is_negative)
     }
 
     /// The control uses what the program defines; where the settings say otherwise, one of both is wrong.
@@ -101,7 +113,8 @@ impl Klartext<'_> {
                 }
             }
             said => {
-                let value = self.said(said, report).filter(|number| *number >= 0.0);
+                let value = self.said(said, report);
+                let value = Self::from_zero("the number of the tool", value, report);
                 // 5.1 is an index of tool 5, whose data are its own
                 Some(match value {
                     Some(number) if number.fract() == 0.0 => Chosen::Number(number as u32),
@@ -119,11 +132,15 @@ impl Klartext<'_> {
                 b"Z" => axis = Some(Plane::Xy),
                 b"S" => {
                     let rpm = self.said(word.value, report);
+                    let rpm = Self::from_zero("S", rpm, report);
                     self.core.state.spindle.set_rpm(rpm);
                 }
                 b"VC" => self.core.state.spindle.set_rpm(None),
                 b"F" if word.value == Said::Nothing => {}
-                b"F" => feed = Some(self.said(word.value, report)),
+                b"F" => {
+                    let said = self.said(word.value, report);
+                    feed = Some(Self::from_zero("F", said, report));
+                }
                 b"FU" | b"FZ" => {
                     let what = "FU or FZ of TOOL CALL: the feed until the next F";
                     self.not_modelled_once(what, report);

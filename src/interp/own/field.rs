@@ -133,6 +133,12 @@ impl Own {
         parts.iter().take(most + 1).map(value).collect()
     }
 
+    /// The type of the elements of a field, and how many there are in each dimension.
+    pub(super) fn form_of(&self, stem: &str) -> Option<(Sort, &[usize])> {
+        let field = self.scope.fields.get(stem)?;
+        Some((field.sort, &field.sizes))
+    }
+
     /// Whether a field has one dimension.
     pub(super) fn is_one_row(&self, stem: &str) -> bool {
         self.scope.fields.get(stem).is_some_and(|field| field.sizes.len() == 1)

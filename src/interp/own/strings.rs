@@ -184,6 +184,11 @@ impl Own {
         (number.map(|number| format!("{number:.0}")).ok_or((from, end)), end)
     }
 
+    /// The number of elements in each dimension of a field of texts; empty: it is no field.
+    pub(super) fn sizes_of_texts(&self, stem: &str) -> Option<&[usize]> {
+        self.scope.strings.get(stem).map(|held| held.sizes.as_slice())
+    }
+
     /// Whether the program declares a variable of the type STRING or CHAR.
     pub(super) fn has_strings(&self) -> bool {
         !self.scope.strings.is_empty()

@@ -70,6 +70,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let number = self.value_of(word);
         let text = self.text(word.value_range);
         if let Some(own) = &mut self.own {
+            if let Some(kind) = own.misfit(name, &text, number) {
+                (self.report)(word.range, kind);
+            }
             if number.is_none() && (own.assign_list(name, &text) || own.assign_texts(name, &text)) {
                 return;
             }
@@ -87,9 +90,8 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let text = self.text(range);
         match (&mut self.own, code.id.as_str()) {
             (Some(own), "DEF") => {
-                if let Some(name) = own.define(text.get(3..).unwrap_or_default()) {
-                    let what = format!("{name}: the program defines it twice (rename one of them)");
-                    (self.report)(range, FaultKind::NotModelled { what });
+                for kind in own.define(text.get(3..).unwrap_or_default()) {
+                    (self.report)(range, kind);
                 }
             }
             (Some(own), "DEFINE") => {

@@ -1,6 +1,6 @@
 //! Reads one statement of the flow, decides it with the known values, and returns what it requests.
 use super::text::Text;
-use crate::flow::{Back, Calling, Index, Label, Transfer, With};
+use crate::flow::{Back, Index, Label, Transfer};
 use crate::own::Own;
 use crate::{FaultKind, Refusal};
 use trunnion_flow::{Key, Search};
@@ -36,11 +36,11 @@ impl Statement<'_> {
         let transfer = match keyword.as_str() {
             "IF" => return self.branch(),
             "WHILE" => Transfer::Open(self.condition()?),
-            "UNTIL" if self.condition()? => Transfer::Next,
+            "UNTIL" if self.condition()? => self.passes_end(),
             "UNTIL" | "ENDLOOP" | "ENDWHILE" | "ENDFOR" => Transfer::Close,
             "LOOP" => Transfer::Open(true),
             "ELSE" => Transfer::Leave,
-            "ENDIF" => Transfer::Next,
+            "ENDIF" => self.passes_end(),
             "FOR" => self.count()?,
             "CASE" => self.case()?,
             "REPEAT" if self.text.is_at_end() => Transfer::Open(true),
@@ -62,32 +62,13 @@ impl Statement<'_> {
         Ok(transfer)
     }
 
-    /// `CALL "GROOVE"`, `CALL NAME` of a variable of the type STRING, `PCALL GROOVE(1,2)`. Paths and parts of programs are not followed.
-    fn call(&mut self, from: usize, keyword: &str) -> Result<Transfer, Trouble> {
-        let at = self.text.at();
-        let (name, arguments) = if keyword == "CALL" {
-            match self.own.joined(self.text.bytes(), at) {
-                Some((Ok(name), end)) => {
-                    self.text.go_to(end);
-                    (name, None)
-                }
-                _ => (String::new(), None),
-            }
-        } else {
-            (self.text.word(), self.text.in_brackets())
-        };
-        let plain = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
-        let range = self.text.range(from, self.text.bytes().len());
-        if name.is_empty() || !plain || !self.text.is_at_end() {
-            let what = format!("{keyword}: which program it calls");
-            return Err((range, FaultKind::NotModelled { what }));
+    /// The end of a structure that is left: without its beginning the structure is broken, as it is for the others.
+    fn passes_end(&mut self) -> Transfer {
+        let (_, block) = self.place;
+        match (self.index)().loops.closed_by(block) {
+            Some(_) => Transfer::Next,
+            None => Transfer::Close,
         }
-        Ok(Transfer::Call(Calling {
-            program: super::names::program_key(&name),
-            times: 1,
-            range,
-            with: With::Sinumerik(super::With::read(arguments.as_deref(), self.own)),
-        }))
     }
 
     /// Nothing may follow a statement.
@@ -116,7 +97,13 @@ impl Statement<'_> {
                 };
                 Err((self.text.rest(), kind))
             }
-            Err(error) => not_decided(self.text.rest(), format!("an expression that cannot be read: {error}")),
+            Err(error) => {
+                let text = String::from_utf8_lossy(&self.text.bytes()[from..]).into_owned();
+                match crate::own::without_value(&error, &text) {
+                    Some(kind) => Err((self.text.rest(), kind)),
+                    None => not_decided(self.text.rest(), format!("an expression that cannot be read: {error}")),
+                }
+            }
         }
     }
 

@@ -281,6 +281,22 @@ impl<'d> Iso<'d> {
         Some(Ok(calling.clone()))
     }
 
+    /// A cycle that is called while MCALL is active moves, and no source says whether MCALL acts inside or after it. Rows of holes are the
+    /// exception: the drilling cycle of MCALL runs at each hole (Programming Manual, Cycles, HOLES1). Where it is not known the run ends.
+    pub(crate) fn modal_call_unclear(&mut self, found: &Found<'_>, report: &mut Report<'_>) -> bool {
+        let own = &self.memory.own;
+        let id = &found.code.id;
+        let drills = self.memory.cycle.call.is_some() && !crate::cycles::is_row(id);
+        if !drills && (own.modal.is_none() || own.in_modal) {
+            return false;
+        }
+        let what = format!("whether MCALL acts in {id}, which is called while it is active (end it with MCALL alone)");
+        report.fault(found.range, FaultKind::NotDecided { what });
+        self.core.forget_position();
+        self.memory.own.pending = Some(Transfer::End);
+        true
+    }
+
     /// MCALL acts after a block with only F or S too, under G0 and G1 (840D sl Programming Manual, 06/2019, modal calls).
     pub(crate) fn acts_without_motion(&self, codes: &[Found<'_>], words: &Words) -> bool {
         let letter = |letter: u8| 1u32 << (letter - b'A');

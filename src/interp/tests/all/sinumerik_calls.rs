@@ -17,6 +17,7 @@ impl Files for Folder {
             "L20.SPF" => "R1=R1+1\nG0 X=R1\nM17\n",
             "L020.SPF" => "G0 X=-20\nM17\n",
             "L140.SPF" => "PROC L140(REAL DEPTH)\nG0 Z=DEPTH\nRET\n",
+            "DRILLS.SPF" => "CYCLE82(10,0,2,-8,,1)\nRET\n",
             "PLAIN.SPF" => "G0 Y1\nRET\n",
             "MAINP.MPF" => "G0 Y7\nM30\n",
             "MAINP.SPF" => "G0 Y8\nM17\n",
@@ -47,7 +48,7 @@ fn setup() -> Setup {
     }
 }
 
-fn run(source: &str) -> (Vec<String>, Vec<String>) {
+pub(crate) fn run(source: &str) -> (Vec<String>, Vec<String>) {
     let log = run_bytes(SINUMERIK, source.as_bytes(), &setup()).1;
     let lines = log.motions.iter().map(line).collect();
     (lines, said_with(source, &setup()))

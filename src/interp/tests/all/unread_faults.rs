@@ -1,6 +1,7 @@
 //! A reader of motions that leaves the faults alone sees the same run.
+use crate::support::faults;
 use trunnion_dialect::builtin;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Placed, Setup, Sink};
+use trunnion_interp::{Argument, Effect, Fault, Interpreter, ModalState, Motion, Placed, Setup, Sink};
 use trunnion_syntax::parse;
 
 #[derive(Default)]
@@ -70,4 +71,37 @@ fn a_run_whose_faults_are_not_read_is_the_same() {
         }
     }
     assert!(silent > 20, "{silent} faults were left out");
+}
+
+/// `PCALL /_N_SPF_DIR/_N_SG_SPF(9)`: the path is a part of the statement, whose slashes delete nothing.
+#[test]
+fn a_call_by_a_path_is_one_statement() {
+    let does = |call: &str| {
+        let effects = seen("sinumerik-840d", &format!("G0 X1\n{call}\nX2\nM30\n"), true).effects;
+        let here = effects.into_iter().filter(|placed| placed.block.0 == 1);
+        here.map(|placed| placed.effect)
+            .filter(|effect| matches!(effect, Effect::Unmodelled(_) | Effect::Event(_)))
+            .collect::<Vec<_>>()
+    };
+    for (call, text) in [
+        ("PCALL /_N_SPF_DIR/_N_SG_SPF(9)", "PCALL / _N_SPF_DIR / _N_SG_SPF(9)"),
+        ("N20 CALL /_N_SPF_DIR/_N_SG_SPF ; side", "CALL / _N_SPF_DIR / _N_SG_SPF"),
+        ("CALL \"/_N_SPF_DIR/_N_SG_SPF\"", "CALL\"/_N_SPF_DIR/_N_SG_SPF\""),
+        ("CALL BLOCK AA TO BB", "CALL BLOCK AA TO BB"),
+    ] {
+        assert_eq!(
+            does(call),
+            [Effect::Unmodelled(vec![Argument::text("", text)])],
+            "{call}"
+        );
+        let told = faults("sinumerik-840d", &format!("G0 X1\n{call}\nX2\nM30\n"));
+        assert!(
+            told.len() == 1 && told[0].contains("which program it calls"),
+            "{told:?}"
+        );
+    }
+    // a block that the switch may leave out
+    assert_eq!(does("/ CALL /_N_SPF_DIR/_N_SG_SPF").len(), 2);
+    assert_ne!(does("PCALL /A/_N_SG_SPF(9)"), does("PCALL /B/_N_SG_SPF(9)"));
+    assert_ne!(does("PCALL /A/_N_SG_SPF(9)"), does("PCALL A/_N_SG_SPF(9)"));
 }

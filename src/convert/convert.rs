@@ -101,15 +101,11 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     };
     setting.head_lengths(&reading, &job)?;
     let (outs, swaps) = planner.plan(&job)?;
+    let places = (&*outs, &*left_behind(&reading, &run));
+    let made = setting.write(&reading, &job, places, source.setup, options)?;
     let Written {
         text: written, moved, ..
-    } = setting.write(
-        &reading,
-        &job,
-        (&outs, &left_behind(&reading, &run)),
-        source.setup,
-        options,
-    )?;
+    } = made;
     let claim = setting.claim(options, tolerance_mm, axis_deg);
     let (proof, turned, travel, told) = prove(
         (&reading, &run),
@@ -129,11 +125,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         dialect: setting.dialect,
         claim,
         proof,
-        left_out: job
-            .left_out
-            .iter()
-            .map(|(what, block)| (what.clone(), line(*block)))
-            .collect(),
+        left_out: (job.left_out.iter().map(|(what, block)| (what.clone(), line(*block)))).collect(),
         set_by_hand: set_by_hand(&reading, &job, setting.post),
         renamed_offset: job.renamed_offset,
         feeds_per_minute: crate::feeds::per_minute(&reading, &outs, line),

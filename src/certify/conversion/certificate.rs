@@ -1,8 +1,8 @@
 //! The certificate of a conversion: which motions belong together, under which terms, and what was found. Both texts are read again to make it and to
 //! check it; the converter is not asked.
 use super::{
-    Ask, Assume, ConversionClaim, ConversionProof, Coolant, Part, Run, Terms, converted_on, holds_with_zeros_apart,
-    read,
+    Ask, Assume, ConversionClaim, ConversionProof, Coolant, Part, Reading, Run, Terms, converted_on,
+    holds_with_zeros_apart, read,
 };
 use crate::certificate::other_text;
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
@@ -152,6 +152,19 @@ pub struct Told {
     pub parts: Vec<Part>,
 }
 
+/// Nothing of a program is left unread.
+fn read_whole(reading: &Reading, which: &str) -> Result<(), Outcome> {
+    if reading.given_up.is_some() {
+        let why = format!("the {which} program has more motions than are held (`held` of [limits] in trunnion.toml)");
+        return Err(Outcome::unknown(why));
+    }
+    if !reading.program.errors().is_empty() {
+        let why = format!("the text of the {which} program is not understood");
+        return Err(Outcome::unknown(why));
+    }
+    Ok(())
+}
+
 /// Reads both texts and proves the claim.
 ///
 /// # Errors
@@ -183,18 +196,8 @@ pub fn certify_conversion(
         assume: Assume::default(),
     };
     let (before, after) = (read(&before_run), read(&after_run));
-    for (reading, which) in [(&before, "original"), (&after, "converted")] {
-        if reading.given_up.is_some() {
-            let why =
-                format!("the {which} program has more motions than are held (`held` of [limits] in trunnion.toml)");
-            return Err(Outcome::unknown(why));
-        }
-        if !reading.program.errors().is_empty() {
-            return Err(Outcome::unknown(format!(
-                "the text of the {which} program is not understood"
-            )));
-        }
-    }
+    read_whole(&before, "original")?;
+    read_whole(&after, "converted")?;
     let terms = Terms {
         dropped: &told.dropped,
         meanings: &told.own_codes,

@@ -177,7 +177,8 @@ impl Variables {
     /// The common variables from `first` on that are vacant since the program, or the setup, has left them so.
     pub(crate) fn vacant(&self, first: u32) -> impl Iterator<Item = String> {
         let kept = self.common.range(first..).filter(|_| !self.lost);
-        kept.filter_map(|(number, held)| held.is_none().then(|| format!("#{number}")))
+        let vacant = kept.filter(|(_, held)| held.is_none());
+        vacant.map(|(number, _)| format!("#{number}"))
     }
     /// A named variable.
     pub(crate) fn named(&self, name: &str) -> Option<f64> {

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{FaultKind, Library, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Refit, Steps, Verdict, compare, only_by_chance, says_otherwise, undeclared, unrelated};
+use trunnion_same::{Input, Refit, Steps, Verdict, compare, only_by_chance, undeclared, unrelated, variables_differ};
 use trunnion_syntax::{LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
@@ -204,7 +204,7 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
         });
         let line = match again {
             Err(Outcome::Refuted(found)) => found.line,
-            Err(Outcome::Unknown(gap)) if proved.motions.unknown > 0 && says_otherwise(&gap.to_string()) => gap.line,
+            Err(Outcome::Unknown(gap)) if variables_differ(&gap.to_string()) => gap.line,
             _ => return Ok(proved),
         };
         let place = line.map_or_else(String::new, |line| format!("line {line}: "));

@@ -9,8 +9,8 @@ use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
 use trunnion_interp::FaultKind;
 use trunnion_same::{
-    Claim, Difference, Input, Near, Steps, Stop, Verdict, only_by_chance, run_alike, says_otherwise, undeclared,
-    unrelated,
+    Claim, Difference, Input, Near, Steps, Stop, Verdict, only_by_chance, run_alike, undeclared, unrelated,
+    variables_differ,
 };
 use trunnion_syntax::BlockId;
 
@@ -131,8 +131,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
     }
     if verdict == Verdict::Same {
         let unset: Vec<_> = sides.iter_mut().flat_map(undeclared).collect();
-        let open = sides.iter().any(Steps::has_open_motion);
-        verdict = by_chance(pair, &claim, &unset, open).map_or(verdict, Verdict::Unknown);
+        verdict = by_chance(pair, &claim, &unset).map_or(verdict, Verdict::Unknown);
     }
     if verdict == Verdict::Same || only_cut_short(&verdict, &sides) {
         let mut found = Found::new(verdict);
@@ -149,7 +148,7 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
 }
 
 /// Where two programs are the same only because of values that nobody declares.
-fn by_chance(pair: &Pair<'_>, claim: &Claim, unset: &[FaultKind], open: bool) -> Option<Difference> {
+fn by_chance(pair: &Pair<'_>, claim: &Claim, unset: &[FaultKind]) -> Option<Difference> {
     if pair.before.program.source() == pair.after.program.source() {
         return None;
     }
@@ -162,7 +161,7 @@ fn by_chance(pair: &Pair<'_>, claim: &Claim, unset: &[FaultKind], open: bool) ->
     let [one, other] = &mut sides;
     let [mm, deg] = [claim.mm, claim.deg];
     match trunnion_same::compare(one, other, claim, &mut Near { mm, deg }) {
-        Verdict::Unknown(found) if !(open && says_otherwise(&found.what)) => None,
+        Verdict::Unknown(found) if !variables_differ(&found.what) => None,
         Verdict::Differs(found) | Verdict::Unknown(found) => Some(Difference {
             what: only_by_chance(unset),
             ..found

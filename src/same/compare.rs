@@ -347,7 +347,7 @@ pub(crate) fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> 
         }
     }
     in_effect(was, is, claim)?;
-    match said::unlike(was.said.as_deref(), is.said.as_deref()) {
+    match said::unlike(was, is) {
         Some(what) => Err(Verdict::Unknown(place(what))),
         None => Ok(()),
     }

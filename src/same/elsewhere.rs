@@ -6,7 +6,7 @@ use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
 use std::collections::BTreeSet;
 use trunnion_interp::{Argument, Interpreter, canonical_text};
-use trunnion_syntax::{BlockId, Item};
+use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
 /// What depends on lines that no run has reached, or on values that nobody knows.
 #[derive(Default)]
@@ -15,8 +15,6 @@ pub(crate) struct Elsewhere {
     first: Option<(BlockId, String)>,
     /// Blocks of the contours of turning cycles.
     passed: BTreeSet<BlockId>,
-    /// Not everything is known of some motion, whose words are compared instead.
-    open: bool,
 }
 
 impl Elsewhere {
@@ -30,25 +28,43 @@ impl Elsewhere {
     /// A motion of which not everything is known.
     pub(crate) fn note_said(&mut self, step: &Step) {
         let Some(said) = &step.said else { return };
-        self.open = true;
         if self.first.is_none() && in_text(said) {
             self.first = Some((step.motion.block, said.lines().next().unwrap_or_default().to_owned()));
         }
     }
 
-    /// A block of the contour of a turning cycle: the cycle has run it, or given it up.
-    pub(crate) fn note_passed(&mut self, run: &Interpreter<'_>, block: BlockId) {
-        if run.passes_over(block) {
-            self.passed.insert(block);
+    /// A block of the contour of a turning cycle: the cycle has run it, or given it up. G70 moves along the contour, whose blocks are compared
+    /// as motions then.
+    pub(crate) fn note_passed(&mut self, run: &Interpreter<'_>, block: &Block<'_>) {
+        if run.passes_over(block.id()) {
+            self.passed.insert(block.id());
+        } else if let Some([from, to]) = finished(block).filter(|_| !self.passed.is_empty()) {
+            let of = |id: &BlockId| number(&block.program().block(*id));
+            let find = |wanted: f64| self.passed.iter().find(|id| of(id) == Some(wanted)).copied();
+            if let (Some(first), Some(last)) = (find(from), find(to)) {
+                self.passed.retain(|id| !(first..=last).contains(id));
+            }
         }
     }
 }
 
-impl Steps<'_> {
-    /// Whether not everything is known of some motion, so that the words of its block were compared.
-    pub fn has_open_motion(&self) -> bool {
-        self.run.elsewhere.open
-    }
+/// The number of a block.
+fn number(block: &Block<'_>) -> Option<f64> {
+    block.words().find_map(|word| match (word.address, word.value) {
+        (Address::Letter(b'N'), Value::Number(number)) => Some(number.to_f64()),
+        _ => None,
+    })
+}
+
+/// The first and the last number of the contour along which G70 moves.
+fn finished(block: &Block<'_>) -> Option<[f64; 2]> {
+    let of = |letter: u8| {
+        block.words().find_map(|word| match (word.address, word.value) {
+            (Address::Letter(found), Value::Number(number)) if found == letter => Some(number.to_f64()),
+            _ => None,
+        })
+    };
+    (of(b'G') == Some(70.0)).then_some([of(b'P')?, of(b'Q')?])
 }
 
 /// Whether the words of a statement may name blocks or a program: P and Q, and calls by name.

@@ -18,6 +18,8 @@ pub struct Step {
     pub process: Arc<Process>,
     /// What its block says, where the motion does not: its end, its feed or its time is not known.
     pub(crate) said: Option<Arc<str>>,
+    /// The text of that block in one spelling, where variables are in it.
+    pub(crate) with_variables: Option<Arc<str>>,
     /// Since the motion before, nothing can have changed its coordinates: a block that repeats the position does not move.
     pub may_repeat: bool,
     /// The program states where it starts (FROM of APT): no motion before it ends there.
@@ -35,6 +37,7 @@ impl Step {
             held,
             process: Arc::clone(process),
             said: None,
+            with_variables: None,
             may_repeat: false,
             starts_anew: false,
             is_part: false,

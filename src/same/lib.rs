@@ -52,7 +52,7 @@ pub use judge::Judge;
 pub use near::{Near, arcs_apart};
 pub use process::{Held, Process, offset_name, shown};
 pub use refit::{Refit, Refitted};
-pub use said::says_otherwise;
+pub use said::variables_differ;
 pub use steps::Steps;
 pub use twins::run_alike;
 pub use undeclared::{assumed, only_by_chance, undeclared, unrelated, with_stand_ins, with_zeros};

@@ -1,5 +1,6 @@
 //! What a block says of a motion whose end, feed or time is not known: the numbers of the motion are not the place, and two that are not known need not be
 //! equal (decision 0029). Then the words of both blocks must be the same.
+use crate::item::Step;
 use crate::steps::Steps;
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -17,26 +18,32 @@ const ALL: u16 = 0x1ff;
 /// Between what a block says and the values that are not known.
 const ENDS: char = '\n';
 
-/// How the reason begins where two blocks say different things.
-const SAY_OTHERWISE: &str = "where it ends or how fast is unknown, and the blocks say different things";
+/// The reason where two blocks say the same of variables, which hold different values.
+const VARIABLES_DIFFER: &str = "where it ends or how fast is unknown, and the variables in it hold different values";
 
-/// Whether a comparison is undecided because two blocks with unknown results say different things: where the same programs were the same with
-/// other values of what nobody declares, these values decide.
-pub fn says_otherwise(why: &str) -> bool {
-    why.contains(SAY_OTHERWISE)
+/// Whether a comparison is undecided for that reason: where the same programs were the same with other values of what nobody declares, these
+/// values decide.
+pub fn variables_differ(why: &str) -> bool {
+    why.contains(VARIABLES_DIFFER)
 }
 
 /// Why two blocks may do different things where the result is not known; `None` where they say the same.
-pub(crate) fn unlike(was: Option<&str>, is: Option<&str>) -> Option<String> {
+pub(crate) fn unlike(before: &Step, after: &Step) -> Option<String> {
+    let [was, is] = [before, after].map(|step| step.said.as_deref());
     if was == is {
         return None;
     }
+    let same_text = before.with_variables.is_some() && before.with_variables == after.with_variables;
     let words = [was, is].map(|said| said.and_then(|said| said.split(ENDS).next()));
     let what = if words[0] == words[1] {
         "where both end is unknown, and it depends on other blocks that differ".to_owned()
     } else {
         let [was, is] = words.map(|words| words.map_or("nothing unknown".to_owned(), |words| format!("`{words}`")));
-        format!("{SAY_OTHERWISE}: {was} and {is}")
+        if same_text {
+            format!("{VARIABLES_DIFFER}: {was} and {is}")
+        } else {
+            format!("where it ends or how fast is unknown, and the blocks say different things: {was} and {is}")
+        }
     };
     Some(what)
 }
@@ -68,7 +75,7 @@ struct Said {
 
 impl Steps<'_> {
     /// What the block of a motion says, where the motion does not: `None` where everything that the block says is known.
-    pub(crate) fn said(&self, motion: &Motion) -> Option<Arc<str>> {
+    fn said(&self, motion: &Motion) -> Option<Arc<str>> {
         let diameter = self.input.dialect.quirks.diameter;
         let axes = !motion.end.known & ALL;
         let lost = Lost {
@@ -110,6 +117,20 @@ impl Steps<'_> {
             said.words.push(format!("modal F{feed}"));
         }
         Some(said.told(motion, self.state()))
+    }
+
+    /// What the block of a motion says.
+    pub(crate) fn say(&self, step: &mut Step) {
+        step.said = self.said(&step.motion);
+        step.with_variables = self.with_variables(step);
+    }
+
+    /// The text of the block of a motion of which not everything is known, where variables are in it.
+    fn with_variables(&self, step: &Step) -> Option<Arc<str>> {
+        step.said.as_ref()?;
+        let program = self.input.program;
+        let text = canonical_text(&program.text(program.block(step.motion.block).range()));
+        text.contains(['#', '=', 'R', 'Q', 'V']).then(|| text.into())
     }
 
     /// The words of the block of a motion.

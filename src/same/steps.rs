@@ -285,7 +285,7 @@ impl<'a> Steps<'a> {
             && let Some(word) = self.ran.get_mut(block.0 as usize / 64)
         {
             *word |= 1 << (block.0 % 64);
-            self.run.elsewhere.note_passed(&self.interpreter, block);
+            (self.run.elsewhere).note_passed(&self.interpreter, &self.input.program.block(block));
         }
         let (mut missing, mut own_locals) = (false, false);
         for block in std::mem::take(&mut self.run.missing) {
@@ -321,7 +321,7 @@ impl<'a> Steps<'a> {
             self.effects_before(step.motion.effects);
             step.starts_anew = self.since.starts_anew(&step.motion);
             step.may_repeat = self.since.motion(&step.motion, &step.held);
-            step.said = self.said(&step.motion);
+            self.say(&mut step);
             self.run.elsewhere.note_said(&step);
             if !Arc::ptr_eq(&step.process, &self.run.process) {
                 step.process = Arc::clone(&self.run.process);

@@ -340,9 +340,9 @@ fn numbers_in_order_and_only_once() {
     );
     assert!(run("renumber", &after, &settings, &Options::default()).proved.is_none());
     // calls and jumps follow
-    let text = "O1\nN5 G21 G90 G94 G17 G54\nN7 G0 X0 Y0 Z5. S1000 M3\nG65 P2 A7.\nN9 IF[#500EQ1]GOTO9\nN11 M30\nO2\nN5 G1 X#1 F100.\nN7 M99\n";
+    let text = "O1\nN5 G21 G90 G94 G17 G54\nN7 G0 X0 Y0 Z5. S1000 M3\nG65 P2 A7.\nN9 #1=#1+1\nIF[#1LT3]GOTO9\nN11 M30\nO2\nN5 G1 X#1 F100.\nN7 M99\n";
     let (after, _) = certified(run("renumber", text, &settings, &Options::default()));
-    assert!(after.contains("N30 IF[#500EQ1]GOTO30"), "{after}");
+    assert!(after.contains("N30 #1=#1+1\nIF[#1LT3]GOTO30"), "{after}");
     let bare = run("renumber", "G21 G90\nG0 X1.\nM30\n", &settings, &Options::default());
     assert!(matches!(bare, Attempt { proved: None, .. }));
 }

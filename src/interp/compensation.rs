@@ -255,7 +255,10 @@ impl Iso<'_> {
                 let starts = !held.leads;
                 held.element.shift(&mut ready.0, tip, [starts, true]);
                 let still = std::mem::take(&mut self.memory.compensation.still_blocks);
-                let unsure = self.memory.compensation.between.len() + still > 1;
+                // without a corner the end is beside that of the motion, wherever the control looks
+                let beside = held.element.beside_end(offset);
+                let turns = !join.links.is_empty() || (0..2).any(|axis| (beside[axis] - join.end[axis]).abs() > 1e-9);
+                let unsure = self.memory.compensation.between.len() + still > 1 && (turns || held.leads);
                 self.release(ready, &held.element, element::add(join.end, tip, 1.0), unsure, report);
                 let mut from = join.end;
                 for next in join.links {

@@ -153,6 +153,9 @@ fn blocks_that_move_nothing_make_a_corner_unknown() {
     for few in ["", "M8\n", "(A COMMENT)\nM8\n(ANOTHER)\n", "#1=1\n#2=2\n"] {
         assert_eq!(corner(few), [""; 0], "{few}");
     }
+    // a line that goes straight on has no corner
+    let straight = "G0 X0. Y0. Z0.\nG41 D1 G1 X10. Y0. F100.\nY20.\nM8\nM9\nM8\nY30.\nX50.\nG40 Y60.\nM30\n";
+    assert_eq!(run(straight, &setup(10.0)).1, [""; 0]);
     for many in ["M8\nM9\n", "S900\nG4 P100\n", "M8\nZ-1.\n", "T2\nM8\nM3\n"] {
         let said = corner(many);
         assert!(

@@ -52,6 +52,8 @@ pub(crate) struct Reporter<'a> {
     /// The calls in which the current block runs.
     chain: ChainId,
     pending: Vec<Draft<'a>>,
+    /// The number of the block of the last finding, as it is written.
+    numbered: Option<(BlockId, Option<String>)>,
     told: Keyed<(u64, &'static str), ()>,
     /// A rule writes the message of a leg that it has found before.
     wording: bool,
@@ -90,6 +92,7 @@ impl<'a> Reporter<'a> {
             sequence: 0,
             chain: ChainId::MAIN,
             pending: Vec::new(),
+            numbered: None,
             told: Keyed::default(),
             wording: false,
             spoke: false,
@@ -332,10 +335,12 @@ impl<'a> Reporter<'a> {
             }
             diagnostic.origin.of_whole = self.of_whole || merge.is_some_and(|merge| merge.everywhere);
             if (block.0 as usize) < program.block_count() {
-                diagnostic.block = program
-                    .block(block)
-                    .number()
-                    .map(|range| program.text(range).into_owned());
+                // a line of a thousand mistakes is read once for its number
+                if self.numbered.as_ref().is_none_or(|(last, _)| *last != block) {
+                    let number = program.block(block).number();
+                    self.numbered = Some((block, number.map(|range| program.text(range).into_owned())));
+                }
+                diagnostic.block = self.numbered.as_ref().and_then(|(_, number)| number.clone());
             }
             self.log.near = block;
             self.log.add(program, diagnostic, merge, self.sequence);

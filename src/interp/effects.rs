@@ -16,6 +16,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::written::{Keep, written};
 use crate::{Argument, Effect, FaultKind, Motion, Reach};
+pub(crate) use assignments::Names;
 use assignments::{
     comments, declarations, named_effects, named_words, reads_machine_position, system_assignment, unknown_assignment,
 };

@@ -104,6 +104,8 @@ pub(crate) struct Own {
     pub(crate) machine_vectors: bool,
     /// Names that EXTERN declares as subprograms.
     pub(crate) declared: BTreeSet<Box<str>>,
+    /// The names in the text of the program, once a declaration asks for them.
+    pub(crate) names: std::sync::OnceLock<std::sync::Arc<crate::effects::Names>>,
 }
 
 impl Own {

@@ -4,6 +4,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 use crate::written::{Keep, Values, full_name, named_role, names, packed, resolved, stem, written};
 use crate::{Argument, Effect, Reach, canonical_text};
+use std::collections::HashMap;
 use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value, Word};
 
@@ -136,7 +137,7 @@ pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
         match name.as_str() {
             "DEFINE" => {
                 let defined = rest.split(char::is_whitespace).next().unwrap_or_default();
-                if is_used(view, defined) {
+                if is_used(run, view, defined) {
                     found.push(Argument::text(name, &crate::canonical_text(rest)));
                 }
             }
@@ -151,7 +152,7 @@ pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
                     let stem = variable.split('[').next().unwrap_or_default().trim();
                     if run.memory.own.held(variable.trim()).is_none()
                         && !run.memory.own.is_known_field(stem)
-                        && is_used(view, stem)
+                        && is_used(run, view, stem)
                     {
                         let text = format!("{} {}={}", packed(kind), packed(variable), resolved(run, value));
                         found.push(Argument::text("DEF", &text));
@@ -165,10 +166,51 @@ pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
 }
 
 /// Whether a name that the block declares is in the text of the program anywhere else.
-fn is_used(view: &Block<'_>, name: &str) -> bool {
-    let text = view.program().source().to_ascii_uppercase();
-    let name = name.to_ascii_uppercase();
-    memchr::memmem::find_iter(&text, name.as_bytes()).nth(1).is_some()
+fn is_used(run: &Iso<'_>, view: &Block<'_>, name: &str) -> bool {
+    let text = view.program().source();
+    let names = (run.memory.own.names).get_or_init(|| std::sync::Arc::new(Names::of(text)));
+    if names.of.as_slice() == [text.as_ptr() as usize, text.len()] {
+        return names.several(name.as_bytes());
+    }
+    // a called program
+    Names::of(text).several(name.as_bytes())
+}
+
+/// The names in a text, and which of them it has more than once.
+#[derive(Debug, Default)]
+pub(crate) struct Names {
+    /// Where the text is, and its length.
+    of: [usize; 2],
+    several: HashMap<Box<[u8]>, bool>,
+}
+
+impl Names {
+    fn of(text: &[u8]) -> Self {
+        let mut names: HashMap<Box<[u8]>, bool> = HashMap::new();
+        let of_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+        for name in text.split(|byte| !of_name(byte)).filter(|name| is_name(name)) {
+            let upper: Box<[u8]> = name.to_ascii_uppercase().into();
+            names
+                .entry(upper)
+                .and_modify(|several| *several = true)
+                .or_insert(false);
+        }
+        Self {
+            of: [text.as_ptr() as usize, text.len()],
+            several: names,
+        }
+    }
+
+    fn several(&self, name: &[u8]) -> bool {
+        // what is no plain name may be anywhere
+        !is_name(name) || self.several.get(&*name.to_ascii_uppercase()).copied().unwrap_or(false)
+    }
+}
+
+/// Letters, digits and underscores, with a letter or an underscore first.
+fn is_name(text: &[u8]) -> bool {
+    let plain = text.iter().all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_');
+    plain && text.first().is_some_and(|first| !first.is_ascii_digit())
 }
 
 /// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its

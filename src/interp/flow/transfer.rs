@@ -6,7 +6,10 @@ use crate::macro_b::{Mistake, rejected};
 use crate::{FaultKind, Refusal, sinumerik};
 use std::sync::Arc;
 use trunnion_flow::{Ends, Key, PendingCall, Search};
-use trunnion_syntax::{Program, TextRange};
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// So many repeated sections are open at most: a control has a few levels for them.
+const MOST_OPEN: usize = 1000;
 
 impl Iso<'_> {
     /// Targets of the jumps of the file that runs.
@@ -54,7 +57,7 @@ impl Iso<'_> {
             }
             Transfer::Call(calling) => self.enter(calling, running, from, sink),
             Transfer::Return(back) => self.leave(back, running, from, sink),
-            Transfer::Repeat { first, last, times } => self.repeat((first, last), times, running, from),
+            Transfer::Repeat { first, last, times } => self.repeat((first, last), times, running, from, sink),
         }
     }
 
@@ -180,12 +183,25 @@ impl Iso<'_> {
     }
 
     /// A section of the program runs this many times; then the run continues here.
-    fn repeat(&mut self, (first, last): (u32, u32), times: u32, running: &Running<'_>, from: u32) {
+    fn repeat(
+        &mut self,
+        (first, last): (u32, u32),
+        times: u32,
+        running: &Running<'_>,
+        from: u32,
+        sink: &mut impl Sink,
+    ) {
         if self.index(running).is_none() {
             return;
         }
         let (chain, back) = (self.core.chain, self.flow.next);
         let Some(trail) = &mut self.flow.trail else { return };
+        if trail.course.depth() >= MOST_OPEN {
+            let what = format!("more than {MOST_OPEN} repeated sections inside each other");
+            let range = running.program().block(BlockId(from)).range();
+            self.tell_of_flow(running, from, (range, FaultKind::NotDecided { what }), sink);
+            return self.stop();
+        }
         let place = trail.course.place();
         let going = PendingCall {
             from,

@@ -115,11 +115,24 @@ impl Klartext<'_> {
     pub(super) fn call_pattern(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let found = self.path_words(words, report);
         self.codes_before(&found, report);
-        let points = self.memory.pattern.clone().filter(|_| !self.scales_cycles(report));
-        if let Some(points) = points {
+        let over = self.cycle_motions.over(self.core.setup.limits.blocks);
+        let points = if over.is_none() {
+            self.memory.pattern.clone()
+        } else {
+            None
+        };
+        let points = points.filter(|_| !self.scales_cycles(report));
+        if let Some(why) = over {
+            self.not_modelled_once(&why, report);
+            self.unknown_motion(report);
+        } else if let Some(points) = points {
             self.not_modelled_once("CYCL CALL PAT: the path between its points", report);
             let axes = self.axes();
             for point in points {
+                if self.cycle_motions.is_over(self.core.setup.limits.blocks) {
+                    self.unknown_motion(report);
+                    break;
+                }
                 let mut end = self.memory.frames.programmed(&self.core.state.position);
                 for axis in &axes[..2] {
                     match point.get(*axis) {
@@ -172,6 +185,10 @@ impl Klartext<'_> {
         let unit = self.core.state.coordinates.unit_mm();
         let axes = self.axes();
         for place in places {
+            if self.cycle_motions.is_over(self.core.setup.limits.blocks) {
+                self.unknown_motion(report);
+                break;
+            }
             let mut end = self.memory.frames.programmed(&self.core.state.position);
             for (axis, value) in axes.iter().zip(place) {
                 end.set(*axis, value * unit);

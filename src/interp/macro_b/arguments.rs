@@ -31,7 +31,7 @@ pub(crate) struct CallWords {
 /// Which I, J, K of specification II is meant.
 #[derive(Default)]
 struct Triples {
-    set: u8,
+    set: u32,
     last: u8,
 }
 
@@ -39,11 +39,11 @@ impl Triples {
     /// The variable of the next I, J or K; `None` after the tenth triple.
     fn next(&mut self, letter: u8) -> Option<u8> {
         if self.last != 0 && letter <= self.last {
-            self.set += 1;
+            self.set = self.set.saturating_add(1);
         }
         self.last = letter;
-        let variable = 4 + 3 * self.set + (letter - b'I');
-        (variable <= 33).then_some(variable)
+        let variable = 4 + 3 * u64::from(self.set) + u64::from(letter - b'I');
+        u8::try_from(variable).ok().filter(|variable| *variable <= 33)
     }
 }
 

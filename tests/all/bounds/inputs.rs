@@ -4,6 +4,7 @@ mod cycles;
 mod flow;
 mod klartext;
 mod many;
+mod mistaken;
 mod nesting;
 mod okuma;
 mod repeated;
@@ -77,6 +78,7 @@ pub(super) fn all() -> Vec<Input> {
     // new ones at the end: the dialect that a program meets depends on its place, and a journal goes on where it was
     all.extend(tools::inputs());
     all.extend(repeated::inputs());
+    all.extend(mistaken::inputs());
     all
 }
 

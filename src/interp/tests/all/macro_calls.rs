@@ -121,3 +121,14 @@ fn haas_feeds_without_a_point_are_told() {
     assert_eq!(said("haas-ngc", "G1X1.F100\nF0\nG93X2.F3\nG94X1.F20.\nM30\n"), ["F100"]);
     assert_eq!(said("fanuc-30i", "G1X1.F100\nM30\n"), [""; 0]);
 }
+
+/// Specification II has ten triples of I, J and K; more are reported, however many they are.
+#[test]
+fn more_triples_than_there_are_variables() {
+    for count in [9, 10, 11, 85, 90, 60_000] {
+        let source = format!("O1\nG65P2{}\nM30\nO2\nG0X#32\nM99\n", "I1.J2.K3.".repeat(count));
+        let (_, log) = run_bytes("fanuc-30i", source.as_bytes(), &Setup::default());
+        let unknown = log.faults.iter().filter(|fault| fault.kind == FaultKind::UnknownWord);
+        assert_eq!(unknown.count(), 3 * count.saturating_sub(10), "{count}");
+    }
+}

@@ -353,3 +353,17 @@ fn a_frame_word_stands_alone() {
         );
     }
 }
+
+/// Sections that stay open: as many as no control has.
+#[test]
+fn repeated_sections_inside_each_other_are_bounded() {
+    let lines: Vec<String> = (0..3000)
+        .map(|i| format!("LA{i}: REPEATB LA{} P=99\n", i + 1))
+        .collect();
+    let text = lines.concat();
+    let got = said(&format!("G0 X1\n{text}M30\n"));
+    assert!(
+        got.len() == 1 && got[0].contains("more than 1000 repeated sections"),
+        "{got:?}"
+    );
+}

@@ -78,14 +78,12 @@ impl Apt<'_> {
                 effects.add(block, Effect::set("tool words", more.into_iter().collect::<Vec<_>>()));
             }
         } else if record.is("CUTTER") || record.is("CIRCLE") {
-            let radius = self.circle_radius_mm(&args).filter(|_| record.is("CIRCLE"));
-            let to = match radius {
-                // the rest is in the arc that follows
-                Some(radius) => Argument::number("radius", (radius * 1000.0).round() / 1000.0),
-                None => Argument::text("", &written_record(record, view)),
+            let to = match self.circle_as_read(&args).filter(|_| record.is("CIRCLE")) {
+                Some(circle) => circle.map(|(name, value)| Argument::number(name, value)).into(),
+                None => vec![Argument::text("", &written_record(record, view))],
             };
             let key = if record.is("CUTTER") { "cutter" } else { "circle" };
-            self.core.effects.add(block, Effect::set(key, [to]));
+            self.core.effects.add(block, Effect::set(key, to));
         } else if record.is("STOP") {
             let mut words = vec![Argument::code("M0")];
             if !args.words().is_empty() || !args.numbers().is_empty() {

@@ -107,24 +107,36 @@ impl Apt<'_> {
         }
     }
 
-    /// The radius of a CIRCLE whose arc is known: as written, else the distance from the centre to where the tool is.
-    pub(crate) fn circle_radius_mm(&self, args: &Args) -> Option<f64> {
+    /// What CIRCLE says, however it is written: centre in mm, axis of length 1, and the radius in mm, which is the distance from the centre to
+    /// where the tool is if it is left out. `None`: other numbers, or that place is unknown.
+    pub(crate) fn circle_as_read(&self, args: &Args) -> Option<[(&'static str, f64); 7]> {
         let unit = self.core.state.coordinates.unit_mm();
         let numbers = args.numbers();
         if args.odd || !args.words().is_empty() || !matches!(numbers.len(), 6 | 7 | 11) {
             return None;
         }
         let axis = Vec3::new(numbers[3], numbers[4], numbers[5]).try_normalize(f64::MIN_POSITIVE)?;
-        if let Some(radius) = numbers.get(6) {
-            return Some(radius * unit);
-        }
+        let axis = self.kept.frame.vector(axis);
         let centre = self
             .kept
             .frame
             .point(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit);
         let from = self.core.state.position.xyz()? - centre;
-        let axis = self.kept.frame.vector(axis);
-        Some((from - axis * from.dot(&axis)).norm())
+        let reached = (from - axis * from.dot(&axis)).norm();
+        let radius = numbers.get(6).map_or(reached, |radius| radius * unit);
+        // in whole thousandths of a mm, and nine digits of the axis: both are what programs write
+        let rounded = |value: f64, steps: f64| (value * steps).round() / steps + 0.0;
+        let [x, y, z, radius] = [centre.x, centre.y, centre.z, radius].map(|mm| rounded(mm, 1e3));
+        let [i, j, k] = [axis.x, axis.y, axis.z].map(|part| rounded(part, 1e9));
+        Some([
+            ("X", x),
+            ("Y", y),
+            ("Z", z),
+            ("I", i),
+            ("J", j),
+            ("K", k),
+            ("radius", radius),
+        ])
     }
 
     /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends. NX writes eleven numbers: two

@@ -26,8 +26,6 @@ pub(crate) struct Hole {
     pub(crate) cycle: u32,
     /// The parameters of its definition.
     pub(crate) given: Vec<(Parameter, Value)>,
-    /// Of more parameters than any cycle has: one number for all of them.
-    pub(crate) rest: u32,
     /// Q200, Q201, Q203, Q204, in the program's unit.
     pub(crate) clear: Value,
     pub(crate) depth: Value,
@@ -58,18 +56,15 @@ pub(crate) struct Hole {
 const MOST_GIVEN: usize = 64;
 
 impl Hole {
-    /// A parameter of the definition: the last value counts.
-    fn give(&mut self, parameter: Parameter, value: Value) {
+    /// A parameter of the definition: the last value counts. False: there are too many.
+    fn give(&mut self, parameter: Parameter, value: Value) -> bool {
         let room = self.given.len() < MOST_GIVEN;
         match self.given.iter_mut().find(|(known, _)| *known == parameter) {
             Some((_, held)) => *held = value,
             None if room => self.given.push((parameter, value)),
-            None => {
-                let bits = value.map_or(u64::MAX, f64::to_bits) ^ u64::from(parameter.number) << 32;
-                let folded = (bits ^ bits >> 32) as u32;
-                self.rest = (self.rest ^ folded).wrapping_mul(0x0100_0193).rotate_left(5);
-            }
+            None => return false,
         }
+        true
     }
 }
 
@@ -92,6 +87,7 @@ impl Klartext<'_> {
             cycle,
             ..Hole::default()
         };
+        let mut beyond = false;
         while let Some(word) = words.next() {
             let Said::Parameter(false, parameter) = word.value else {
                 continue;
@@ -116,7 +112,12 @@ impl Klartext<'_> {
             };
             // cycles write their parameters
             self.memory.parameters.set(parameter, value);
-            hole.give(parameter, value);
+            if !hole.give(parameter, value) && !std::mem::replace(&mut beyond, true) {
+                let message = format!(
+                    "CYCL DEF {cycle} names more than {MOST_GIVEN} parameters: remove those that are not the cycle's"
+                );
+                Self::rejected(crate::Refusal::CannedCycle, message, report);
+            }
             match parameter.number {
                 200 => hole.clear = value,
                 201 => hole.depth = value,

@@ -11,9 +11,6 @@ impl Klartext<'_> {
             Cycle::None => {}
             Cycle::Hole(hole) => {
                 seen.push(Argument::number("cycle", f64::from(hole.cycle)));
-                if hole.rest != 0 {
-                    seen.push(Argument::number("cycle, further parameters", f64::from(hole.rest)));
-                }
                 for (parameter, value) in &hole.given {
                     seen.extend(value.map(|value| Argument::number(format!("cycle {parameter}"), value)));
                 }

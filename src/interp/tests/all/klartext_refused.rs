@@ -163,3 +163,21 @@ fn numbers_that_begin_with_zero_are_not_negative() {
     let found = lines(NAME, &program("L X+0 Y+0 Z+0 F100\nL X+5\nRND R-1\nL Y+9\n"));
     assert!(!found.iter().any(|line| line == "L X5 Y0 Z0 F100"), "{found:?}");
 }
+
+/// The last value of a parameter counts, and no cycle has so many of them.
+#[test]
+fn a_cycle_names_no_more_parameters_than_there_are() {
+    let define = |numbers: core::ops::Range<u32>| {
+        let given: Vec<String> = numbers.map(|number| format!(" ~\n Q{number}=+1")).collect();
+        refused(
+            &format!("CYCL DEF 200 DRILLING{}\n", given.concat()),
+            Refusal::CannedCycle,
+        )
+    };
+    assert_eq!(define(300..364), [""; 0]);
+    let found = define(300..400);
+    assert!(
+        found.len() == 1 && found[0].contains("more than 64 parameters"),
+        "{found:?}"
+    );
+}

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use trunnion_interp::{Argument, Interpreter, canonical_text};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
-/// What depends on lines that no run has reached, or on values that nobody knows.
+/// What may run lines that the run has not reached.
 #[derive(Default)]
 pub(crate) struct Elsewhere {
     /// The first thing that is not modelled and may run other lines: its block, and its words.

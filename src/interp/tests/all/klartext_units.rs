@@ -48,7 +48,7 @@ fn the_caller_goes_on_in_its_own_unit() {
         let (motions, faults) = run(&program(&format!("{START}CALL PGM {called}\nL X+5\nL IX+5 F200\n")));
         let expected = ["L X25.4 Y0 Z0 F254", "L X5 Y0 Z0 F254", "L X10 Y0 Z0 F200"];
         assert_eq!(motions, expected, "{called}");
-        // M2 and M30 in a called program are told apart from this
+        // not so M2 and M30 in a called program
         assert!(
             faults.iter().all(|fault| fault.contains("in a called program")),
             "{faults:?}"

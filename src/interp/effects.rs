@@ -160,7 +160,7 @@ impl Iso<'_> {
         if alone.is_empty() {
             return;
         }
-        let coordinates = alone.iter().any(|found| takes_axes(found.code.action));
+        let coordinates = alone.iter().any(|found| takes_axes(found.code));
         let mut event: Vec<Argument> = alone.iter().map(|found| name_of(found, view)).collect();
         if alone
             .iter()

@@ -112,7 +112,7 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         | Action::DiameterOn
         | Action::DiameterAbsolute
         | Action::DiameterOff => match code.group.as_deref() {
-            None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
+            None | Some("one-shot" | "non-modal" | "special-motion" | EXACT_STOP_ONCE | "stopping") => Sort::Before,
             // the limits that it writes stay
             Some("stroke-check") if words.axes.any() => Sort::Before,
             Some(_) => Sort::Group,
@@ -140,12 +140,16 @@ pub(super) fn coolant(code: &trunnion_dialect::Code) -> Option<&'static [(&'stat
     }
 }
 
-/// Whether a code reads the axis words of its block as data.
-pub(super) fn takes_axes(action: Action) -> bool {
-    matches!(
-        action,
+/// The group of codes that stop exactly at the end of their block.
+const EXACT_STOP_ONCE: &str = "exact-stop-once";
+
+/// Whether a code reads the axis words of its block as data: those beside an exact stop in one block are of the motion.
+pub(super) fn takes_axes(code: &trunnion_dialect::Code) -> bool {
+    let reads = matches!(
+        code.action,
         Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::NoMotion | Action::PathMode
-    )
+    );
+    reads && code.group.as_deref() != Some(EXACT_STOP_ONCE)
 }
 
 /// Whether a code changes what coordinates mean.

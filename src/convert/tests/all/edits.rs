@@ -247,9 +247,9 @@ fn an_undeclared_radius_is_the_reason_for_a_refusal() {
 fn a_path_is_scaled_by_one_factor() {
     becomes(
         "haas-ngc",
-        "%\nO1\nG21 G90 G17\nG54 M3 S1000\nG0 X10. Y20. Z5.\nG1 Z-1. F100.\nG2 X30. Y20. I10. J0.\nG91 G1 X5.\nG90 G81 X0. Y0. R2. Z-10. F50.\nG80\nM30\n%\n",
+        "%\nO1\nG21 G90 G17\nG54 M3 S1000\nG0 X10. Y20. Z5.\nG1 Z-1. F100.\nG2 X30. Y20. I10. J0.\nG91 G9 G1 X5.\nG90 G81 X0. Y0. R2. Z-10. F50.\nG80\nM30\n%\n",
         Edit::Shape(Shape::Scale(1.5)),
-        "%\nO1\nG21 G90 G17\nG54 M3 S1000\nG0 X15. Y30. Z7.5\nG1 Z-1.5 F100.\nG2 X45. Y30. I15. J0.\nG91 G1 X7.5\nG90 G81 X0. Y0. R3. Z-15. F50.\nG80\nM30\n%\n",
+        "%\nO1\nG21 G90 G17\nG54 M3 S1000\nG0 X15. Y30. Z7.5\nG1 Z-1.5 F100.\nG2 X45. Y30. I15. J0.\nG91 G9 G1 X7.5\nG90 G81 X0. Y0. R3. Z-15. F50.\nG80\nM30\n%\n",
     );
     // the tool does not grow with the part
     refused(

@@ -7,7 +7,7 @@ pub fn slash(block: &Block<'_>, dialect: &Dialect) -> Option<(u8, TextRange)> {
     let mut items = block.items();
     let first = items.next()?;
     let found = if let Item::Skip(level, range) = first {
-        (level, range)
+        (skip_level(level, &block.program().text(range), dialect), range)
     } else if dialect.quirks.delete_rest {
         let range = items.find_map(|item| match item {
             Item::Other(range) if block.program().bytes(range).starts_with(b"/") => Some(range),
@@ -19,6 +19,17 @@ pub fn slash(block: &Block<'_>, dialect: &Dialect) -> Option<(u8, TextRange)> {
         return None;
     };
     items.any(|item| !matches!(item, Item::Comment(_))).then_some(found)
+}
+
+/// The level of a block delete as it is written: `/` alone is level 0 on a Sinumerik, which counts from 0 (Programming Manual, Fundamentals,
+/// skipping blocks), and level 1 elsewhere.
+pub(crate) fn skip_level(level: u8, written: &str, dialect: &Dialect) -> u8 {
+    let bare = written.trim() == "/";
+    if bare && dialect.quirks.declares_names() {
+        0
+    } else {
+        level
+    }
 }
 
 /// The levels of the blocks that have a `/` which deletes anything, ascending, each once, and how many blocks they are.

@@ -26,7 +26,7 @@
 //! * NISTIR 6556 (2000), section 3.3 on the format of a line.
 //! * ISO 6983-1:2009, the format of a block.
 use crate::prelude::*;
-use trunnion_syntax::Program;
+use trunnion_syntax::{Program, TokenId, TokenKind};
 
 pub(super) const RULE: Body = Body::sound(
     Error,
@@ -116,16 +116,35 @@ fn is_command(program: &Program, range: TextRange) -> bool {
     let Some(block) = program.block_at(range.start) else {
         return false;
     };
-    let text = program.text(program.block(block).range());
-    let bare = text.split([';', '(']).next().unwrap_or_default().trim();
-    bare.starts_with('$') || bare == "?"
+    // a line may hold as many mistakes as bytes: its first tokens decide, and a run of blanks is one token
+    let tokens = program.block(block).tokens();
+    let table = program.tokens();
+    let mut said = tokens.filter(|id| table.kind(*id) != TokenKind::Blank);
+    let begins = |id: Option<TokenId>, with: &[u8]| {
+        let first = id.and_then(|id| program.bytes(table.range(id)).first());
+        first.is_some_and(|byte| with.contains(byte))
+    };
+    let first = said.next();
+    if begins(first, b"$") {
+        return true;
+    }
+    let alone = first.is_some_and(|id| program.bytes(table.range(id)) == b"?");
+    alone && said.next().is_none_or(|id| begins(Some(id), b"(;\r\n"))
 }
+
+/// A bracket is closed within so many bytes, or the word before which it should have been is not named.
+const NEAR: usize = 200;
 
 /// The word after an open bracket, before which it should have been closed: it begins with a letter after a value.
 fn word_after_bracket(program: &Program, bracket: TextRange) -> Option<String> {
-    let line = program.source().get(bracket.end as usize..)?;
+    let rest = program.source().get(bracket.end as usize..)?;
+    // there may be as many brackets as bytes
+    let line = &rest[..rest.len().min(NEAR)];
     let line = line.split(|byte| matches!(byte, b'\r' | b'\n' | b'(' | b';')).next()?;
-    let text = core::str::from_utf8(line).ok()?;
+    let text = match core::str::from_utf8(line) {
+        Ok(text) => text,
+        Err(error) => core::str::from_utf8(&line[..error.valid_up_to()]).ok()?,
+    };
     text.split_ascii_whitespace()
         .skip(1)
         .find(|word| {

@@ -1,4 +1,5 @@
 //! Files that are not NC programs at all: pictures, binaries, prose, source code.
+use super::others::is_klartext;
 use super::text::{is_block, lines, strip_comments};
 
 /// Bytes that are searched for control characters.
@@ -128,7 +129,7 @@ impl Count {
             if code.is_empty() || line == "%" || line.starts_with("$$") || line.starts_with("/*") {
                 continue;
             }
-            if is_block(code) || is_statement(code) {
+            if is_block(code) || is_statement(code) || is_klartext(line) || is_text_of_apt(code) {
                 count.blocks += 1;
             } else {
                 count.words += 1;
@@ -158,6 +159,12 @@ fn is_sentence(code: &str) -> bool {
         plain += usize::from(token.len() >= 2 && token.chars().all(|c| c.is_alphabetic() || matches!(c, '\'' | '-')));
     }
     plain >= 4 && plain * 10 >= all * 6
+}
+
+/// Whether a line is one of an APT program that holds a text for people.
+fn is_text_of_apt(code: &str) -> bool {
+    let word = code.split(['/', ' ']).next().unwrap_or_default();
+    ["PARTNO", "PPRINT", "REMARK", "TITLES"].contains(&word)
 }
 
 /// Whether a line is a statement of a macro: a variable is assigned, or a condition in brackets is tested.
@@ -209,6 +216,18 @@ mod tests {
         );
         let program = "PROGRAM FOR THE SMALL PART OF JOB 12\nG21\nG0 X1\nG1 Z-1 F100\nM30\n";
         assert_eq!(prose(program, 0), None);
+    }
+
+    /// Klartext and texts in APT are made of words, and are no prose.
+    #[test]
+    fn programs_of_many_words() {
+        let klartext = "0 BEGIN PGM DECKEL MM\n1 TOOL CALL 5 Z S1000 F500\n2 PLANE RESET TURN FMAX\n3 CYCL CALL PAT FMAX\n\
+                        4 PLANE RESET TURN FMAX\n5 M30\n6 END PGM DECKEL MM\n";
+        let apt = "PARTNO/DECKEL\nPPRINT THIS LINE IS WRITTEN BY THE SYSTEM\nPPRINT FOR ALL THAT READ IT\n\
+                   PPRINT AND FOR THE MACHINE TOO\nUNITS/MM\nGOTO/0,0,100\nFINI\n";
+        for text in [klartext, apt] {
+            assert_eq!((prose(text, 0), plainly_none(text)), (None, None), "{text}");
+        }
     }
 
     #[test]

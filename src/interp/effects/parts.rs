@@ -1,5 +1,6 @@
 //! Parts of a block that are effects of their own: reference points, what block delete may leave out, words that nothing reads.
 use crate::codes::{BlockCodes, Found};
+use crate::deleted::skip_level;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::written::calls_program;
@@ -54,14 +55,8 @@ impl Iso<'_> {
             }
             match item {
                 Item::Skip(level, range) => {
-                    // the switch decides whether the block runs at all; a Sinumerik counts its levels from 0 (Programming Manual,
-                    // Fundamentals, skipping blocks)
-                    let bare = view.program().text(range).trim() == "/";
-                    let level = if bare && self.core.dialect.quirks.declares_names() {
-                        0
-                    } else {
-                        level
-                    };
+                    // the switch decides whether the block runs at all
+                    let level = skip_level(level, &view.program().text(range), self.core.dialect);
                     let words = vec![Argument::number("/", f64::from(level))];
                     self.core.effects.add_with(block, Effect::Event(words), Reach::Itself);
                 }

@@ -105,7 +105,7 @@ impl Klartext<'_> {
             Ok((value, None)) if words.rest().trim_ascii().is_empty() => {
                 let own = || {
                     format!(
-                        "{target}: the formula that sets it (a function before an operator needs brackets: its priority is not taken from a source)"
+                        "{target}: the formula that sets it (a function before `*`, `/` or `^` needs brackets: its priority is not taken from a source)"
                     )
                 };
                 self.memory

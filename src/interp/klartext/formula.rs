@@ -1,7 +1,8 @@
 //! Formulas of Q parameters.
 //!
-//! Source: HEIDENHAIN TNC 640 user's manual, Q parameter programming. The order of a function without parentheses and of `^` among other
-//! operators and signs is not taken from a source: the value is unknown there.
+//! Source: HEIDENHAIN TNC 640 user's manual, Q parameter programming. A function without parentheses and `^` come before `+` and `-`
+//! (iTNC 530 user's manual 340 49x, entering formulas: `SQ 10 - 3^3` is 73). Their order among `*`, `/`, each other and signs is not taken from a
+//! source: the value is unknown there.
 use super::values::{Parameters, Value};
 use super::words::{Said, Words};
 use crate::frames::sin_cos_degrees;
@@ -39,7 +40,18 @@ struct Operand {
     power: bool,
 }
 
-/// Two operands with an operator between them.
+/// Two operands with `+` or `-` between them: what is in them comes first.
+fn added(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Operand {
+    let value = first.value.zip(second.value);
+    Operand {
+        value: value.map(|(a, b)| of(a, b)).filter(|value| value.is_finite()),
+        stops: first.stops.or(second.stops),
+        loose: false,
+        power: false,
+    }
+}
+
+/// Two operands with `*` or `/` between them.
 fn joined(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Operand {
     let known = !first.loose && !second.power;
     let value = first.value.zip(second.value).filter(|_| known);
@@ -93,7 +105,7 @@ impl Formula<'_, '_, '_> {
                 return Ok(first);
             };
             let second = self.product()?;
-            first = joined(&first, &second, |a, b| if minus { a - b } else { a + b });
+            first = added(&first, &second, |a, b| if minus { a - b } else { a + b });
         }
     }
 
@@ -247,7 +259,8 @@ fn function(name: &[u8]) -> Option<fn(f64) -> Value> {
         b"INT" => |x| Some(x.trunc()),
         b"ABS" => |x| Some(x.abs()),
         b"FRAC" => |x| Some(x.fract()),
-        b"SGN" => |x| Some(if x == 0.0 { 0.0 } else { x.signum() }),
+        // of 0 it is 1 in the manuals of the iTNC 530 and the TNC 320 and 620; for other controls no source is known
+        b"SGN" => |x| (x != 0.0).then(|| x.signum()),
         _ => return None,
     })
 }
@@ -282,20 +295,13 @@ mod tests {
             "- SQRT ( 1 - 5 )",
             "2 * ( 3 / ( 1 - 1 ) ) + Q9",
             "LN 0",
+            "SQRT -4 + 8",
             "ASIN ( 2 )",
             "SIN ( 1 / 0 )",
         ] {
             assert!(stops(text).is_some(), "{text}");
         }
-        for text in [
-            "Q9 / 0",
-            "1 / Q9",
-            "SQRT Q9",
-            "SQRT -4 + 8",
-            "1 / 0 ^ 2",
-            "SQRT 4",
-            "TAN ( 90 )",
-        ] {
+        for text in ["Q9 / 0", "1 / Q9", "SQRT Q9", "1 / 0 ^ 2", "SQRT 4", "TAN ( 90 )"] {
             assert_eq!(stops(text), None, "{text}");
         }
     }
@@ -314,6 +320,12 @@ mod tests {
             ("2 + ( 3 ^ 2 )", 11.0),
             ("( -3 ) ^ 2", 9.0),
             ("5 - - 3", 8.0),
+            ("SQ 10 - 3 ^ 3", 73.0),
+            ("2 + 3 ^ 2", 11.0),
+            ("SQRT 16 + 9", 13.0),
+            ("NEG 2 + 3", 1.0),
+            ("INT 2,7 + 1", 3.0),
+            ("SGN -4", -1.0),
         ] {
             let found = value(text).expect(text).expect(text);
             assert!((found - expected).abs() < 1e-12, "{text}: {found}");
@@ -324,7 +336,7 @@ mod tests {
             "SQRT ( -1 )",
             "1 / 0",
             "2 ^ 3 * 4",
-            "2 + 3 ^ 2",
+            "SGN ( 1 - 1 )",
             "2 * 3 ^ 2",
             "- 3 ^ 2",
             "-3 ^ 2",

@@ -109,8 +109,9 @@ impl Klartext<'_> {
         }
         let mut end = from;
         self.place(words, &mut end);
-        if path == Path::Vectors && self.memory.deltas && !self.core.state.tool_axis.tcp() {
-            self.not_modelled_once("LN with DL, DR or DR2 without TCPM: the shift along the normal", report);
+        // with TCPM and without it (iTNC 530 manual 60642x, 3-D tool compensation, face milling)
+        if path == Path::Vectors && self.memory.deltas {
+            self.not_modelled_once("LN with DL, DR or DR2: the shift along the normal", report);
             end.known &= !LINEAR;
         }
         let kind = match path {

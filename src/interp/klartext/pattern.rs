@@ -111,6 +111,16 @@ impl Klartext<'_> {
         (!points.is_empty()).then_some(points)
     }
 
+    /// Whether no further place of a pattern is computed: then where the tool is stays unknown, and it is said why.
+    fn is_full(&mut self, report: &mut Report<'_>) -> bool {
+        let Some(why) = self.cycle_motions.full(self.out.len(), self.core.setup.limits.blocks) else {
+            return false;
+        };
+        self.not_modelled_once(&why, report);
+        self.unknown_motion(report);
+        true
+    }
+
     /// CYCL CALL PAT F.
     pub(super) fn call_pattern(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         let found = self.path_words(words, report);
@@ -129,8 +139,7 @@ impl Klartext<'_> {
             self.not_modelled_once("CYCL CALL PAT: the path between its points", report);
             let axes = self.axes();
             for point in points {
-                if self.cycle_motions.is_over(self.core.setup.limits.blocks) {
-                    self.unknown_motion(report);
+                if self.is_full(report) {
                     break;
                 }
                 let mut end = self.memory.frames.programmed(&self.core.state.position);
@@ -185,8 +194,7 @@ impl Klartext<'_> {
         let unit = self.core.state.coordinates.unit_mm();
         let axes = self.axes();
         for place in places {
-            if self.cycle_motions.is_over(self.core.setup.limits.blocks) {
-                self.unknown_motion(report);
+            if self.is_full(report) {
                 break;
             }
             let mut end = self.memory.frames.programmed(&self.core.state.position);

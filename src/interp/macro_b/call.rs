@@ -105,6 +105,17 @@ impl Iso<'_> {
         (depth >= limit).then(|| rejected(self.core.dialect, Mistake::Nesting, Refusal::Subprogram, message))
     }
 
+    /// Why a further modal call (G66) is one too many: each calls those before it.
+    pub(crate) fn too_many_modal(&self, active: usize) -> Option<FaultKind> {
+        let limit = if is_fanuc(self.core.dialect) {
+            MACRO_LEVELS
+        } else {
+            self.core.setup.limits.depth as usize
+        };
+        let message = format!("more than {limit} modal macro calls are active: end the others first (G67)");
+        (active >= limit).then(|| rejected(self.core.dialect, Mistake::Nesting, Refusal::Subprogram, message))
+    }
+
     /// M99 has left a call: the caller's variables are back, and the run continues at a sequence number if M99 names one.
     pub(crate) fn leave_macro(
         &mut self,

@@ -211,6 +211,12 @@ impl<'d> Iso<'d> {
             Ok((program, times)) => {
                 let range = call_range(report, range, place);
                 if code == FlowCode::Modal {
+                    // each of them would call the others at the next motion
+                    if let Some(kind) = self.too_many_modal(deep.modal.len()) {
+                        report.fault(range, kind);
+                        deep.pending = Some(Transfer::End);
+                        return;
+                    }
                     deep.modal.push(Modal {
                         program,
                         times,

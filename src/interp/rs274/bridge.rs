@@ -165,7 +165,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 modal.undeclared()
             },
             machine_coordinates: false,
-            radii: state.lathe_diameter,
+            // G7 halves X, and G8 takes it as it is: neither leaves that to the machine file
+            radii: state.lathe_diameter || core.setup.control.x_diameter,
             tool: modal.tool.number(),
             tilt: crate::Tilt::default(),
             effects: core.effects.count(),
@@ -341,7 +342,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let feed = self.feed(&shift.machine(&target), true, at, state);
         let arcs = self.core.setup.control.spline_arcs_mm;
         let own = arcs.map_or(SPLINE_TOLERANCE_MM, |_| DECLARED_TOLERANCE_MM);
-        let places = chords(order as usize, points, knots, own / state.units.mm());
+        let most = self.core.setup.limits.blocks;
+        let room = most.saturating_sub(self.calls.curve_work.count());
+        let (places, took) = chords(order as usize, points, knots, own / state.units.mm(), room);
+        self.calls.curve_work.add_in_vain(took);
         match (&places, arcs) {
             (Some(_), Some(_)) => {}
             (Some(_), None) => self.not_modelled(
@@ -349,6 +353,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 50..=63,
                 format!("spline: judged along chords within {own} mm of it; the control runs it as its own arcs: declare [control] spline_arcs"),
             ),
+            (None, _) if took > room => {
+                let what = format!("spline: its path, which takes more than {most} steps with those before it ([limits] blocks)");
+                self.not_modelled(at, 50..=63, what);
+            }
             (None, _) => self.not_modelled(at, 50..=63, "spline: its path".to_owned()),
         }
         let Some(places) = places else {

@@ -3,6 +3,7 @@ use super::feed::Rate;
 use super::places::Places;
 use super::steady::Steady;
 use crate::Position;
+use crate::cycle_motions::CycleMotions;
 use trunnion_ngc::Pose;
 
 /// What calls have set that a motion needs and [`State`] does not set in step with them: compensation of the cutter radius holds
@@ -51,6 +52,8 @@ pub(super) struct CallState {
     pub(super) further_said: bool,
     /// How far a curve may leave the lines that stand for it, mm; 0: none is being followed.
     pub(super) slack_mm: f64,
+    /// Chords of curves so far, and what it took to find them.
+    pub(super) curve_work: CycleMotions,
     /// The line that set `#<_value>` to something unknown.
     pub(super) returned: Option<Vec<crate::Argument>>,
     /// The kinematics were switched, and it is not known to which: X Y Z say nothing about the machine.

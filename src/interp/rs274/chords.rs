@@ -1,12 +1,32 @@
 //! A NURBS curve as chords: what the rest of Trunnion, which knows lines and arcs, can follow.
+use core::cell::Cell;
 
 /// Points on the curve, the start left out and the end exact, so that chords stay within `tolerance` of it (units of the points).
 ///
 /// A part of a span is a rational Bezier curve, whose control points are values of the span's polar form (Ramshaw: Blossoming, 1987;
 /// Piegl, Tiller: The NURBS Book, 2nd ed., 5.3). With positive weights it is inside the convex hull of its control points: a part whose
 /// control points are within the tolerance of its chord is proved to be; all others are halved. `None` if the knots are invalid, a weight
-/// is not positive, the curve is discontinuous, or halving does not end.
-pub(super) fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance: f64) -> Option<Vec<[f64; 2]>> {
+/// is not positive, the curve is discontinuous, halving does not end, or takes more than `room`: parts that are looked at, those of a high
+/// order for more. The second value is what it took.
+pub(super) fn chords(
+    order: usize,
+    points: &[[f64; 3]],
+    knots: &[f64],
+    tolerance: f64,
+    room: u64,
+) -> (Option<Vec<[f64; 2]>>, u64) {
+    let took = Cell::new(0);
+    let found = within(order, points, knots, tolerance, (room, &took));
+    (found, took.get())
+}
+
+fn within(
+    order: usize,
+    points: &[[f64; 3]],
+    knots: &[f64],
+    tolerance: f64,
+    (room, took): (u64, &Cell<u64>),
+) -> Option<Vec<[f64; 2]>> {
     if order < 2 || points.len() < order {
         return None;
     }
@@ -23,7 +43,13 @@ pub(super) fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance
     if knots.len() != points.len() + order || !sorted || !finite || !positive {
         return None;
     }
-    let curve = Curve { order, points, knots };
+    let curve = Curve {
+        order,
+        points,
+        knots,
+        room,
+        took,
+    };
     let mut out = Vec::new();
     for span in order - 1..points.len() {
         let (from, to) = (knots[span], knots[span + 1]);
@@ -50,7 +76,12 @@ struct Curve<'a> {
     order: usize,
     points: &'a [[f64; 3]],
     knots: &'a [f64],
+    room: u64,
+    took: &'a Cell<u64>,
 }
+
+/// The steps for a part of a cubic, which count as one.
+const CUBIC: u64 = 27;
 
 /// No chord is halved more often.
 const DEEPEST: u32 = 18;
@@ -107,6 +138,12 @@ impl Curve<'_> {
         out: &mut Vec<[f64; 2]>,
     ) -> Option<()> {
         let degree = self.order - 1;
+        // each of its control points is a triangle of steps
+        let steps = (degree as u64).saturating_pow(3) / CUBIC;
+        self.took.set(self.took.get().saturating_add(steps.max(1)));
+        if self.took.get() > self.room {
+            return None;
+        }
         let (a, b) = (self.at(span, from, to, 0), self.at(span, from, to, degree));
         let inner = |index: usize| self.at(span, from, to, index);
         let near = (1..degree).all(|index| distance(inner(index), a, b) <= tolerance);
@@ -139,7 +176,28 @@ fn distance(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::chords as chords_within;
     use super::*;
+
+    fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance: f64) -> Option<Vec<[f64; 2]>> {
+        chords_within(order, points, knots, tolerance, u64::MAX).0
+    }
+
+    /// What it takes is counted, whatever its order, and ends it.
+    #[test]
+    fn a_curve_takes_no_more_than_its_room() {
+        let points: Vec<[f64; 3]> = (0..40).map(|i| [f64::from(i), f64::from(i % 9), 1.0]).collect();
+        let took = |order, room| chords_within(order, &points, &[], 1e-3, room);
+        let (found, cubic) = took(4, u64::MAX);
+        let count = found.expect("a curve").len() as u64;
+        assert!((count..=2 * count).contains(&cubic), "{cubic} for {count} chords");
+        let (found, high) = took(40, u64::MAX);
+        let count = found.expect("a curve").len() as u64;
+        assert!(high > 1000 * count, "{high} for {count} chords");
+        let (found, spent) = took(40, 10_000);
+        assert_eq!(found, None);
+        assert!((10_000..20_000).contains(&spent), "{spent}");
+    }
 
     #[test]
     fn a_quarter_circle_as_rational_quadratic_stays_on_the_circle() {

@@ -158,6 +158,9 @@ impl<'d> Engine<'d> for Ngc<'d> {
     fn motions_wait(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.motions_wait())
     }
+    fn cycle_work(&self) -> u64 {
+        self.run.as_ref().map_or(0, |run| run.calls.curve_work.count())
+    }
     fn copied(&self) -> usize {
         let run = self.run.as_ref();
         run.map_or(0, |run| run.engine.copied() + run.calls.places.copied())

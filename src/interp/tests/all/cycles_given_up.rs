@@ -162,3 +162,49 @@ fn steps_in_vain_count_for_the_bound() {
         "{bounded:?}"
     );
 }
+
+/// The motions of a block are held until it is done.
+#[test]
+fn a_pattern_of_deep_holes_is_given_up_in_its_block() {
+    let points: String = (0..120).map(|at| format!(" POS{at} (X+{at} Y+1 Z+0)")).collect();
+    let source = format!(
+        "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n2 L Z+50 FMAX M3\n\
+         3 CYCL DEF 200 Q200=2 Q201=-50 Q206=100 Q202=0.012 Q210=0 Q203=0 Q204=50 Q211=0\n\
+         4 PATTERN DEF{points}\n5 CYCL CALL PAT\n6 M30\n7 END PGM A MM\n"
+    );
+    let mut setup = Setup::default();
+    setup.control.peck_clearance_mm = Some(1.0);
+    let (_, log) = run_bytes("heidenhain-klartext", source.as_bytes(), &setup);
+    assert!((200_000..250_000).contains(&log.motions.len()), "{}", log.motions.len());
+    assert_eq!(log.motions.last().expect("some").kind, MotionKind::Unknown);
+}
+
+/// A spline of a high order takes long to follow, and a long one is many chords: both count.
+#[test]
+fn splines_count_for_the_bound() {
+    let points = |count: usize| {
+        (0..count)
+            .map(|at| format!("X{at} Y{} P1\n", at % 9))
+            .collect::<String>()
+    };
+    let high = format!("G1 X0 Y0 F100\nG5.2 P1 L200 X0 Y0\n{}G5.3\nM2\n", points(200));
+    let low = high.replace("L200", "L4");
+    let long = format!(
+        "G1 X0 Y0 F100\n{}M2\n",
+        "G5.1 X1000 Y5 I900 J900\nG5.1 X0 Y0 I900 J-900\n".repeat(50)
+    );
+    let run = |source: &str| {
+        let mut setup = Setup::default();
+        setup.limits.blocks = 20_000;
+        let (program, log) = run_bytes("linuxcnc", source.as_bytes(), &setup);
+        let faults = log.faults.iter().map(|fault| fault_line(&program, fault));
+        let told = faults
+            .filter(|fault| fault.contains("20000 steps with those before it"))
+            .count();
+        (told, log.motions.len())
+    };
+    assert_eq!(run(&low).0, 0);
+    assert_eq!(run(&high), (1, 2));
+    let (told, motions) = run(&long);
+    assert!(told > 10 && motions < 20_000, "{told} {motions}");
+}

@@ -163,6 +163,18 @@ fn a_modal_macro_runs_after_each_motion() {
     );
 }
 
+/// Each modal call would call those before it after every motion.
+#[test]
+fn modal_macros_are_no_more_than_calls_may_be_deep() {
+    let source = |count: usize| format!("{}G1F9.X1.\nM30\nO7\nM99\n", "G66P7\n".repeat(count));
+    assert!(
+        faults(FANUC, &source(6))[0].contains("more than 5 modal macro calls are active"),
+        "{:?}",
+        faults(FANUC, &source(6))
+    );
+    assert_eq!(faults(FANUC, &source(5).replacen("M30", "G67M30", 1)), [""; 0]);
+}
+
 #[test]
 fn the_chain_names_every_call() {
     let source = "N1M98P1\nM30\nO1\nN2G65P2A1.\nM99\nO2\nG0X#1\nM99\n";

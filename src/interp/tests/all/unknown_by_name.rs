@@ -98,7 +98,7 @@ fn each_word_without_positions_is_named_with_its_reason() {
         ),
         (
             KLARTEXT,
-            "Q9 = SQ 3 + 1\nL X+Q9 Y+0 Z+0",
+            "Q9 = SQ 3 * 2\nL X+Q9 Y+0 Z+0",
             "Q9: the formula that sets it",
         ),
         (

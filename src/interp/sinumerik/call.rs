@@ -29,6 +29,8 @@ pub(crate) struct With {
     arguments: Vec<Argument>,
     /// By MCALL, after a motion.
     pub(super) is_modal: bool,
+    /// By a path, or from outside of the control: where no file of that name is found, the program may be there.
+    pub(crate) is_elsewhere: bool,
 }
 
 impl With {
@@ -45,6 +47,7 @@ impl With {
         Self {
             arguments,
             is_modal: false,
+            is_elsewhere: false,
         }
     }
 }

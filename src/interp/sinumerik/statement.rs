@@ -45,7 +45,7 @@ impl Statement<'_> {
             "CASE" => self.case()?,
             "REPEAT" if self.text.is_at_end() => Transfer::Open(true),
             "REPEAT" | "REPEATB" => self.repeat(&keyword)?,
-            "CALL" | "PCALL" => self.call(from, &keyword)?,
+            "CALL" | "PCALL" | "EXTCALL" | "ISOCALL" => self.call(from, &keyword)?,
             "RET" => {
                 let range = self.text.range(from, from + 3);
                 Transfer::Return(Back { label: None, range })

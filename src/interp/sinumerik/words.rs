@@ -132,17 +132,35 @@ impl<'d> Iso<'d> {
         }
         let pending = match asked {
             Ok(transfer) => transfer,
-            Err((range, kind @ FaultKind::NotModelled { .. })) => {
+            Err((place, kind @ FaultKind::NotModelled { .. })) => {
                 // what it calls may do anything, and the program goes on after it
-                report.fault(range, kind);
+                report.fault(place, kind);
                 (words.declares, words.forgets_all) = (false, true);
-                return self.memory.own.lose();
+                if program
+                    .bytes(range)
+                    .get(..7)
+                    .is_some_and(|name| name.eq_ignore_ascii_case(b"ISOCALL"))
+                {
+                    // which codes of the ISO language stay in effect is not known
+                    self.core.unknown.for_good();
+                }
+                return self.call_is_not_followed();
             }
             Err((range, kind)) => {
                 report.fault(range, kind);
                 Transfer::End
             }
         };
+        let is_path = |transfer: &Transfer| match transfer {
+            Transfer::Call(calling) => matches!(&calling.with, Handed::Sinumerik(with) if with.is_elsewhere),
+            _ => false,
+        };
+        if self.core.effects.wanted() && is_path(&pending) {
+            // two paths with one last name may lead to two programs
+            let said = crate::written::written(block, self, words, crate::written::Keep::All);
+            let here = self.core.main_block(block.id());
+            self.core.effects.add(here, crate::Effect::Unmodelled(said));
+        }
         self.memory.own.pending = Some(pending);
     }
 

@@ -56,6 +56,7 @@ mod roughing_unknown;
 mod shop;
 mod silent;
 mod silent_paths;
+mod sinumerik_called_by_path;
 mod sinumerik_calls;
 mod sinumerik_diameter;
 mod sinumerik_examples;

@@ -149,9 +149,11 @@ fn a_program_is_called_by_its_name_in_a_text() {
     assert_eq!(said("G0 X1\nCALL \"NO\"\nM30\n"), ["2 `CALL \"NO\"` missing NO"]);
     for call in [
         "CALL BLOCK LA TO LB",
-        "CALL \"/_N_WKS_DIR/PD\"",
+        "CALL /_N_WKS_DIR/PD",
         "CALL",
-        "PCALL /DIR/PD(1)",
+        "PCALL /DIR/(1)",
+        "EXTCALL (\"PD\"",
+        "EXTCALL",
     ] {
         let told = said(&format!("G0 X1\n{call}\nX2\nM30\n"));
         assert!(told[0].contains("which program it calls"), "{call}: {told:?}");

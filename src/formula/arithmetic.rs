@@ -133,7 +133,8 @@ pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -
         Unary::Sin => degrees::sin(x),
         Unary::Sqrt if x < 0.0 => return Err(Kind::NegativeRoot),
         Unary::Sqrt => x.sqrt(),
-        Unary::Tan => degrees::tan(x),
+        Unary::CheckedTan if (x % 180.0).abs() == 90.0 => return Err(Kind::NoTangent),
+        Unary::Tan | Unary::CheckedTan => degrees::tan(x),
         Unary::FromBcd => from_bcd(x)?,
         Unary::ToBcd => to_bcd(x)?,
         Unary::Square

@@ -208,7 +208,7 @@ const QUOTED: usize = 80;
 fn trouble(dialect: &Dialect, program: &Program, whole: TextRange, error: &FormulaError) -> Trouble {
     use FormulaErrorKind as Kind;
     let mistake = match &error.kind {
-        Kind::DivisionByZero => Mistake::DividedByZero,
+        Kind::DivisionByZero | Kind::NoTangent => Mistake::DividedByZero,
         Kind::Infinite | Kind::Undefined => Mistake::Overflow,
         Kind::ParameterOutOfRange(_) | Kind::NotInteger(_) | Kind::NotDefined(_) | Kind::NotReadable(_) => {
             Mistake::VariableNumber

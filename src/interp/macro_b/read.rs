@@ -189,7 +189,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         self.words.flow = true;
         macros.deep().statement.get_or_insert(call.range);
         match statement {
-            Statement::Then => {}
+            Statement::Then => self.then(call),
             Statement::If => {
                 let end = self.program.block(self.block).range().end;
                 let rest = self

@@ -52,6 +52,17 @@ impl With {
     }
 }
 
+/// Why the control stops at the arguments of a call.
+pub(super) fn stops(text: Option<&str>, own: &Own) -> Vec<FaultKind> {
+    let text = text.unwrap_or_default();
+    let unknown = |one: &&str| !one.is_empty() && own.value(one).is_none();
+    arguments(text)
+        .into_iter()
+        .filter(unknown)
+        .filter_map(|one| own.stops(one))
+        .collect()
+}
+
 fn is_variable(text: &str) -> bool {
     let first = text.bytes().next();
     first.is_some_and(|byte| byte.is_ascii_alphabetic() || byte == b'_')

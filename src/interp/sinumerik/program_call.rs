@@ -35,6 +35,8 @@ impl Statement<'_> {
             let what = format!("{keyword}: which program it calls");
             return Err((range, FaultKind::NotModelled { what }));
         };
+        let stops = super::call::stops(arguments.as_deref(), self.own);
+        self.remarks.extend(stops.into_iter().map(|kind| (range, kind)));
         let mut with = super::With::read(arguments.as_deref(), self.own);
         with.is_elsewhere = keyword == "EXTCALL" || name.len() < path.len();
         Ok(Transfer::Call(Calling {

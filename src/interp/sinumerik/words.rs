@@ -82,6 +82,9 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let own = &mut self.memory.own;
+        if words.axes.any() {
+            own.scope.moved.get_or_insert(block.id().0);
+        }
         let ends = |found: &Found<'_>| found.code.action == Action::ProgramEnd;
         if own.is_called
             && let Some(at) = codes.iter().position(ends)
@@ -202,6 +205,10 @@ impl<'d> Iso<'d> {
             return;
         }
         let own = &self.memory.own;
+        let text = arguments.map(|inside| program.text(inside).into_owned());
+        for kind in super::call::stops(text.as_deref(), own) {
+            report.fault(range, kind);
+        }
         let alone = only(BESIDE_CALL, codes, words) && !(called.is_some() && number.is_some());
         let repeats = words.letters & (1 << (b'P' - b'A')) != 0;
         let declared = matches!(&key, Key::Name(name) if own.declared.contains(name));
@@ -241,7 +248,6 @@ impl<'d> Iso<'d> {
                 return;
             }
         };
-        let text = arguments.map(|inside| program.text(inside).into_owned());
         let with = With::read(text.as_deref(), &self.memory.own);
         self.memory.own.pending = Some(Transfer::Call(Calling {
             program: key,

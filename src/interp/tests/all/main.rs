@@ -50,6 +50,7 @@ mod plane_axial;
 mod planes_agree;
 mod progress;
 mod properties;
+mod refused_values;
 mod repeated;
 mod roughing;
 mod roughing_unknown;

@@ -73,7 +73,6 @@ fn functions_and_parts_of_texts_have_values() {
         "NUMBER(NN)",
         "NUMBER(\"1EX2\")",
         "STRLEN(SPRINT(\"%F\",1.5))",
-        "STRLEN(FF[2,0])",
     ] {
         let got = said(&format!("{name}\nG0\nX={value}\nM30\n"));
         assert!(

@@ -82,6 +82,7 @@ impl Macros<'_> {
             },
             unknown: Cell::new(None),
             unknown_name: Cell::new(false),
+            open_angle: Cell::new(false),
             asked_control: Cell::new(false),
         };
         (view, compiled, file)

@@ -1,5 +1,6 @@
 //! The arguments of CYCLE800.
 use crate::own::arguments;
+use trunnion_syntax::{Block, Item};
 
 /// The arguments of a call of CYCLE800.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,11 +109,28 @@ pub(super) fn deselects(text: &str, with_arguments: bool, own: impl Fn(&str) -> 
         return Some(false);
     }
     let is_none = values.get(1)?.trim_matches('"').trim() == "0";
+    is_none.then(|| may_move(text, true, own))
+}
+
+/// Whether MCALL is in the block of a call.
+pub(super) fn follows_modal_call(block: &Block<'_>) -> bool {
+    block.items().any(|item| match item {
+        Item::Call(call) => block.program().bytes(call.name).eq_ignore_ascii_case(b"MCALL"),
+        _ => false,
+    })
+}
+
+/// Whether a call may move axes: it retracts or has a direction, as far as that is known.
+pub(super) fn may_move(text: &str, with_arguments: bool, own: impl Fn(&str) -> Option<f64>) -> bool {
+    let values = inside(text)
+        .filter(|_| with_arguments)
+        .map(arguments)
+        .unwrap_or_default();
     let still = |at: usize| match values.get(at).copied().unwrap_or_default() {
         "" => true,
         value => number(value, &own) == Some(0.0),
     };
-    is_none.then(|| !(still(0) && still(13)))
+    !(still(0) && still(13))
 }
 
 /// The axes of a mode that turns axis by axis, two bits each from the lowest: 1 X, 2 Y, 3 Z, each once (57 is X Y Z, 27 Z Y X).

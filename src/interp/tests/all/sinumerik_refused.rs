@@ -41,6 +41,42 @@ fn a_cycle_that_is_called_while_mcall_is_active_is_not_decided() {
     }
 }
 
+/// What MCALL does with CYCLE800 no source says, before it and while it is active.
+#[test]
+fn a_swivel_under_mcall_is_not_decided() {
+    let head = "G17 G90 G54 G71 G94\nG0 X0 Y0 Z50 F100\nS500 M3\n";
+    let swivel = |direction: &str| format!("CYCLE800(0,\"\",0,57,0,0,0,10,0,0,0,0,0,{direction})");
+    for modal in ["CYCLE81(10,0,2,-5)", "PLAIN"] {
+        for call in [swivel("1"), swivel("-1"), "CYCLE800(1,\"0\")".to_owned()] {
+            let (motions, said) = run(&format!("{head}MCALL {modal}\n{call}\nX5\nMCALL\nM30\n"));
+            assert_eq!(motions, ["R X0 Y0 Z50"], "{modal} {call}");
+            let wanted = "whether MCALL acts in CYCLE800";
+            assert!(
+                said.iter().any(|said| said.contains(wanted)),
+                "{modal} {call}: {said:?}"
+            );
+        }
+        for call in [swivel("0"), "CYCLE800()".to_owned()] {
+            let (_, said) = run(&format!("{head}MCALL {modal}\n{call}\nMCALL\nM30\n"));
+            assert!(
+                !said.iter().any(|said| said.contains("MCALL")),
+                "{modal} {call}: {said:?}"
+            );
+        }
+    }
+    for call in [swivel("1"), swivel("0"), "CYCLE800()".to_owned()] {
+        let (motions, said) = run(&format!("{head}MCALL {call}\nX5\nMCALL\nX9\nM30\n"));
+        assert!(
+            said.iter().any(|said| said.contains("CYCLE800 after MCALL")),
+            "{call}: {said:?}"
+        );
+        assert!(
+            motions[1..].iter().all(|line| !line.contains("X5")),
+            "{call}: {motions:?}"
+        );
+    }
+}
+
 /// The control stops at the block that computes it, whether or not anything reads the variable.
 #[test]
 fn arithmetic_without_a_value_is_refused_where_it_stands() {

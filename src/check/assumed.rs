@@ -5,6 +5,7 @@ use crate::{Severity, words::letter};
 use std::collections::BTreeSet;
 use trunnion_dialect::{Dialect, Role};
 use trunnion_interp::{Fault, FaultKind, Lacks};
+use trunnion_machine::{Leg, Machine, direction_letter};
 use trunnion_syntax::{Address, Block, Value};
 
 /// What was taken for granted so far.
@@ -18,6 +19,8 @@ pub(crate) struct Assumed {
     axes: BTreeSet<u8>,
     /// Such a number is an increment, a centre, a radius or an argument of a macro: any axis may depend on it.
     any_axis: bool,
+    /// The axis to which the preferred direction of a swivel is taken to refer: data of the machine's builder that nothing declares.
+    direction: Option<u8>,
     /// The program is a subprogram that does not say what its caller does.
     of_caller: bool,
 }
@@ -38,6 +41,13 @@ impl Assumed {
                 true
             }
             _ => false,
+        }
+    }
+
+    /// A swivel has a preferred direction, which is taken to refer to an axis.
+    pub(crate) fn swivels(&mut self, (machine, dialect): (&Machine, &Dialect), leg: &Leg) {
+        if leg.motion.tilt.posture.is_direction() && dialect.quirks.declares_names() {
+            self.direction = self.direction.or_else(|| direction_letter(machine));
         }
     }
 
@@ -68,7 +78,11 @@ impl Assumed {
     pub(crate) fn listed(&self) -> impl Iterator<Item = String> {
         let whole = "numbers without a decimal point in whole units (not declared)";
         let whole = self.whole.then(|| whole.to_owned());
-        whole.into_iter().chain(self.radii.iter().cloned())
+        let direction = self.direction.map(|axis| {
+            let axis = letter(axis);
+            format!("the direction in CYCLE800 refers to the axis {axis} (not declared)")
+        });
+        whole.into_iter().chain(self.radii.iter().cloned()).chain(direction)
     }
 
     /// No axis limit is proven to be broken in a subprogram that does not say what its caller does. An axis that leaves its travel only as
@@ -162,6 +176,30 @@ mod tests {
             );
         }
         assert_eq!(judged("gcode linuxcnc mill-3axis", "G1 X4000 F100").0, Verdict::Fail);
+    }
+
+    /// To which rotary axis _DIR refers is data of the swivel, which nothing declares.
+    #[test]
+    fn the_axis_of_a_direction_is_assumed() {
+        let listed = |machine: &str, direction: &str| {
+            let text = format!(
+                "G54 G17 G90 G71 G94\nT1 D1 M6\nM3 S1000\nG0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,{direction})\nCYCLE800()\nM30\n"
+            );
+            let report = Fixture::parse(&format!("gcode sinumerik-840d {machine}"), &text).check();
+            let found = report.expect("a report").assumptions;
+            found
+                .into_iter()
+                .filter(|one| one.contains("CYCLE800"))
+                .collect::<Vec<_>>()
+        };
+        for direction in ["1", "-1"] {
+            assert_eq!(
+                listed("mikron-ucp710", direction),
+                ["the direction in CYCLE800 refers to the axis A (not declared)"],
+                "{direction}"
+            );
+        }
+        assert_eq!(listed("mikron-ucp710", "0"), [""; 0]);
     }
 
     /// A subprogram alone may be called in G91.

@@ -161,6 +161,7 @@ impl<'a> Pass<'a> {
         }
         let chord = axes_chord(leg);
         self.trail.add(machine, leg, chord);
+        self.assumed.swivels((machine, self.dialect), leg);
         let possible = possible_of_leg(&looker.look(leg, self.posture, &self.trail, chord));
         let awake = self.legs.awake(possible);
         let view = LegView::new((machine, self.dialect), leg, self.posture, &self.trail);
@@ -176,9 +177,8 @@ impl<'a> Pass<'a> {
             });
         self.pace.iter_mut().for_each(|pace| pace.add(&view));
         match &leg.end {
-            Ok(end) if end.branch != 0 => self.posture = end.branch,
-            Ok(_) => {}
-            Err(_) => self.posture = 0,
+            Ok(end) if end.branch == 0 => {}
+            end => self.posture = end.as_ref().map_or(0, |end| end.branch),
         }
     }
 

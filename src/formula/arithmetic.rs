@@ -109,7 +109,7 @@ fn logic(operation: Binary, a: f64, b: f64) -> f64 {
 
 /// An operation on one value; `positive` asks for angles of 0 to 360 degrees. Not part of the loop of evaluation, which stays small.
 #[inline(never)]
-pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -> Result<f64, Kind> {
+pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> Option<bool>) -> Result<f64, Kind> {
     let x = filled(value);
     let result = match operation {
         Unary::Negate => -x,
@@ -118,7 +118,10 @@ pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -
         Unary::Acos => degrees::from_radians(math::acos(x)),
         Unary::Asin | Unary::MacroAsin if x.abs() > 1.0 => return Err(Kind::AsinRange),
         Unary::Asin => degrees::from_radians(math::asin(x)),
-        Unary::MacroAsin => turned(degrees::from_radians(math::asin(x)), positive),
+        Unary::MacroAsin => match turned(degrees::from_radians(math::asin(x)), positive) {
+            Some(angle) => angle,
+            None => return Ok(f64::NAN),
+        },
         Unary::Atan => degrees::from_radians(math::atan2(x, 1.0)),
         Unary::Cos => degrees::cos(x),
         Unary::Exp => math::exp(x),
@@ -133,7 +136,8 @@ pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -
         Unary::Sin => degrees::sin(x),
         Unary::Sqrt if x < 0.0 => return Err(Kind::NegativeRoot),
         Unary::Sqrt => x.sqrt(),
-        Unary::Tan => degrees::tan(x),
+        Unary::CheckedTan if (x % 180.0).abs() == 90.0 => return Err(Kind::NoTangent),
+        Unary::Tan | Unary::CheckedTan => degrees::tan(x),
         Unary::FromBcd => from_bcd(x)?,
         Unary::ToBcd => to_bcd(x)?,
         Unary::Square
@@ -168,18 +172,23 @@ fn to_int(x: f64) -> f64 {
     }
 }
 
-/// A negative angle as the positive one of the same direction, where `positive` asks for it.
-fn turned(angle: f64, positive: &dyn Fn() -> bool) -> f64 {
-    if angle < 0.0 && positive() {
-        angle + 360.0
+/// A negative angle as the positive one of the same direction, where `positive` asks for it; `None`: which one it is, is not known.
+fn turned(angle: f64, positive: &dyn Fn() -> Option<bool>) -> Option<f64> {
+    if angle < 0.0 && positive()? {
+        Some(angle + 360.0)
     } else {
-        angle
+        Some(angle)
     }
 }
 
 /// An operation on two values; `positive` asks for angles of 0 to 360 degrees. The result may be infinite or have no value.
 #[inline(never)]
-pub(crate) fn binary(operation: Binary, left: f64, right: f64, positive: &dyn Fn() -> bool) -> Result<f64, Kind> {
+pub(crate) fn binary(
+    operation: Binary,
+    left: f64,
+    right: f64,
+    positive: &dyn Fn() -> Option<bool>,
+) -> Result<f64, Kind> {
     let (a, b) = (filled(left), filled(right));
     let result = match operation {
         Binary::Power if a < 0.0 && b.floor() != b && !b.is_nan() => return Err(Kind::NegativePower),
@@ -193,7 +202,10 @@ pub(crate) fn binary(operation: Binary, left: f64, right: f64, positive: &dyn Fn
         Binary::Add => a + b,
         Binary::Subtract => a - b,
         Binary::Atan2 => degrees::from_radians(math::atan2(a, b)),
-        Binary::MacroAtan2 => turned(degrees::from_radians(math::atan2(a, b)), positive),
+        Binary::MacroAtan2 => match turned(degrees::from_radians(math::atan2(a, b)), positive) {
+            Some(angle) => angle,
+            None => return Ok(f64::NAN),
+        },
         Binary::Compared(_)
         | Binary::WholeDivide
         | Binary::WholeRemainder

@@ -33,6 +33,8 @@ pub(crate) enum Unary {
     Sin,
     Sqrt,
     Tan,
+    /// The same, refused at 90 deg and 270 deg, where there is no tangent.
+    CheckedTan,
     /// Macro B's `BIN`: decimal digits in groups of four bits to a number.
     FromBcd,
     /// Macro B's `BCD`: a number to decimal digits in groups of four bits.

@@ -68,6 +68,8 @@ pub enum FormulaErrorKind {
     AcosRange,
     /// ASIN of a number outside -1 to 1.
     AsinRange,
+    /// TAN of 90 deg, or of half turns more or less.
+    NoTangent,
     /// LN of zero or of a negative number.
     LogarithmRange,
     /// A negative number to a power that is not whole.
@@ -122,6 +124,7 @@ impl fmt::Display for FormulaErrorKind {
             Self::NegativeRoot => f.write_str("square root of a negative number"),
             Self::AcosRange => f.write_str("ACOS of a number outside -1 to 1"),
             Self::AsinRange => f.write_str("ASIN of a number outside -1 to 1"),
+            Self::NoTangent => f.write_str("TAN of 90 or 270 degrees, which has no value"),
             Self::LogarithmRange => f.write_str("LN of zero or of a negative number"),
             Self::NegativePower => f.write_str("a negative number raised to a power that is not a whole number"),
             Self::NotDecimalCoded => {
@@ -171,7 +174,7 @@ impl FormulaErrorKind {
             Self::Infinite => "Calculation resulted in 'infinity'",
             Self::Undefined => "Calculation resulted in 'not a number'",
             Self::NotReadable(reason) => return Some(reason.to_string().into()),
-            Self::MissingComma | Self::TooDeep { .. } | Self::NotDecimalCoded => return None,
+            Self::MissingComma | Self::TooDeep { .. } | Self::NotDecimalCoded | Self::NoTangent => return None,
         }))
     }
 }

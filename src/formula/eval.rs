@@ -212,7 +212,8 @@ fn at_index(op: &Op, variables: &(impl Variables + ?Sized), index: f64) -> Resul
     }
     let nearest = match op {
         // Macro B rounds (trade knowledge)
-        Op::ReadNullableAt | Op::NamedAt(_) => index.round(),
+        Op::ReadNullableAt => index.round(),
+        Op::NamedAt(_) if variables.rounds_index() => index.round(),
         _ => index,
     };
     let index = whole(nearest).ok_or(FormulaErrorKind::NotInteger(index))?;

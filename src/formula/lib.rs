@@ -108,9 +108,14 @@ pub trait Variables {
         false
     }
 
-    /// Whether ASIN and ATAN give angles of 0 to 360 degrees instead of negative ones (Macro B; Fanuc parameter 6004 bit 0, NAT,
-    /// is 0: trade knowledge).
-    fn positive_angles(&self) -> bool {
+    /// Whether a fraction as the index of a named variable stands for the nearest whole number; else it has no element.
+    fn rounds_index(&self) -> bool {
         true
+    }
+
+    /// Whether ASIN and ATAN give angles of 0 to 360 degrees instead of negative ones (Macro B: Fanuc parameter 6004 bit 0, NAT, is 0);
+    /// `None`: it is not known, and so is such an angle.
+    fn positive_angles(&self) -> Option<bool> {
+        None
     }
 }

@@ -93,7 +93,7 @@ const MACRO_FUNCTIONS: [(&str, Function); 19] = [
     ("sin", Function::One(Unary::Sin)),
     ("sqrt", Function::One(Unary::Sqrt)),
     ("sqr", Function::One(Unary::Sqrt)),
-    ("tan", Function::One(Unary::Tan)),
+    ("tan", Function::One(Unary::CheckedTan)),
 ];
 
 /// Takes the first of some words that the cursor is at, and gives its meaning. Blanks may be between the letters.

@@ -179,17 +179,12 @@ impl Iso<'_> {
         let fits = cut.as_ref().zip(ways).map(|(cut, (first, second))| {
             cut.by >= 0.0 && cut.by <= first.norm() + 1e-9 && cut.by <= second.norm() + 1e-9
         });
+        let unsettled = self.unsettled(&before.0, &next.0, report);
         let place = match fits {
             _ if waiting.size.is_nan() => Some("of an unknown size"),
             _ if self.memory.frames.scales() => Some("while the axes are scaled"),
             _ if before.0.zero != next.0.zero => Some("where the zero point changes between both blocks"),
-            Some(true)
-                if tolerant
-                    && cut.as_ref().is_some_and(|cut| cut.by > 1e-9)
-                    && !self.is_plain_corner(&before.0, &next.0, report) =>
-            {
-                Some("whose settings are those of another block")
-            }
+            Some(true) if tolerant && unsettled.is_some() && cut.as_ref().is_some_and(|cut| cut.by > 1e-9) => unsettled,
             Some(false) if tolerant => Some("larger than their motions"),
             None if arcs => Some("at an arc"),
             None if !known => Some("from or to an unknown position"),
@@ -254,17 +249,19 @@ impl Iso<'_> {
         }
     }
 
-    /// Whether it does not matter which of the two blocks of a corner gives it its settings, and no block is between them: which
-    /// one does is machine data (20201 CHFRND_MODE_MASK), and how many may be between (20200 CHFRND_MAXNUM_DUMMY_BLOCKS).
-    fn is_plain_corner(&self, before: &Motion, next: &Motion, report: &Report<'_>) -> bool {
+    /// Why machine data decide about a corner: how many blocks may be between its two blocks (20200 CHFRND_MAXNUM_DUMMY_BLOCKS), or which of
+    /// them gives it its settings, where it matters (20201 CHFRND_MODE_MASK).
+    fn unsettled(&self, before: &Motion, next: &Motion, report: &Report<'_>) -> Option<&'static str> {
         let words = report.program.block(report.block);
         let plain = |word: &Word| match word.address {
             Address::Letter(letter) => matches!(letter, b'N' | b'G' | b'X' | b'Y' | b'Z' | b'F' | b'I' | b'J' | b'K'),
             Address::Indexed(..) | Address::Named(_) => true,
         };
-        next.block.0 == before.block.0 + 1
-            && !self.memory.own.path.sets_rounding()
-            && words.words().all(|word| plain(&word))
+        if next.block.0 != before.block.0 + 1 {
+            return Some("with a block between its motions: machine data 20200 says how many there may be");
+        }
+        let is_plain = !self.memory.own.path.sets_rounding() && words.words().all(|word| plain(&word));
+        (!is_plain).then_some("whose settings are those of another block")
     }
 }
 

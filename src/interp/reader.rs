@@ -160,7 +160,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
 
     pub(crate) fn role_word(&mut self, role: Role, letter: u8, word: &Word) {
         match role {
-            Role::BlockNumber => return,
+            Role::BlockNumber => return self.block_number(word),
             Role::ProgramNumber => {
                 let is_slip = matches!(word.value, Value::Bad | Value::Missing);
                 if !is_slip && self.is_within_a_block(word.range) {
@@ -236,6 +236,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn code_word(&mut self, kind: CodeKind, word: &Word) {
+        self.point_of_code(kind, word);
         let tenths = match word.value {
             Value::Number(decimal) => tenths(decimal),
             Value::Expression(range) if self.macros.is_some() => match self.macro_code(word, range) {

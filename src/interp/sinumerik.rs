@@ -27,7 +27,7 @@ pub(crate) use crate::frames::FrameValue;
 pub(crate) use call::{Level, With, declare_parameters, too_deep};
 pub(crate) use feed_group::FeedGroup;
 pub(crate) use index::index;
-pub(crate) use names::files;
+pub(crate) use names::{files, without_ending};
 pub(crate) use one_block::one_block;
 pub(crate) use path::{Contour, PathWords};
 pub(crate) use polynomial::PolynomialWords;

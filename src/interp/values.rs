@@ -54,9 +54,13 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 if let Some(number) = self.own_number(word.value_range) {
                     return WordValue::Number(number);
                 }
-                let what = self.why_no_number(word.value_range);
-                let what = what.unwrap_or_else(|| self.text(word.value_range));
-                (self.report)(word.value_range, FaultKind::NotModelled { what });
+                let stops = self.why_it_stops(word.value_range);
+                let kind = stops.unwrap_or_else(|| {
+                    let what = self.why_no_number(word.value_range);
+                    let what = what.unwrap_or_else(|| self.text(word.value_range));
+                    FaultKind::NotModelled { what }
+                });
+                (self.report)(word.value_range, kind);
                 WordValue::Unread
             }
         }

@@ -54,12 +54,12 @@ pub(crate) fn written(view: &Block<'_>, run: &impl Values, words: &Words, keep: 
     found
 }
 
-/// Whether an item begins a statement of a Sinumerik that calls a program by its path: CALL, PCALL.
+/// Whether an item begins a statement of a Sinumerik that calls a program by its path: CALL, PCALL, EXTCALL, ISOCALL.
 pub(crate) fn calls_program(view: &Block<'_>, run: &impl Values, item: Item) -> bool {
     let Item::Call(call) = item else { return false };
     let name = view.program().bytes(call.name);
     run.dialect().quirks.declares_names()
-        && [&b"CALL"[..], b"PCALL"]
+        && [&b"CALL"[..], b"PCALL", b"EXTCALL", b"ISOCALL"]
             .iter()
             .any(|known| name.eq_ignore_ascii_case(known))
 }

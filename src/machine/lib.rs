@@ -16,6 +16,7 @@ pub use file::describe::{AxisDescription, Description, describe};
 pub use file::obstacle::RawObstacle;
 pub use file::spec::{MachineError, load};
 pub use follow::checkpoint::Memory;
+pub use follow::choice::direction_letter;
 pub use follow::follower::Follower;
 pub use follow::lookahead::{Lookahead, Sine};
 pub use follow::posture_rule::{Branch, Criterion, PostureRule};

@@ -106,6 +106,13 @@ pub enum Posture {
     },
 }
 
+impl Posture {
+    /// Whether it is that of a preferred direction of one axis.
+    pub const fn is_direction(self) -> bool {
+        matches!(self, Self::Lower | Self::Higher)
+    }
+}
+
 /// Whether a motion only turns the rotary axes, so that the tool is parallel to its vector, and what the linear axes do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Swivel {

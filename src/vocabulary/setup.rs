@@ -273,6 +273,9 @@ pub struct ControlData {
     pub increment_adds_frame: Option<bool>,
     /// The same after another tool length (Sinumerik setting data 42442 TOOL_OFFSET_INCR_PROG).
     pub increment_adds_length: Option<bool>,
+    /// Whether ASIN and ATAN of Macro B give angles from 0 to 360 degrees (Fanuc parameter 6004 bit 0, NAT, is 0), else negative ones; `None`:
+    /// not declared, such an angle is unknown.
+    pub positive_angles: Option<bool>,
     /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
     pub tcp_codes: Option<TcpCodes>,
     /// Codes by which a program closes and opens the clamps of rotary axes, as the machine names them.

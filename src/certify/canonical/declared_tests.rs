@@ -24,6 +24,11 @@ fn what_settings_declare_counts() {
         setup.control.chamfer_length = Some(length);
         setup
     };
+    let angles = |positive| {
+        let mut setup = Setup::default();
+        setup.control.positive_angles = Some(positive);
+        setup
+    };
     let mut places = Setup::default();
     places.control.hole_places = Some(HolePlaces::Pairs);
     let setups = [
@@ -38,6 +43,8 @@ fn what_settings_declare_counts() {
         chamfer(ChamferLength::Side),
         chamfer(ChamferLength::Face),
         places,
+        angles(false),
+        angles(true),
     ];
     let digests: BTreeSet<_> = setups.iter().map(setup_digest).collect();
     assert_eq!(digests.len(), setups.len());

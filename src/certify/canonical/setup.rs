@@ -55,7 +55,7 @@ record! {
         absent_axis = 16, roughing_retract_mm = 17, thread_least_cut_mm = 18, thread_finish_mm = 19,
         tool_change = 20, power_on = 21, spline_arcs_mm = 22, frame_angles = 23, increment_adds_frame = 26,
         increment_adds_length = 27, drilling_axis = 34, fixed_points = 35, main_spindle = 36,
-        splines = 37, scaled_axes = 38, chamfer_length = 39, hole_places = 40,
+        splines = 37, scaled_axes = 38, chamfer_length = 39, hole_places = 40, positive_angles = 41,
     } without {
         // of the machine, which is encoded as a whole
         has_rotary, axes_declared, rotary_turns, x_diameter,

@@ -104,6 +104,7 @@ pub(super) struct FileControl {
     hole_places: Option<Places>,
     increment_adds_frame: Option<bool>,
     increment_adds_length: Option<bool>,
+    positive_angles: Option<bool>,
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
@@ -187,6 +188,7 @@ impl FileControl {
             hole_places: self.hole_places.map(Into::into),
             increment_adds_frame: self.increment_adds_frame,
             increment_adds_length: self.increment_adds_length,
+            positive_angles: self.positive_angles,
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
                 on: codes.on.clone(),
                 off: codes.off.clone(),
@@ -315,7 +317,7 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nmain_spindle = 2\ndrilling_axis = \"across-plane\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
-                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nscaled_axes = \"all\"\nchamfer_length = \"side\"\nhole_places = \"pairs\"\nincrement_adds_frame = true\nincrement_adds_length = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nframe_angles = \"rpy\"\nscaled_axes = \"all\"\nchamfer_length = \"side\"\nhole_places = \"pairs\"\nincrement_adds_frame = true\nincrement_adds_length = false\npositive_angles = false\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\nfixed_points = [{ Z = 0 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
@@ -337,6 +339,7 @@ mod tests {
             (control.increment_adds_frame, control.increment_adds_length),
             (Some(true), Some(false))
         );
+        assert_eq!(control.positive_angles, Some(false));
         let codes = control.tcp_codes.expect("declared");
         assert_eq!((codes.meaning("M429"), codes.meaning("M428")), (Some(true), None));
         let points: Vec<_> = control

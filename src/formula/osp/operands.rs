@@ -74,7 +74,7 @@ fn function(name: &str) -> Function {
     Function::Known(match name {
         "sin" => Waiting::One(Unary::Sin),
         "cos" => Waiting::One(Unary::Cos),
-        "tan" => Waiting::One(Unary::Tan),
+        "tan" => Waiting::One(Unary::CheckedTan),
         "sqrt" => Waiting::One(Unary::Sqrt),
         "abs" => Waiting::One(Unary::Abs),
         "round" => Waiting::One(Unary::NearestWhole),

@@ -99,7 +99,7 @@ fn function(name: &str) -> Option<Waiting> {
     Some(match name {
         "sin" => Waiting::One(Unary::Sin),
         "cos" => Waiting::One(Unary::Cos),
-        "tan" => Waiting::One(Unary::Tan),
+        "tan" => Waiting::One(Unary::CheckedTan),
         "asin" => Waiting::One(Unary::Asin),
         "acos" => Waiting::One(Unary::Acos),
         "sqrt" => Waiting::One(Unary::Sqrt),

@@ -4,6 +4,7 @@ use crate::Sink;
 use crate::iso::Iso;
 use crate::macro_b::{ProgramName, macro_words};
 use crate::{FaultKind, Frame, sinumerik};
+use trunnion_dialect::Dialect;
 use trunnion_flow::{Ends, Key, PendingCall};
 use trunnion_syntax::{BlockId, TextRange};
 
@@ -15,6 +16,15 @@ pub(crate) fn main_range(running: &Running<'_>, from: u32) -> TextRange {
     match running.called {
         None => running.main.block(BlockId(from)).range(),
         Some(_) => TextRange::default(),
+    }
+}
+
+/// The name of a program as the text of a file gives it.
+fn name_inside(dialect: &Dialect, name: &Key) -> Key {
+    if dialect.quirks.declares_names() {
+        sinumerik::without_ending(name)
+    } else {
+        name.clone()
     }
 }
 
@@ -52,11 +62,20 @@ impl Iso<'_> {
                     Key::Name(name) if self.core.dialect.quirks.user_names() => name.to_string(),
                     key => ProgramName(key).to_string(),
                 };
-                let kind = FaultKind::MissingSubprogram {
-                    name,
-                    searched,
-                    alarm: None,
-                    caller: None,
+                let elsewhere = matches!(&calling.with, With::Sinumerik(with) if with.is_elsewhere)
+                    && searched.iter().all(|place| place.refused.is_none());
+                let kind = if elsewhere {
+                    let what = format!(
+                        "{name}: a program that is called by a path or from outside, and no file of its name was found"
+                    );
+                    FaultKind::NotModelled { what }
+                } else {
+                    FaultKind::MissingSubprogram {
+                        name,
+                        searched,
+                        alarm: None,
+                        caller: None,
+                    }
                 };
                 self.tell_of_flow(running, from, (calling.range, kind), sink);
                 self.missing_macro(&calling, from);
@@ -130,12 +149,13 @@ impl Iso<'_> {
         let (dialect, own) = (self.core.dialect, self.flow.file());
         let trail = self.flow.trail();
         if !only_library {
+            let inside = name_inside(dialect, name);
             let here = trail.index(own, || index_of(dialect, running.program()));
-            if let Some(block) = here.program(name) {
+            if let Some(block) = here.program(&inside) {
                 return Ok((own, block));
             }
             let main = trail.index(0, || index_of(dialect, running.main));
-            if let Some(block) = main.program(name) {
+            if let Some(block) = main.program(&inside) {
                 return Ok((0, block));
             }
         }
@@ -169,7 +189,7 @@ impl Iso<'_> {
             return 0;
         };
         let index = trail.index(file, || index_of(dialect, &called.program));
-        index.program(name).unwrap_or_else(|| {
+        index.program(&name_inside(dialect, name)).unwrap_or_else(|| {
             let first = called.program.blocks().next();
             let percent = first.is_some_and(|block| {
                 let text = called.program.bytes(block.range());

@@ -1,5 +1,5 @@
 //! Codes of tilted working planes: G68.2, G68.4, G53.1, G53.6 of a Fanuc; CYCLE800 of a Sinumerik.
-use super::swivel_call::{SwivelCall, deselects, why_not_read};
+use super::swivel_call::{SwivelCall, deselects, follows_modal_call, may_move, why_not_read};
 use super::{Tilted, XYZ};
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
@@ -280,6 +280,17 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let text = report.program.text(found.range).into_owned();
+        if follows_modal_call(&report.program.block(report.block)) {
+            self.end_tilt(report);
+            let why = "after MCALL: whether it swivels after each motion is not taken from a source";
+            return self.frame_unknown(why, found, words, block, report);
+        }
+        let value = |text: &str| self.memory.own.value(text);
+        let moves = may_move(&text, found.with_arguments, value);
+        if moves && self.modal_call_unclear(found, report) {
+            block.takes_coordinates = true;
+            return;
+        }
         let value = |text: &str| self.memory.own.value(text);
         if let Some(retracts) = deselects(&text, found.with_arguments, value) {
             block.takes_coordinates = true;

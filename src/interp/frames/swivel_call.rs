@@ -1,5 +1,6 @@
 //! The arguments of CYCLE800.
 use crate::own::arguments;
+use trunnion_syntax::{Block, Item};
 
 /// The arguments of a call of CYCLE800.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,15 +33,15 @@ impl SwivelCall {
             return None;
         }
         let (state, mode) = (whole(2)?, whole(3)?);
-        // units: new or added; tens: the tip is held; hundreds and thousands belong to turning tools
-        let (adds, holds, others) = (state % 10, state / 10 % 10, state / 100 % 100);
-        if !(0..=1).contains(&adds) || !(0..=1).contains(&holds) || others != 0 {
+        let retract = whole(0)?;
+        let (adds, holds) = (state % 10, state / 10 % 10);
+        if !is_known_state(state) || !RETRACTS.contains(&retract) {
             return None;
         }
         let angles = three(7)?;
         let axes = order(mode).or_else(|| (angles == [0.0; 3] && (0..=255).contains(&mode)).then_some([0, 1, 2]))?;
         Some(Self {
-            retracts: whole(0)? != 0,
+            retracts: retract != 0,
             adds: adds == 1,
             holds_tip: holds == 1,
             before: three(4)?,
@@ -53,19 +54,35 @@ impl SwivelCall {
     }
 }
 
+/// Values of _FR: no retract, Z, Z then X and Y, along the tool up to the limit, along the tool by a length (SINUMERIK Operate, operating
+/// manual: swivelling).
+const RETRACTS: [i64; 5] = [0, 1, 2, 4, 5];
+
+/// Whether a source says what every digit of _ST does. Units: a new plane or one that adds; tens: the tip is held. Posts write 200000: that digit
+/// belongs to the choice of the axis to which the direction refers (SINUMERIK 828D, operating manual, 01/2015, p. 559; NC-PB/NCXchange), and the
+/// axis is an assumption of its own.
+fn is_known_state(state: i64) -> bool {
+    let low = state % 100_000;
+    matches!(state / 100_000, 0 | 2) && matches!(low % 10, 0 | 1) && matches!(low / 10, 0 | 1)
+}
+
 /// Why a call is not modelled: bits 7 and 6 of its mode say how its angles are meant (SINUMERIK Operate, operating manual: swivelling).
 pub(super) fn why_not_read(text: &str, own: impl Fn(&str) -> Option<f64>) -> &'static str {
     let values = inside(text).map(arguments).unwrap_or_default();
-    let mode = match values.get(3).copied().unwrap_or_default() {
-        "" => Some(0.0),
-        value => number(value, own),
+    let at = |place: usize| match values.get(place).copied().unwrap_or_default() {
+        "" => Some(0),
+        value => number(value, &own)
+            .filter(|value| value.fract() == 0.0)
+            .map(|value| value as i64),
     };
-    match mode.map(|mode| mode as i64 >> 6) {
+    match at(3).map(|mode| mode >> 6) {
         Some(3) => {
             "with positions of the rotary axes: the control works out the plane, whose X and Y are not taken from a source"
         }
         Some(2) => "with projection angles: how the third one turns the plane is not taken from a source",
         Some(1) => "with solid angles: about which axes they turn is not taken from a source",
+        _ if at(2).is_some_and(|state| !is_known_state(state)) => "with a digit of _ST that no source explains",
+        _ if at(0).is_some_and(|retract| !RETRACTS.contains(&retract)) => "with a value of _FR that no source explains",
         _ => "with an argument that is not known or not modelled",
     }
 }
@@ -92,11 +109,28 @@ pub(super) fn deselects(text: &str, with_arguments: bool, own: impl Fn(&str) -> 
         return Some(false);
     }
     let is_none = values.get(1)?.trim_matches('"').trim() == "0";
+    is_none.then(|| may_move(text, true, own))
+}
+
+/// Whether MCALL is in the block of a call.
+pub(super) fn follows_modal_call(block: &Block<'_>) -> bool {
+    block.items().any(|item| match item {
+        Item::Call(call) => block.program().bytes(call.name).eq_ignore_ascii_case(b"MCALL"),
+        _ => false,
+    })
+}
+
+/// Whether a call may move axes: it retracts or has a direction, as far as that is known.
+pub(super) fn may_move(text: &str, with_arguments: bool, own: impl Fn(&str) -> Option<f64>) -> bool {
+    let values = inside(text)
+        .filter(|_| with_arguments)
+        .map(arguments)
+        .unwrap_or_default();
     let still = |at: usize| match values.get(at).copied().unwrap_or_default() {
         "" => true,
         value => number(value, &own) == Some(0.0),
     };
-    is_none.then(|| !(still(0) && still(13)))
+    !(still(0) && still(13))
 }
 
 /// The axes of a mode that turns axis by axis, two bits each from the lowest: 1 X, 2 Y, 3 Z, each once (57 is X Y Z, 27 Z Y X).
@@ -142,9 +176,40 @@ mod tests {
             "CYCLE800(0,\"\",0,192,0,0,0,10,20,0)",
             "CYCLE800(0,\"\",0,57,R1,0,0,10,20,0)",
             "CYCLE800(0,\"\",200,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",2,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",20,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",1000,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",10000,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",220000,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",100000,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",1200000,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",-1,57,0,0,0,10,20,0)",
+            "CYCLE800(3,\"\",0,57,0,0,0,10,20,0)",
+            "CYCLE800(12,\"\",0,57,0,0,0,10,20,0)",
+            "CYCLE800(-1,\"\",0,57,0,0,0,10,20,0)",
             "CYCLE800(0,\"\",0,57,0,0,0,10,20,0,0,0,0,2)",
         ] {
             assert_eq!(SwivelCall::read(text, own), None, "{text}");
+        }
+        for (text, why) in [
+            ("CYCLE800(0,\"\",220000,57,0,0,0,10,20,0)", "digit of _ST"),
+            ("CYCLE800(3,\"\",0,57,0,0,0,10,20,0)", "value of _FR"),
+            ("CYCLE800(0,\"\",0,192,0,0,0,10,20,0)", "positions of the rotary axes"),
+            ("CYCLE800(0,\"\",0,57,R1,0,0,10,20,0)", "not known or not modelled"),
+        ] {
+            assert!(
+                why_not_read(text, own).contains(why),
+                "{text}: {}",
+                why_not_read(text, own)
+            );
+        }
+        for (state, tip) in [("0", false), ("10", true), ("200010", true), ("200000", false)] {
+            let text = format!("CYCLE800(1,\"\",{state},57,0,0,0,10,20,0)");
+            assert_eq!(
+                SwivelCall::read(&text, own).map(|call| call.holds_tip),
+                Some(tip),
+                "{state}"
+            );
         }
     }
 

@@ -44,6 +44,8 @@ pub(crate) struct View<'a> {
     pub(crate) unknown: Cell<Option<i64>>,
     /// A named variable was read that is unknown.
     pub(crate) unknown_name: Cell<bool>,
+    /// ASIN or ATAN gave an angle below zero, and nothing says what the control makes of it.
+    pub(crate) open_angle: Cell<bool>,
     /// A variable of the control was read, whose value changes without being assigned.
     pub(crate) asked_control: Cell<bool>,
 }
@@ -80,6 +82,11 @@ impl trunnion_formula::Variables for View<'_> {
     fn exists(&self, name: &str) -> bool {
         self.variables.named(name).is_some()
     }
+    fn positive_angles(&self) -> Option<bool> {
+        let declared = self.known.setup.control.positive_angles;
+        self.open_angle.set(self.open_angle.get() || declared.is_none());
+        declared
+    }
     fn null(&self, index: i64) -> bool {
         match class(index) {
             Class::System(number) => self.variables.of_control(number).is_none(),
@@ -88,11 +95,16 @@ impl trunnion_formula::Variables for View<'_> {
     }
 }
 
+/// Why an angle is not known.
+const OPEN_ANGLE: &str = "an angle of ASIN or ATAN below zero: a parameter of the control (Fanuc: 6004 bit 0, NAT) decides whether it is \
+                          negative or between 180 and 360 deg (declare [control] positive_angles)";
+
 impl View<'_> {
     /// Why the value that was just computed is unknown.
     pub(crate) fn reason(&self, text: &str) -> String {
         match self.unknown.get() {
             Some(index) => self.variables.reason(index),
+            None if self.open_angle.get() => OPEN_ANGLE.to_owned(),
             None if self.unknown_name.get() => format!("{text}: a named variable with an unknown value"),
             None => text.to_owned(),
         }
@@ -208,7 +220,7 @@ const QUOTED: usize = 80;
 fn trouble(dialect: &Dialect, program: &Program, whole: TextRange, error: &FormulaError) -> Trouble {
     use FormulaErrorKind as Kind;
     let mistake = match &error.kind {
-        Kind::DivisionByZero => Mistake::DividedByZero,
+        Kind::DivisionByZero | Kind::NoTangent => Mistake::DividedByZero,
         Kind::Infinite | Kind::Undefined => Mistake::Overflow,
         Kind::ParameterOutOfRange(_) | Kind::NotInteger(_) | Kind::NotDefined(_) | Kind::NotReadable(_) => {
             Mistake::VariableNumber

@@ -82,6 +82,7 @@ impl Macros<'_> {
             },
             unknown: Cell::new(None),
             unknown_name: Cell::new(false),
+            open_angle: Cell::new(false),
             asked_control: Cell::new(false),
         };
         (view, compiled, file)
@@ -189,7 +190,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         self.words.flow = true;
         macros.deep().statement.get_or_insert(call.range);
         match statement {
-            Statement::Then => {}
+            Statement::Then => self.then(call),
             Statement::If => {
                 let end = self.program.block(self.block).range().end;
                 let rest = self

@@ -1,4 +1,8 @@
 //! The words of macro statements.
+use super::alarms::{Mistake, rejected};
+use crate::reader::Reader;
+use crate::{FaultKind, Refusal};
+use trunnion_syntax::{Call, Item, TextRange};
 
 /// The words of macro statements.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -25,4 +29,22 @@ pub(super) fn statement(name: &[u8]) -> Option<Statement> {
         .iter()
         .find(|(text, _)| name.eq_ignore_ascii_case(text))
         .map(|row| row.1)
+}
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// THEN belongs to the IF before it in its block (B-63944EN, custom macro: IF [condition] THEN).
+    pub(super) fn then(&mut self, call: &Call) {
+        let is_if = |item: Item| match item {
+            Item::Call(before) => {
+                let name = self.program.bytes(before.name);
+                before.range.start < call.range.start && statement(name) == Some(Statement::If)
+            }
+            _ => false,
+        };
+        if !self.program.block(self.block).items().any(is_if) {
+            let message = "THEN without IF before it in its block".to_owned();
+            let kind = rejected(self.dialect, Mistake::Format, Refusal::Structure, message);
+            (self.report)(call.range, kind);
+        }
+    }
 }

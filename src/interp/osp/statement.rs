@@ -3,7 +3,7 @@ use super::call::With;
 use super::variables::{Class, class};
 use crate::FaultKind;
 use crate::flow::{Back, Calling, Index, Label, Text, Transfer, With as Handed};
-use crate::own::Own;
+use crate::own::{Own, without_value};
 
 use trunnion_flow::{Key, Search};
 use trunnion_syntax::TextRange;
@@ -111,7 +111,12 @@ impl Statement<'_> {
         }
         let (value, why, end) = match self.own.evaluate(self.text.bytes(), from) {
             Ok(found) => found,
-            Err(error) => return not_decided(self.text.rest(), format!("a condition that cannot be read: {error}")),
+            Err(error) => {
+                let text = String::from_utf8_lossy(&self.text.bytes()[from..]).into_owned();
+                let what = format!("a condition that cannot be read: {error}");
+                let kind = without_value(&error, &text).unwrap_or(FaultKind::NotDecided { what });
+                return Err((self.text.rest(), kind));
+            }
         };
         let range = self.text.range(from, end);
         self.text.go_to(end);
@@ -181,7 +186,12 @@ impl Statement<'_> {
                     self.text.go_to(end);
                     value
                 }
-                Err(error) => return not_decided(range, format!("an argument that cannot be read: {error}")),
+                Err(error) => {
+                    let text = String::from_utf8_lossy(&self.text.bytes()[start..]).into_owned();
+                    let what = format!("an argument that cannot be read: {error}");
+                    let kind = without_value(&error, &text).unwrap_or(FaultKind::NotDecided { what });
+                    return Err((range, kind));
+                }
             };
             if repeats.is_some() {
                 times = times_of(value, range)?;

@@ -60,6 +60,39 @@ fn replace(out: &mut [u8], elements: &mut Vec<Element>, (from, to): (usize, usiz
     Some(())
 }
 
+/// The names with brackets behind them in an expression, in lower case, and what is between the brackets; those in texts are not.
+pub(super) fn indexed_names(text: &str) -> Vec<(String, String)> {
+    let bytes = text.as_bytes();
+    let (mut found, mut at, mut deep) = (Vec::new(), 0, 0u32);
+    while at < bytes.len() && deep < DEEPEST {
+        match bytes[at] {
+            b'"' => match bytes[at + 1..].iter().position(|&byte| byte == b'"') {
+                Some(end) => at += end + 2,
+                None => break,
+            },
+            b']' => {
+                deep = deep.saturating_sub(1);
+                at += 1;
+            }
+            byte if is_name(byte) => {
+                let end = at + bytes[at..].iter().take_while(|byte| is_name(**byte)).count();
+                let open = end + bytes[end..].iter().take_while(|byte| **byte == b' ').count();
+                if bytes.get(open) != Some(&b'[') {
+                    at = end;
+                    continue;
+                }
+                let Some(after) = closed(bytes, open) else { break };
+                let inside = String::from_utf8_lossy(&bytes[open + 1..after - 1]).into_owned();
+                found.push((String::from_utf8_lossy(&bytes[at..end]).to_ascii_lowercase(), inside));
+                deep += 1;
+                at = open + 1;
+            }
+            _ => at += 1,
+        }
+    }
+    found
+}
+
 impl Own {
     /// The text with all such names replaced, and their values; `None`: there are none.
     pub(super) fn prepared(&self, text: &[u8], from: usize, nested: u32) -> Option<(Vec<u8>, Vec<Element>)> {

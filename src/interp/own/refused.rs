@@ -1,5 +1,6 @@
 //! Assignments at which the control stops, or that a variable cannot hold.
 use super::field::{list, rounded};
+use super::prepared::indexed_names;
 use super::{Own, Sort, arguments};
 use crate::{FaultKind, Refusal};
 use trunnion_formula::FormulaErrorKind as Kind;
@@ -18,6 +19,15 @@ fn not_modelled(what: String) -> FaultKind {
     FaultKind::NotModelled { what }
 }
 
+/// The control stops at an index that nothing has.
+fn no_element(message: String) -> FaultKind {
+    FaultKind::Rejected {
+        refusal: Refusal::Variable,
+        message,
+        alarm: None,
+    }
+}
+
 /// The fault of an expression that has no value; `None`: it cannot be read, which is no matter of its value.
 pub(crate) fn without_value(error: &Kind, text: &str) -> Option<FaultKind> {
     match error {
@@ -31,8 +41,13 @@ pub(crate) fn without_value(error: &Kind, text: &str) -> Option<FaultKind> {
             message: format!("{error} in {}", quoted(text)),
             alarm: None,
         }),
+        Kind::ParameterOutOfRange(number) => {
+            Some(no_element(format!("there is no R parameter with the number {number}")))
+        }
         // what the control then holds is not documented
-        Kind::Infinite | Kind::Undefined => Some(not_modelled(format!("{error} in {}", quoted(text)))),
+        Kind::Infinite | Kind::Undefined | Kind::NoTangent => {
+            Some(not_modelled(format!("{error} in {}", quoted(text))))
+        }
         _ => None,
     }
 }
@@ -48,19 +63,30 @@ fn beyond(name: &str, sort: Sort, value: Option<f64>) -> Option<FaultKind> {
 }
 
 impl Own {
-    /// Why `text` as the value of a variable stops the control; `None`: it does not, as far as its operands are known.
-    fn stops(&self, text: &str) -> Option<FaultKind> {
+    /// Why an expression stops the control; `None`: it does not, as far as its operands are known.
+    pub(crate) fn stops(&self, text: &str) -> Option<FaultKind> {
+        let outside = self.reads_outside(text);
+        if outside.is_some() {
+            return outside;
+        }
         let error = self.evaluate(text.as_bytes(), 0).err()?;
         without_value(&error, text)
     }
 
-    /// What is wrong with `name = text`, whose value is known or not.
-    pub(super) fn misfit(&self, name: &str, text: &str, value: Option<f64>) -> Option<FaultKind> {
-        if self.is_task {
+    /// An element that an expression reads and its field does not have.
+    pub(crate) fn reads_outside(&self, text: &str) -> Option<FaultKind> {
+        if self.is_task || !text.contains('[') {
             return None;
         }
+        indexed_names(text)
+            .into_iter()
+            .find_map(|(stem, inside)| self.outside(&stem, &arguments(&inside)))
+    }
+
+    /// What is wrong with `name = text`, whose value is known or not.
+    pub(super) fn misfit(&self, name: &str, text: &str, value: Option<f64>) -> Option<FaultKind> {
         let stopped = if value.is_none() { self.stops(text) } else { None };
-        if stopped.is_some() {
+        if stopped.is_some() || self.is_task {
             return stopped;
         }
         let Some((stem, index)) = name.split_once('[') else {
@@ -86,13 +112,17 @@ impl Own {
     /// An index that no element of a field has, or that no R parameter has.
     fn outside(&self, stem: &str, indices: &[&str]) -> Option<FaultKind> {
         let values: Vec<Option<f64>> = indices.iter().map(|index| self.value(index)).collect();
-        let is_whole = |value: f64| value.fract() == 0.0 && value >= 0.0;
+        // how the control takes a fraction as an index is not documented
+        let is_open = values.iter().flatten().any(|value| value.fract() != 0.0);
+        let refusal = if is_open { not_modelled } else { no_element };
         let name = || format!("{}[{}]", stem.to_ascii_uppercase(), indices.join(","));
         if stem == "r" {
             let value = values.first().copied().flatten()?;
+            // how many there are is machine data
+            let refusal = if value >= 0.0 { not_modelled } else { refusal };
             return (super::whole(value).is_none())
                 .then(|| format!("{}: there is no R parameter with the number {value}", name()))
-                .map(not_modelled);
+                .map(refusal);
         }
         let (sizes, further) = match (self.form_of(stem), self.sizes_of_texts(stem)) {
             (Some((_, sizes)), _) => (sizes, 0),
@@ -108,8 +138,9 @@ impl Own {
                 sizes.len()
             )));
         }
-        let is_inside =
-            |(value, size): (&Option<f64>, &usize)| value.is_none_or(|value| is_whole(value) && value < *size as f64);
+        let is_inside = |(value, size): (&Option<f64>, &usize)| {
+            value.is_none_or(|value| value.fract() == 0.0 && value >= 0.0 && value < *size as f64)
+        };
         let inside = values.iter().zip(sizes).all(is_inside);
         (!inside)
             .then(|| {
@@ -118,7 +149,7 @@ impl Own {
                     name()
                 )
             })
-            .map(not_modelled)
+            .map(refusal)
     }
 
     /// What is wrong with a list that fills a field from an element on.

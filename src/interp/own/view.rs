@@ -127,6 +127,10 @@ impl trunnion_formula::Variables for View<'_> {
             format!("{}[{index}]: its value is unknown here", name.to_ascii_uppercase())
         }))
     }
+    fn rounds_index(&self) -> bool {
+        // what the control makes of a fraction is not documented
+        false
+    }
     fn exists(&self, name: &str) -> bool {
         self.own.read(name).is_some()
     }

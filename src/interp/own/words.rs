@@ -1,8 +1,8 @@
 //! Words that write and read the variables of a Sinumerik program.
-use crate::FaultKind;
 use crate::reader::Reader;
 use crate::values::READINGS;
 use crate::words::{Number, Reading, WordValue};
+use crate::{FaultKind, Refusal};
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
@@ -90,6 +90,15 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let text = self.text(range);
         match (&mut self.own, code.id.as_str()) {
             (Some(own), "DEF") => {
+                if own.follows && own.scope.moved.is_some_and(|moved| moved < self.block.0) {
+                    let message = "DEF stands behind a block with words of axes: definitions come before the other blocks of a program";
+                    let kind = FaultKind::Rejected {
+                        refusal: Refusal::Structure,
+                        message: message.to_owned(),
+                        alarm: None,
+                    };
+                    (self.report)(range, kind);
+                }
                 for kind in own.define(text.get(3..).unwrap_or_default()) {
                     (self.report)(range, kind);
                 }
@@ -133,6 +142,13 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let (_, why, end) = own.evaluate(inside.as_bytes(), 0).ok()?;
         let whole = inside.get(end..).is_some_and(|rest| rest.trim().is_empty());
         why.filter(|_| whole)
+    }
+
+    /// Why the control stops at an expression.
+    pub(crate) fn why_it_stops(&self, range: TextRange) -> Option<FaultKind> {
+        let own = self.own.as_ref()?;
+        let text = self.text(range);
+        own.stops(place_inside(&text).map_or(text.as_str(), |(_, inside)| inside))
     }
 
     /// `IC(R1+2)`.

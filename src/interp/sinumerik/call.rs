@@ -29,6 +29,8 @@ pub(crate) struct With {
     arguments: Vec<Argument>,
     /// By MCALL, after a motion.
     pub(super) is_modal: bool,
+    /// By a path, or from outside of the control: where no file of that name is found, the program may be there.
+    pub(crate) is_elsewhere: bool,
 }
 
 impl With {
@@ -45,8 +47,20 @@ impl With {
         Self {
             arguments,
             is_modal: false,
+            is_elsewhere: false,
         }
     }
+}
+
+/// Why the control stops at the arguments of a call.
+pub(super) fn stops(text: Option<&str>, own: &Own) -> Vec<FaultKind> {
+    let text = text.unwrap_or_default();
+    let unknown = |one: &&str| !one.is_empty() && own.value(one).is_none();
+    arguments(text)
+        .into_iter()
+        .filter(unknown)
+        .filter_map(|one| own.stops(one))
+        .collect()
 }
 
 fn is_variable(text: &str) -> bool {

@@ -125,6 +125,7 @@ impl<'d> Iso<'d> {
             not_modelled(found, report);
         }
         let contour = &mut self.memory.own.contour;
-        (contour.pole, contour.angle) = (pole, None);
+        // angle and radius have to be written again behind another pole (SINUMERIK 808D, Programming and Operating Manual, Milling, 01/2014, p. 54)
+        (contour.pole, contour.angle, contour.radius) = (pole, None, None);
     }
 }

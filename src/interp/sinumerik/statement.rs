@@ -1,10 +1,9 @@
 //! Reads one statement of the flow, decides it with the known values, and returns what it requests.
 use super::text::Text;
+use crate::FaultKind;
 use crate::flow::{Back, Index, Label, Transfer};
 use crate::own::Own;
-use crate::{FaultKind, Refusal};
 use trunnion_flow::{Key, Search};
-use trunnion_formula::FormulaErrorKind;
 use trunnion_syntax::TextRange;
 
 /// A place and what is wrong or unknown there.
@@ -45,7 +44,7 @@ impl Statement<'_> {
             "CASE" => self.case()?,
             "REPEAT" if self.text.is_at_end() => Transfer::Open(true),
             "REPEAT" | "REPEATB" => self.repeat(&keyword)?,
-            "CALL" | "PCALL" => self.call(from, &keyword)?,
+            "CALL" | "PCALL" | "EXTCALL" | "ISOCALL" => self.call(from, &keyword)?,
             "RET" => {
                 let range = self.text.range(from, from + 3);
                 Transfer::Return(Back { label: None, range })
@@ -87,15 +86,13 @@ impl Statement<'_> {
                 self.text.go_to(end);
                 Ok((value, self.text.range(from, end)))
             }
-            Ok((None, why, end)) => not_decided(self.text.range(from, end), why.unwrap_or_default()),
-            Err(FormulaErrorKind::ParameterOutOfRange(number)) => {
-                let message = format!("there is no R parameter with the number {number}");
-                let kind = FaultKind::Rejected {
-                    refusal: Refusal::Variable,
-                    message,
-                    alarm: None,
-                };
-                Err((self.text.rest(), kind))
+            Ok((None, why, end)) => {
+                let text = String::from_utf8_lossy(&self.text.bytes()[from..end]).into_owned();
+                let range = self.text.range(from, end);
+                match self.own.reads_outside(&text) {
+                    Some(kind) => Err((range, kind)),
+                    None => not_decided(range, why.unwrap_or_default()),
+                }
             }
             Err(error) => {
                 let text = String::from_utf8_lossy(&self.text.bytes()[from..]).into_owned();

@@ -80,6 +80,14 @@ impl Text {
         String::from_utf8_lossy(&self.bytes[from..self.at]).to_ascii_uppercase()
     }
 
+    /// A path to a program without quotation marks, up to a bracket or blank: `/_N_SPF_DIR/_N_GROOVE_SPF`.
+    pub(crate) fn path(&mut self) -> String {
+        let from = self.at();
+        let is_part = |byte: &&u8| byte.is_ascii_alphanumeric() || b"_/.:".contains(byte);
+        self.at += self.bytes[from..].iter().take_while(is_part).count();
+        String::from_utf8_lossy(&self.bytes[from..self.at]).into_owned()
+    }
+
     /// Letters alone: a keyword that a number may follow directly.
     pub(crate) fn letters(&mut self) -> String {
         let from = self.at();

@@ -82,6 +82,9 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let own = &mut self.memory.own;
+        if words.axes.any() {
+            own.scope.moved.get_or_insert(block.id().0);
+        }
         let ends = |found: &Found<'_>| found.code.action == Action::ProgramEnd;
         if own.is_called
             && let Some(at) = codes.iter().position(ends)
@@ -132,17 +135,35 @@ impl<'d> Iso<'d> {
         }
         let pending = match asked {
             Ok(transfer) => transfer,
-            Err((range, kind @ FaultKind::NotModelled { .. })) => {
+            Err((place, kind @ FaultKind::NotModelled { .. })) => {
                 // what it calls may do anything, and the program goes on after it
-                report.fault(range, kind);
+                report.fault(place, kind);
                 (words.declares, words.forgets_all) = (false, true);
-                return self.memory.own.lose();
+                if program
+                    .bytes(range)
+                    .get(..7)
+                    .is_some_and(|name| name.eq_ignore_ascii_case(b"ISOCALL"))
+                {
+                    // which codes of the ISO language stay in effect is not known
+                    self.core.unknown.for_good();
+                }
+                return self.call_is_not_followed();
             }
             Err((range, kind)) => {
                 report.fault(range, kind);
                 Transfer::End
             }
         };
+        let is_path = |transfer: &Transfer| match transfer {
+            Transfer::Call(calling) => matches!(&calling.with, Handed::Sinumerik(with) if with.is_elsewhere),
+            _ => false,
+        };
+        if self.core.effects.wanted() && is_path(&pending) {
+            // two paths with one last name may lead to two programs
+            let said = crate::written::written(block, self, words, crate::written::Keep::All);
+            let here = self.core.main_block(block.id());
+            self.core.effects.add(here, crate::Effect::Unmodelled(said));
+        }
         self.memory.own.pending = Some(pending);
     }
 
@@ -184,6 +205,10 @@ impl<'d> Iso<'d> {
             return;
         }
         let own = &self.memory.own;
+        let text = arguments.map(|inside| program.text(inside).into_owned());
+        for kind in super::call::stops(text.as_deref(), own) {
+            report.fault(range, kind);
+        }
         let alone = only(BESIDE_CALL, codes, words) && !(called.is_some() && number.is_some());
         let repeats = words.letters & (1 << (b'P' - b'A')) != 0;
         let declared = matches!(&key, Key::Name(name) if own.declared.contains(name));
@@ -223,7 +248,6 @@ impl<'d> Iso<'d> {
                 return;
             }
         };
-        let text = arguments.map(|inside| program.text(inside).into_owned());
         let with = With::read(text.as_deref(), &self.memory.own);
         self.memory.own.pending = Some(Transfer::Call(Calling {
             program: key,

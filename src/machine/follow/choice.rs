@@ -346,6 +346,13 @@ impl Found {
     }
 }
 
+/// The letter of the axis to which a preferred direction is taken to refer, on a machine with two rotary axes.
+pub fn direction_letter(machine: &Machine) -> Option<u8> {
+    let rotary = machine.constants.rotary();
+    let axis = rotary.get(direction_axis(machine)).filter(|_| rotary.len() == 2)?;
+    Some(machine.axes[axis.joint].letter)
+}
+
 /// The axis to which a preferred direction refers (CYCLE800, `_DIR`: rotary axis 1 of the swivel data; G53.1 P of LinuxCNC: the primary
 /// axis): the one nearer the machine's bed on a table or in a head, the head's on a machine with one axis on each side.
 fn direction_axis(machine: &Machine) -> usize {

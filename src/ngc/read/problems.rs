@@ -98,7 +98,7 @@ pub(crate) fn formula(error: &FormulaError) -> Error {
         // the position under compensation: the only one with a reason
         Kind::NotReadable(_) => &NOT_READABLE,
         // Macro B's own
-        Kind::MissingComma | Kind::TooDeep { .. } | Kind::NotDecimalCoded => &UNREADABLE,
+        Kind::MissingComma | Kind::TooDeep { .. } | Kind::NotDecimalCoded | Kind::NoTangent => &UNREADABLE,
     };
     let text = error
         .kind

@@ -9,6 +9,7 @@ fn value(text: &str) -> f64 {
         &Table {
             values: vec![(1, 3.0), (2, 4.0), (3, 1.5), (5, 9.0)],
             principal_angles: false,
+            open_angles: false,
         },
     )
     .expect(text)
@@ -72,6 +73,21 @@ fn functions() {
     };
     assert_eq!(eval("ATAN[-1]/[-1]", Grammar::MacroB, &principal), Ok(-135.0));
     assert_eq!(eval("ASIN[-1]", Grammar::MacroB, &principal), Ok(-90.0));
+    let open = Table {
+        open_angles: true,
+        ..Table::default()
+    };
+    for text in ["ASIN[-1]", "ATAN[-1]/[-1]", "[ATAN[-1]/[2]+5]"] {
+        assert!(eval(text, Grammar::MacroB, &open).is_ok_and(f64::is_nan), "{text}");
+    }
+    for (text, angle) in [
+        ("ASIN[1]", 90.0),
+        ("ATAN[1]/[-1]", 135.0),
+        ("ATAN[-1]", -45.0),
+        ("ACOS[-1]", 180.0),
+    ] {
+        assert_eq!(eval(text, Grammar::MacroB, &open), Ok(angle), "{text}");
+    }
 }
 
 #[test]

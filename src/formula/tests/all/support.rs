@@ -7,6 +7,7 @@ use trunnion_syntax::TextRange;
 pub(crate) struct Table {
     pub(crate) values: Vec<(i64, f64)>,
     pub(crate) principal_angles: bool,
+    pub(crate) open_angles: bool,
 }
 
 impl Variables for Table {
@@ -41,8 +42,8 @@ impl Variables for Table {
     fn null(&self, index: i64) -> bool {
         (100..150).contains(&index)
     }
-    fn positive_angles(&self) -> bool {
-        !self.principal_angles
+    fn positive_angles(&self) -> Option<bool> {
+        (!self.open_angles).then_some(!self.principal_angles)
     }
 }
 

@@ -42,6 +42,30 @@ fn operators_bind_as_in_macro_b() {
     }
 }
 
+/// Fanuc parameter 6004 bit 0 (NAT) decides which angle ASIN and ATAN give below zero.
+#[test]
+fn angles_below_zero_are_those_that_the_settings_declare() {
+    let run = |text: &str, declared: Option<bool>| {
+        let mut setup = Setup::default();
+        setup.control.positive_angles = declared;
+        let log = run_bytes(FANUC, format!("{text}\nG0 X#1\nM30\n").as_bytes(), &setup).1;
+        let open = |fault: &trunnion_interp::Fault| matches!(&fault.kind, FaultKind::NotModelled { what } if what.contains("positive_angles"));
+        (log.motions[0].end.get(0).map(f64::round), log.faults.iter().any(open))
+    };
+    for (text, from_zero, negative) in [("#1=ASIN[-.5]", 330.0, -30.0), ("#1=ATAN[-1]/[-1]", 225.0, -135.0)] {
+        assert_eq!(run(text, Some(true)), (Some(from_zero), false), "{text}");
+        assert_eq!(run(text, Some(false)), (Some(negative), false), "{text}");
+        assert_eq!(run(text, None), (None, true), "{text}");
+    }
+    for (text, angle) in [
+        ("#1=ASIN[.5]", 30.0),
+        ("#1=ATAN[1]/[-1]", 135.0),
+        ("#1=ATAN[-1]", -45.0),
+    ] {
+        assert_eq!(run(text, None), (Some(angle), false), "{text}");
+    }
+}
+
 #[test]
 fn variables_by_number_by_reckoning_and_by_name() {
     assert_eq!(value("#2=100\n#[#2+1]=7.5\n#1=#101"), "R X7.5");

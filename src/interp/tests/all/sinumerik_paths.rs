@@ -31,6 +31,8 @@ fn polar_coordinates_count_from_the_pole() {
         "G1 AP=30 RP=10",
         "G111 X0\nG1 AP=30 RP=10",
         "G111 X0 Y0\nG1 AP=30",
+        // a new pole takes the radius with it
+        "G111 X0 Y0\nG1 AP=10 RP=10\nG111 X0 Y0\nAP=30",
         "G111 X0 Y0\nG1 AP=IC(30) RP=10",
         "G111 X0 Y0\nG1 AP=30 RP=-10",
         "G111 X0 Y0\nG1 AP=30 RP=10 X5",

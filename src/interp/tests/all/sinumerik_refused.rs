@@ -41,6 +41,42 @@ fn a_cycle_that_is_called_while_mcall_is_active_is_not_decided() {
     }
 }
 
+/// What MCALL does with CYCLE800 no source says, before it and while it is active.
+#[test]
+fn a_swivel_under_mcall_is_not_decided() {
+    let head = "G17 G90 G54 G71 G94\nG0 X0 Y0 Z50 F100\nS500 M3\n";
+    let swivel = |direction: &str| format!("CYCLE800(0,\"\",0,57,0,0,0,10,0,0,0,0,0,{direction})");
+    for modal in ["CYCLE81(10,0,2,-5)", "PLAIN"] {
+        for call in [swivel("1"), swivel("-1"), "CYCLE800(1,\"0\")".to_owned()] {
+            let (motions, said) = run(&format!("{head}MCALL {modal}\n{call}\nX5\nMCALL\nM30\n"));
+            assert_eq!(motions, ["R X0 Y0 Z50"], "{modal} {call}");
+            let wanted = "whether MCALL acts in CYCLE800";
+            assert!(
+                said.iter().any(|said| said.contains(wanted)),
+                "{modal} {call}: {said:?}"
+            );
+        }
+        for call in [swivel("0"), "CYCLE800()".to_owned()] {
+            let (_, said) = run(&format!("{head}MCALL {modal}\n{call}\nMCALL\nM30\n"));
+            assert!(
+                !said.iter().any(|said| said.contains("MCALL")),
+                "{modal} {call}: {said:?}"
+            );
+        }
+    }
+    for call in [swivel("1"), swivel("0"), "CYCLE800()".to_owned()] {
+        let (motions, said) = run(&format!("{head}MCALL {call}\nX5\nMCALL\nX9\nM30\n"));
+        assert!(
+            said.iter().any(|said| said.contains("CYCLE800 after MCALL")),
+            "{call}: {said:?}"
+        );
+        assert!(
+            motions[1..].iter().all(|line| !line.contains("X5")),
+            "{call}: {motions:?}"
+        );
+    }
+}
+
 /// The control stops at the block that computes it, whether or not anything reads the variable.
 #[test]
 fn arithmetic_without_a_value_is_refused_where_it_stands() {
@@ -111,9 +147,9 @@ fn what_a_variable_does_not_hold_is_named() {
         ("DEF INT A1[2]=SET(1,3000000000)", "outside of the range of INT"),
         ("R[-1]=5", "there is no R parameter with the number -1"),
     ] {
-        let (_, said) = run(&format!("{text}\nG0 X5\nM30\n"));
-        assert_eq!(said.len(), 1, "{text}: {said:?}");
-        assert!(said[0].contains(what), "{text}: {said:?}");
+        let kinds = kinds_of(&format!("{text}\nG0 X5\nM30\n"));
+        assert_eq!(kinds.len(), 1, "{text}: {kinds:?}");
+        assert!(format!("{:?}", kinds[0]).contains(what), "{text}: {kinds:?}");
     }
     for text in [
         "DEF INT AB[2]\nAB[1]=3\nAB[0]=SET(1,2)\nAB[R9]=4",
@@ -123,6 +159,94 @@ fn what_a_variable_does_not_hold_is_named() {
     ] {
         let (_, said) = run(&format!("{text}\nG0 X5\nM30\n"));
         assert_eq!(said, [""; 0], "{text}");
+    }
+}
+
+/// Messages of what the control refuses.
+fn refused(source: &str) -> Vec<String> {
+    let messages = kinds_of(source).into_iter().filter_map(|kind| match kind {
+        FaultKind::Rejected { message, .. } => Some(message),
+        _ => None,
+    });
+    messages.collect()
+}
+
+/// The control stops where it reads an element that a field does not have, as where it writes one.
+#[test]
+fn an_element_that_is_not_there_is_refused_where_it_is_read() {
+    let head = "DEF INT AB[2], CD[2,2]\nDEF STRING[5] EF[2]\nR2=7\nG0 X1\n";
+    for (text, what) in [
+        ("R1=AB[5]", "AB[5]: the field has no such element"),
+        ("R1=3*(AB[R2]+1)", "AB[R2]: the field has no such element"),
+        ("R1=CD[1,2]", "CD[1,2]: the field has no such element"),
+        ("R1=R99+AB[-1]", "AB[-1]"),
+        ("R1=AB[AB[0]+2]", "AB[AB[0]+2]"),
+        ("R1=STRLEN(EF[2])", "EF[2]: the field has no such element"),
+        ("G0 X=AB[5]", "AB[5]"),
+        ("G0 X=IC(AB[5])", "AB[5]"),
+        ("IF AB[5]==3 GOTOF LA", "AB[5]"),
+        ("SOMETHING(AB[5])", "AB[5]"),
+        ("L140(3,AB[5])", "AB[5]"),
+        ("R1=R[-1]", "there is no R parameter with the number -1"),
+        ("IF R[-1]==0 GOTOF LA", "there is no R parameter with the number -1"),
+    ] {
+        let source = format!("EXTERN SOMETHING(INT)\n{head}{text}\nLA: G0 X5\nM30\n");
+        let found = refused(&source);
+        assert!(found.len() == 1 && found[0].contains(what), "{text}: {found:?}");
+    }
+    for (text, what) in [
+        ("R1=CD[1]", "CD[1]: the field has 2 dimensions"),
+        ("R1=AB[0.5]", "AB[0.5]"),
+        ("R1=R[0.5]", "R[0.5]"),
+    ] {
+        let kinds = kinds_of(&format!("{head}{text}\nM30\n"));
+        let says = |kind: &FaultKind| matches!(kind, FaultKind::NotModelled { what: said } if said.contains(what));
+        assert!(kinds.len() == 1 && says(&kinds[0]), "{text}: {kinds:?}");
+    }
+    for text in [
+        "R1=AB[R99]",
+        "R1=AB[1]+CD[1,1]",
+        "EF[0]=\"AB[5]\"",
+        "R1=STRLEN(EF[1])",
+        "G0 X=AB[0]+$P_EP[X]",
+    ] {
+        assert_eq!(refused(&format!("{head}{text}\nM30\n")), [""; 0], "{text}");
+    }
+}
+
+#[test]
+fn arguments_and_words_without_a_value_are_refused() {
+    for (text, what) in [
+        ("L140(1/0)", "division by zero in `1/0`"),
+        ("L140(SQRT(-1),1/0)", "square root"),
+        ("PCALL L140(1/0)", "division by zero"),
+        ("G0 X=1/0", "division by zero"),
+        ("G0 X=IC(1/0)", "division by zero"),
+        ("G1 X5 F=LN(0)", "LN of zero"),
+    ] {
+        let found = refused(&format!("G0 X1\n{text}\nM30\n"));
+        assert!(!found.is_empty() && found[0].contains(what), "{text}: {found:?}");
+    }
+    let kinds = kinds_of("G0 X1\nR1=TAN(90)\nM30\n");
+    assert!(
+        kinds.len() == 1 && format!("{kinds:?}").contains("TAN of 90"),
+        "{kinds:?}"
+    );
+}
+
+/// Definitions are the first blocks of a program.
+#[test]
+fn a_definition_behind_a_motion_is_refused() {
+    let found = refused("DEF REAL A1\nG0 X1\nDEF REAL B1=3\nG0 X=B1\nM30\n");
+    assert!(found.len() == 1 && found[0].contains("DEF stands behind"), "{found:?}");
+    for text in [
+        "DEF REAL A1\nR1=3\nDEF REAL B1\nG0 X1\nM30\n",
+        // back to a definition that is before all motions
+        "LA: R1=R1+1\nDEF REAL A1\nG0 X1\nIF R1<3 GOTOB LA\nM30\n",
+        // each program has its own
+        "%_N_MAIN_MPF\nG0 X1\nSUB\nM30\n%_N_SUB_SPF\nDEF REAL A1=2\nG0 X=A1\nM17\n",
+    ] {
+        assert_eq!(refused(text), [""; 0], "{text}");
     }
 }
 
@@ -148,6 +272,7 @@ fn numbers_that_begin_with_zero_are_not_negative() {
         "D-1",
         "S-100",
         "T-1",
+        "N-5 X2",
         "T=-1 M6",
         "LIMS=-5",
         "G96 S100 LIMS=-5",

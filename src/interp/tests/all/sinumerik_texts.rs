@@ -73,7 +73,6 @@ fn functions_and_parts_of_texts_have_values() {
         "NUMBER(NN)",
         "NUMBER(\"1EX2\")",
         "STRLEN(SPRINT(\"%F\",1.5))",
-        "STRLEN(FF[2,0])",
     ] {
         let got = said(&format!("{name}\nG0\nX={value}\nM30\n"));
         assert!(
@@ -149,9 +148,11 @@ fn a_program_is_called_by_its_name_in_a_text() {
     assert_eq!(said("G0 X1\nCALL \"NO\"\nM30\n"), ["2 `CALL \"NO\"` missing NO"]);
     for call in [
         "CALL BLOCK LA TO LB",
-        "CALL \"/_N_WKS_DIR/PD\"",
+        "CALL /_N_WKS_DIR/PD",
         "CALL",
-        "PCALL /DIR/PD(1)",
+        "PCALL /DIR/(1)",
+        "EXTCALL (\"PD\"",
+        "EXTCALL",
     ] {
         let told = said(&format!("G0 X1\n{call}\nX2\nM30\n"));
         assert!(told[0].contains("which program it calls"), "{call}: {told:?}");

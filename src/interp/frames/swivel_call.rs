@@ -35,7 +35,10 @@ impl SwivelCall {
         let (state, mode) = (whole(2)?, whole(3)?);
         let retract = whole(0)?;
         let (adds, holds) = (state % 10, state / 10 % 10);
-        if !is_known_state(state) || !RETRACTS.contains(&retract) {
+        let direction = i32::try_from(whole(13)?)
+            .ok()
+            .filter(|direction| (-1..=1).contains(direction))?;
+        if !is_known_state(state, direction != 0) || !RETRACTS.contains(&retract) {
             return None;
         }
         let angles = three(7)?;
@@ -47,9 +50,7 @@ impl SwivelCall {
             before: three(4)?,
             turns: [0, 1, 2].map(|index| (axes[index], angles[index])),
             behind: three(10)?,
-            direction: i32::try_from(whole(13)?)
-                .ok()
-                .filter(|direction| (-1..=1).contains(direction))?,
+            direction,
         })
     }
 }
@@ -58,12 +59,13 @@ impl SwivelCall {
 /// manual: swivelling).
 const RETRACTS: [i64; 5] = [0, 1, 2, 4, 5];
 
-/// Whether a source says what every digit of _ST does. Units: a new plane or one that adds; tens: the tip is held. Posts write 200000: that digit
-/// belongs to the choice of the axis to which the direction refers (SINUMERIK 828D, operating manual, 01/2015, p. 559; NC-PB/NCXchange), and the
-/// axis is an assumption of its own.
-fn is_known_state(state: i64) -> bool {
-    let low = state % 100_000;
-    matches!(state / 100_000, 0 | 2) && matches!(low % 10, 0 | 1) && matches!(low / 10, 0 | 1)
+/// Whether a source says what every digit of _ST does. Units: a new plane or one that adds; tens: the tip is held. The digits from 10000 on
+/// belong to the choice of the axis to which the direction refers (SINUMERIK 828D, operating manual, 01/2015, p. 559; NC-PB/NCXchange): without
+/// a direction they choose nothing. With one, posts write 200000, and the axis is an assumption of its own. `turns`: a direction is given.
+fn is_known_state(state: i64, turns: bool) -> bool {
+    let (high, low) = (state / 10_000, state % 10_000);
+    let chooses = matches!(high, 0 | 20) || !turns && (0..100).contains(&high);
+    chooses && matches!(low % 10, 0 | 1) && matches!(low / 10, 0 | 1)
 }
 
 /// Why a call is not modelled: bits 7 and 6 of its mode say how its angles are meant (SINUMERIK Operate, operating manual: swivelling).
@@ -81,7 +83,7 @@ pub(super) fn why_not_read(text: &str, own: impl Fn(&str) -> Option<f64>) -> &'s
         }
         Some(2) => "with projection angles: how the third one turns the plane is not taken from a source",
         Some(1) => "with solid angles: about which axes they turn is not taken from a source",
-        _ if at(2).is_some_and(|state| !is_known_state(state)) => "with a digit of _ST that no source explains",
+        _ if at(2).is_some_and(|state| !is_known_state(state, at(13) != Some(0))) => "with a digit of _ST that no source explains",
         _ if at(0).is_some_and(|retract| !RETRACTS.contains(&retract)) => "with a value of _FR that no source explains",
         _ => "with an argument that is not known or not modelled",
     }
@@ -179,9 +181,9 @@ mod tests {
             "CYCLE800(0,\"\",2,57,0,0,0,10,20,0)",
             "CYCLE800(0,\"\",20,57,0,0,0,10,20,0)",
             "CYCLE800(0,\"\",1000,57,0,0,0,10,20,0)",
-            "CYCLE800(0,\"\",10000,57,0,0,0,10,20,0)",
-            "CYCLE800(0,\"\",220000,57,0,0,0,10,20,0)",
-            "CYCLE800(0,\"\",100000,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",10000,57,0,0,0,10,20,0,0,0,0,1)",
+            "CYCLE800(0,\"\",220000,57,0,0,0,10,20,0,0,0,0,1)",
+            "CYCLE800(0,\"\",100000,57,0,0,0,10,20,0,0,0,0,1)",
             "CYCLE800(0,\"\",1200000,57,0,0,0,10,20,0)",
             "CYCLE800(0,\"\",-1,57,0,0,0,10,20,0)",
             "CYCLE800(3,\"\",0,57,0,0,0,10,20,0)",
@@ -192,7 +194,7 @@ mod tests {
             assert_eq!(SwivelCall::read(text, own), None, "{text}");
         }
         for (text, why) in [
-            ("CYCLE800(0,\"\",220000,57,0,0,0,10,20,0)", "digit of _ST"),
+            ("CYCLE800(0,\"\",220000,57,0,0,0,10,20,0,0,0,0,-1)", "digit of _ST"),
             ("CYCLE800(3,\"\",0,57,0,0,0,10,20,0)", "value of _FR"),
             ("CYCLE800(0,\"\",0,192,0,0,0,10,20,0)", "positions of the rotary axes"),
             ("CYCLE800(0,\"\",0,57,R1,0,0,10,20,0)", "not known or not modelled"),
@@ -203,7 +205,7 @@ mod tests {
                 why_not_read(text, own)
             );
         }
-        for (state, tip) in [("0", false), ("10", true), ("200010", true), ("200000", false)] {
+        for (state, tip) in [("0", false), ("10", true), ("200010", true), ("220000", false)] {
             let text = format!("CYCLE800(1,\"\",{state},57,0,0,0,10,20,0)");
             assert_eq!(
                 SwivelCall::read(&text, own).map(|call| call.holds_tip),

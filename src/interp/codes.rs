@@ -98,6 +98,7 @@ impl<'d> Iso<'d> {
         if self.memory.frames.pending.is_some() && !goes_on && (!codes.is_empty() || words.axes.any()) {
             self.plane_broken_off(report);
         }
+        let shaped = !self.memory.frames.shape.is_identity();
         let mut rest = &*codes;
         while let Some((found, after)) = rest
             .split_first()
@@ -133,6 +134,9 @@ impl<'d> Iso<'d> {
         }
         if words.axes.any() {
             crate::unmodelled::data_codes(codes, words, &mut block, report);
+        }
+        if shaped {
+            self.not_in_shapes(codes, &mut block, report);
         }
         let lost = self.core.unknown.any() || self.memory.frames.pending.is_some();
         self.core.state.zero.lose(lost);

@@ -53,6 +53,9 @@ impl Iso<'_> {
             );
             return;
         }
+        if let Some(why) = self.scaled_steps(axis) {
+            return self.lost(words, axis, why, report);
+        }
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
             _ if words.flow && words.p.is_given() => Some(1),

@@ -33,7 +33,12 @@ impl Iso<'_> {
             start.get(Z),
         );
         let (Some(x), Some(z), Some(taper), Some(x_start), Some(z_start)) = ends else {
-            let what = format!("{} from or to an unknown position", self.memory.cycle.id);
+            let why = if words.centre.any() {
+                "with I, J or K: whether they are its taper (write it with R)"
+            } else {
+                "from or to an unknown position"
+            };
+            let what = format!("{} {why}", self.memory.cycle.id);
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             let mut motion = self.unknown_motion(words, report);
             motion.end.known &= !crate::core::LINEAR;
@@ -107,6 +112,10 @@ impl Iso<'_> {
                 .number()
                 .map(|number| number.value * self.core.state.coordinates.unit_mm());
             self.memory.cycle.pass[2] = taper.map_or(Stored::Unknown, Stored::By);
+        }
+        // a Haas lathe takes I and K for tapers, and so did older controls of Fanuc; no source at hand says more
+        if words.centre.any() {
+            self.memory.cycle.pass[2] = Stored::Unknown;
         }
     }
 

@@ -83,7 +83,9 @@ pub(super) fn why_not_read(text: &str, own: impl Fn(&str) -> Option<f64>) -> &'s
         }
         Some(2) => "with projection angles: how the third one turns the plane is not taken from a source",
         Some(1) => "with solid angles: about which axes they turn is not taken from a source",
-        _ if at(2).is_some_and(|state| !is_known_state(state, at(13) != Some(0))) => "with a digit of _ST that no source explains",
+        _ if at(2).is_some_and(|state| !is_known_state(state, at(13) != Some(0))) => {
+            "with a digit of _ST that no source explains"
+        }
         _ if at(0).is_some_and(|retract| !RETRACTS.contains(&retract)) => "with a value of _FR that no source explains",
         _ => "with an argument that is not known or not modelled",
     }

@@ -1,10 +1,13 @@
 //! G68, G51, G51.1, G16 and their ends.
 use super::{Polar, Rotation, Scaling};
+use crate::FaultKind;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::iso::Iso;
+use crate::macro_b::is_fanuc;
 use crate::words::Words;
+use trunnion_dialect::Action;
 
 impl<'d> Iso<'d> {
     /// Whether nothing is active that would make the position of a new frame unclear.
@@ -51,9 +54,58 @@ impl<'d> Iso<'d> {
         self.reshaped();
     }
 
+    /// The axes are scaled by unlike factors, or mirrored by negative ones: whether these turn the angle about is not in the manual.
     fn scales_unevenly(&self) -> bool {
         let scaling = self.memory.frames.shape.scaling;
-        scaling.is_some_and(|scaling| scaling.uniform().is_none())
+        scaling.is_some_and(|scaling| scaling.uniform().is_none() || scaling.factors.iter().any(|factor| *factor < 0.0))
+    }
+
+    /// Why a drilling cycle along an axis that is scaled is not followed: the steps and clearances of pecks and the shift off the wall keep their size
+    /// (Fanuc Series 30i operator's manual, scaling: limitations), and on a Haas the levels of the cycle may (mill operator's manual, G51).
+    pub(crate) fn scaled_steps(&self, axis: usize) -> Option<&'static str> {
+        let scaling = self.memory.frames.shape.scaling?;
+        let moves_in_steps = matches!(
+            self.core.state.motion,
+            Some(Action::PeckCycle | Action::ChipBreakCycle | Action::FineBoreCycle | Action::BackBoreCycle)
+        );
+        let all = self.core.dialect.quirks.plain_scale_factor;
+        let scaled = |axis: usize| scaling.factors.get(axis).is_some_and(|factor| *factor != 1.0);
+        if scaled(axis) && all {
+            Some("in scaled coordinates: which of its levels are scaled is not taken from a source")
+        } else if moves_in_steps && (0..3).any(scaled) {
+            Some("in scaled coordinates: its steps and its shift keep their size, which is not followed")
+        } else {
+            None
+        }
+    }
+
+    /// What must not be programmed while coordinates are turned, scaled or mirrored: returns to reference points, and another system of coordinates
+    /// or plane (Fanuc Series 30i operator's manual, coordinate system rotation, scaling and programmable mirror image: limitations).
+    #[cold]
+    pub(crate) fn not_in_shapes(&self, codes: &[Found<'d>], block: &mut BlockCodes, report: &mut Report<'_>) {
+        if !is_fanuc(self.core.dialect) || self.memory.frames.shape.is_identity() {
+            return;
+        }
+        for found in codes {
+            let forbidden = match found.code.action {
+                Action::WorkOffset
+                | Action::MachineCoordinates
+                | Action::ReferenceCheck
+                | Action::ReferenceReturn
+                | Action::ReferenceReturnOther
+                | Action::ReferenceFrom => true,
+                Action::PlaneXy | Action::PlaneZx | Action::PlaneYz => self.memory.frames.shape.rotation.is_some(),
+                _ => false,
+            };
+            if forbidden {
+                let what = format!(
+                    "{} while coordinates are turned, scaled or mirrored: the control does not allow it (end G68, G51 or G51.1 first)",
+                    found.code.id
+                );
+                report.fault(found.range, FaultKind::NotModelled { what });
+                block.not_modelled = true;
+            }
+        }
     }
 
     /// G69.

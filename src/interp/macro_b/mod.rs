@@ -19,7 +19,7 @@ mod words;
 
 use crate::Argument;
 use crate::flow::{Calling, Transfer, With as Handed};
-pub(crate) use alarms::{Mistake, rejected};
+pub(crate) use alarms::{Mistake, is_fanuc, rejected};
 pub(crate) use call::{Level, With};
 use evaluate::Compiled;
 pub(crate) use index::index;

@@ -68,24 +68,23 @@ impl Macros<'_> {
     /// What formulas read from.
     fn view<'v>(&'v mut self, dialect: &Dialect) -> (View<'v>, &'v mut Compiled, u16) {
         let (state, setup, frames, kept, file) = (self.state, self.setup, self.frames, self.kept, self.file);
-        let Deep {
-            variables, compiled, ..
-        } = self.deep();
+        let deep = self.deep();
         let view = View {
-            variables,
+            variables: &deep.variables,
             known: Known {
                 state,
                 setup,
                 frames,
                 kept,
                 fanuc: is_fanuc(dialect),
+                diameter: dialect.quirks.diameter,
             },
             unknown: Cell::new(None),
             unknown_name: Cell::new(false),
             open_angle: Cell::new(false),
             asked_control: Cell::new(false),
         };
-        (view, compiled, file)
+        (view, &mut deep.compiled, file)
     }
 
     /// The value of an expression, and why it is not known where it is NaN.

@@ -57,6 +57,8 @@ pub(crate) struct Known<'a> {
     pub(crate) kept: Kept,
     /// Numbers of modal groups and offsets are Fanuc's.
     pub(crate) fanuc: bool,
+    /// A lathe: which number belongs to which axis, and whether those of X are diameters, is not taken from a source.
+    pub(crate) diameter: bool,
 }
 
 impl Known<'_> {
@@ -216,7 +218,7 @@ impl Known<'_> {
 
     /// Known where the setup declares the offset, or the program has written it.
     fn offset(&self, number: u32) -> Option<f64> {
-        let (name, axis) = offset_of(number)?;
+        let (name, axis) = offset_of(number).filter(|_| !self.diameter)?;
         let value = match name {
             // nothing declares it
             None => (self.frames.external_written & (1 << axis) != 0).then_some(self.frames.external[axis])?,
@@ -257,7 +259,7 @@ pub(crate) fn is_followed(number: u32, dialect: &Dialect) -> bool {
     if radius_of(number).is_some() {
         return is_fanuc(dialect) && !dialect.quirks.diameter;
     }
-    (is_fanuc(dialect) || number < 7000) && offset_of(number).is_some()
+    (is_fanuc(dialect) || number < 7000) && offset_of(number).is_some() && !dialect.quirks.diameter
 }
 
 impl Iso<'_> {

@@ -279,3 +279,99 @@ fn a_tool_word_of_a_lathe_holds_its_offset() {
     let log = run_bytes("fanuc-30i-lathe-a", b"T0313\nG0 X10. Z1.\nM30\n", &setup).1;
     assert_eq!(log.motions[0].tool, Some(3));
 }
+
+fn not_followed(dialect: &str, source: &str) -> bool {
+    faults(dialect, source)
+        .iter()
+        .any(|fault| fault.contains("NotModelled"))
+}
+
+/// The steps of pecks keep their size, the levels do not (Fanuc), or may not (Haas).
+#[test]
+fn drilling_in_scaled_coordinates() {
+    let drill = |scale: &str, cycle: &str| {
+        format!("G0 X0 Y0 Z50.\nG51 X0 Y0 Z0 {scale}\n{cycle} X10. Y0 Z-5. R2. Q2. F50.\nG80\nG50\n")
+    };
+    for (dialect, scale, cycle, open) in [
+        ("fanuc-30i", "I2. J2. K2.", "G83", true),
+        ("fanuc-30i", "I2. J2. K.5", "G73", true),
+        ("fanuc-30i", "I2. J2. K2.", "G76", true),
+        ("fanuc-30i", "I2. J2. K2.", "G81", false),
+        ("fanuc-30i", "I1. J1. K1.", "G83", false),
+        ("haas-ngc", "P2.", "G83", true),
+        ("haas-ngc", "P2.", "G81", true),
+    ] {
+        let source = drill(scale, cycle);
+        let told = faults(dialect, &source);
+        let found = told.iter().any(|fault| fault.contains("in scaled coordinates"));
+        assert_eq!(found, open, "{dialect} {scale} {cycle}: {told:?}");
+    }
+}
+
+/// Whether a negative factor of G51 turns the angle of G68 about is not in the manual.
+#[test]
+fn an_angle_in_coordinates_that_a_factor_mirrors() {
+    let turn =
+        |scale: &str| format!("G0 X0 Y0 Z50.\nG51 X0 Y0 Z0 {scale}\nG68 X5. Y0 R90.\nG1 X10. Y5. F100.\nG69\nG50\n");
+    assert!(not_followed("fanuc-30i", &turn("I-1. J1. K1.")));
+    assert!(not_followed("fanuc-30i", &turn("I-1. J-1. K-1.")));
+    assert!(!not_followed("fanuc-30i", &turn("I2. J2. K2.")));
+}
+
+/// What a Fanuc does not allow while coordinates are turned, scaled or mirrored is no passing program.
+#[test]
+fn other_systems_while_coordinates_are_turned() {
+    for (begin, end) in [
+        ("G68 X0 Y0 R90.", "G69"),
+        ("G51 X0 Y0 Z0 I2. J2. K2.", "G50"),
+        ("G51.1 X0", "G50.1 X0"),
+    ] {
+        for code in ["G55", "G53 G0 Z0", "G27 X0", "G28 Z60."] {
+            let inside = format!("G0 X1. Y1. Z50.\n{begin}\n{code}\n{end}\n");
+            let told = faults("fanuc-30i", &inside);
+            assert!(
+                told.iter().any(|fault| fault.contains("does not allow")),
+                "{inside}: {told:?}"
+            );
+            for outside in [
+                format!("G0 X1. Y1. Z50.\n{code}\n{begin}\n{end}\n"),
+                format!("G0 X1. Y1. Z50.\n{begin}\n{end}\n{code}\n"),
+            ] {
+                let told = faults("fanuc-30i", &outside);
+                assert!(
+                    !told.iter().any(|fault| fault.contains("does not allow")),
+                    "{outside}: {told:?}"
+                );
+            }
+        }
+    }
+    let plane = |code: &str| faults("fanuc-30i", &format!("G0 X1. Y1. Z50.\nG68 X0 Y0 R90.\n{code}\nG69\n"));
+    assert!(plane("G18").iter().any(|fault| fault.contains("does not allow")));
+}
+
+/// Without axis words grbl goes straight to the stored position (gcode.c).
+#[test]
+fn a_return_of_grbl_moves_all_axes() {
+    let mut point = Position::default();
+    for (axis, value) in [500.0, 300.0, 200.0].into_iter().enumerate() {
+        point.set(axis, value);
+    }
+    let mut setup = Setup::default();
+    setup.control.reference_points = vec![point, point];
+    setup.work_offsets = vec![trunnion_interp::WorkOffset {
+        name: "G54".into(),
+        values: [0.0; 9],
+    }];
+    let run = |source: &str| -> Vec<String> {
+        let log = run_bytes("grbl", source.as_bytes(), &setup).1;
+        log.motions.iter().map(line).collect()
+    };
+    let got = run("G21 G90 G94 G17\nG0 X10 Y10 Z5\nG28\nG1 X20 F100\nM2\n");
+    assert_eq!(
+        got[1..3],
+        ["R X500 Y300 Z200 machine", "L X20 Y300 Z200 F100"],
+        "{got:?}"
+    );
+    let got = run("G21 G90 G94 G17\nG0 X10 Y10 Z5\nG28.1\nX20\nG30\nG28\nM2\n");
+    assert_eq!(got.last().map(String::as_str), Some("R X10 Y10 Z5 machine"), "{got:?}");
+}

@@ -268,3 +268,21 @@ fn the_shared_macro_program_has_the_values_reckoned_by_hand() {
     let got: Vec<_> = log.motions.iter().map(crate::support::line).collect();
     insta::assert_snapshot!(got.join("\n"));
 }
+
+/// G10 writes diameters along X of a lathe; whether the variables of the same registers are diameters too, and which is that of Z, is not taken
+/// from a source.
+#[test]
+fn offsets_of_a_lathe_are_not_read_by_number() {
+    for dialect in ["fanuc-30i-lathe-a", "haas-lathe"] {
+        for variable in ["#5221", "#5222", "#5223"] {
+            let source = format!("G10 L2 P1 X4. Z6.\nG54 G0 X50. Z5.\nG0 X[50.+{variable}]\nM30\n");
+            assert_eq!(
+                lines(dialect, &source).last().map(String::as_str),
+                Some("R Z5"),
+                "{dialect} {variable}"
+            );
+        }
+        let written = lines(dialect, "G0 X50. Z5.\n#5221=4.\nG0 X40.\nM30\n");
+        assert_eq!(written[1], "R -", "{dialect}: {written:?}");
+    }
+}

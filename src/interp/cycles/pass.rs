@@ -74,19 +74,17 @@ impl Iso<'_> {
         }
         for (to, kind) in corners {
             let position = self.core.state.position;
-            let mut place = self.memory.frames.programmed(&position);
+            let before = self.memory.frames.programmed(&position);
+            let mut place = before;
             place.set(X, to.0);
             place.set(Z, to.1);
-            self.goes(
-                kind,
-                place,
-                match kind {
-                    MotionKind::Rapid => Feed::Rapid,
-                    MotionKind::Unknown => Feed::Unknown,
-                    _ => feed,
-                },
-                report,
-            );
+            let feed = match kind {
+                MotionKind::Rapid => Feed::Rapid,
+                MotionKind::Unknown => Feed::Unknown,
+                _ if threading => self.along_thread(feed, [&before, &place]),
+                _ => feed,
+            };
+            self.goes(kind, place, feed, report);
         }
     }
 
@@ -156,7 +154,10 @@ impl Iso<'_> {
         report: &mut Report<'_>,
     ) -> Feed {
         match self.core.state.motion {
-            Some(Action::Thread) => self.lead(words, report),
+            Some(Action::Thread) => {
+                let lead = self.lead(words, report);
+                self.along_thread(lead, ends)
+            }
             Some(Action::VariableThread) => {
                 // the lead changes along the path
                 let what = "a thread of variable lead: its feed".to_owned();
@@ -168,6 +169,18 @@ impl Iso<'_> {
                 let feed = self.feed_of(kind, words, report);
                 self.turning_feed(kind, feed, words, ends)
             }
+        }
+    }
+
+    /// The feed along the path of a thread of a lathe, whose lead counts along the axis that goes farther (Haas lathe operator's manual, G32: the
+    /// larger of the two leads is F).
+    pub(super) fn along_thread(&self, lead: Feed, [start, end]: [&Position; 2]) -> Feed {
+        let goes = |axis: usize| Some((end.get(axis)? - start.get(axis)?).abs());
+        match (lead, goes(X).zip(goes(Z))) {
+            (Feed::PerRevolution(lead), Some((x, z))) if self.core.dialect.quirks.diameter && x.min(z) > 0.0 => {
+                Feed::PerRevolution(lead * (x * x + z * z).sqrt() / x.max(z))
+            }
+            _ => lead,
         }
     }
 

@@ -269,13 +269,15 @@ impl Iso<'_> {
                 }
             }
             self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+            let begins = place;
             let mut place = plan.start;
             place.set(X, level + plan.taper * plan.pull_out / way.abs());
             place.set(Z, z - way.signum() * plan.pull_out);
             if plan.flank && plan.taper != 0.0 && plan.pull_out > 0.0 {
                 place.forget(X);
             }
-            self.goes(MotionKind::Linear, place, plan.lead, report);
+            let feed = self.along_thread(plan.lead, [&begins, &place]);
+            self.goes(MotionKind::Linear, place, feed, report);
             if plan.pull_out > 0.0 {
                 self.goes(MotionKind::Unknown, plan.start, Feed::Unknown, report);
             } else {

@@ -15,7 +15,9 @@ fn passes(x: f64, x0: f64, taper: f64, [z0, z]: [f64; 2], depths: &[f64]) -> Vec
     for depth in depths {
         let level = x + out * (1.0 - depth);
         want.push(format!("R X{} Z{z0}", number(level + taper)));
-        want.push(format!("L X{} Z{z} F1.5/rev", number(level)));
+        // F counts along Z, which goes farther
+        let feed = 1.5 * (taper * taper + (z - z0) * (z - z0)).sqrt() / (z - z0).abs();
+        want.push(format!("L X{} Z{z} F{}/rev", number(level), number(feed)));
         want.push(format!("R X{x0} Z{z}"));
         want.push(format!("R X{x0} Z{z0}"));
     }
@@ -68,10 +70,10 @@ fn the_pull_out_is_unknown_from_where_it_begins() {
     let want = [
         "R X17.5 Z5",
         "R X14.1 Z5",
-        "L X15.04 Z-18.5 F1.5/rev",
+        "L X15.04 Z-18.5 F1.5012/rev",
         "U X17.5 Z5",
         "R X14 Z5",
-        "L X14.94 Z-18.5 F1.5/rev",
+        "L X14.94 Z-18.5 F1.5012/rev",
         "U X17.5 Z5",
         "R X20 Z5",
     ];
@@ -203,10 +205,10 @@ fn a_thread_of_one_pass_may_be_left_before_its_end() {
         (lines, format!("{:?}", log.faults))
     };
     let (lines, told) = run(Some(1.2));
-    assert_eq!(lines, ["R X15 Z5", "R X9.5 Z5", "L X11.82 Z-18.2 F1.5/rev", "U X15 Z5"]);
+    assert_eq!(lines, ["R X15 Z5", "R X9.5 Z5", "L X11.82 Z-18.2 F1.507481/rev", "U X15 Z5"]);
     assert!(told.contains("G92: the shape of its pull-out"), "{told}");
     let (whole, told) = run(Some(0.0));
-    assert_eq!(whole[2..], ["L X12 Z-20 F1.5/rev", "R X15 Z-20", "R X15 Z5"]);
+    assert_eq!(whole[2..], ["L X12 Z-20 F1.507481/rev", "R X15 Z-20", "R X15 Z5"]);
     assert_eq!(told, "[]");
     let (unsaid, told) = run(None);
     assert_eq!(unsaid, whole);
@@ -214,4 +216,27 @@ fn a_thread_of_one_pass_may_be_left_before_its_end() {
         told.contains("G92: whether the tool pulls out before the end of the thread"),
         "{told}"
     );
+}
+
+/// F is the lead along the axis that goes farther.
+#[test]
+fn the_feed_of_a_taper_thread() {
+    let source = "G97 S600 M3\nG0 X40. Z5.\nG32 Z-20. F2.\nX60. Z-30.\nX100. Z-35.\n";
+    for dialect in ["fanuc-30i-lathe-a", "haas-lathe"] {
+        let log = crate::support::run_text(dialect, source);
+        let feeds: Vec<_> = log
+            .motions
+            .iter()
+            .filter_map(|motion| match motion.feed {
+                trunnion_interp::Feed::PerRevolution(feed) => Some(feed),
+                _ => None,
+            })
+            .collect();
+        // 10 mm of radius and 10 of Z; 20 of radius and 5 of Z
+        let wanted = [2.0, 2.0 * 2.0_f64.sqrt(), 2.0 * 425.0_f64.sqrt() / 20.0];
+        assert_eq!(feeds.len(), 3, "{dialect}: {feeds:?}");
+        for (feed, wanted) in feeds.iter().zip(wanted) {
+            assert!((feed - wanted).abs() < 1e-12, "{dialect}: {feeds:?}");
+        }
+    }
 }

@@ -6,6 +6,9 @@ use crate::since::sets_from_here;
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::MotionKind;
 
+/// Why a difference is undecided where [`may_stand`].
+const MAY_STAND: &str = "; where one of the motions leads is unknown, so it may not move at all";
+
 pub(crate) fn at(was: Option<&Item>, is: Option<&Item>, what: String) -> Difference {
     Difference {
         before: was.map(Item::block),
@@ -25,6 +28,18 @@ pub(crate) fn kind(kind: &MotionKind) -> &'static str {
     }
 }
 
+/// Whether a straight motion leads to values that are not known and changes nothing else: they may be those where the axes are.
+fn may_stand(item: &Item) -> bool {
+    let Item::Motion(step) = item else { return false };
+    let motion = &step.motion;
+    let (start, end) = (&motion.start, &motion.end);
+    let both = start.known & end.known;
+    matches!(motion.kind, MotionKind::Linear | MotionKind::Rapid)
+        && start.known & !end.known != 0
+        && end.known & !start.known == 0
+        && (0..start.values.len()).all(|axis| both & (1 << axis) == 0 || start.values[axis] == end.values[axis])
+}
+
 /// If one program repeats the position of the motion before, after something that may have moved the machine, it may not move at all: other
 /// differences found there are undecided.
 pub(crate) fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
@@ -36,6 +51,10 @@ pub(crate) fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
                 "{}; the {which} program repeats its last position here, and it is unknown whether that moves the machine",
                 found.what
             );
+            Verdict::Unknown(found)
+        }
+        Verdict::Differs(mut found) if may_stand(was) != may_stand(is) => {
+            found.what += MAY_STAND;
             Verdict::Unknown(found)
         }
         verdict => verdict,
@@ -76,6 +95,10 @@ pub(crate) fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
         place.what += "; the machine left the spindle in a state that is not known";
         Verdict::Unknown(place)
     } else if !ends_elsewhere && (unmodelled(was) || unmodelled(is)) {
+        Verdict::Unknown(place)
+    } else if was.is_some_and(may_stand) != is.is_some_and(may_stand) {
+        let mut place = place;
+        place.what += MAY_STAND;
         Verdict::Unknown(place)
     } else {
         Verdict::Differs(place)

@@ -211,18 +211,7 @@ impl<'d> Iso<'d> {
             Ok((program, times)) => {
                 let range = call_range(report, range, place);
                 if code == FlowCode::Modal {
-                    // each of them would call the others at the next motion
-                    if let Some(kind) = self.too_many_modal(deep.modal.len()) {
-                        report.fault(range, kind);
-                        deep.pending = Some(Transfer::End);
-                        return;
-                    }
-                    deep.modal.push(Modal {
-                        program,
-                        times,
-                        arguments: arguments.unwrap_or_else(|| Box::new([None; 33])),
-                    });
-                    deep.modal_active = deep.modal.len();
+                    self.begin_modal((program, times, arguments), range, deep, report);
                 } else {
                     deep.pending = Some(Transfer::Call(Calling {
                         program,
@@ -241,6 +230,29 @@ impl<'d> Iso<'d> {
                 deep.pending = Some(Transfer::End);
             }
         }
+    }
+}
+
+impl Iso<'_> {
+    /// A modal call: after each motion it calls those before it.
+    fn begin_modal(
+        &self,
+        (program, times, arguments): (Key, u32, Option<Box<[Option<f64>; 33]>>),
+        range: TextRange,
+        deep: &mut Deep,
+        report: &mut Report<'_>,
+    ) {
+        if let Some(kind) = self.too_many_modal(deep.modal.len()) {
+            report.fault(range, kind);
+            deep.pending = Some(Transfer::End);
+            return;
+        }
+        deep.modal.push(Modal {
+            program,
+            times,
+            arguments: arguments.unwrap_or_else(|| Box::new([None; 33])),
+        });
+        deep.modal_active = deep.modal.len();
     }
 }
 

@@ -205,7 +205,10 @@ fn a_thread_of_one_pass_may_be_left_before_its_end() {
         (lines, format!("{:?}", log.faults))
     };
     let (lines, told) = run(Some(1.2));
-    assert_eq!(lines, ["R X15 Z5", "R X9.5 Z5", "L X11.82 Z-18.2 F1.507481/rev", "U X15 Z5"]);
+    assert_eq!(
+        lines,
+        ["R X15 Z5", "R X9.5 Z5", "L X11.82 Z-18.2 F1.507481/rev", "U X15 Z5"]
+    );
     assert!(told.contains("G92: the shape of its pull-out"), "{told}");
     let (whole, told) = run(Some(0.0));
     assert_eq!(whole[2..], ["L X12 Z-20 F1.507481/rev", "R X15 Z-20", "R X15 Z5"]);

@@ -42,5 +42,36 @@ pub(super) fn inputs() -> Vec<Input> {
             )
             .into()
         }),
+        Input::of("linuxcnc", "splines-of-a-high-order", |n| {
+            let points = lines(n / 2, |i| format!("X{i} Y{} P1", i % 9));
+            let order = points.lines().count();
+            cut(&format!(
+                "F100\nG1 X0 Y0 Z5\nG5.2 P1 L{order} X0 Y0\n{points}G5.3\nM2\n"
+            ))
+        }),
+        Input::of("linuxcnc", "splines-of-many-chords", |n| {
+            let there = "G5.1 X1000000 Y5 I900000 J900000\nG5.1 X0 Y0 I900000 J-900000\n";
+            cut(&format!("F100\nG1 X0 Y0 Z5\n{}M2\n", repeat(there, n / 2)))
+        }),
+        Input::of("fanuc-30i", "modal-macros-without-end", |n| {
+            let begins = lines(n / 2, |i| format!("G66P{}A1.", 1000 + i % 8000));
+            cut(&format!(
+                "O1\n{begins}G1X1.F100.\nX2.\nM30\n{}",
+                lines(n / 2, |i| { format!("O{}\nG1X#1\nM99", 1000 + i % 8000) })
+            ))
+        }),
+        Input::of("fanuc-30i", "obstacles-beside-rapids", |n| {
+            let far = lines(n / 2, |i| {
+                format!(
+                    "(trunnion: obstacle name = \"c{i}\", box = [[{0},0,0],[{1},20,30]])",
+                    1000 + i % 50,
+                    1001 + i % 50
+                )
+            });
+            cut(&format!(
+                "G21G90G17G94G54\n{far}{}M30\n",
+                lines(n / 2, |i| format!("G0X{}.Y-30.Z5.\nY30.", i % 90))
+            ))
+        }),
     ]
 }

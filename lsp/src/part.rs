@@ -4,7 +4,7 @@
 //! can work on it. It continues from a check-point of the last whole run that is before every edit since. The whole follows after a pause, and
 //! what it finds replaces what a part found.
 use crate::{
-    analysis::{Analysed, Parsed, Source, settings_of},
+    analysis::{Analysed, Parsed, Source, Version, settings_of},
     position::Lines,
     text::Text,
 };
@@ -56,7 +56,7 @@ impl Part {
 /// What a part is made of.
 pub(crate) struct Plan {
     pub(crate) uri: Url,
-    pub(crate) version: i32,
+    pub(crate) version: Version,
     pub(crate) text: Text,
     pub(crate) base: Base,
     /// The first line that differs from the text of the whole run.
@@ -125,7 +125,7 @@ impl Plan {
 }
 
 /// The beginning of a document that opens. `None` where its settings cannot be used, or where the rest says how it is to be judged.
-pub(crate) fn first(uri: &Url, version: i32, text: &Text, overrides: &Overrides) -> Option<Part> {
+pub(crate) fn first(uri: &Url, version: Version, text: &Text, overrides: &Overrides) -> Option<Part> {
     let mut decide = FIRST.min(text.lines());
     while text.start_of(decide) < FIRST_BYTES.min(text.len()) {
         decide *= 2;

@@ -11,12 +11,21 @@ use trunnion_ide::{Names, Node, TomlFile, names, outline};
 use trunnion_syntax::{Block, Program};
 use trunnion_workspace::{LoadError, Overrides, Resolved, resolve};
 
+/// Which text of a document something belongs to, and which settings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Version {
+    /// The client's number of the text. A client may give the same number twice.
+    pub(crate) client: i32,
+    /// The server's own number: no other text or settings have it.
+    pub(crate) own: u64,
+}
+
 /// One version of a document, parsed.
 pub(crate) struct Parsed {
     /// Document.
     pub(crate) uri: Url,
     /// Version of the text.
-    pub(crate) version: i32,
+    pub(crate) version: Version,
     /// Text, which is UTF-8: the source of the program.
     pub(crate) text: Arc<Vec<u8>>,
     /// Line starts of the text.
@@ -122,7 +131,7 @@ pub(crate) fn settings_of(uri: &Url, text: &[u8], overrides: &Overrides) -> Resu
 }
 
 /// Parses a version of a document, a long one on this many threads.
-pub(crate) fn parse(uri: Url, version: i32, text: String, overrides: &Overrides, threads: usize) -> Parsed {
+pub(crate) fn parse(uri: Url, version: Version, text: String, overrides: &Overrides, threads: usize) -> Parsed {
     let toml = toml_file(&uri, &text);
     let starts = Lines::new(text.as_bytes());
     let text = text.into_bytes();

@@ -12,7 +12,8 @@ use crate::{
     coloured::Coloured,
     edits::{self, EditAnswer, EditParams},
     event::Event,
-    hover, navigate, outbox,
+    hover, navigate,
+    outbox::{self, Outbox},
     owner::Owner,
     position::Encoding,
     rewrites::{self, RewriteAnswer, RewriteParams},
@@ -58,8 +59,8 @@ impl Backend {
     /// Starts the owner's thread and the sender's task.
     pub(crate) fn start(client: Client, shutdown: Arc<AtomicBool>) -> Self {
         let (inbox, events) = mpsc::unbounded_channel();
-        let (messages, outgoing) = mpsc::unbounded_channel();
-        tokio::spawn(outbox::run(client, outgoing));
+        let messages = Outbox::default();
+        tokio::spawn(outbox::run(client, messages.clone()));
         let owner = Owner::new(inbox.clone(), messages, tokio::runtime::Handle::current());
         std::thread::spawn(move || owner.run(events));
         let coloured = Coloured::default();

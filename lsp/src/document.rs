@@ -1,7 +1,9 @@
 //! One open document: its text, kept by the client's edits.
 use crate::{
-    analysis::{Analysed, Parsed, toml_file},
+    analysis::{Analysed, Parsed, Version, toml_file},
     large::Large,
+    latest::Latest,
+    moved::Moves,
     part::LARGE,
     position::Encoding,
     text::Text,
@@ -9,7 +11,7 @@ use crate::{
 use std::{
     sync::{
         Arc,
-        atomic::{AtomicI32, Ordering},
+        atomic::{AtomicU64, Ordering},
     },
     time::Duration,
 };
@@ -30,22 +32,30 @@ pub(crate) struct Document {
     pub(crate) opened: Option<String>,
     /// What is kept of a long one.
     pub(crate) large: Option<Large>,
-    /// The client's version of it.
-    pub(crate) version: i32,
-    /// The newest version, for work that wants to know whether it is still wanted; `i32::MAX` when closed.
-    pub(crate) newest: Arc<AtomicI32>,
+    /// Its version.
+    pub(crate) version: Version,
+    /// The server's number of the newest version, for work that wants to know whether it is still wanted; `u64::MAX` when closed.
+    pub(crate) newest: Arc<AtomicU64>,
+    /// What reads it, the whole of a long one, and its visible lines; what judges it.
+    pub(crate) reading: Latest,
+    /// See `reading`.
+    pub(crate) whole: Latest,
+    /// See `reading`.
+    pub(crate) visible: Latest,
+    /// See `reading`.
+    pub(crate) judging: Latest,
     /// Newest parsed version, perhaps of an older text.
     pub(crate) parsed: Option<Arc<Parsed>>,
     /// The pause after the last edit is over.
     pub(crate) due: bool,
     /// The version whose parse has begun, of a long text.
-    pub(crate) parsing: Option<i32>,
+    pub(crate) parsing: Option<Version>,
     /// The analysis of this version has begun: it begins once.
     pub(crate) started: bool,
     /// Newest analysis, perhaps of an older version.
     pub(crate) analysed: Option<Arc<Analysed>>,
-    /// The edits since the newest analysis, bytes: start, end before, end after. Not kept of a long text.
-    pub(crate) since: Vec<(u32, u32, u32)>,
+    /// The edits since the newest analysis. Not kept of a long text.
+    pub(crate) since: Moves,
     /// Its check is shown as work in progress until this is dropped.
     pub(crate) progress: Option<tokio::sync::oneshot::Sender<()>>,
     /// How long the last analysis took: the pause after an edit follows it.
@@ -54,30 +64,39 @@ pub(crate) struct Document {
 
 impl Document {
     /// A document as opened.
-    pub(crate) fn open(uri: &Url, text: String, version: i32) -> Self {
+    pub(crate) fn open(uri: &Url, text: String, version: Version) -> Self {
         let large = text.len() > LARGE && toml_file(uri, &text).is_none();
         Self {
             text: Text::new(&text),
             opened: Some(text),
             large: large.then(Large::default),
             version,
-            newest: Arc::new(AtomicI32::new(version)),
+            newest: Arc::new(AtomicU64::new(version.own)),
+            reading: Latest::default(),
+            whole: Latest::default(),
+            visible: Latest::default(),
+            judging: Latest::default(),
             parsed: None,
             due: true,
             parsing: None,
             started: false,
             analysed: None,
-            since: Vec::new(),
+            since: Moves::default(),
             progress: None,
             last_run: Duration::ZERO,
         }
     }
 
     /// Applies the client's edits in their order.
-    pub(crate) fn change(&mut self, version: i32, changes: Vec<TextDocumentContentChangeEvent>, encoding: Encoding) {
+    pub(crate) fn change(
+        &mut self,
+        version: Version,
+        changes: Vec<TextDocumentContentChangeEvent>,
+        encoding: Encoding,
+    ) {
         for change in changes {
             let Some(range) = change.range else {
-                self.since = vec![(0, u32::MAX, u32::MAX)];
+                self.since.clear();
                 self.text = Text::new(&change.text);
                 self.large = (self.text.len() > LARGE).then(Large::default);
                 (self.parsed, self.analysed) = (None, None);
@@ -92,14 +111,13 @@ impl Document {
                 self.text.replace(start..end, &change.text);
                 large.after(lines, self.text.lines() as i64 - before as i64);
             } else {
-                let now = (start + change.text.len()) as u32;
-                self.since.push((start as u32, end as u32, now));
+                self.since.edit(start as u32..end as u32, change.text.len() as u32);
                 self.text.replace(start..end, &change.text);
             }
         }
         self.opened = None;
         self.version = version;
-        self.newest.store(version, Ordering::SeqCst);
+        self.newest.store(version.own, Ordering::SeqCst);
         if self.large.is_some() {
             // the memory of a second whole version is not spent
             (self.parsed, self.analysed) = (None, None);
@@ -108,16 +126,7 @@ impl Document {
 
     /// A finding of the newest analysis where it stands now; `None` where its place was edited.
     pub(crate) fn moved(&self, found: &Diagnostic) -> Option<Diagnostic> {
-        let place = |mut range: TextRange| {
-            for &(start, end, now) in &self.since {
-                if range.start >= end {
-                    range = TextRange::new(range.start - end + now, range.end - end + now);
-                } else if range.end >= start {
-                    return None;
-                }
-            }
-            Some(range)
-        };
+        let place = |range: TextRange| self.since.moved(range);
         let mut found = found.clone();
         found.range = place(found.range)?;
         found.last = place(found.last).unwrap_or(found.range);

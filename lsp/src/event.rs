@@ -1,6 +1,6 @@
 //! What reaches the owner of the state.
 use crate::{
-    analysis::{Analysed, Parsed},
+    analysis::{Analysed, Parsed, Version},
     part::Part,
     snapshot::{Need, Snapshot},
 };
@@ -31,7 +31,7 @@ pub(crate) enum Event {
     /// A settings or machine file changed on disk.
     FilesChanged,
     /// The pause after an edit is over.
-    Due { uri: Url, version: i32 },
+    Due { uri: Url, version: Version },
     /// A version is parsed.
     Parsed(Arc<Parsed>),
     /// What the text alone says is found; the rules of the machine follow.
@@ -41,7 +41,7 @@ pub(crate) enum Event {
     /// Lines of a long document are judged before the whole is; `None` where they cannot be.
     Part {
         uri: Url,
-        version: i32,
+        version: Version,
         part: Option<Box<Part>>,
     },
     /// A request about a document; `near`: it asks about these lines alone, so that they are enough of a long document.
@@ -54,7 +54,7 @@ pub(crate) enum Event {
     /// A request about some lines of a version, which the whole alone can answer.
     AskWhole {
         uri: Url,
-        version: i32,
+        version: Version,
         need: Need,
         work: Work,
     },

@@ -1,6 +1,6 @@
 //! The other programs of a folder: open ones as they are in the editor, the rest from disk, kept while they do not change.
 use crate::{
-    analysis::{Parsed, Source, parse},
+    analysis::{Parsed, Source, Version, parse},
     position::{self, Encoding},
 };
 use std::{
@@ -120,7 +120,7 @@ impl Folder {
             return Some(other);
         }
         let text = std::fs::read_to_string(path).ok()?;
-        let parsed = Arc::new(parse(uri.clone(), 0, text, &self.overrides, 1));
+        let parsed = Arc::new(parse(uri.clone(), Version::default(), text, &self.overrides, 1));
         let other = Arc::new(Other { uri, parsed });
         self.kept
             .lock()

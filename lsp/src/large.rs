@@ -18,6 +18,9 @@ const ROUND: usize = 100;
 /// More lines are not visible at once.
 const MOST_VISIBLE: usize = 1000;
 
+/// Edited lines with more bytes are not read at each edit.
+const MOST_BYTES: usize = 1 << 16;
+
 /// One finding as it was published.
 #[derive(Clone)]
 pub(crate) struct Published {
@@ -48,7 +51,8 @@ pub(crate) struct Large {
 impl Large {
     /// An edit of this text comes: whether it touches what counts for the whole program.
     pub(crate) fn before(&mut self, text: &Text, range: Range<usize>, new: &str) {
-        self.unsettled |= range.len() > MOST_VISIBLE || has_directive(new.as_bytes());
+        let bytes = text.start_of(range.end + 1) - text.start_of(range.start);
+        self.unsettled |= range.len() > MOST_VISIBLE || bytes > MOST_BYTES || has_directive(new.as_bytes());
         if !self.unsettled {
             let old = text.of_lines(range.start..range.end + 1).to_ascii_lowercase();
             self.unsettled = old.contains("trunnion");

@@ -1,7 +1,8 @@
 //! Floor 8: the language server. Only this crate knows LSP, JSON-RPC and tokio.
 //!
 //! One thread owns all state (`owner`); handlers only put events into its inbox, so that edits stay in wire order, and
-//! await an answer. Work that takes time runs on a pool with a snapshot; newest version wins.
+//! await an answer. Work that takes time runs on a pool with a snapshot; newest version wins, and of what is
+//! to be read, judged or sent only the newest waits (`latest`, `outbox`).
 mod analysis;
 mod backend;
 mod backplot;
@@ -18,6 +19,8 @@ mod folder;
 mod frames;
 mod hover;
 mod large;
+mod latest;
+mod moved;
 mod names;
 mod navigate;
 mod outbox;

@@ -1,13 +1,13 @@
 //! The single owner of all state: one thread, one inbox, events in order.
 use crate::{
-    analysis::{Analysed, Parsed, analyse, parse},
+    analysis::{Analysed, Parsed, Version, analyse, parse},
     backend::wants_utf8,
     cheap,
     document::Document,
     event::Event,
     folder::Folder,
     large::Large,
-    outbox::Message,
+    outbox::{Message, Outbox},
     position::Encoding,
     settings::{self, Shown},
     status::status,
@@ -16,10 +16,7 @@ use crate::{
 use std::{
     collections::BTreeMap,
     path::PathBuf,
-    sync::{
-        Arc,
-        atomic::{AtomicI32, Ordering},
-    },
+    sync::{Arc, atomic::Ordering},
 };
 use tokio::{
     runtime::Handle,
@@ -32,9 +29,11 @@ const LONG: usize = 20_000;
 
 pub(crate) struct Owner {
     inbox: mpsc::UnboundedSender<Event>,
-    outbox: mpsc::UnboundedSender<Message>,
+    outbox: Outbox,
     runtime: Handle,
     documents: BTreeMap<Url, Document>,
+    /// How many versions there were, of all documents.
+    versions: u64,
     waiting: Vec<asked::Waiting>,
     folder: Folder,
     encoding: Encoding,
@@ -48,18 +47,17 @@ pub(crate) struct Owner {
 
 mod asked;
 mod long;
+#[cfg(test)]
+mod tests;
 
 impl Owner {
-    pub(crate) fn new(
-        inbox: mpsc::UnboundedSender<Event>,
-        outbox: mpsc::UnboundedSender<Message>,
-        runtime: Handle,
-    ) -> Self {
+    pub(crate) fn new(inbox: mpsc::UnboundedSender<Event>, outbox: Outbox, runtime: Handle) -> Self {
         Self {
             inbox,
             outbox,
             runtime,
             documents: BTreeMap::new(),
+            versions: 0,
             waiting: Vec::new(),
             folder: Folder::default(),
             encoding: Encoding::Utf16,
@@ -82,10 +80,18 @@ impl Owner {
         match event {
             Event::Initialize(params) => self.initialize(&params),
             Event::Open { uri, version, text } => {
-                self.documents.insert(uri.clone(), Document::open(&uri, text, version));
+                let version = self.version(version);
+                let document = Document::open(&uri, text, version);
+                if let Some(before) = self.documents.insert(uri.clone(), document) {
+                    before.newest.store(u64::MAX, Ordering::SeqCst);
+                    self.drop_stale(&uri, Some(version));
+                }
                 self.start_parsing(&uri);
             }
-            Event::Change { uri, version, changes } => self.change(&uri, version, changes),
+            Event::Change { uri, version, changes } => {
+                let version = self.version(version);
+                self.change(&uri, version, changes);
+            }
             Event::Close { uri } => self.close(&uri),
             Event::Configure(value) => {
                 self.folder.overrides = settings::overrides(&value);
@@ -124,6 +130,13 @@ impl Owner {
         }
     }
 
+    /// A version that there was not before.
+    fn version(&mut self, client: i32) -> Version {
+        self.versions += 1;
+        let own = self.versions;
+        Version { client, own }
+    }
+
     fn initialize(&mut self, params: &InitializeParams) {
         if wants_utf8(params) {
             self.encoding = Encoding::Utf8;
@@ -148,7 +161,12 @@ impl Owner {
         self.folder.roots = Arc::new(roots);
     }
 
-    fn change(&mut self, uri: &Url, version: i32, changes: Vec<tower_lsp::lsp_types::TextDocumentContentChangeEvent>) {
+    fn change(
+        &mut self,
+        uri: &Url,
+        version: Version,
+        changes: Vec<tower_lsp::lsp_types::TextDocumentContentChangeEvent>,
+    ) {
         let Some(document) = self.documents.get_mut(uri) else {
             return;
         };
@@ -156,7 +174,7 @@ impl Owner {
         (document.due, document.started) = (false, false);
         let (pause, inbox, due) = (document.pause(), self.inbox.clone(), uri.clone());
         let large = document.large.as_ref().map(|large| large.base.is_some());
-        self.drop_stale(uri, version);
+        self.drop_stale(uri, Some(version));
         match large {
             Some(true) => self.start_part(uri),
             // its beginning is read again
@@ -170,9 +188,9 @@ impl Owner {
 
     fn close(&mut self, uri: &Url) {
         if let Some(document) = self.documents.remove(uri) {
-            document.newest.store(i32::MAX, Ordering::SeqCst);
-            self.drop_stale(uri, i32::MAX);
-            let _ = self.outbox.send(Message::Diagnostics(uri.clone(), Vec::new(), None));
+            document.newest.store(u64::MAX, Ordering::SeqCst);
+            self.drop_stale(uri, None);
+            self.outbox.send(Message::Diagnostics(uri.clone(), Vec::new(), None));
         }
     }
 
@@ -181,6 +199,7 @@ impl Owner {
         self.folder.forget();
         let uris: Vec<Url> = self.documents.keys().cloned().collect();
         for uri in uris {
+            self.versions += 1;
             if let Some(document) = self.documents.get_mut(&uri) {
                 // A run with the old settings must not be taken as the answer for the new ones.
                 (document.parsed, document.analysed, document.due) = (None, None, true);
@@ -189,8 +208,8 @@ impl Owner {
                 if let Some(large) = &mut document.large {
                     *large = Large::default();
                 }
-                document.newest.store(i32::MIN, Ordering::SeqCst);
-                document.newest = Arc::new(AtomicI32::new(document.version));
+                document.version.own = self.versions;
+                document.newest.store(self.versions, Ordering::SeqCst);
             }
             self.start_parsing(&uri);
         }
@@ -204,14 +223,15 @@ impl Owner {
             return self.start_large(uri);
         }
         let (uri, version) = (uri.clone(), document.version);
-        let text = document.opened.take().unwrap_or_else(|| document.text.whole());
+        let (opened, text) = (document.opened.take(), document.text.clone());
         let (newest, overrides) = (Arc::clone(&document.newest), self.folder.overrides.clone());
         let inbox = self.inbox.clone();
-        self.runtime.spawn_blocking(move || {
-            let cancelled = || newest.load(Ordering::SeqCst) != version;
+        let read = move || {
+            let cancelled = || newest.load(Ordering::SeqCst) != version.own;
             if cancelled() {
                 return;
             }
+            let text = opened.unwrap_or_else(|| text.whole());
             let parsed = Arc::new(parse(uri, version, text, &overrides, 1));
             if cancelled() {
                 return;
@@ -222,7 +242,11 @@ impl Owner {
             {
                 let _ = inbox.send(Event::Cheap(parsed, found));
             }
-        });
+        };
+        let pool = &self.runtime;
+        document
+            .reading
+            .run(version.own, |turn| drop(pool.spawn_blocking(turn)), read);
     }
 
     fn start_analysis(&mut self, uri: &Url) {
@@ -245,25 +269,28 @@ impl Owner {
             let (running, done) = oneshot::channel();
             document.progress = Some(running);
             self.works += 1;
-            let _ = self
-                .outbox
+            self.outbox
                 .send(Message::Progress(self.works, "Checking the program".to_owned(), done));
         }
         let (newest, inbox, version) = (Arc::clone(&document.newest), self.inbox.clone(), document.version);
         let is_long = document.large.is_some();
         let job = move || {
-            let cancelled = || newest.load(Ordering::SeqCst) != version;
+            let cancelled = || newest.load(Ordering::SeqCst) != version.own;
             if let Some(analysed) = analyse(parsed, &cancelled)
                 && !cancelled()
             {
                 let _ = inbox.send(Event::Analysed(Arc::new(analysed)));
             }
         };
-        if is_long {
-            self.long.run(job);
-        } else {
-            self.runtime.spawn_blocking(job);
-        }
+        let (long, pool) = (&self.long, &self.runtime);
+        let spawn = |turn| {
+            if is_long {
+                long.run(turn);
+            } else {
+                pool.spawn_blocking(turn);
+            }
+        };
+        document.judging.run(version.own, spawn, job);
     }
 
     /// Takes a parsed version, answers the requests that waited for it, and goes on to its analysis. The rules that need no machine wait
@@ -272,7 +299,8 @@ impl Owner {
         let Some(document) = self.documents.get_mut(&parsed.uri) else {
             return;
         };
-        let current = document.version == parsed.version && document.newest.load(Ordering::SeqCst) == parsed.version;
+        let current =
+            document.version == parsed.version && document.newest.load(Ordering::SeqCst) == parsed.version.own;
         if !current || document.is_parsed() {
             return;
         }
@@ -281,7 +309,7 @@ impl Owner {
             let found = to_proto::of_toml(parsed, self.encoding);
             if self.shown.push {
                 let message = Message::Diagnostics(parsed.uri.clone(), found, Some(parsed.version));
-                let _ = self.outbox.send(message);
+                self.outbox.send(message);
             }
             self.answer(&parsed.uri.clone());
             return;
@@ -318,8 +346,7 @@ impl Owner {
         );
         found.sort_by_key(|one| one.range);
         let list = to_proto::of(parsed, &found, self.encoding);
-        let _ = self
-            .outbox
+        self.outbox
             .send(Message::Diagnostics(parsed.uri.clone(), list, Some(parsed.version)));
     }
 
@@ -342,11 +369,12 @@ impl Owner {
         }
         if self.shown.push {
             let message = Message::Diagnostics(parsed.uri.clone(), diagnostics, Some(parsed.version));
-            let _ = self.outbox.send(message);
+            self.outbox.send(message);
         }
-        let _ = self.outbox.send(Message::Status(Box::new(status(analysed))));
+        self.outbox
+            .send(Message::Status(Box::new(status(analysed)), parsed.version));
         if self.refresh {
-            let _ = self.outbox.send(Message::Refresh);
+            self.outbox.send(Message::Refresh);
         }
         self.answer(&parsed.uri.clone());
     }

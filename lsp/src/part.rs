@@ -4,7 +4,7 @@
 //! can work on it. It continues from a check-point of the last whole run that is before every edit since. The whole follows after a pause, and
 //! what it finds replaces what a part found.
 use crate::{
-    analysis::{Analysed, Parsed, Source, settings_of},
+    analysis::{Analysed, Parsed, Source, Version, settings_of},
     position::Lines,
     text::Text,
 };
@@ -56,7 +56,7 @@ impl Part {
 /// What a part is made of.
 pub(crate) struct Plan {
     pub(crate) uri: Url,
-    pub(crate) version: i32,
+    pub(crate) version: Version,
     pub(crate) text: Text,
     pub(crate) base: Base,
     /// The first line that differs from the text of the whole run.
@@ -64,12 +64,29 @@ pub(crate) struct Plan {
     pub(crate) lines: Range<usize>,
 }
 
+/// What a directive begins with, before its colon.
+const NAME: &[u8] = b"trunnion";
+
 /// Whether a text addresses Trunnion: such comments count for the whole program.
 pub(crate) fn has_directive(text: &[u8]) -> bool {
-    const NAME: &[u8] = b"trunnion";
     memchr::memchr_iter(b':', text).any(|at| {
         let before = &text[at.saturating_sub(NAME.len())..at];
         before.eq_ignore_ascii_case(NAME)
+    })
+}
+
+/// [`has_directive`] of a text that comes in pieces, which may end inside a line.
+fn piece_has_directive<'t>(mut pieces: impl Iterator<Item = &'t str>) -> bool {
+    let mut seam: Vec<u8> = Vec::new();
+    pieces.any(|piece| {
+        let piece = piece.as_bytes();
+        seam.extend(&piece[..piece.len().min(NAME.len() + 1)]);
+        let found = has_directive(&seam) || has_directive(piece);
+        if piece.len() > NAME.len() {
+            seam = piece[piece.len() - NAME.len()..].to_vec();
+        }
+        seam.drain(..seam.len().saturating_sub(NAME.len()));
+        found
     })
 }
 
@@ -125,12 +142,12 @@ impl Plan {
 }
 
 /// The beginning of a document that opens. `None` where its settings cannot be used, or where the rest says how it is to be judged.
-pub(crate) fn first(uri: &Url, version: i32, text: &Text, overrides: &Overrides) -> Option<Part> {
+pub(crate) fn first(uri: &Url, version: Version, text: &Text, overrides: &Overrides) -> Option<Part> {
     let mut decide = FIRST.min(text.lines());
     while text.start_of(decide) < FIRST_BYTES.min(text.len()) {
         decide *= 2;
     }
-    if text.behind(decide).any(|piece| has_directive(piece.as_bytes())) {
+    if piece_has_directive(text.behind(decide)) {
         return None;
     }
     let head = text.of_lines(0..decide);
@@ -147,4 +164,25 @@ pub(crate) fn first(uri: &Url, version: i32, text: &Text, overrides: &Overrides)
         lines: 0..FIRST.min(decide),
     };
     plan.judge()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::piece_has_directive;
+
+    #[test]
+    fn a_directive_is_found_wherever_a_text_is_cut() {
+        let text = "G1 X1 (Trunnion: machine a)\nX2";
+        for first in 0..text.len() {
+            for second in first..text.len() {
+                let pieces = [&text[..first], &text[first..second], &text[second..]];
+                assert!(piece_has_directive(pieces.into_iter()), "{pieces:?}");
+            }
+        }
+        let bytes = (0..text.len()).map(|at| &text[at..=at]);
+        assert!(piece_has_directive(bytes));
+        assert!(!piece_has_directive(
+            ["(trunnion", " :", "trun", "n", "ion ", ":"].into_iter()
+        ));
+    }
 }

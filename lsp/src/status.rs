@@ -1,11 +1,14 @@
 //! The state of a document for a status bar.
-use crate::{analysis::Analysed, outbox::Status};
+use crate::{
+    analysis::{Analysed, Version},
+    outbox::Status,
+};
 use tower_lsp::lsp_types::Url;
 use trunnion_check::{Severity, Verdict};
 use trunnion_workspace::Resolved;
 
 /// The state of a document of which only a part is judged so far: it has no verdict.
-pub(crate) fn checking(uri: &Url, version: i32, resolved: &Resolved) -> Status {
+pub(crate) fn checking(uri: &Url, version: Version, resolved: &Resolved) -> Status {
     Status {
         uri: uri.clone(),
         machine: resolved.machine.as_ref().map(|machine| machine.id.clone()),
@@ -15,7 +18,7 @@ pub(crate) fn checking(uri: &Url, version: i32, resolved: &Resolved) -> Status {
         errors: 0,
         warnings: 0,
         unknown: 0,
-        version,
+        version: version.client,
         blocks: 0,
         blocks_run: 0,
         cycle_time_s: None,
@@ -54,7 +57,7 @@ pub(crate) fn status(analysed: &Analysed) -> Status {
             errors: 1,
             warnings: 0,
             unknown: 0,
-            version,
+            version: version.client,
             blocks: 0,
             blocks_run: 0,
             cycle_time_s: None,

@@ -5,7 +5,7 @@ use tower_lsp::lsp_types::{
     CodeLens, Command, DocumentLink, DocumentSymbol, FoldingRange, FoldingRangeKind, Location, Position,
     SelectionRange, SymbolInformation, SymbolKind,
 };
-use trunnion_ide::{Kind, Node, NodeKind, Role, calls_of, folds, operation_times, selections};
+use trunnion_ide::{Kind, Node, NodeKind, Role, Selections, calls_of, folds, operation_times};
 
 fn kind(node: NodeKind) -> SymbolKind {
     match node {
@@ -117,16 +117,13 @@ fn longest(mut found: Vec<trunnion_ide::Fold>, most: usize) -> Vec<trunnion_ide:
 
 /// What "expand selection" takes at each position.
 pub(crate) fn selection(snapshot: &Snapshot, positions: &[Position]) -> Vec<SelectionRange> {
+    let source = snapshot.source();
+    let mut selections = source.map(|source| Selections::new(&source.program, source.names(), source.outline()));
     let at = |position: &Position| {
         let here = tower_lsp::lsp_types::Range::new(*position, *position);
-        let ranges = snapshot.source().map(|source| {
-            selections(
-                &source.program,
-                source.resolved.dialect,
-                source.names(),
-                snapshot.offset(*position),
-            )
-        });
+        let ranges = selections
+            .as_mut()
+            .map(|selections| selections.at(snapshot.offset(*position)));
         let outer = ranges
             .unwrap_or_default()
             .into_iter()

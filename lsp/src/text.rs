@@ -1,38 +1,58 @@
-//! The text of a document in pieces, so that an edit copies one of them and not the file.
+//! The text of a document in pieces, so that an edit copies one of them and not the file; also where the file is one line.
 use crate::position::{Encoding, Lines, offset};
 use core::ops::Range;
 use std::sync::Arc;
 use tower_lsp::lsp_types::Position;
 use trunnion_syntax::line_starts;
 
-/// Pieces have about this many bytes.
+/// Pieces have about this many bytes, and at most twice as many.
 const PIECE: usize = 1 << 15;
 
-/// Whole lines, the last one of a text perhaps without its end.
+/// Whole lines, or a part of a long one.
 #[derive(Debug)]
 struct Piece {
     text: String,
     /// How many line ends it has.
     ends: usize,
+    /// What stands behind its last line end, bytes and UTF-16 code units.
+    tail: (u32, u32),
 }
 
-/// See the module. Every piece but the last ends with a line feed. A clone shares the pieces.
+impl Piece {
+    fn new(text: &str) -> Self {
+        let starts = line_starts(text.as_bytes());
+        let tail = &text[starts.last().map_or(0, |start| *start as usize)..];
+        let units: usize = tail.chars().map(char::len_utf16).sum();
+        Self {
+            text: text.to_owned(),
+            ends: starts.len() - 1,
+            tail: (tail.len() as u32, units as u32),
+        }
+    }
+}
+
+/// See the module. No line end of two bytes is cut. A clone shares the pieces.
 #[derive(Clone, Debug)]
 pub(crate) struct Text {
     pieces: Vec<Arc<Piece>>,
 }
 
-/// Cuts a text after line feeds.
+/// Cuts a text after line feeds; a line that is too long, between two characters.
 fn cut(mut text: &str) -> Vec<Arc<Piece>> {
     let mut pieces = Vec::with_capacity(text.len() / PIECE + 1);
     while !text.is_empty() {
-        let end =
-            memchr::memchr(b'\n', &text.as_bytes()[PIECE.min(text.len())..]).map_or(text.len(), |at| PIECE + at + 1);
+        let bytes = text.as_bytes();
+        let most = text.len().min(2 * PIECE);
+        let end = match memchr::memchr(b'\n', &bytes[PIECE.min(most)..most]) {
+            Some(at) => PIECE + at + 1,
+            None if text.len() <= 2 * PIECE => text.len(),
+            None => {
+                let between = text.floor_char_boundary(PIECE);
+                between - usize::from(bytes[between] == b'\n')
+            }
+        };
         let (piece, rest) = text.split_at(end);
-        pieces.push(Arc::new(Piece {
-            text: piece.to_owned(),
-            ends: line_starts(piece.as_bytes()).len() - 1,
-        }));
+        pieces.push(Arc::new(Piece::new(piece)));
         text = rest;
     }
     pieces
@@ -53,12 +73,11 @@ impl Text {
         self.pieces.iter().map(|piece| piece.ends).sum::<usize>() + 1
     }
 
-    /// The piece of a line, its first byte and its first line; the end of the text for a line behind it.
+    /// The piece in which a line starts, perhaps at its end, its first byte and its first line; the end of the text for a line behind it.
     fn piece_of(&self, line: usize) -> (usize, usize, usize) {
         let (mut byte, mut first) = (0, 0);
         for (index, piece) in self.pieces.iter().enumerate() {
-            let last = index + 1 == self.pieces.len();
-            if line < first + piece.ends || last && line == first + piece.ends {
+            if line <= first + piece.ends {
                 return (index, byte, first);
             }
             byte += piece.text.len();
@@ -78,13 +97,23 @@ impl Text {
 
     /// Byte of a position; beyond the end of a line or text it is that end.
     pub(crate) fn offset(&self, position: Position, encoding: Encoding) -> usize {
-        let (index, byte, first) = self.piece_of(position.line as usize);
-        let Some(piece) = self.pieces.get(index) else {
-            return byte;
-        };
-        let inside = Position::new(position.line - first as u32, position.character);
-        let text = piece.text.as_bytes();
-        byte + offset(text, &Lines::new(text), inside, encoding)
+        let (index, mut byte, first) = self.piece_of(position.line as usize);
+        let mut inside = Position::new(position.line - first as u32, position.character);
+        for (index, piece) in self.pieces.iter().enumerate().skip(index) {
+            let width = match encoding {
+                Encoding::Utf8 => piece.tail.0,
+                Encoding::Utf16 => piece.tail.1,
+            };
+            // a long line goes on in the next piece
+            let goes_on = inside.line as usize == piece.ends && index + 1 < self.pieces.len();
+            if !goes_on || inside.character < width {
+                let text = piece.text.as_bytes();
+                return byte + offset(text, &Lines::new(text), inside, encoding);
+            }
+            inside = Position::new(0, inside.character - width);
+            byte += piece.text.len();
+        }
+        byte
     }
 
     /// Whole lines.
@@ -134,9 +163,9 @@ impl Text {
         }
         let first = index;
         let mut text = String::new();
-        // the pieces that the range touches, and then on to a line feed
+        // the pieces that the range touches; the next one may begin with the rest of a line end
         while let Some(piece) = self.pieces.get(index)
-            && (at <= bytes.end || !text.ends_with('\n'))
+            && (at <= bytes.end || text.ends_with('\r'))
         {
             let end = at + piece.text.len();
             if (at..=end).contains(&bytes.start) && index == first {
@@ -157,8 +186,9 @@ impl Text {
 
 #[cfg(test)]
 mod tests {
-    use super::{PIECE, Text};
+    use super::{PIECE, Piece, Text};
     use crate::position::{Encoding, Lines, offset};
+    use std::sync::Arc;
     use tower_lsp::lsp_types::Position;
 
     fn compare(text: &Text, plain: &str) {
@@ -171,7 +201,7 @@ mod tests {
         for line in lines {
             let start = starts.get(line).map_or(plain.len(), |start| *start as usize);
             assert_eq!(text.start_of(line), start, "{line}");
-            for character in [0, 3, 99] {
+            for character in [0, 3, 99, 40_000, 2_000_000] {
                 let at = Position::new(line as u32, character);
                 let expected = offset(plain.as_bytes(), &starts, at, Encoding::Utf16);
                 assert_eq!(text.offset(at, Encoding::Utf16), expected, "{at:?}");
@@ -179,12 +209,9 @@ mod tests {
             let end = starts.get(line + 2).map_or(plain.len(), |start| *start as usize);
             assert_eq!(text.of_lines(line..line + 2), plain[start..end.max(start)]);
         }
-        let all = text.pieces.len();
-        assert!(
-            text.pieces[..all.saturating_sub(1)]
-                .iter()
-                .all(|piece| piece.text.ends_with('\n'))
-        );
+        assert!(text.pieces.iter().all(|piece| piece.text.len() <= 2 * PIECE));
+        let cut = |pair: &[Arc<Piece>]| pair[0].text.ends_with('\r') && pair[1].text.starts_with('\n');
+        assert!(!text.pieces.windows(2).any(cut));
     }
 
     #[test]
@@ -201,7 +228,8 @@ mod tests {
             (seed >> 33) as usize % (below + 1)
         };
         let long = "Y1\n".repeat(PIECE);
-        let new = ["", "\n", "\r", "X1", "\r\n", "G1\nG2\n", &long];
+        let line = "X1 \u{e4}\u{1f527}".repeat(PIECE / 4);
+        let new = ["", "\n", "\r", "X1", "\r\n", "G1\nG2\n", &long, &line];
         for turn in 0..300 {
             let mut start = random(plain.len());
             // the ends of pieces are where mistakes are
@@ -226,5 +254,23 @@ mod tests {
         compare(&text, "");
         text.replace(0..0, "G1");
         compare(&text, "G1");
+    }
+
+    #[test]
+    fn an_edit_copies_few_bytes_of_a_long_line() {
+        let mut text = Text::new(&"X1 ".repeat(30 * PIECE));
+        for turn in 0..1000 {
+            let before = text.clone();
+            let at = text.offset(Position::new(0, 40 * PIECE as u32), Encoding::Utf16);
+            assert_eq!(at, 40 * PIECE);
+            text.replace(at..at + turn % 2, "X\r");
+            text.replace(at + 1..at + 2, "");
+            let copied = text
+                .pieces
+                .iter()
+                .filter(|piece| !before.pieces.iter().any(|old| Arc::ptr_eq(old, piece)));
+            assert!(copied.map(|piece| piece.text.len()).sum::<usize>() <= 4 * PIECE);
+        }
+        assert!(text.pieces.len() < 100, "{}", text.pieces.len());
     }
 }

@@ -26,7 +26,7 @@ pub use hints::{Hint, HintKind, hints};
 pub use names::{Kind, Names, Occurrence, Role, Scope, names};
 pub use outline::{Node, NodeKind, outline};
 pub use rename::{RenameError, check_new_name, rename};
-pub use select::selections;
+pub use select::Selections;
 pub use signature::{Signature, signature};
 pub use times::operation_times;
 pub use tokens::{TOKEN_TYPES, Token, tokens};

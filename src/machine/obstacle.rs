@@ -32,6 +32,14 @@ pub enum Footprint {
 }
 
 impl Footprint {
+    /// Lowest and highest coordinates, mm.
+    pub fn extent(&self) -> [Point; 2] {
+        match self {
+            Self::Polygon(polygon) => polygon.extent(),
+            Self::Circle { centre, radius } => [-1.0, 1.0].map(|side| centre + Point::repeat(side * radius)),
+        }
+    }
+
     /// Distance of a segment from it, mm; 0 where they touch or cross.
     pub fn segment_distance(&self, from: &Point, to: &Point) -> f64 {
         match self {

@@ -1,6 +1,7 @@
 //! Requests: answered from a snapshot when the version they ask about is there.
 use super::Owner;
 use crate::{
+    analysis::Version,
     document::Document,
     event::Work,
     folder::Folder,
@@ -13,7 +14,7 @@ use tower_lsp::lsp_types::Url;
 /// A request that waits for its document's version.
 pub(super) struct Waiting {
     uri: Url,
-    version: i32,
+    version: Version,
     need: Need,
     near: Option<Range<usize>>,
     work: Work,
@@ -93,10 +94,10 @@ impl Owner {
     }
 
     /// Requests on a version that is no longer the newest get "content modified".
-    pub(super) fn drop_stale(&mut self, uri: &Url, newest: i32) {
+    pub(super) fn drop_stale(&mut self, uri: &Url, newest: Option<Version>) {
         let (stale, rest) = std::mem::take(&mut self.waiting)
             .into_iter()
-            .partition(|w: &Waiting| w.uri == *uri && w.version != newest);
+            .partition(|w: &Waiting| w.uri == *uri && Some(w.version) != newest);
         self.waiting = rest;
         for waiting in stale {
             (waiting.work)(None);

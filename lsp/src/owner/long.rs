@@ -1,7 +1,7 @@
 //! Long documents: the visible lines are judged at once, the whole after a pause.
 use super::Owner;
 use crate::{
-    analysis::parse,
+    analysis::{Version, parse},
     event::{Event, Work},
     outbox::Message,
     part::{self, Part},
@@ -67,7 +67,7 @@ impl Owner {
             )
         });
         let whole = move || {
-            let cancelled = || newest.load(Ordering::SeqCst) != version;
+            let cancelled = || newest.load(Ordering::SeqCst) != version.own;
             if cancelled() {
                 return;
             }
@@ -78,21 +78,25 @@ impl Owner {
                 let _ = inbox.send(Event::Parsed(Arc::new(parsed)));
             }
         };
+        let (long, reads) = (self.long.clone(), document.whole.clone());
         let Some((uri, text, overrides, inbox, newest)) = beginning else {
-            return self.long.run(whole);
+            return reads.run(version.own, |turn| long.run(turn), whole);
         };
         // the whole takes all cores: it waits until the beginning is shown
-        let long = self.long.clone();
-        self.runtime.spawn_blocking(move || {
+        let begin = move || {
             if let Some(part) = part::first(&uri, version, &text, &overrides)
-                && newest.load(Ordering::SeqCst) == version
+                && newest.load(Ordering::SeqCst) == version.own
             {
                 let part = Some(Box::new(part));
                 let _ = inbox.send(Event::Part { uri, version, part });
             }
             drop(text);
-            long.run(whole);
-        });
+            reads.run(version.own, |turn| long.run(turn), whole);
+        };
+        let pool = &self.runtime;
+        document
+            .reading
+            .run(version.own, |turn| drop(pool.spawn_blocking(turn)), begin);
     }
 
     /// After an edit, judges the visible lines.
@@ -106,16 +110,20 @@ impl Owner {
             document.version,
         );
         let (uri, inbox) = (uri.clone(), self.inbox.clone());
-        self.runtime.spawn_blocking(move || {
-            if newest.load(Ordering::SeqCst) == version {
+        let judge = move || {
+            if newest.load(Ordering::SeqCst) == version.own {
                 let part = plan.and_then(|plan| plan.judge()).map(Box::new);
                 let _ = inbox.send(Event::Part { uri, version, part });
             }
-        });
+        };
+        let pool = &self.runtime;
+        document
+            .visible
+            .run(version.own, |turn| drop(pool.spawn_blocking(turn)), judge);
     }
 
     /// Publishes a part with the older findings of other lines. The document has no verdict until the whole is judged.
-    pub(super) fn take_part(&mut self, uri: &Url, version: i32, part: Option<Box<Part>>) {
+    pub(super) fn take_part(&mut self, uri: &Url, version: Version, part: Option<Box<Part>>) {
         let (push, encoding) = (self.shown.push, self.encoding);
         let Some(document) = self.documents.get_mut(uri) else {
             return;
@@ -142,10 +150,10 @@ impl Owner {
         large.told = true;
         let list = large.with_part(&lines, found);
         if push {
-            let _ = self.outbox.send(Message::Diagnostics(uri.clone(), list, Some(version)));
+            self.outbox.send(Message::Diagnostics(uri.clone(), list, Some(version)));
         }
         if let Some(status) = status {
-            let _ = self.outbox.send(Message::Status(Box::new(status)));
+            self.outbox.send(Message::Status(Box::new(status), version));
         }
         self.answer(uri);
     }
@@ -197,7 +205,7 @@ impl Owner {
     }
 
     /// Waits for the whole, if the version is still the newest.
-    pub(super) fn ask_whole(&mut self, uri: &Url, version: i32, need: Need, work: Work) {
+    pub(super) fn ask_whole(&mut self, uri: &Url, version: Version, need: Need, work: Work) {
         let newest = self.documents.get(uri).map(|document| document.version);
         if newest == Some(version) {
             self.ask(uri, need, None, work);

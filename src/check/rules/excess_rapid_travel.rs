@@ -69,7 +69,9 @@ fn check(arrival: &facts::Arrival<'_>, out: &mut Reporter<'_>) {
             .help("move there directly if nothing is in the way")
             .related(first, "the rapid motions start here");
     };
-    let past = past_obstacles(arrival);
+    // the way past obstacles is no shorter than the direct one
+    let is_far = far(rapids.way_mm, rapids.direct_mm, 1.0);
+    let past = is_far.then(|| past_obstacles(arrival)).flatten();
     let least_mm = past.unwrap_or(rapids.direct_mm).max(rapids.direct_mm);
     if far(rapids.way_mm, least_mm, 1.0) {
         out.event(|draft| {

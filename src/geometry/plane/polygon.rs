@@ -9,6 +9,8 @@ const SAME: f64 = 1e-9;
 pub struct Polygon {
     corners: Vec<Point>,
     crosses: bool,
+    /// Lowest and highest coordinates.
+    extent: [Point; 2],
 }
 
 /// Why corners are not a polygon.
@@ -53,12 +55,23 @@ impl Polygon {
         if area < 0.0 {
             kept.reverse();
         }
-        Ok(Self { corners: kept, crosses })
+        let low = kept.iter().fold(kept[0], |low, corner| low.inf(corner));
+        let high = kept.iter().fold(kept[0], |high, corner| high.sup(corner));
+        Ok(Self {
+            corners: kept,
+            crosses,
+            extent: [low, high],
+        })
     }
 
     /// Whether its sides cross or touch each other.
     pub fn is_crossed(&self) -> bool {
         self.crosses
+    }
+
+    /// Lowest and highest coordinates.
+    pub fn extent(&self) -> [Point; 2] {
+        self.extent
     }
 
     /// The corners, counter-clockwise.

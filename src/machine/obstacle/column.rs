@@ -126,15 +126,14 @@ fn hull(mut points: Vec<Point>) -> Vec<Point> {
     if lower.is_empty() { points } else { lower }
 }
 
-/// How near the columns of a tool come to one of the obstacles (all in one frame) on a straight line; `None`: it stays above it.
-pub(super) fn straight_gap(
-    obstacles: &[&Obstacle],
-    own: usize,
+/// How near the columns of a tool come to an obstacle on a straight line; `None`: it stays above it. `all`: those of its frame, with itself.
+pub(super) fn straight_gap<'o>(
+    obstacle: &Obstacle,
+    all: impl Fn() -> Vec<&'o Obstacle>,
     body: &ToolBody,
     (from, to): (&Vec3, &Vec3),
     keep: f64,
 ) -> Option<Gap> {
-    let obstacle = obstacles[own];
     let mut nearest: Option<Gap> = None;
     for (radius, above) in body.columns() {
         let raise = Vec3::new(0.0, 0.0, above);
@@ -143,14 +142,13 @@ pub(super) fn straight_gap(
         };
         let entered = || {
             // obstacles that are at least as high are one body with this one, so that nothing slips between two that touch
-            let rings = obstacles.iter().filter(|other| other.top >= obstacle.top);
-            let polygons = rings.filter_map(|other| match &other.footprint {
-                Footprint::Polygon(polygon) => Some(polygon.corners().to_vec()),
-                Footprint::Circle { .. } => None,
-            });
+            let polygon = |other: &Obstacle| match &other.footprint {
+                Footprint::Polygon(polygon) if other.top >= obstacle.top => Some(polygon.corners().to_vec()),
+                _ => None,
+            };
             match &obstacle.footprint {
                 Footprint::Polygon(_) if distance <= SLACK_MM => {
-                    Cover::new(polygons.collect()).is_entered(&start, &end)
+                    Cover::new(all().into_iter().filter_map(polygon).collect()).is_entered(&start, &end)
                 }
                 Footprint::Polygon(_) => false,
                 Footprint::Circle { centre, radius } => {
@@ -187,4 +185,44 @@ pub(super) fn corridor_gap(
     });
     let mm = gaps.fold(f64::INFINITY, f64::min);
     mm.is_finite().then_some(Gap { mm, through: false })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ObstacleKind;
+    use core::cell::Cell;
+
+    /// A tool with a width is judged against each obstacle alone, so that its effort does not grow with the square of their number.
+    #[test]
+    fn the_other_obstacles_are_asked_for_where_a_tool_without_width_touches() {
+        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|[x, y]| Point::new(x, y));
+        let obstacle = Obstacle {
+            name: "clamp".to_owned(),
+            axis: None,
+            footprint: Footprint::Polygon(Polygon::new(&corners).expect("a square")),
+            bottom: 0.0,
+            top: 20.0,
+            kind: ObstacleKind::Body,
+        };
+        let asked = Cell::new(0);
+        let all = || {
+            asked.set(asked.get() + 1);
+            vec![&obstacle]
+        };
+        let gap = |radius_mm: f64, y: f64| {
+            let body = ToolBody {
+                radius_mm,
+                holder_mm: None,
+                length_mm: None,
+            };
+            let ends = (&Vec3::new(-50.0, y, 5.0), &Vec3::new(50.0, y, 5.0));
+            let through = straight_gap(&obstacle, all, &body, ends, 1.0).map(|gap| gap.through);
+            (through, asked.replace(0))
+        };
+        assert_eq!(gap(4.0, 5.0), (Some(true), 0));
+        assert_eq!(gap(4.0, 15.0), (Some(false), 0));
+        assert_eq!(gap(0.0, 15.0), (Some(false), 0));
+        assert_eq!(gap(0.0, 5.0), (Some(true), 1));
+    }
 }

@@ -8,6 +8,7 @@ use super::frame::{radii, tool_in_frame};
 use super::{Footprint, Nearness, Obstacle, SLACK_MM, ToolBody};
 use crate::path::joint_path::JointPath;
 use crate::{AxisKind, Joints, Leg, Machine, Pose, RapidPath};
+use core::cell::Cell;
 use trunnion_geometry::Vec3;
 use trunnion_interp::MotionKind;
 
@@ -16,6 +17,9 @@ const HIGHEST_MM: f64 = 1000.0;
 
 /// Pieces that are looked at for one obstacle and one block.
 const MOST_PIECES: usize = 20_000;
+
+/// The same for all obstacles of a frame and one block.
+const MOST_OF_BLOCK: usize = 10 * MOST_PIECES;
 
 /// A piece is not cut where points of the tool move by less, mm.
 const FINEST_MM: f64 = 1e-4;
@@ -30,6 +34,8 @@ pub(super) struct Sweep<'a> {
     body: &'a ToolBody,
     /// The axes do not keep to the block's path: they arrive at their own times.
     independent: bool,
+    /// How many more pieces are looked at.
+    left: Cell<usize>,
 }
 
 /// A piece of time and of the tool's length.
@@ -64,6 +70,7 @@ impl<'a> Sweep<'a> {
             tool_length,
             body,
             independent,
+            left: Cell::new(MOST_OF_BLOCK),
         })
     }
 
@@ -80,6 +87,9 @@ impl<'a> Sweep<'a> {
                 Found::Clear => Nearness::Near(None),
                 Found::Undecided => Nearness::Unknown("whether the tool only comes near or touches is not decided"),
             },
+            Found::Undecided if self.left.get() == 0 => {
+                Nearness::Unknown("too many obstacles are near to the tool in this block for all to be looked at")
+            }
             Found::Undecided if self.independent => {
                 Nearness::Unknown("the machine file does not say that the axes arrive together in a rapid")
             }
@@ -104,9 +114,10 @@ impl<'a> Sweep<'a> {
         let mut undecided = false;
         while let Some(piece) = pieces.pop() {
             looked += 1;
-            if looked > MOST_PIECES {
+            let Some(left) = self.left.get().checked_sub(1).filter(|_| looked <= MOST_PIECES) else {
                 return Found::Undecided;
-            }
+            };
+            self.left.set(left);
             let [t0, t1] = piece.time;
             let joints = self.path.joints(f64::midpoint(t0, t1));
             let pose = tool_in_frame(self.machine, &joints, self.tool_length, self.frame);

@@ -35,89 +35,158 @@ pub struct Near {
 ///
 /// An upright tool on a straight line is judged exactly, as a column without upper end; where the axes do not certainly arrive together in a rapid, all
 /// that they may pass is judged. Otherwise the tool is a cylinder of its length, and the result is proved by bounds or unknown.
-/// The part is left out.
+/// The part is left out. The distance of what is far may be stated lower than it is.
 pub fn nearness(machine: &Machine, leg: &Leg, body: &ToolBody, keep: f64) -> Vec<Near> {
-    let mut found = nearness_with_part(machine, leg, body, keep);
-    found.retain(|near| !machine.obstacles[near.obstacle].is_part());
-    found
+    passed(machine, leg, (body, keep), |obstacle, seen| {
+        let judge = |seen: &Seen<'_>| seen.far(obstacle).unwrap_or_else(|| seen.nearness(obstacle));
+        (!obstacle.is_part()).then(|| seen.map(judge))
+    })
 }
 
-/// [`nearness`] of the part, too.
+/// [`nearness`] of the part, too, and with the distance of what is far.
 pub fn nearness_with_part(machine: &Machine, leg: &Leg, body: &ToolBody, keep: f64) -> Vec<Near> {
+    passed(machine, leg, (body, keep), |obstacle, seen| {
+        Some(seen.map(|seen| seen.nearness(obstacle)))
+    })
+}
+
+/// What `judge` says of each obstacle as the tool passes it, if it says something; it gets the motion as the obstacle sees it.
+fn passed<'a>(
+    machine: &'a Machine,
+    leg: &'a Leg,
+    (body, keep): (&'a ToolBody, f64),
+    judge: impl Fn(&Obstacle, Option<&Seen<'a>>) -> Option<Option<Nearness>>,
+) -> Vec<Near> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return Vec::new();
     };
     if matches!(leg.motion.kind, MotionKind::Dwell(_)) {
         return Vec::new();
     }
+    // most obstacles move with the same frame
+    let mut frames: Vec<Seen<'a>> = Vec::new();
     let mut found = Vec::new();
     for (index, obstacle) in machine.obstacles.iter().enumerate() {
-        let near = obstacle
-            .frame(machine)
-            .map_or(Nearness::Unknown("the machine has no such axis"), |frame| {
-                let of = One {
-                    machine,
-                    leg,
-                    body,
-                    keep,
-                    frame,
-                    index,
-                };
-                of.nearness(start, end)
-            });
-        found.push(Near {
-            obstacle: index,
-            nearness: near,
+        let seen = obstacle.frame(machine).map(|frame| {
+            let known = frames.iter().position(|seen| seen.frame == frame);
+            known.unwrap_or_else(|| {
+                frames.push(Seen::new(machine, leg, (body, keep), (start, end), frame));
+                frames.len() - 1
+            })
         });
+        if let Some(judged) = judge(obstacle, seen.map(|seen| &frames[seen])) {
+            found.push(Near {
+                obstacle: index,
+                nearness: judged.unwrap_or(Nearness::Unknown("the machine has no such axis")),
+            });
+        }
     }
     found
 }
 
-/// A motion past one obstacle.
-struct One<'a> {
+/// A motion as the obstacles see it that move with a frame.
+struct Seen<'a> {
     machine: &'a Machine,
-    leg: &'a Leg,
     body: &'a ToolBody,
     keep: f64,
     frame: usize,
-    index: usize,
+    way: Way<'a>,
 }
 
-impl One<'_> {
-    fn nearness(&self, start: &Stance, end: &Stance) -> Nearness {
+/// How the tool moves in a frame.
+enum Way<'a> {
+    /// Upright, its tip in a straight line.
+    Straight {
+        ends: [Vec3; 2],
+        /// The moves of the single axes, where these do not certainly arrive together.
+        moves: Option<Vec<Vec3>>,
+        /// Lowest and highest coordinates of all places of the tip.
+        extent: [Vec3; 2],
+    },
+    /// In another way; `None`: the path is not known.
+    Swept(Option<Sweep<'a>>),
+}
+
+impl<'a> Seen<'a> {
+    fn new(
+        machine: &'a Machine,
+        leg: &'a Leg,
+        (body, keep): (&'a ToolBody, f64),
+        (start, end): (&Stance, &Stance),
+        frame: usize,
+    ) -> Self {
         // the length that the tool has, where that is declared
-        let tool_length = self.body.length_mm.unwrap_or(end.tool_length);
-        let obstacle = &self.machine.obstacles[self.index];
-        let poses = [start, end].map(|stance| tool_in_frame(self.machine, &stance.joints, tool_length, self.frame));
-        let turns = (0..self.machine.axes.len())
-            .any(|joint| self.machine.axes[joint].kind == AxisKind::Rotary && start.joints[joint] != end.joints[joint]);
+        let tool_length = body.length_mm.unwrap_or(end.tool_length);
+        let poses = [start, end].map(|stance| tool_in_frame(machine, &stance.joints, tool_length, frame));
+        let turns = (0..machine.axes.len())
+            .any(|joint| machine.axes[joint].kind == AxisKind::Rotary && start.joints[joint] != end.joints[joint]);
         let upright = poses.iter().all(|pose| (pose.axis - Vec3::z()).norm() <= UPRIGHT);
-        let straight = matches!(self.leg.motion.kind, MotionKind::Rapid | MotionKind::Linear);
-        if turns || !upright || !straight {
-            let sweep = Sweep::new(self.machine, self.leg, self.body, (self.frame, tool_length));
-            return sweep.map_or(Nearness::Unknown("the path is not known"), |sweep| {
-                sweep.nearness(obstacle, self.keep)
+        let straight = matches!(leg.motion.kind, MotionKind::Rapid | MotionKind::Linear);
+        let way = if turns || !upright || !straight {
+            Way::Swept(Sweep::new(machine, leg, body, (frame, tool_length)))
+        } else {
+            let ends = poses.map(|pose| pose.tip);
+            let independent = leg.motion.kind == MotionKind::Rapid && machine.control.rapid != RapidPath::Synchronous;
+            let joints = (&start.joints, &end.joints);
+            let moves: Option<Vec<Vec3>> =
+                independent.then(|| linear_steps(machine, joints, tool_length, frame).collect());
+            let none = Vec3::zeros();
+            let steps = moves.iter().flatten();
+            let [low, high] = steps.fold([ends[0]; 2], |[low, high], step| {
+                [low + step.inf(&none), high + step.sup(&none)]
             });
+            Way::Straight {
+                extent: [low.inf(&ends[1]), high.sup(&ends[1])],
+                ends,
+                moves,
+            }
+        };
+        Self {
+            machine,
+            body,
+            keep,
+            frame,
+            way,
         }
-        let [from, to] = poses.map(|pose| pose.tip);
-        let obstacles = self.machine.obstacles.iter();
-        let others: Vec<&Obstacle> = obstacles
-            .filter(|other| other.kind == obstacle.kind && other.frame(self.machine) == Some(self.frame))
-            .collect();
-        let own = others
-            .iter()
-            .position(|other| core::ptr::eq(*other, obstacle))
-            .unwrap_or(0);
-        let gap = straight_gap(&others, own, self.body, (&from, &to), self.keep);
-        let judged = self.judge(gap);
-        let independent =
-            self.leg.motion.kind == MotionKind::Rapid && self.machine.control.rapid != RapidPath::Synchronous;
-        if !independent || !matches!(judged, Nearness::Clear(_)) {
+    }
+
+    /// Whether boxes about the motion and an obstacle show that the tool keeps its distance: the distance of the boxes.
+    fn far(&self, obstacle: &Obstacle) -> Option<Nearness> {
+        let Way::Straight { extent, .. } = &self.way else {
+            return None;
+        };
+        let [from, to] = obstacle.footprint.extent();
+        let [low, high] = extent;
+        let apart = (from - high.xy()).sup(&(low.xy() - to)).max();
+        let mm = apart - self.body.widest();
+        let above = low.z >= obstacle.top + self.keep - SLACK_MM;
+        let far = mm >= self.keep + SLACK_MM;
+        (above || far).then_some(Nearness::Clear(if above { f64::INFINITY } else { mm }))
+    }
+
+    fn nearness(&self, obstacle: &Obstacle) -> Nearness {
+        let (ends, moves) = match &self.way {
+            Way::Straight { ends, moves, .. } => (ends, moves),
+            Way::Swept(sweep) => {
+                return sweep
+                    .as_ref()
+                    .map_or(Nearness::Unknown("the path is not known"), |sweep| {
+                        sweep.nearness(obstacle, self.keep)
+                    });
+            }
+        };
+        let [from, to] = ends;
+        let all = || {
+            let obstacles = self.machine.obstacles.iter();
+            obstacles
+                .filter(|other| other.kind == obstacle.kind && other.frame(self.machine) == Some(self.frame))
+                .collect()
+        };
+        let judged = self.judge(straight_gap(obstacle, all, self.body, (from, to), self.keep));
+        let Some(moves) = moves.as_ref().filter(|_| matches!(judged, Nearness::Clear(_))) else {
             return judged;
-        }
-        let joints = (&start.joints, &end.joints);
-        let moves: Vec<Vec3> = linear_steps(self.machine, joints, tool_length, self.frame).collect();
-        match self.judge(corridor_gap(obstacle, self.body, (&from, &moves), self.keep)) {
+        };
+        match self.judge(corridor_gap(obstacle, self.body, (from, moves), self.keep)) {
             Nearness::Clear(mm) => Nearness::Clear(mm),
             _ if moves.len() < 2 => judged,
             _ => Nearness::Unknown("the axes may not arrive together in a rapid, and then the tool may pass nearer"),

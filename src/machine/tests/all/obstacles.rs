@@ -6,7 +6,7 @@ use trunnion_geometry::plane::{Point, Polygon};
 use trunnion_interp::{Motion, MotionKind};
 use trunnion_machine::{
     BUILTIN_MACHINES, BlockPath, Follower, Footprint, Leg, Machine, Nearness, Obstacle, Obstacles, RapidPath, ToolBody,
-    builtin, forward, nearness, tool_in_frame,
+    builtin, forward, nearness, nearness_with_part, tool_in_frame,
 };
 
 fn prism(corners: &[[f64; 2]], bottom: f64, top: f64) -> Obstacle {
@@ -117,7 +117,7 @@ fn an_upright_tool_is_judged_exactly() {
     let near = |from: [f64; 3], to: [f64; 3], radius: f64, keep: f64| {
         let word = |at: [f64; 3]| vec![(b'X', at[0]), (b'Y', at[1]), (b'Z', at[2])];
         let leg = leg(&machine, MotionKind::Rapid, false, [&word(from), &word(to)]);
-        nearness(&machine, &leg, &body(radius, None), keep)[0].nearness
+        nearness_with_part(&machine, &leg, &body(radius, None), keep)[0].nearness
     };
     // beside it, touching it with the clearance, nearer, through
     assert_eq!(near([0.0, 5.0, 0.0], [30.0, 5.0, 0.0], 3.0, 1.0), Nearness::Clear(2.0));
@@ -321,4 +321,96 @@ fn a_ball_end_is_not_taken_for_a_flat_one() {
     let leg = leg(&machine, MotionKind::Linear, true, [&word(0.0), &word(1.0)]);
     let found = nearness(&machine, &leg, &body(5.0, Some(60.0)), 0.0)[0].nearness;
     assert!(matches!(found, Nearness::Unknown(_)), "{found:?}");
+}
+
+proptest! {
+    /// What is far is told from boxes: clear as it is without them, above as it is, and never farther.
+    #[test]
+    fn boxes_change_no_verdict(
+        from in proptest::array::uniform3(-60.0..60.0),
+        to in proptest::array::uniform3(-60.0..60.0),
+        centre in proptest::array::uniform2(-60.0..60.0),
+        size in 1.0..25.0,
+        top in 0.0..40.0,
+        round in any::<bool>(),
+        rapid in prop_oneof![Just(RapidPath::Synchronous), Just(RapidPath::Dogleg)],
+        radius in 0.0..12.0,
+        holder in proptest::option::of(8.0..30.0),
+    ) {
+        let [x, y] = centre;
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [0.2, 0.1], [1.0, 1.0], [-1.0, 1.0]].map(|[a, b]| [x + size * a, y + size * b]);
+        let mut obstacle = prism(&corners, -50.0, top);
+        if round {
+            obstacle.footprint = Footprint::Circle { centre: Point::new(x, y), radius: size };
+        }
+        let mut machine = with("mill-3axis", obstacle);
+        machine.control.rapid = rapid;
+        let words = |at: [f64; 3]| vec![(b'X', at[0]), (b'Y', at[1]), (b'Z', at[2])];
+        let leg = leg(&machine, MotionKind::Rapid, false, [&words(from), &words(to)]);
+        let tool = ToolBody { holder_mm: holder.map(|wide| (wide, 30.0)), ..body(radius, Some(30.0)) };
+        let by_boxes = nearness(&machine, &leg, &tool, 1.0)[0].nearness;
+        let exact = nearness_with_part(&machine, &leg, &tool, 1.0)[0].nearness;
+        match (by_boxes, exact) {
+            (Nearness::Clear(low), Nearness::Clear(mm)) => {
+                prop_assert!(low <= mm + 1e-9 && low >= 1.0 - 1e-9 && low.is_finite() == mm.is_finite(), "{low} {mm}");
+            }
+            _ => prop_assert_eq!(by_boxes, exact),
+        }
+    }
+}
+
+/// A far obstacle is told from its box, as one of very many corners.
+#[test]
+fn a_far_obstacle_is_not_measured() {
+    let machine = with(
+        "mill-3axis",
+        prism(&[[900.0, 900.0], [910.0, 900.0], [900.0, 910.0]], 0.0, 30.0),
+    );
+    let (from, to) = (
+        [(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0)],
+        [(b'X', 50.0), (b'Y', 30.0), (b'Z', 0.0)],
+    );
+    let leg = leg(&machine, MotionKind::Linear, false, [&from, &to]);
+    let found = |of: fn(&Machine, &Leg, &ToolBody, f64) -> Vec<trunnion_machine::Near>| {
+        of(&machine, &leg, &body(4.0, None), 1.0)[0].nearness
+    };
+    assert_eq!(found(nearness), Nearness::Clear(866.0));
+    assert!(matches!(found(nearness_with_part), Nearness::Clear(mm) if mm > 1200.0));
+}
+
+/// The pieces of one block are looked at for all obstacles together: the effort does not grow with their number.
+#[test]
+fn too_many_obstacles_near_to_a_turning_tool_are_unknown() {
+    let Some(base) = builtin("mikron-ucp710") else { return };
+    let mut machine = base.clone();
+    machine.control.rapid = RapidPath::Synchronous;
+    // nearer than what a piece of the block is bounded by
+    let near = prism(
+        &[[14.000_000_1, -40.0], [30.0, -40.0], [30.0, 40.0], [14.000_000_1, 40.0]],
+        -50.0,
+        90.0,
+    );
+    machine.obstacles = Obstacles(vec![near; 400]);
+    let letters: Vec<u8> = base.rotary.iter().map(|&joint| base.axes[joint].letter).collect();
+    let words = |turn: f64| {
+        vec![
+            (b'X', 10.0),
+            (b'Y', 0.0),
+            (b'Z', 0.0),
+            (letters[0], turn),
+            (letters[1], 0.0),
+        ]
+    };
+    let leg = leg(&machine, MotionKind::Linear, true, [&words(0.0), &words(359.0)]);
+    let found = nearness(&machine, &leg, &body(4.0, Some(60.0)), 0.0);
+    let first = |near: &&trunnion_machine::Near| near.nearness == found[0].nearness;
+    let same = found.iter().take_while(first).count();
+    assert!(matches!(found[0].nearness, Nearness::Unknown(_)), "{:?}", found[0]);
+    assert!((1..20).contains(&same), "{same}: {:?}", found[0]);
+    let rest = Nearness::Unknown("too many obstacles are near to the tool in this block for all to be looked at");
+    assert!(
+        found[same..].iter().all(|near| near.nearness == rest),
+        "{:?}",
+        found[same]
+    );
 }

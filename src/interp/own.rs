@@ -31,8 +31,6 @@ pub(crate) struct Scope {
     pub(crate) values: BTreeMap<Box<str>, f64>,
     fields: BTreeMap<Box<str>, Field>,
     strings: strings::Strings,
-    /// The first block with words of axes that has run.
-    pub(crate) moved: Option<u32>,
     /// Variables of the type FRAME; `None`: what they hold is not known.
     pub(crate) frames: BTreeMap<Box<str>, Option<crate::sinumerik::FrameValue>>,
 }

@@ -28,13 +28,14 @@ pub(crate) fn kind(kind: &MotionKind) -> &'static str {
     }
 }
 
-/// Whether a straight motion leads to values that are not known and changes nothing else: they may be those where the axes are.
+/// Whether a straight motion leads to values of variables that are not known and changes nothing else: they may be those where the axes are.
 fn may_stand(item: &Item) -> bool {
     let Item::Motion(step) = item else { return false };
     let motion = &step.motion;
     let (start, end) = (&motion.start, &motion.end);
     let both = start.known & end.known;
-    matches!(motion.kind, MotionKind::Linear | MotionKind::Rapid)
+    step.with_variables.is_some()
+        && matches!(motion.kind, MotionKind::Linear | MotionKind::Rapid)
         && start.known & !end.known != 0
         && end.known & !start.known == 0
         && (0..start.values.len()).all(|axis| both & (1 << axis) == 0 || start.values[axis] == end.values[axis])

@@ -2,7 +2,7 @@
 use crate::reader::Reader;
 use crate::values::READINGS;
 use crate::words::{Number, Reading, WordValue};
-use crate::{FaultKind, Refusal};
+use crate::FaultKind;
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
@@ -90,15 +90,6 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let text = self.text(range);
         match (&mut self.own, code.id.as_str()) {
             (Some(own), "DEF") => {
-                if own.follows && own.scope.moved.is_some_and(|moved| moved < self.block.0) {
-                    let message = "DEF stands behind a block with words of axes: definitions come before the other blocks of a program";
-                    let kind = FaultKind::Rejected {
-                        refusal: Refusal::Structure,
-                        message: message.to_owned(),
-                        alarm: None,
-                    };
-                    (self.report)(range, kind);
-                }
                 for kind in own.define(text.get(3..).unwrap_or_default()) {
                     (self.report)(range, kind);
                 }

@@ -82,9 +82,6 @@ impl<'d> Iso<'d> {
         report: &mut Report<'_>,
     ) {
         let own = &mut self.memory.own;
-        if words.axes.any() {
-            own.scope.moved.get_or_insert(block.id().0);
-        }
         let ends = |found: &Found<'_>| found.code.action == Action::ProgramEnd;
         if own.is_called
             && let Some(at) = codes.iter().position(ends)

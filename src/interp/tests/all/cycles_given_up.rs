@@ -166,7 +166,8 @@ fn steps_in_vain_count_for_the_bound() {
 /// The motions of a block are held until it is done.
 #[test]
 fn a_pattern_of_deep_holes_is_given_up_in_its_block() {
-    let points: String = (0..120).map(|at| format!(" POS{at} (X+{at} Y+1 Z+0)")).collect();
+    let points: Vec<String> = (0..120).map(|at| format!(" POS{at} (X+{at} Y+1 Z+0)")).collect();
+    let points = points.concat();
     let source = format!(
         "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n2 L Z+50 FMAX M3\n\
          3 CYCL DEF 200 Q200=2 Q201=-50 Q206=100 Q202=0.012 Q210=0 Q203=0 Q204=50 Q211=0\n\
@@ -183,9 +184,8 @@ fn a_pattern_of_deep_holes_is_given_up_in_its_block() {
 #[test]
 fn splines_count_for_the_bound() {
     let points = |count: usize| {
-        (0..count)
-            .map(|at| format!("X{at} Y{} P1\n", at % 9))
-            .collect::<String>()
+        let lines: Vec<String> = (0..count).map(|at| format!("X{at} Y{} P1\n", at % 9)).collect();
+        lines.concat()
     };
     let high = format!("G1 X0 Y0 F100\nG5.2 P1 L200 X0 Y0\n{}G5.3\nM2\n", points(200));
     let low = high.replace("L200", "L4");

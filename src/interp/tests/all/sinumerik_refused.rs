@@ -234,22 +234,6 @@ fn arguments_and_words_without_a_value_are_refused() {
     );
 }
 
-/// Definitions are the first blocks of a program.
-#[test]
-fn a_definition_behind_a_motion_is_refused() {
-    let found = refused("DEF REAL A1\nG0 X1\nDEF REAL B1=3\nG0 X=B1\nM30\n");
-    assert!(found.len() == 1 && found[0].contains("DEF stands behind"), "{found:?}");
-    for text in [
-        "DEF REAL A1\nR1=3\nDEF REAL B1\nG0 X1\nM30\n",
-        // back to a definition that is before all motions
-        "LA: R1=R1+1\nDEF REAL A1\nG0 X1\nIF R1<3 GOTOB LA\nM30\n",
-        // each program has its own
-        "%_N_MAIN_MPF\nG0 X1\nSUB\nM30\n%_N_SUB_SPF\nDEF REAL A1=2\nG0 X=A1\nM17\n",
-    ] {
-        assert_eq!(refused(text), [""; 0], "{text}");
-    }
-}
-
 #[test]
 fn an_end_without_its_beginning_breaks_the_structure() {
     for text in ["UNTIL 1", "ENDIF", "UNTIL 0", "ELSE", "ENDLOOP", "ENDFOR", "ENDWHILE"] {

@@ -140,11 +140,8 @@ mod tests {
 
     #[test]
     fn few_ranges_are_looked_at_for_a_place_of_a_large_program() {
-        let mut text = "O1\n".to_owned();
-        for number in 1..400 {
-            text.push_str(&format!("T{number} M6\nN{number} G1 X{number}\nGOTO{number}\n"));
-        }
-        text.push_str(&"X1 ".repeat(2000));
+        let blocks = (1..400).map(|number| format!("T{number} M6\nN{number} G1 X{number}\nGOTO{number}\n"));
+        let text = format!("O1\n{}{}", blocks.collect::<Vec<_>>().concat(), "X1 ".repeat(2000));
         let dialect = trunnion_dialect::builtin("fanuc-30i").expect("built in");
         let program = parse(text.clone().into(), dialect.lex);
         let names = names(&program, dialect);

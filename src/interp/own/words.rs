@@ -1,8 +1,8 @@
 //! Words that write and read the variables of a Sinumerik program.
+use crate::FaultKind;
 use crate::reader::Reader;
 use crate::values::READINGS;
 use crate::words::{Number, Reading, WordValue};
-use crate::FaultKind;
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 

@@ -104,7 +104,7 @@ enum Way<'a> {
         extent: [Vec3; 2],
     },
     /// In another way; `None`: the path is not known.
-    Swept(Option<Sweep<'a>>),
+    Swept(Option<Box<Sweep<'a>>>),
 }
 
 impl<'a> Seen<'a> {
@@ -123,7 +123,7 @@ impl<'a> Seen<'a> {
         let upright = poses.iter().all(|pose| (pose.axis - Vec3::z()).norm() <= UPRIGHT);
         let straight = matches!(leg.motion.kind, MotionKind::Rapid | MotionKind::Linear);
         let way = if turns || !upright || !straight {
-            Way::Swept(Sweep::new(machine, leg, body, (frame, tool_length)))
+            Way::Swept(Sweep::new(machine, leg, body, (frame, tool_length)).map(Box::new))
         } else {
             let ends = poses.map(|pose| pose.tip);
             let independent = leg.motion.kind == MotionKind::Rapid && machine.control.rapid != RapidPath::Synchronous;

@@ -46,10 +46,7 @@ fn cut(mut text: &str) -> Vec<Arc<Piece>> {
         let end = match memchr::memchr(b'\n', &bytes[PIECE.min(most)..most]) {
             Some(at) => PIECE + at + 1,
             None if text.len() <= 2 * PIECE => text.len(),
-            None => {
-                let between = text.floor_char_boundary(PIECE);
-                between - usize::from(bytes[between] == b'\n')
-            }
+            None => text.floor_char_boundary(PIECE),
         };
         let (piece, rest) = text.split_at(end);
         pieces.push(Arc::new(Piece::new(piece)));
@@ -165,7 +162,7 @@ impl Text {
         let mut text = String::new();
         // the pieces that the range touches; the next one may begin with the rest of a line end
         while let Some(piece) = self.pieces.get(index)
-            && (at <= bytes.end || text.ends_with('\r'))
+            && (at <= bytes.end || text.ends_with('\r') && piece.text.starts_with('\n'))
         {
             let end = at + piece.text.len();
             if (at..=end).contains(&bytes.start) && index == first {

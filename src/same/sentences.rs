@@ -34,7 +34,11 @@ fn may_stand(item: &Item) -> bool {
     let motion = &step.motion;
     let (start, end) = (&motion.start, &motion.end);
     let both = start.known & end.known;
-    step.with_variables.is_some()
+    let variables = step
+        .with_variables
+        .as_deref()
+        .is_some_and(|text| text.contains(['=', '#']));
+    variables
         && matches!(motion.kind, MotionKind::Linear | MotionKind::Rapid)
         && start.known & !end.known != 0
         && end.known & !start.known == 0

@@ -1,3 +1,4 @@
+//! Of many versions of a document the newest alone is read.
 use super::Owner;
 use crate::{event::Event, outbox::Outbox};
 use tokio::{runtime::Builder, sync::mpsc::unbounded_channel};

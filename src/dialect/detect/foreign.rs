@@ -1,6 +1,7 @@
 //! Files that are not NC programs at all: pictures, binaries, prose, source code.
-use super::others::is_klartext;
+use super::others::klartext;
 use super::text::{is_block, lines, strip_comments};
+use super::votes::Votes;
 
 /// Bytes that are searched for control characters.
 const HEAD: usize = 4096;
@@ -159,6 +160,13 @@ fn is_sentence(code: &str) -> bool {
         plain += usize::from(token.len() >= 2 && token.chars().all(|c| c.is_alphabetic() || matches!(c, '\'' | '-')));
     }
     plain >= 4 && plain * 10 >= all * 6
+}
+
+/// Whether a line has a sign of Klartext.
+fn is_klartext(line: &str) -> bool {
+    let mut votes = Votes::default();
+    klartext(line, &mut votes);
+    votes.weight(&["heidenhain-klartext"]) > 0
 }
 
 /// Whether a line is one of an APT program that holds a text for people.

@@ -89,14 +89,7 @@ pub(super) fn code(code: &str, votes: &mut Votes) {
     marlin(code, votes);
 }
 
-/// Whether a line has a sign of Klartext.
-pub(super) fn is_klartext(line: &str) -> bool {
-    let mut votes = Votes::default();
-    klartext(line, &mut votes);
-    votes.weight(&["heidenhain-klartext"]) > 0
-}
-
-fn klartext(line: &str, votes: &mut Votes) {
+pub(super) fn klartext(line: &str, votes: &mut Votes) {
     let text = unnumbered(line);
     for start in ["BEGIN PGM ", "END PGM "] {
         if text.starts_with(start) {

@@ -176,11 +176,16 @@ impl Iso<'_> {
     /// larger of the two leads is F).
     pub(super) fn along_thread(&self, lead: Feed, [start, end]: [&Position; 2]) -> Feed {
         let goes = |axis: usize| Some((end.get(axis)? - start.get(axis)?).abs());
-        match (lead, goes(X).zip(goes(Z))) {
-            (Feed::PerRevolution(lead), Some((x, z))) if self.core.dialect.quirks.diameter && x.min(z) > 0.0 => {
+        if !self.core.dialect.quirks.diameter {
+            return lead;
+        }
+        match (lead, goes(X), goes(Z)) {
+            (_, Some(0.0), _) | (_, _, Some(0.0)) => lead,
+            (Feed::PerRevolution(lead), Some(x), Some(z)) => {
                 Feed::PerRevolution(lead * (x * x + z * z).sqrt() / x.max(z))
             }
-            _ => lead,
+            (Feed::PerRevolution(_), ..) => Feed::Unknown,
+            (feed, ..) => feed,
         }
     }
 

@@ -19,6 +19,9 @@ pub(crate) fn main_range(running: &Running<'_>, from: u32) -> TextRange {
     }
 }
 
+/// What is not known of a call by a path.
+const BY_PATH: &str = "a call by a path or from outside: the file of the last name is taken, and whether the path leads to it is not known";
+
 /// The name of a program as the text of a file gives it.
 fn name_inside(dialect: &Dialect, name: &Key) -> Key {
     if dialect.quirks.declares_names() {
@@ -53,21 +56,27 @@ impl Iso<'_> {
                 };
                 found
             }
-            With::Sinumerik(_) | With::Task(_) => self.find(&calling.program, running, false),
+            // a path leads to another program than those of this text
+            With::Sinumerik(with) => self.find(&calling.program, running, with.is_elsewhere),
+            With::Task(_) => self.find(&calling.program, running, false),
         };
+        let by_path = matches!(&calling.with, With::Sinumerik(with) if with.is_elsewhere);
         let place = match found {
-            Ok(place) => place,
+            Ok(place) => {
+                if by_path {
+                    let what = BY_PATH.to_owned();
+                    self.tell_of_flow(running, from, (calling.range, FaultKind::NotModelled { what }), sink);
+                }
+                place
+            }
             Err(searched) => {
                 let name = match &calling.program {
                     Key::Name(name) if self.core.dialect.quirks.user_names() => name.to_string(),
                     key => ProgramName(key).to_string(),
                 };
-                let elsewhere = matches!(&calling.with, With::Sinumerik(with) if with.is_elsewhere)
-                    && searched.iter().all(|place| place.refused.is_none());
-                let kind = if elsewhere {
-                    let what = format!(
-                        "{name}: a program that is called by a path or from outside, and no file of its name was found"
-                    );
+                let kind = if by_path && searched.iter().all(|place| place.refused.is_none()) {
+                    let what =
+                        format!("{name} is called by a path or from outside, and no file of that name was found");
                     FaultKind::NotModelled { what }
                 } else {
                     FaultKind::MissingSubprogram {

@@ -31,6 +31,10 @@ pub(super) fn statement(name: &[u8]) -> Option<Statement> {
         .map(|row| row.1)
 }
 
+/// So many items of a block are looked at for the IF of a THEN, and a THEN farther from its start, bytes, is not judged: the items before it are more.
+const LOOKED_AT: usize = 200;
+const NEAR: u32 = 200;
+
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// THEN belongs to the IF before it in its block (B-63944EN, custom macro: IF [condition] THEN).
     pub(super) fn then(&mut self, call: &Call) {
@@ -41,7 +45,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             }
             _ => false,
         };
-        if !self.program.block(self.block).items().any(is_if) {
+        // a line may hold as many THEN as words
+        let mut items = self.program.block(self.block).items().take(LOOKED_AT);
+        if !items.any(is_if) && self.program.block(self.block).range().start + NEAR > call.range.start {
             let message = "THEN without IF before it in its block".to_owned();
             let kind = rejected(self.dialect, Mistake::Format, Refusal::Structure, message);
             (self.report)(call.range, kind);

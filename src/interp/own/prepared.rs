@@ -70,6 +70,10 @@ pub(super) fn indexed_names(text: &str) -> Vec<(String, String)> {
                 Some(end) => at += end + 2,
                 None => break,
             },
+            b'[' => {
+                deep += 1;
+                at += 1;
+            }
             b']' => {
                 deep = deep.saturating_sub(1);
                 at += 1;
@@ -117,6 +121,10 @@ impl Own {
             }
             match text[at] {
                 b';' => break,
+                b'[' => {
+                    deep += 1;
+                    at += 1;
+                }
                 b']' => {
                     deep = deep.saturating_sub(1);
                     at += 1;

@@ -7,8 +7,8 @@ use crate::FaultKind;
 use crate::flow::{Calling, Transfer, With};
 
 /// Why a program in ISO language is not followed.
-const ISO_LANGUAGE: &str = "ISOCALL: the program it calls is in ISO language, as blocks after G291 are, which is not read here: positions, codes in \
-                            effect and variables after it";
+const ISO_LANGUAGE: &str =
+    "ISOCALL: ISO language, as after G291, is not read: positions, codes in effect and variables after it";
 
 impl Statement<'_> {
     /// `CALL "GROOVE"`, `CALL NAME` of a variable of the type STRING, `PCALL /_N_SPF_DIR/GROOVE(1,2)`, `EXTCALL("C:/GROOVE.SPF")`. Parts of

@@ -1,10 +1,15 @@
 //! Sinumerik: programs that are called by a path, from outside, and in ISO language.
 use crate::sinumerik_calls::run;
 
-/// Motions of a program about which nothing is said.
+/// Motions of a program that calls another one by a path, about which nothing else is said.
 fn called(source: &str) -> Vec<String> {
     let (lines, said) = run(source);
-    assert_eq!(said, [""; 0], "{source}");
+    let of_path = |said: &String| said.contains("the file of the last name is taken");
+    let by_path = source.contains(['/', '\\']) || source.contains("EXTCALL");
+    assert!(
+        said.iter().all(of_path) && said.len() == usize::from(by_path),
+        "{source}: {said:?}"
+    );
     lines
 }
 
@@ -25,6 +30,9 @@ fn a_path_leads_to_the_file_of_its_last_name() {
         let made = called(&format!("G0 X1\n{call}\nX2\nM30\n"));
         assert_eq!(made, ["R X1", &format!("R X1 Y{y}"), &format!("R X2 Y{y}")], "{call}");
     }
+    // the programs of the same text are others
+    let (made, _) = run("%_N_MAIN_MPF\nG0 X1\nPCALL /DIR/_N_INNER_SPF\nX2\nM30\n%_N_INNER_SPF\nX9\nM17\n");
+    assert!(!made.iter().any(|line| line.contains("X9")), "{made:?}");
     assert_eq!(called("PCALL /_N_SPF_DIR/_N_L140_SPF(7)\nM30\n"), ["R Z7"]);
     let text = "DEF STRING[20] NAME=\"C:/PLAIN\"\nG0 X1\nEXTCALL(NAME<<\".SPF\")\nM30\n";
     assert_eq!(called(text), ["R X1", "R X1 Y1"]);
@@ -36,7 +44,7 @@ fn a_path_leads_to_the_file_of_its_last_name() {
     ] {
         let (made, said) = run(&format!("R1=4\nG0 X1 Y1\n{call}\nX2\nX=R1\nM30\n"));
         assert!(
-            said.len() == 2 && said[0].contains("no file of its name was found"),
+            said.len() == 2 && said[0].contains("no file of that name was found"),
             "{call}: {said:?}"
         );
         assert_eq!(made[..2], ["R X1 Y1", "R X2"], "{call}");
@@ -49,7 +57,7 @@ fn a_program_in_iso_language_is_unknown() {
     for call in ["ISOCALL PLAIN", "ISOCALL NOSUCH", "ISOCALL \"PLAIN\""] {
         let (made, said) = run(&format!("R1=4\nG0 X1 Y1\n{call}\nG90 X2\nG1 X=R1 F100\nM30\n"));
         assert!(
-            said[0].contains("ISOCALL: the program it calls is in ISO language"),
+            said[0].contains("ISOCALL: ISO language, as after G291, is not read"),
             "{call}: {said:?}"
         );
         assert!(!said.iter().any(|said| said.contains("no code")), "{call}: {said:?}");

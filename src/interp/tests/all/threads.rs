@@ -112,7 +112,7 @@ fn along_the_flank_the_beginning_of_a_cut_is_unknown() {
             .replace("X30. Z-20.", "X30. Z-20. R-1.")
             .replace("P010060", "P011060"),
     );
-    assert_eq!(got[1..4], ["R -", "L Z-18.5 F1.5/rev", "U X17.5 Z5"]);
+    assert_eq!(got[1..4], ["R -", "L Z-18.5", "U X17.5 Z5"]);
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn a_call_by_a_path_is_one_statement() {
             "{call}"
         );
         let told = faults("sinumerik-840d", &format!("G0 X1\n{call}\nX2\nM30\n"));
-        let why = ["which program it calls", "no file of its name"];
+        let why = ["which program it calls", "no file of that name"];
         assert!(
             told.len() == 1 && why.iter().any(|why| told[0].contains(why)),
             "{told:?}"

@@ -9,6 +9,7 @@ mod great_circle;
 mod guide_vane;
 mod led;
 mod obstacles;
+mod obstacles_many;
 mod on_circle;
 mod orientation;
 mod plane_axial;

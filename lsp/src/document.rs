@@ -36,13 +36,13 @@ pub(crate) struct Document {
     pub(crate) version: Version,
     /// The server's number of the newest version, for work that wants to know whether it is still wanted; `u64::MAX` when closed.
     pub(crate) newest: Arc<AtomicU64>,
-    /// What reads it, the whole of a long one, and its visible lines; what judges it.
+    /// The work that parses it; of a long one, that judges its beginning.
     pub(crate) reading: Latest,
-    /// See `reading`.
+    /// The work that parses the whole of a long one.
     pub(crate) whole: Latest,
-    /// See `reading`.
+    /// The work that judges the visible lines of a long one.
     pub(crate) visible: Latest,
-    /// See `reading`.
+    /// The work that judges the whole.
     pub(crate) judging: Latest,
     /// Newest parsed version, perhaps of an older text.
     pub(crate) parsed: Option<Arc<Parsed>>,

@@ -2,7 +2,7 @@
 use core::ops::Range;
 use trunnion_syntax::TextRange;
 
-/// So many edited places are told apart: of more, the two that are nearest to each other become one.
+/// At most this many edited places are kept apart; beyond that the two nearest are merged.
 const MOST: usize = 64;
 
 /// One edited place, bytes of the older text and of the newer one.

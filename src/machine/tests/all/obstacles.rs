@@ -324,7 +324,7 @@ fn a_ball_end_is_not_taken_for_a_flat_one() {
 }
 
 proptest! {
-    /// What is far is told from boxes: clear as it is without them, above as it is, and never farther.
+    /// The check of bounding boxes gives the verdict of the exact distance, and never a greater distance.
     #[test]
     fn boxes_change_no_verdict(
         from in proptest::array::uniform3(-60.0..60.0),

@@ -3,7 +3,7 @@ use crate::obstacles::{body, leg, prism, with};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{Leg, Machine, Nearness, Obstacles, RapidPath, ToolBody, builtin, nearness, nearness_with_part};
 
-/// A far obstacle is told from its box, as one of very many corners.
+/// The bounding box is enough for a far obstacle: the distance of the boxes is given, not the exact one.
 #[test]
 fn a_far_obstacle_is_not_measured() {
     let machine = with(

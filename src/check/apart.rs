@@ -98,15 +98,34 @@ struct Batch {
     effects: Vec<Placed>,
 }
 
-/// Records what a run emits.
+/// Records what a run emits, and hands it over.
 struct EventRecorder<'m> {
     batch: Batch,
+    full: &'m SyncSender<Batch>,
+    emptied: &'m Receiver<Batch>,
+    /// Nobody receives batches any more.
+    closed: bool,
     /// The end of the last emitted motion, in this batch or before it, and the last emitted course.
     last: Option<([f64; AXIS_LETTERS.len()], Option<Course>)>,
     foresight: Option<Lookahead<'m>>,
 }
 
 impl EventRecorder<'_> {
+    /// Hands the batch over if it is large enough, or if the run has `ended`.
+    fn hand_over(&mut self, ended: bool) {
+        if self.closed || self.batch.order.len() < BATCH && !ended {
+            return;
+        }
+        self.closed = self.full.send(core::mem::take(&mut self.batch)).is_err();
+        if self.closed || ended {
+            return;
+        }
+        match self.emptied.recv() {
+            Ok(next) => self.batch = next,
+            Err(_) => self.closed = true,
+        }
+    }
+
     /// A block has run.
     #[inline]
     fn ran(&mut self, ran: BlockId) {
@@ -119,6 +138,11 @@ impl EventRecorder<'_> {
 
 impl Sink for EventRecorder<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        // a block may make very many motions: a cycle on a pattern of holes
+        self.hand_over(false);
+        if self.closed {
+            return;
+        }
         self.batch.order.push(RunEvent::Motion);
         self.batch.motions.push((*motion, InForce::of(state)));
         self.last = Some((motion.end.values, None));
@@ -267,23 +291,20 @@ fn tell(
     full: &SyncSender<Batch>,
     emptied: &Receiver<Batch>,
 ) {
-    let mut teller = EventRecorder {
+    let mut recorder = EventRecorder {
         batch: Batch::default(),
+        full,
+        emptied,
+        closed: false,
         last: None,
         foresight,
     };
-    loop {
-        let ran = interpreter.advance(program, &mut teller);
-        if let Some(block) = ran {
-            teller.ran(block);
-            if teller.batch.order.len() < BATCH {
-                continue;
-            }
-        }
-        if full.send(teller.batch).is_err() || ran.is_none() {
+    while let Some(block) = interpreter.advance(program, &mut recorder) {
+        recorder.ran(block);
+        recorder.hand_over(false);
+        if recorder.closed {
             return;
         }
-        let Ok(next) = emptied.recv() else { return };
-        teller.batch = next;
     }
+    recorder.hand_over(true);
 }

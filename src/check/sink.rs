@@ -72,6 +72,8 @@ pub(crate) struct Reporter<'a> {
     /// Where words with a letter O for a zero begin, each reported once.
     slips: BTreeSet<u32>,
     near: NearCodes<'a>,
+    /// Pieces of motions that were looked at for obstacles.
+    pieces: u64,
 }
 
 mod scope;
@@ -105,6 +107,7 @@ impl<'a> Reporter<'a> {
             objections_only: false,
             slips: BTreeSet::new(),
             near: NearCodes::new(dialect),
+            pieces: 0,
         }
     }
 
@@ -286,6 +289,19 @@ impl<'a> Reporter<'a> {
     pub(crate) fn once(&mut self, cause: u64) -> bool {
         self.of_whole = true;
         !self.continues && self.told.insert((cause, self.name), ())
+    }
+
+    /// Whether further motions may be looked at for obstacles: of the motions before, no more than `most` pieces were looked at.
+    pub(crate) fn may_look(&self, most: u64) -> bool {
+        // what was reported is worded again
+        self.wording || self.pieces <= most
+    }
+
+    /// So many pieces of a motion were looked at for obstacles.
+    pub(crate) fn looked_at(&mut self, pieces: u64) {
+        if !self.wording {
+            self.pieces = self.pieces.saturating_add(pieces);
+        }
     }
 
     /// Names the rule that runs next and the block it looks at. `sequence` counts blocks for merging.

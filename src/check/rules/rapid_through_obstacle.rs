@@ -46,6 +46,10 @@ const THROUGH: u64 = 1 << 32;
 const NEAR: u64 = 2 << 32;
 const UNDECIDED: u64 = 3 << 32;
 const UNDECLARED: u64 = 4 << 32;
+const SPENT: u64 = 5 << 32;
+
+/// Pieces of motions that are looked at, for each of `[limits] steps`: a piece takes about half a microsecond.
+const FOR_EACH_STEP: u64 = 64;
 
 fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
     let rapid = leg.motion().kind == MotionKind::Rapid;
@@ -62,8 +66,20 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
         holder_mm: None,
         length_mm: leg.trail.own_length_mm,
     });
+    let most = leg.machine.most_turned.saturating_mul(FOR_EACH_STEP);
+    if !out.may_look(most) {
+        return out.unknown(leg, Merge::once(SPENT), |draft| {
+            draft
+                .say(format!(
+                    "more than {most} pieces of motions near obstacles, {FOR_EACH_STEP} times `[limits] steps`: no further motion is judged"
+                ))
+                .help("divide the program, declare fewer obstacles, or raise `[limits] steps` in trunnion.toml (--max-steps)");
+        });
+    }
     let undeclared = leg.trail.undeclared;
-    for near in nearness(leg.machine, leg.leg, &body, keep) {
+    let found = nearness(leg.machine, leg.leg, &body, keep);
+    out.looked_at(found.iter().map(|near| near.pieces).sum());
+    for near in found {
         let name = &leg.machine.obstacles[near.obstacle].name;
         let key = near.obstacle as u64;
         if undeclared.zero & 0b111 != 0 || undeclared.length {

@@ -92,6 +92,9 @@ impl Obstacle {
     }
 }
 
+/// Each motion is judged against each obstacle, and ways round them are searched through all of their corners.
+const MOST_OBSTACLES: usize = 1000;
+
 fn fault<T>(place: &Spanned<T>, message: impl Into<String>) -> Fault {
     Fault {
         message: message.into(),
@@ -101,6 +104,12 @@ fn fault<T>(place: &Spanned<T>, message: impl Into<String>) -> Fault {
 
 fn obstacle(entry: &Spanned<RawObstacle>, known: &[Obstacle]) -> Result<Obstacle, Fault> {
     let raw = entry.get_ref();
+    if known.len() >= MOST_OBSTACLES {
+        return Err(fault(
+            entry,
+            format!("more than {MOST_OBSTACLES} obstacles are declared; put those that stand together in one polygon"),
+        ));
+    }
     let name = match &raw.name {
         None => format!("obstacle {}", known.len() + 1),
         Some(name) if name.get_ref().trim().is_empty() => {

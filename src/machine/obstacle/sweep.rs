@@ -74,6 +74,11 @@ impl<'a> Sweep<'a> {
         })
     }
 
+    /// How many more pieces are looked at.
+    pub(super) fn left(&self) -> usize {
+        self.left.get()
+    }
+
     /// How near the tool comes to an obstacle.
     pub(super) fn nearness(&self, obstacle: &Obstacle, keep: f64) -> Nearness {
         let declared = self.length();

@@ -29,6 +29,8 @@ pub struct Near {
     pub obstacle: usize,
     /// How near.
     pub nearness: Nearness,
+    /// How many pieces of the motion were looked at; 0: boxes about the motion and the obstacle settled it.
+    pub pieces: u64,
 }
 
 /// How near a tool comes to each obstacle of the machine while it makes a motion between known positions; `keep`: the distance that it is to keep, mm.
@@ -38,7 +40,10 @@ pub struct Near {
 /// The part is left out. The distance of what is far may be stated lower than it is.
 pub fn nearness(machine: &Machine, leg: &Leg, body: &ToolBody, keep: f64) -> Vec<Near> {
     passed(machine, leg, (body, keep), |obstacle, seen| {
-        let judge = |seen: &Seen<'_>| seen.far(obstacle).unwrap_or_else(|| seen.nearness(obstacle));
+        let judge = |seen: &Seen<'_>| {
+            let far = seen.far(obstacle).map(|far| (far, 0));
+            far.unwrap_or_else(|| seen.nearness(obstacle))
+        };
         (!obstacle.is_part()).then(|| seen.map(judge))
     })
 }
@@ -50,12 +55,12 @@ pub fn nearness_with_part(machine: &Machine, leg: &Leg, body: &ToolBody, keep: f
     })
 }
 
-/// What `judge` says of each obstacle as the tool passes it, if it says something; it gets the motion as the obstacle sees it.
+/// What `judge` says of each obstacle as the tool passes it, if it says something, and how many pieces it looked at; it gets the motion as the obstacle sees it.
 fn passed<'a>(
     machine: &'a Machine,
     leg: &'a Leg,
     (body, keep): (&'a ToolBody, f64),
-    judge: impl Fn(&Obstacle, Option<&Seen<'a>>) -> Option<Option<Nearness>>,
+    judge: impl Fn(&Obstacle, Option<&Seen<'a>>) -> Option<Option<(Nearness, u64)>>,
 ) -> Vec<Near> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return Vec::new();
@@ -75,9 +80,11 @@ fn passed<'a>(
             })
         });
         if let Some(judged) = judge(obstacle, seen.map(|seen| &frames[seen])) {
+            let (nearness, pieces) = judged.unwrap_or((Nearness::Unknown("the machine has no such axis"), 0));
             found.push(Near {
                 obstacle: index,
-                nearness: judged.unwrap_or(Nearness::Unknown("the machine has no such axis")),
+                nearness,
+                pieces,
             });
         }
     }
@@ -164,18 +171,20 @@ impl<'a> Seen<'a> {
         (above || far).then_some(Nearness::Clear(if above { f64::INFINITY } else { mm }))
     }
 
-    fn nearness(&self, obstacle: &Obstacle) -> Nearness {
-        let (ends, moves) = match &self.way {
-            Way::Straight { ends, moves, .. } => (ends, moves),
-            Way::Swept(sweep) => {
-                return sweep
-                    .as_ref()
-                    .map_or(Nearness::Unknown("the path is not known"), |sweep| {
-                        sweep.nearness(obstacle, self.keep)
-                    });
+    /// How near the tool comes to an obstacle, and how many pieces of the motion were looked at.
+    fn nearness(&self, obstacle: &Obstacle) -> (Nearness, u64) {
+        match &self.way {
+            Way::Straight { ends, moves, .. } => (self.straight(obstacle, ends, moves.as_deref()), 1),
+            Way::Swept(None) => (Nearness::Unknown("the path is not known"), 0),
+            Way::Swept(Some(sweep)) => {
+                let before = sweep.left();
+                let nearness = sweep.nearness(obstacle, self.keep);
+                (nearness, (before - sweep.left()) as u64)
             }
-        };
-        let [from, to] = ends;
+        }
+    }
+
+    fn straight(&self, obstacle: &Obstacle, [from, to]: &[Vec3; 2], moves: Option<&[Vec3]>) -> Nearness {
         let all = || {
             let obstacles = self.machine.obstacles.iter();
             obstacles
@@ -183,7 +192,7 @@ impl<'a> Seen<'a> {
                 .collect()
         };
         let judged = self.judge(straight_gap(obstacle, all, self.body, (from, to), self.keep));
-        let Some(moves) = moves.as_ref().filter(|_| matches!(judged, Nearness::Clear(_))) else {
+        let Some(moves) = moves.filter(|_| matches!(judged, Nearness::Clear(_))) else {
             return judged;
         };
         match self.judge(corridor_gap(obstacle, self.body, (from, moves), self.keep)) {
